@@ -21,7 +21,7 @@ GALLERY = Path(__file__).resolve().parents[3] / "gallery" / "assemblies"
 DEPTH, DEEP = 1.0, 20.0
 
 #: Half sines of which the first swing is compared, and whole ones whose verdicts are [g, s].
-SWINGS = {"portal": (0.35, 0.8), "arch": (0.45, 0.25)}
+SWINGS = {"portal": (0.35, 0.8), "arch": (0.3, 0.25)}
 PULSES = {
     "portal": [(a, t) for t in (0.5, 1.0) for a in (0.3, 0.45, 0.6, 0.9)],
     "arch": [(a, t) for t in (0.3, 0.6) for a in (0.4, 0.6, 0.9, 1.3)],

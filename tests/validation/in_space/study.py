@@ -1,6 +1,7 @@
 """All reference rows beside what is computed here: renewed by ``make references``, and written as tables of a page."""
 
 import json
+import re
 import sys
 import time
 from collections import Counter
@@ -55,10 +56,7 @@ def renew(*names: str) -> None:
         found = [vars(one) for one in judged(name, told[name])]
         kept = stored() if FILE.exists() else {"rows": {}}
         kept["date"] = date.today().isoformat()
-        kept["rows"][name] = [
-            {key: row[key] for key in ("case", "params", "quantity", "value", "unit", "spread")} | one
-            for row, one in zip(told[name], found, strict=True)
-        ]
+        kept["rows"][name] = [named(row) | one for row, one in zip(told[name], found, strict=True)]
         kept["rows"] = {key: kept["rows"][key] for key in told if key in kept["rows"]}
         write(kept, name)
         counts = Counter(one["verdict"] for one in found)
@@ -66,6 +64,15 @@ def renew(*names: str) -> None:
             f"{name}: {', '.join(f'{n} {key}' for key, n in counts.items())}; {time.process_time() - began:.0f} s",
             flush=True,
         )
+
+
+def named(row: dict[str, str]) -> dict[str, str]:
+    """What is kept of a row: its name and numbers; what they mean is said where they lie."""
+    spread = re.match(r"[\d.e-]+(?: to [\d.]+| %| deg| mm)?", row["spread"])
+    azimuth = re.search(r"along (\S+) deg", row["params"]) if row["case"].startswith("limit3d_") else None
+    scene = row["case"] + (f", {azimuth[1]}°" if azimuth else "")
+    kept = {"scene": scene, "quantity": row["quantity"].partition(" (")[0], "value": row["value"], "unit": row["unit"]}
+    return kept | {"spread": spread[0] if spread else ""}
 
 
 def write(kept: dict, name: str) -> None:
@@ -153,15 +160,14 @@ def summary() -> str:
 def listed(*verdicts: str, only: str = "") -> str:
     """Rows with one of some verdicts, in Markdown."""
     lines = [
-        "| row | quantity | reference | spread | here | difference | why |",
+        "| scene | quantity | reference | spread | here | difference | why |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name, rows in stored()["rows"].items():
         for row in rows:
             if row["verdict"] in verdicts and name.startswith(only):
-                cells = [row["params"], row["quantity"], f"{row['value']} {row['unit']}".removesuffix(" -").strip()]
-                spread = "" if row["quantity"] == "verdict" else row["spread"]
-                cells += [spread, row["ours"], row["difference"], row["why"]]
+                cells = [row["scene"], row["quantity"], f"{row['value']} {row['unit']}".removesuffix(" -").strip()]
+                cells += [row["spread"], row["ours"], row["difference"], row["why"]]
                 lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"
 

@@ -69,7 +69,13 @@ def difference(table: Any, kind: str, structure: str, against: str) -> dict[str,
     weight = np.random.default_rng(SEED).multinomial(len(names), even, SAMPLES)
     drawn = (weight @ sums) / (weight @ runs)
     low, high = share_limits(sums, runs, float(both["pgv_m_s"].nunique()), drawn)
-    found: dict[str, Any] = {"pairs": len(change), "records": len(names), "difference": float(change.mean()), "low": low, "high": high}
+    found: dict[str, Any] = {
+        "pairs": len(change),
+        "records": len(names),
+        "difference": float(change.mean()),
+        "low": low,
+        "high": high,
+    }
     return found | {"better": int((change < 0.0).sum()), "worse": int((change > 0.0).sum())}
 
 
