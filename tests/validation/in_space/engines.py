@@ -123,7 +123,5 @@ def beyond(row: dict[str, str], rows: Rows, tilt: float) -> str:
     low, high = min(seen), max(seen)
     if low <= tilt <= high:
         return f"inside what 3 % more or less of the amplitude make of it in the engines ({low:g} to {high:g})"
-    lossy = (
-        "joints give way where bodies rock on edges, and lose other shares at impacts"
-    )
+    lossy = "joints give way where bodies rock on edges, and lose other shares at impacts"
     return f"outside {low:g} to {high:g}, what 3 % of the amplitude make of it in the engines: {lossy}"
