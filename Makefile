@@ -1,4 +1,4 @@
-# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | peers | thresholds | docs | lock | clean
+# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | peers | thresholds | references | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
@@ -18,7 +18,7 @@ endif
 # What is imported is compiled when it is first imported, and kept: a tenth of what is installed.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench peers thresholds docs lock clean
+.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench peers thresholds references docs lock clean
 
 install: $(STAMP)
 	@:
@@ -91,6 +91,10 @@ peers: install $(PEERS_STAMP)
 # The thresholds of the tapered column that the page on other codes shows beside the published ones.
 thresholds: install
 	@PYTHONPATH=tests $(BIN)/python -m validation.tapered_column
+
+# The reference rows of assemblies in space beside the project; FAMILIES="dominoes portal_pulse" for some of them.
+references: install
+	@PYTHONPATH=tests $(BIN)/python -m validation.in_space.study $(FAMILIES)
 
 docs: $(DOCS_STAMP)
 	@echo "Running the examples and the validation cases, then writing the pages (two minutes)"

@@ -10,6 +10,9 @@ from stylobate.models.space.solids import Drum, Face, FacesJoined, HalfSpace, So
 
 G, DENSITY = 9.81, 2700.0
 
+#: Of a drum of 0.8 m and 1 m that lies on its side [m].
+RADIUS = 0.4
+
 #: Turns the axis of a cylinder from z to y: it lies.
 SIDES = ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 
@@ -129,3 +132,39 @@ def disc_face(radius, height, up=True):
 
 def faces_joined(lower, upper, below, above, kn, mu=0.7):
     return FacesJoined(lower, upper, below, above, kn, 0.5 * kn, mu, 0.0, math.radians(50.0))
+
+
+def lying(place=(0.0, 0.0, RADIUS), **motion):
+    return cylinder(RADIUS, 1.0, place, LYING, **motion)
+
+
+def after_impact(lane, look):
+    """What is seen when the first contact with the ground has opened again."""
+    while lane.contact(0, 1) == 0.0:
+        lane.advance(1)
+    while lane.contact(0, 1) > 0.0:
+        lane.advance(1)
+    return look()
+
+
+def quarter(times, lean):
+    k = np.argmax(np.array(lean) < 0.0)
+    return times[k - 1] + (times[k] - times[k - 1]) * lean[k - 1] / (lean[k - 1] - lean[k])
+
+
+def portal(tilt, kn, step, **others):
+    """Two monoliths under a beam, leaning along it; joints everywhere."""
+    turned, half = turn(0.0, tilt, 0.0), 0.4
+
+    def column(x):
+        return box((0.8, 0.8, 4.0), np.array([x + half, 0.0, 0.0]) + turned @ [-half, 0.0, 2.0], turned)
+
+    top = turned @ [-2.0 * half, 0.0, 4.0] + [2.0 * half, 0.0, 0.0]
+    beam = box((3.2, 0.8, 0.6), (top[0], 0.0, top[2] + 0.3))
+    joints = []
+    for i, x in ((1, -1.2), (2, 1.2)):
+        floor, under = square_face(3.0, 0.5), square_face(half, -0.3, up=False, x=x)
+        joints.append(faces_joined(0, i, floor, square_face(half, -2.0, up=False), kn))
+        joints.append(faces_joined(i, 3, square_face(half, 2.0), under, kn))
+    base = box((30.0, 30.0, 1.0), (0.0, 0.0, -0.5), fixed=True)
+    return Lane(base, column(-1.2), column(1.2), beam, kn=kn, joints=joints, step=step, **others)

@@ -11,6 +11,7 @@ import command_pages
 import model_pages
 import nature_pages
 import other_codes_pages
+import space_pages
 import validation_pages
 from sphinx.util import logging
 
@@ -27,7 +28,8 @@ def compute(app):
     out = docs / "_build" / "computed"
     out.mkdir(parents=True, exist_ok=True)
     generated = api_pages.texts(docs / "api" / "generated")
-    for text in generated + command_pages.texts(out) + model_pages.texts(out) + other_codes_pages.texts(out):
+    stored = other_codes_pages.texts(out) + space_pages.texts(out)
+    for text in generated + command_pages.texts(out) + model_pages.texts(out) + stored:
         write(*text)
     stamp = out / "computed"
     if stamp.exists() and stamp.stat().st_mtime > newest(

@@ -4,15 +4,23 @@ import math
 
 import numpy as np
 import pytest
-from bodies_in_space import LYING, G, Lane, box, cylinder, disc_face, faces_joined, ground, square_face, turn
+from bodies_in_space import (
+    RADIUS,
+    G,
+    Lane,
+    after_impact,
+    box,
+    cylinder,
+    disc_face,
+    faces_joined,
+    ground,
+    lying,
+    portal,
+    quarter,
+    square_face,
+    turn,
+)
 from scipy.integrate import solve_ivp
-
-#: A drum of 0.8 m and 1 m on its side.
-RADIUS = 0.4
-
-
-def lying(place=(0.0, 0.0, RADIUS), **motion):
-    return cylinder(RADIUS, 1.0, place, LYING, **motion)
 
 
 def test_a_drum_rolls_down_a_slope():
@@ -118,15 +126,6 @@ def test_a_drum_falls_flat_and_bounces():
     assert times[np.nonzero(np.abs(v) > 0.02)[0][-1]] == pytest.approx(0.6058, rel=0.05)
 
 
-def after_impact(lane, look):
-    """What is seen when the first contact with the ground has opened again."""
-    while lane.contact(0, 1) == 0.0:
-        lane.advance(1)
-    while lane.contact(0, 1) > 0.0:
-        lane.advance(1)
-    return look()
-
-
 def test_a_drum_falls_on_its_rim():
     """Rigid impulse: 6.0535 rad/s and −1.1136 m/s after it; 2 % of what it had."""
     turned = turn(0.0, math.radians(20.0), 0.0)
@@ -147,11 +146,6 @@ def test_a_beam_falls_on_its_corner():
     spin, up = after_impact(lane, lambda: (lane.spin(1), lane.velocity(1)[2]))
     assert np.linalg.norm(spin - [-3.559479, -1.521214, 0.677332]) < 0.02 * 3.93
     assert up == pytest.approx(-2.2292, abs=0.02 * 3.13)
-
-
-def quarter(times, lean):
-    k = np.argmax(np.array(lean) < 0.0)
-    return times[k - 1] + (times[k] - times[k - 1]) * lean[k - 1] / (lean[k - 1] - lean[k])
 
 
 @pytest.mark.parametrize("shape", ["square", "round"])
@@ -179,24 +173,6 @@ def test_a_monolith_rocks(shape, joined):
         atol=1e-12,
     )
     assert quarter(times, lean) == pytest.approx(found.t_events[0][0], rel=1e-4 if joined else 2e-3)
-
-
-def portal(tilt, kn, step, **others):
-    """Two monoliths under a beam, leaning along it; joints everywhere."""
-    turned, half = turn(0.0, tilt, 0.0), 0.4
-
-    def column(x):
-        return box((0.8, 0.8, 4.0), np.array([x + half, 0.0, 0.0]) + turned @ [-half, 0.0, 2.0], turned)
-
-    top = turned @ [-2.0 * half, 0.0, 4.0] + [2.0 * half, 0.0, 0.0]
-    beam = box((3.2, 0.8, 0.6), (top[0], 0.0, top[2] + 0.3))
-    joints = []
-    for i, x in ((1, -1.2), (2, 1.2)):
-        floor, under = square_face(3.0, 0.5), square_face(half, -0.3, up=False, x=x)
-        joints.append(faces_joined(0, i, floor, square_face(half, -2.0, up=False), kn))
-        joints.append(faces_joined(i, 3, square_face(half, 2.0), under, kn))
-    base = box((30.0, 30.0, 1.0), (0.0, 0.0, -0.5), fixed=True)
-    return Lane(base, column(-1.2), column(1.2), beam, kn=kn, joints=joints, step=step, **others)
 
 
 @pytest.mark.parametrize(("share", "exact"), [(0.25, 0.45727829), (0.5, 0.75647293)])

@@ -1,0 +1,120 @@
+"""What the runs come to: medians and shares of each structure, and differences from the column alone, with intervals."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from stylobate.analysis.lognormal import bootstrap, fit
+from stylobate.analysis.paired import share_limits
+
+#: What counts: that a column loses a drum, each column of a run by itself, or that anything of the structure falls.
+KINDS = {"columns": "columns that lose a drum", "anything": "runs in which anything falls"}
+
+#: Samples of the bootstrap over records, and its seed.
+SAMPLES, SEED = 1000, 0
+
+
+def counts(table: Any, kind: str) -> Any:
+    """A row per run that has a verdict, with how many there are (``of``) and fell (``fell``)."""
+    sound = table[~table["failed"].astype(bool)]
+    if kind == "columns":
+        return sound.assign(of=sound["columns"], fell=sound["columns_fallen"])
+    return sound.assign(of=1, fell=(sound["bodies_fallen"] > 0).astype(int))
+
+
+def median(table: Any, kind: str, structure: str) -> tuple[float, float, float]:
+    """Level at which half of them fall, by a lognormal fit, and its 95 % interval over records, [m/s].
+
+    Infinite or zero where a sample of the records knows no such level.
+    """
+    mine = counts(table[table["structure"] == structure], kind)
+    low, high, owner = [], [], []
+    for run in mine.itertuples():
+        level = math.log(float(run.pgv_m_s))
+        for number in range(int(run.of)):
+            down = number < int(run.fell)
+            low.append(-math.inf if down else level)
+            high.append(level if down else math.inf)
+            owner.append(str(run.record))
+    ends = np.array(low), np.array(high)
+    best = float(fit(*ends).log_median[0])
+    drawn = bootstrap(*ends, np.array(owner), SAMPLES, np.random.default_rng(SEED))[:, 0]
+    limits = np.quantile(drawn, [0.025, 0.975], method="nearest")
+    return math.exp(best), float(np.exp(limits[0])), float(np.exp(limits[1]))
+
+
+def share(table: Any, kind: str, structure: str) -> float:
+    """Share of all of them that fall, over all records, directions and levels."""
+    mine = counts(table[table["structure"] == structure], kind)
+    return float(mine["fell"].sum() / mine["of"].sum())
+
+
+def difference(table: Any, kind: str, structure: str, against: str) -> dict[str, Any]:
+    """Share that falls less that of another structure under the same motions, and its 95 % interval over records.
+
+    Runs without a verdict are left out with those that they are paired with.
+    """
+    keys = ["record", "azimuth_deg", "pgv_m_s"]
+    mine, other = (
+        counts(table[table["structure"] == one], kind)[[*keys, "fell", "of"]] for one in (structure, against)
+    )
+    both = mine.merge(other, on=keys, suffixes=("_mine", "_other"))
+    change = (both["fell_mine"] / both["of_mine"] - both["fell_other"] / both["of_other"]).to_numpy(dtype=float)
+    names, owner = np.unique(both["record"].to_numpy(dtype=str), return_inverse=True)
+    sums, runs = np.bincount(owner, change), np.bincount(owner)
+    even = np.full(len(names), 1.0 / len(names))
+    weight = np.random.default_rng(SEED).multinomial(len(names), even, SAMPLES)
+    drawn = (weight @ sums) / (weight @ runs)
+    low, high = share_limits(sums, runs, float(both["pgv_m_s"].nunique()), drawn)
+    found: dict[str, Any] = {
+        "pairs": len(change),
+        "records": len(names),
+        "difference": float(change.mean()),
+        "low": low,
+        "high": high,
+    }
+    return found | {"better": int((change < 0.0).sum()), "worse": int((change > 0.0).sum())}
+
+
+def summary(table: Any) -> dict[str, Any]:
+    """All of it under the names of the JSON object."""
+    labels = list(dict.fromkeys(table["structure"]))
+    found: dict[str, Any] = {
+        "runs": len(table),
+        "failed": int(table["failed"].sum()),
+        "records": int(table["record"].nunique()),
+        "levels_m_s": sorted(float(one) for one in table["pgv_m_s"].unique()),
+    }
+    for kind in KINDS:
+        found[kind] = {}
+        for label in labels:
+            middle, low, high = median(table, kind, label)
+            row: dict[str, Any] = {"share": share(table, kind, label), "median_m_s": middle}
+            row |= {"median_low": low, "median_high": high}
+            if label != labels[0]:
+                row["against_alone"] = difference(table, kind, label, labels[0])
+            found[kind][label] = row
+    return found
+
+
+def markdown(found: dict[str, Any]) -> str:
+    """The tables of the page."""
+    lines = []
+    for kind, words in KINDS.items():
+        lines += [
+            f"| {words} | share of all | half of them at PGV (95 %) | against the column alone (95 %) | better, worse |",
+            "| --- | --- | --- | --- | --- |",
+        ]
+        for label, one in found[kind].items():
+            told = f"{one['median_m_s']:.2f} m/s ({one['median_low']:.2f} to {one['median_high']:.2f})"
+            cells = [label, f"{100.0 * one['share']:.0f} %", told, "", ""]
+            if "against_alone" in one:
+                a = one["against_alone"]
+                points = [f"{100.0 * a[key]:+.0f}".replace("-", "−") for key in ("difference", "low", "high")]
+                cells[3:] = [f"{points[0]} points ({points[1]} to {points[2]})", f"{a['better']}, {a['worse']}"]
+            lines.append(f"| {' | '.join(cells)} |")
+        lines.append("")
+    return "\n".join(lines)
