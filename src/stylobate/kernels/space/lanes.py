@@ -213,7 +213,7 @@ def gap(s, u, t, v, vertex, simplex):
 @kernel
 def gaps(state, out):
     """Gaps between any two bodies, shapes that a joint holds aside [m], shape (N, N); of a state in ``records.py``."""
-    body, shape, vertex, _, _, _, _, _, joint, _, _, _, _, _, _, _, simplex = state
+    body, shape, vertex, _, _, _, _, _, joint, _, _, _, _, _, _, _, simplex, _ = state
     for a in range(shape.shape[0]):
         s = shape[a]
         for b in range(shape.shape[0]):

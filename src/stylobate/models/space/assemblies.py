@@ -32,7 +32,7 @@ LONGEST_WAIT = 60.0
 #: A run has failed when its ledger misses more than this share of the energy at stake, at the end or before anything fell.
 LARGEST_IMBALANCE = 0.05
 
-#: Nor has a run a verdict in which a contact was deeper than this share of the smallest body's radius.
+#: Nor has a run a verdict in which a contact was deeper than this share of the least width of any body.
 DEEPEST = 0.25
 
 #: Time after the last body has fallen at which a run ends, if nothing else is asked for [s].
@@ -195,7 +195,7 @@ def response_of(
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
     imbalance = max(_imbalance(change, start), _imbalance_before_falls(structure, stack, change, start))
     deepest = float(engine.now["deepest"][0])
-    if not failure and deepest > DEEPEST * engine.smallest:
+    if not failure and deepest > DEEPEST * engine.least_width:
         failure = (
             f"bodies sank into one another, {deepest:.3g} m at a contact; try a smaller step_factor, or stiffer joints"
         )

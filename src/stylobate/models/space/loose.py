@@ -35,14 +35,21 @@ REST_WAY, REST_TIME = 2.0e-4, 0.5
 SLOW, QUIETENED = 0.1, 0.05
 
 #: Bodies are in equilibrium as drawn if their accelerations fall below this [m/s²] within so long with local damping [s],
-#: while none goes farther than this share of the smallest one's radius.
-SETTLED, SETTLE_TIME, AS_DRAWN = 1e-4, 10.0, 0.02
+#: while none goes farther than this share of the least width of any.
+SETTLED, SETTLE_TIME, AS_DRAWN = 1e-4, 10.0, 0.01
 
 #: Step times the circular frequency of a body on its largest face, at the usual share of the largest stable step.
 STRUCK, USUAL = 0.5, 0.4
 
 #: Round faces count with so many corners where the largest stable step is looked for.
 ROUND = 8
+
+
+def least_width(body: np.ndarray) -> float:
+    """Least width of any of some bodies, each as a box with its mass and moments of inertia [m]."""
+    moments = 1.0 / (body["ia"] + np.concatenate((0.0 * body["ib"], body["ib"], body["ic"]), axis=1))
+    across = 6.0 * (moments.sum(axis=1) - 2.0 * moments.max(axis=1)) / body["m"][:, 0]
+    return float(np.sqrt(across.min()))
 
 
 class Loose:
@@ -87,6 +94,7 @@ class Loose:
         now["eta"], now["calm"] = (1.0 - e * e) / (1.0 + e * e), CALM
         self.free = packed.body["fixed"] == 0
         self.smallest = float(packed.body["r"][self.free].min())
+        self.least_width = least_width(packed.body[self.free])
         now["skin"] = SKIN * self.smallest
         most = min(n * (n - 1) // 2, MOST_NEAR * n)
         self.pair, spare = np.zeros(most, kinds["pair"]), np.zeros(most, kinds["pair"])
@@ -295,7 +303,7 @@ class Loose:
         self.body["local"], self.feed["last"] = LOCAL_DAMPING, 0
         rests = settled(
             self._relax, self.residual_acceleration, SETTLED, math.ceil(SETTLE_TIME / (CHUNK * self.dt)),
-            lost=lambda: self.failed or float(np.abs(self.places - places).max()) > AS_DRAWN * self.smallest,
+            lost=lambda: self.failed or float(np.abs(self.places - places).max()) > AS_DRAWN * self.least_width,
         )  # fmt: skip
         before = drawn[3]
         if rests:
