@@ -74,7 +74,9 @@ def test_papers_matrices_of_two_equal_prisms():
     assert drum.mass == pytest.approx(1e3)
     inertia = 1e3 * (4.0 + 8.0) / 12.0
     assert drum.inertia == pytest.approx(inertia)
-    geometry, shear, turning, shear_base, turning_base = nodal_matrices(Column.of_drums([drum] * 2, JOINT))
+    geometry, shear, turning, shear_base, turning_base = nodal_matrices(
+        Column.of_fields(drums=(drum,) * 2, joints=(JOINT,) * 2, name="prisms")
+    )
     assert geometry == pytest.approx(np.array([[1.0, 2.0], [0.0, 1.0]]))
     assert shear == pytest.approx(1e3 * np.array([[1.0, 0.5], [0.5, 0.5]]))
     assert shear_base == pytest.approx([500.0, 0.0])

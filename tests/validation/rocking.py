@@ -129,7 +129,7 @@ def quarter_period_nonlinear():
 def dem_prism(width: float, height: float, stiffness: float, friction: float = 5.0) -> Column:
     """A monolithic prism for distinct elements; without slip at the default friction."""
     joint = Joint(stiffness, 0.5 * stiffness, friction_coefficient=friction)
-    return Column.of_drums([Drum(height, width, width, 2000.0)], joint)
+    return Column.of_fields(drums=(Drum(height, width, width, 2000.0),), joints=(joint,), name="prism")
 
 
 def release(column: Column, tilt: float, model: DistinctElement2D, duration: float) -> tuple[np.ndarray, np.ndarray]:

@@ -11,9 +11,12 @@ from .row import Rows, both_sides, family, near
 
 @family("drum_rolls_down")
 def rolls_down(rows: Rows):
-    """Speed and spin of a drum from rest over a second and a half, on a slope: gravity is turned instead."""
+    """Speed and spin of a drum from rest over a second and a half, on a slope: gravity is turned instead.
+
+    It begins to press all at once; restitution lets what rings then fade.
+    """
     slope = math.radians(10.0)
-    lane = Lane(ground(), lying(), gravity=(-G * math.sin(slope), 0.0, G * math.cos(slope)))
+    lane = Lane(ground(), lying(), gravity=(-G * math.sin(slope), 0.0, G * math.cos(slope)), restitution=0.5)
     times, seen = lane.run(1.5, lambda: (lane.velocity(1)[0], lane.spin(1)[1]))
     speed, spin = np.array(seen).T
     yield near(rows[0], np.polyfit(times, speed, 1)[0])
@@ -52,7 +55,7 @@ def over_edge(rows: Rows):
     """A drum that rolls over the edge of a block, leaves it and lands."""
     block = box((2.0, 3.0, 2.0), (-1.0, 0.0, 1.0), fixed=True)
     drum = lying((-0.01, 0.0, 2.0 + RADIUS), velocity=(0.3, 0.0, 0.0), spin=(0.0, 0.75, 0.0))
-    lane = Lane(ground(), block, drum, step=8e-6, kn=5e12)
+    lane = Lane(ground(), block, drum, step=8e-6, kn=5e12, restitution=0.5)
     _, seen = lane.run(1.4, lambda: (lane.contact(1, 2), *lane.place(2), *lane.velocity(2), *lane.spin(2)))
     area, x, _, z, *v, _, spin, _ = np.array(seen).T
     speed = np.hypot(v[0], v[2])
