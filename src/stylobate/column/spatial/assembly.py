@@ -98,10 +98,20 @@ class SpatialAssembly(Structure):
         for stone in self.stones:
             _check_parts(stone)
         if self.settle:
+            self._refuse_moving()
             self._refuse_hanging()
         else:
             self._contacts  # noqa: B018  refuses bodies that overlap
         self.placed_links  # noqa: B018  refuses links that cannot be
+
+    def _refuse_moving(self) -> None:
+        moving = next((one for one in self.stones if any(one.velocity) or any(one.angular_velocity)), None)
+        if moving is not None:
+            raise InputError(
+                f"block {moving.name!r} of {self.name!r} moves at the start, and what settles is at rest; give "
+                "settle = false.",
+                "settle",
+            )
 
     def _check_overrides(self) -> None:
         known, pairs = {body.name for body in self.bodies}, []

@@ -7,8 +7,8 @@ from collections.abc import Callable
 #: Share of the unbalanced force that acts against the velocity while something settles [-].
 LOCAL_DAMPING = 0.8
 
-#: Chunks of steps between two looks.
-CHUNKS = 100
+#: Chunks of steps between two looks, of which there are at least so many however long the step.
+CHUNKS, LOOKS = 100, 2
 
 
 def settled(
@@ -38,8 +38,9 @@ def settled(
     bool
         Whether it has settled.
     """
-    for _ in range(most_chunks // CHUNKS):
-        advance(CHUNKS)
+    each = min(CHUNKS, max(1, most_chunks // LOOKS))
+    for _ in range(max(most_chunks // each, 1)):
+        advance(each)
         if lost():
             return False
         if residual() < allowed:

@@ -242,18 +242,19 @@ def _imbalance(change: np.ndarray, start: np.ndarray) -> float:
 def _imbalance_before_falls(
     structure: Structure, stack: dict[str, Any], change: np.ndarray, start: np.ndarray
 ) -> float:
-    """What the ledger misses when potential energy was last no less than at first, over the input before anything fell.
+    """Most that the ledger misses before anything fell, over the input by then or what the way there has set free.
 
-    What is missed by then may have decided over the fall, which sets free far more.
+    It may have decided over the fall, which sets free far more.
     """
     down = fallen(structure, stack["position"][0], stack["axes"][0], stack["position"], stack["axes"]).any(axis=1)
     if not down.any():
         return 0.0
-    upright = change[: np.argmax(down)]
-    last = int(np.flatnonzero(upright[:, 2] + upright[:, 3] >= 0.0)[-1])
-    missing = ledger.unaccounted(upright[last] - np.where([0, 1, 0, 0, 0, 0], change[0], 0.0))
-    work = float(np.abs(upright[:, 0]).max())
-    return ledger.imbalance(missing, work=work, start=float(start[1] + start[3]), barrier=0.0, released=0.0)
+    upright = change[: np.argmax(down)] - np.where([0, 1, 0, 0, 0, 0], change[0], 0.0)
+    work, begun = float(np.abs(upright[:, 0]).max()), float(start[1] + start[3])
+    return max(
+        ledger.imbalance(ledger.unaccounted(row), work=work, start=begun, barrier=0.0, released=ledger.released(row))
+        for row in upright
+    )
 
 
 def _follow(

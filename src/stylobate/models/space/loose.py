@@ -10,7 +10,7 @@ import numpy as np
 
 from ...column.links.placed import PlacedLink
 from ...kernels.run_codes import CHUNK, FAILED
-from ...kernels.space.records import types, workspace, workspace_of_joints
+from ...kernels.space.records import GROUND, types, workspace, workspace_of_joints
 from ...motion import Motion
 from ..drums.links import with_links
 from ..shared.settling import LOCAL_DAMPING, settled
@@ -35,7 +35,7 @@ REST_WAY, REST_TIME = 2.0e-4, 0.5
 SLOW, QUIETENED = 0.1, 0.05
 
 #: Bodies are in equilibrium as drawn if their accelerations fall below this [m/s²] within so long with local damping [s],
-#: while none goes farther than this share of the least width of any.
+#: while no point of one goes farther than this share of the least width of any.
 SETTLED, SETTLE_TIME, AS_DRAWN = 1e-4, 10.0, 0.01
 
 #: Step times the circular frequency of a body on its largest face, at the usual share of the largest stable step.
@@ -109,7 +109,9 @@ class Loose:
         self.begin_links()
         self.dt = 0.0
         self.stood_at, self.stood_since = np.full((len(solids), 12), np.inf), 0.0
-        self.lowest_level = float((packed.body["z"][:, 0] - packed.body["r"])[self.free].min()) - 10.0 * self.smallest
+        ground = np.isin(np.arange(len(solids)), packed.shape["body"][packed.shape["kind"] == GROUND])
+        lowest = packed.body["z"][:, 0] - np.where(ground, 0.0, packed.body["r"])
+        self.lowest_level = float(lowest.min()) - 10.0 * self.smallest
 
     def start(self, step: float) -> None:
         """Set the step and list who may touch; velocities are those of the start."""
@@ -274,9 +276,14 @@ class Loose:
         turning = (np.abs(u["mo"]) * easiest).max(axis=1) * u["r"]
         return float(max(linear, turning.max()))
 
+    @property
+    def _poses(self) -> np.ndarray:
+        """Centroids, and axes times the reach of their bodies [m], shape (N, 12)."""
+        return np.concatenate((self.places, self.axes_of_all.reshape(-1, 9) * self.body["r"][:, None]), axis=1)
+
     def at_rest(self) -> bool:
         """Whether nothing has moved for ``REST_TIME``, but what falls for ever; to be asked again and again."""
-        here = np.concatenate((self.places, self.axes_of_all.reshape(-1, 9) * self.body["r"][:, None]), axis=1)
+        here = self._poses
         way = np.abs(here - self.stood_at).max(axis=1)[self.free]
         there = ~(self.places[self.free, 2] < self.lowest_level)
         if way[there].max(initial=0.0) > REST_WAY * self.smallest:
@@ -299,16 +306,16 @@ class Loose:
             Whether it rests, about where it was drawn; if not, everything is as it was.
         """
         arrays = (self.body, self.pair, self.joint, self.now, self.feed, *self.ties)
-        drawn, places = [one.copy() for one in arrays], self.places
+        drawn, poses = [one.copy() for one in arrays], self._poses
         self.body["local"], self.feed["last"] = LOCAL_DAMPING, 0
         rests = settled(
             self._relax, self.residual_acceleration, SETTLED, math.ceil(SETTLE_TIME / (CHUNK * self.dt)),
-            lost=lambda: self.failed or float(np.abs(self.places - places).max()) > AS_DRAWN * self.least_width,
+            lost=lambda: self.failed or not np.abs(self._poses - poses)[self.free].max() <= AS_DRAWN * self.least_width,
         )  # fmt: skip
         before = drawn[3]
         if rests:
             self.body["local"] = 0.0
-            for name in ("work", "shear", "visc", "touched", "last"):
+            for name in ("work", "shear", "visc", "touched", "last", "earlier"):
                 self.now[name] = before[name]
             for c in "xyz":
                 for name in ("v", "w", "l"):
