@@ -50,4 +50,4 @@ def test_soft_joints_settle():
     cube = st.SpatialAssembly((box("cube", (2.0, 2.0, 2.0), (0.0, 0.0, 0.0)),), st.Joint(1e8, 5e7, 35.0), name="cube")
     response = st.simulate(cube, STILL, st.DistinctElement3D())
     assert response.measures.blocks.in_equilibrium
-    assert response.outcome == "at_rest"
+    assert response.outcome is st.Outcome.AT_REST
