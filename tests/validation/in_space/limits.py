@@ -51,13 +51,13 @@ def stands(structure: st.SpatialAssembly, azimuth: float, share: float) -> bool:
     engine.start(step_for(engine, structure, model.spatial_numbers))
     first = engine.places
     angle = np.radians(azimuth)
-    engine.now["local"] = DAMPING
+    engine.body["local"] = DAMPING
     parts = 20
     for part in range(1, parts + 1):  # it grows in the first half of the time
         grown = min(1.0, 2.0 * part / parts)
         engine.now["g"] = 9.81 * np.array([-share * grown * np.cos(angle), -share * grown * np.sin(angle), 1.0])
         engine.advance(round(HELD[0] / parts / engine.dt / 32))
-    engine.now["local"] = 0.0
+    engine.body["local"] = 0.0
     engine.advance(round(HELD[1] / engine.dt / 32))
     assert not engine.failed
     return bool(np.abs(engine.places - first).max() < LOST * engine.smallest)
