@@ -130,7 +130,6 @@ def test_a_push_of_one_box_onto_another():
         scene(*stones, settle=False), st.Motion(0.01, np.zeros(101)), st.DistinctElement3D(), replicates=2, threads=1
     )
     said = found.summary()
-    assert said["fallen"][0] == "hurled"
     assert set(said["fallen"]) == {"pushed", "hurled"}
     assert 0.05 < said["struck_at_s"] < 0.12  # 0.5 m at 6 m/s
     assert said["bodies"]["pushed"]["fall_azimuth_deg"] == pytest.approx(0.0, abs=15.0)
