@@ -6,7 +6,7 @@ from pathlib import Path
 from validation.in_space import plane, study
 from validation.in_space.row import MISSED, NONE
 
-from stylobate_studies.company.shares import markdown
+from stylobate_studies.company.shares import markdown, runs_told
 
 #: What the study of columns in company has left.
 STORED = Path(__file__).parents[1] / "company.json"
@@ -15,7 +15,7 @@ STORED = Path(__file__).parents[1] / "company.json"
 def texts(out):
     """Tables from what is stored."""
     found = json.loads(STORED.read_text(encoding="utf-8"))
-    said = f"{found['runs']} runs, {found['failed']} of them without a verdict; computed on {found['date']}.\n"
+    said = f"{runs_told(found)} Computed on {found['date']}.\n"
     return [
         (out / "references_summary.md", study.summary() + "\n"),
         (out / "references_families.md", study.counts()),

@@ -1,11 +1,14 @@
 """Assemblies in batches: without histories they come to the same, and what has fallen is not watched for ever."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.models.base import Case
-from stylobate.models.plane.assemblies import AFTER_THE_FALL
+from stylobate.kernels.run_codes import CHUNK
+from stylobate.models.base import Case, RunOptions
+from stylobate.models.plane.assemblies import AFTER_THE_FALL, follow
 from stylobate.simulate import simulate_assembly, simulate_iter
 
 JOINT = st.Joint(1e8, 5e7, friction_angle=35.0)
@@ -36,6 +39,29 @@ def test_without_histories_a_run_has_the_same_measures():
         alone = simulate_assembly(PORTAL, motion, MODEL).measures
         assert not alone.collapsed
         assert one == alone
+
+
+def test_a_run_that_is_cut_after_a_fall_is_not_told_at_rest():
+    """Whatever lies still while the motion goes on; an engine that is still from the start, with a block 1 m lower."""
+    height = np.zeros(len(PORTAL.bodies))
+
+    def advance(chunks):
+        height[:], engine.steps, engine.time = -1.0, engine.steps + chunks * CHUNK, engine.time + 0.1 * chunks
+
+    def state():
+        return {"z": height.copy(), "rotation": np.zeros(len(height)), "time": engine.time}
+
+    engine = SimpleNamespace(
+        structure=PORTAL, chunks=200, steps=0, time=0.0, dt=0.1 / CHUNK, duration=20.0, failed=False, now={"eta": 0.0},
+        at_rest=lambda: True, advance=advance, state=state,
+    )  # fmt: skip
+    states, still = follow(engine, RunOptions())
+    assert states[-1]["time"] < 6.0
+    assert not still
+    engine.steps, engine.time, height[:] = 0, 0.0, 0.0
+    states, still = follow(engine, RunOptions(until_end=True))
+    assert states[-1]["time"] == pytest.approx(20.0)
+    assert still
 
 
 def test_a_run_of_a_batch_ends_after_the_fall():

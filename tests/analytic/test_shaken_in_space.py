@@ -86,7 +86,10 @@ def test_a_run_out_of_balance_has_no_verdict(monkeypatch):
     """Whatever it shows; before anything fell, energy is missed of the input, not of all that the fall sets free."""
     monkeypatch.setattr(assemblies, "LARGEST_IMBALANCE", 1e-5)
     response = st.simulate(portal(5e9), pulse(0.6, 0.6, 0.5), st.DistinctElement3D(), tail=2.0)
-    assert response.measures.blocks.fell_at
+    blocks = response.measures.blocks
+    assert min(response.poses.position[-1, 1:, 2]) < 1.0  # something lies on the ground
+    assert (blocks.fell_at, blocks.displaced) == ((), ())
+    assert not any(body.fell_at or body.displaced for body in blocks.bodies)
     assert response.measures.outcome == st.Outcome.FAILED
     assert not response.measures.decided
     assert "no verdict on the assembly. Reason: the energy ledger is out of balance by" in response.describe()
@@ -105,6 +108,21 @@ def test_a_corner_of_a_temple_settles():
     structure = st.read_assembly(GALLERY / "temple_corner.toml")
     still = st.Motion(0.001, np.zeros(11))
     assert st.simulate(structure, still, st.DistinctElement3D()).measures.blocks.in_equilibrium
+
+
+def test_a_run_goes_on_to_its_end_whatever_has_fallen():
+    """A stone that falls past a support in the first second is followed through seven seconds and a tail, in batches too."""
+    stones = (
+        st.Stone.box((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), 2700.0, name="support", fixed=True),
+        st.Stone.box((0.5, 0.5, 0.5), (3.0, 0.0, 0.0), 2700.0, name="stone"),
+    )
+    scene = st.SpatialAssembly(stones, st.Joint(1e6, 5e5, TAN_PHI), ground=None, settle=False)
+    still, model = st.Motion(0.01, np.zeros(701)), st.DistinctElement3D()
+    response = st.simulate(scene, still, model, tail=1.0)
+    assert response.fallen == ("stone",)
+    assert response.time[-1] == pytest.approx(8.0, abs=0.5)  # whole chunks of long steps
+    [row] = st.simulate_many(scene, [still], model, tail=1.0).to_dict("records")
+    assert row["steps"] * row["time_step_s"] == pytest.approx(response.time[-1])
 
 
 def test_what_is_not_known_is_refused():

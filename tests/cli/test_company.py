@@ -27,6 +27,8 @@ def made_up(falls=lambda structure, record, azimuth, level: level > 0.5):
                 "azimuth_deg": azimuth,
                 "pgv_m_s": level,
                 "failed": False,
+                "decided": True,
+                "at_rest": True,
             }
             | {"columns": count[label], "columns_fallen": count[label] * down, "bodies_fallen": 3 * down}
         )
@@ -64,11 +66,23 @@ def test_no_difference_is_told_where_there_is_none():
 def test_a_difference_is_of_pairs_that_both_have_a_verdict():
     """Two under an architrave never fall; one of its 54 runs has no verdict, and its pair is left out."""
     table = made_up(lambda structure, record, azimuth, level: structure != "two" and level > 0.5)
-    table.loc[table.index[table["structure"] == "two"][0], "failed"] = True
+    table.loc[table.index[table["structure"] == "two"][0], ["failed", "decided"]] = True, False
     one = shares.difference(table, "columns", "two", "alone")
     assert (one["pairs"], one["better"], one["worse"]) == (53, 36, 0)
     assert one["difference"] == pytest.approx(-36 / 53)
     assert one["low"] < one["difference"] < one["high"] < 0.0
+
+
+def test_what_still_moves_and_has_not_fallen_is_left_out_and_counted():
+    """Of 54 runs of the column alone one is undecided, and in one the fallen still move."""
+    table = made_up()
+    stands, fell = table.index[(table["structure"] == "alone") & (table["pgv_m_s"] == 0.4)][0], table.index[-1]
+    table.loc[stands, ["decided", "at_rest"]] = False
+    table.loc[fell, "at_rest"] = False
+    found = shares.summary(table)
+    assert (found["failed"], found["undecided"], found["fell_and_moving"]) == (0, 1, 1)
+    assert found["columns"]["alone"]["share"] == pytest.approx(36 / 53)
+    assert "0 failed and 1 are undecided" in shares.runs_told(found)
 
 
 def test_files_of_the_command(tmp_path, monkeypatch, capsys):
@@ -78,6 +92,8 @@ def test_files_of_the_command(tmp_path, monkeypatch, capsys):
     told = json.loads(capsys.readouterr().out)
     assert {"columns", "anything", "runs", "failed", "records", "levels_m_s", "files"} <= set(told)
     assert {one.name for one in (tmp_path / "out").iterdir()} >= {"company.csv", "company.json", "company.png"}
+    assert call(["company"]) == 0
+    assert "Assemblies in space are new: where bodies strike one another" in capsys.readouterr().out
     assert [axes.get_xlabel() for axes in draw_shares(made_up()).axes] == ["PGV, largest of all directions [m/s]"] * 2
 
 

@@ -33,16 +33,19 @@ class Outlined:
         raise NotImplementedError
 
     @property
+    def sides(self) -> tuple[float, ...]:
+        """Sides of the box around it as it stands [m]."""
+        return tuple(np.ptp(self.outline, axis=0).tolist())
+
+    @property
     def size(self) -> float:
-        """Larger side of the box around it [m]."""
-        return float(np.ptp(self.outline, axis=0).max())
+        """Largest side of the box around it [m]."""
+        return max(self.sides)
 
     @property
     def thickness(self) -> float:
         """Smallest distance between two parallels that hold it [m]."""
-        side = np.roll(self.outline, -1, axis=0) - self.outline
-        inward = np.stack((-side[:, 1], side[:, 0]), axis=1) / np.hypot(side[:, 0], side[:, 1])[:, None]
-        return float(((self.outline[None] - self.outline[:, None]) @ inward[:, :, None]).max(axis=1).min())
+        return narrowest(self.outline)[0]
 
 
 class Mesh(NamedTuple):
@@ -362,6 +365,22 @@ def hull(points: np.ndarray) -> np.ndarray:
     from scipy.spatial import ConvexHull
 
     return points[ConvexHull(points).vertices]
+
+
+def narrowest(corners: np.ndarray) -> tuple[float, float]:
+    """Smallest distance of two parallels that hold a convex polygon, and its extent along them [m].
+
+    Parameters
+    ----------
+    corners : array
+        In their order [m], shape (k, 2).
+    """
+    side = np.roll(corners, -1, axis=0) - corners
+    along = side / np.hypot(side[:, 0], side[:, 1])[:, None]
+    normal = np.stack((-along[:, 1], along[:, 0]), axis=1)
+    across = np.ptp(corners @ normal.T, axis=0)
+    k = int(across.argmin())
+    return float(across[k]), float(np.ptp(corners @ along[k]))
 
 
 def _trapezium(bottom: float, top: float, height: float, centroid: float) -> np.ndarray:

@@ -36,8 +36,8 @@ class Body(Protocol):
 
     What is in contact in the plane is ``polygon``, its corners counter-clockwise from its place, in the axes in which its
     faces are told; they are inclined to the base by ``lean`` [rad]. ``outline`` is the same as it stands, along and normal
-    to the base; ``size`` and ``thickness`` are the larger side of the box around it, and the smallest distance of two
-    parallels that hold it [m]. ``placed`` are its convex parts where they stand in space.
+    to the base; ``sides`` are those of the box around it as it stands, ``size`` is the largest of them, and ``thickness``
+    the smallest distance of two parallels that hold it [m]. ``placed`` are its convex parts where they stand in space.
     """
 
     @property
@@ -62,6 +62,8 @@ class Body(Protocol):
     def polygon(self) -> np.ndarray: ...
     @property
     def outline(self) -> np.ndarray: ...
+    @property
+    def sides(self) -> tuple[float, ...]: ...
     @property
     def size(self) -> float: ...
     @property

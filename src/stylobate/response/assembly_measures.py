@@ -11,14 +11,14 @@ import numpy as np
 from ..column.assembly import Assembly, Block, FaceJoint, separation
 from ..column.structure import Structure
 from ..outcome import classify
-from .body_measures import body_measures, shifted_bodies
+from .body_measures import azimuth_of_fall, body_measures, shifted_bodies
 from .collapse import FELL, Collapse, Touch
 from .histories import Histories
 from .links import LinkHistories, LinkMeasures
 from .measures import BlockMeasures, Measures
 from .recorded import Recorded
 
-#: A block has fallen when its centroid is lower than at the start by this share of the smaller side of its box …
+#: A block has fallen when its centroid is lower than at the start by this share of the smallest side of its box …
 DROP = 0.5
 
 #: … or when it has turned by more than this [rad].
@@ -84,23 +84,21 @@ def recorded_blocks(
     opening, slip = joint_histories(assembly, x, z, rotation)
     moved = np.hypot(x - x[0], z - z[0])
     turned = np.abs(rotation - rotation[0])
-    since = fallen_since(have_fallen(lowest_standing(assembly, z[0]), z, turned))
+    since = {} if failed else fallen_since(have_fallen(lowest_standing(assembly, z[0]), z, turned))
     opened, shares, free, free_shares = _shares(assembly, moved, opening, slip)
     pairs = [(joint.lower, joint.upper) for joint in assembly.joints]
-    shifted = shifted_bodies(pairs, shares, moved[-1], free, free_shares)
+    stands = at_rest and not failed  # what still moves may yet fall
+    shifted = shifted_bodies(pairs, shares, moved[-1], free, free_shares) if stands else ()
     names, sizes = (
         [one.name for one in assembly.bodies],
         [math.nan if one.fixed else one.size for one in assembly.bodies],
     )
     bodies = body_measures(names, sizes, time, np.stack((x, np.zeros_like(x), z), axis=-1), turned, since, shifted)
     fell_at = tuple((names[i], float(time[k])) for i, k in since.items())
-    collapsed = bool(fell_at) and not failed
+    collapsed = bool(fell_at)
     first = fell_at[0][1] if collapsed else math.nan
     until = time <= first if collapsed else slice(None)
-    azimuth = None
-    if collapsed:
-        lost = next(iter(since))
-        azimuth = 0.0 if x[-1, lost] >= x[0, lost] else math.pi
+    azimuth = azimuth_of_fall(bodies, fell_at)
     blocks = BlockMeasures(
         fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, bodies,
         struck_at=None if touched is None else touched.time,
@@ -160,7 +158,7 @@ def fallen_since(down: np.ndarray) -> dict[int, int]:
 
 def lowest_standing(structure: Structure, z: np.ndarray) -> np.ndarray:
     """Height below which the centroid of each body has fallen, from that at the start [m], shape (N,)."""
-    return z - DROP * np.array([np.ptp(body.outline, axis=0).min() for body in structure.bodies])
+    return z - DROP * np.array([min(body.sides) for body in structure.bodies])
 
 
 def have_fallen(lowest: np.ndarray, z: np.ndarray, turned: np.ndarray) -> np.ndarray:

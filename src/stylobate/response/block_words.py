@@ -17,7 +17,7 @@ MOST_NAMES = 6
 
 
 def sentence_of_blocks(response: Recorded) -> str:
-    """Outcome of a run of an assembly, and its mechanism, in one to three sentences."""
+    """Outcome of a run of an assembly, and its mechanism, in one to four sentences."""
     m, blocks = response.measures, response.measures.blocks
     assert blocks is not None
     moving = [i for i, held in enumerate(response.bodies.fixed) if not held]
@@ -28,7 +28,11 @@ def sentence_of_blocks(response: Recorded) -> str:
         order = [name for name, _ in blocks.fell_at]
         said = f"{len(order)} of {len(moving)} blocks fell, the first at {m.collapse_time:.2f} s: {_names(order)}."
         words = [said, f"{_first(response)}{_widest(response)}."]
-        return " ".join(words + [f"Shifted, but standing: {_names(blocks.displaced)}."] * bool(blocks.displaced))
+        if blocks.displaced:
+            words.append(f"Shifted, but standing: {_names(blocks.displaced)}.")
+        if len(order) < len(moving) and not blocks.at_rest:
+            words.append("Not all is at rest at the end: what has not fallen by then may yet fall.")
+        return " ".join(words)
     all_of_them = {1: "The block is", 2: "Both blocks are"}.get(len(moving), f"All {len(moving)} blocks are")
     in_place = f"{all_of_them} in place" if response.decided else "Nothing has fallen so far"
     if response.outcome is Outcome.AT_REST:

@@ -30,7 +30,7 @@ class BodyMeasures:
     moved : (float, float, float)
         Of its centroid, from the start to the end of the run, of what fell too [m].
     displaced : bool
-        Whether it stands, and stands shifted.
+        Whether it stands, and stands shifted; only known where all lies still at the end.
     """
 
     name: str
@@ -74,7 +74,7 @@ def body_measures(
     since : dict of int to int
         Recorded state from which on a body had fallen, by its number.
     shifted : iterable of int
-        Bodies that are shifted at the end, by their numbers.
+        Bodies that are shifted at the end, by their numbers; none where not all lies still then.
     """
     found, out_of_place = [], set(shifted)
     for i, (name, size) in enumerate(zip(names, sizes, strict=True)):
@@ -96,6 +96,12 @@ def body_measures(
             )
         )
     return tuple(found)
+
+
+def azimuth_of_fall(bodies: Iterable[BodyMeasures], fell_at: Sequence[tuple[str, float]]) -> float | None:
+    """Side to which the first body fell [rad]; None where none fell, or straight down."""
+    first = next((name for name, _ in fell_at), None)
+    return next((body.fall_azimuth for body in bodies if body.name == first), None)
 
 
 def shifted_bodies(

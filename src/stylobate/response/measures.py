@@ -118,7 +118,7 @@ class BlockMeasures:
 
     @property
     def displaced(self) -> tuple[str, ...]:
-        """Bodies that stand, and stand shifted."""
+        """Bodies that stand, and stand shifted; none where not all lies still at the end."""
         return tuple(body.name for body in self.bodies if body.displaced)
 
     @property

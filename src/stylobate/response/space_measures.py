@@ -11,7 +11,7 @@ import numpy as np
 from ..column.structure import Structure
 from ..outcome import classify
 from .assembly_measures import TURNED, fallen_since, lowest_standing
-from .body_measures import body_measures, shifted_bodies
+from .body_measures import azimuth_of_fall, body_measures, shifted_bodies
 from .collapse import FELL, Collapse, Touch
 from .histories import Histories
 from .links import LinkHistories, LinkMeasures
@@ -69,21 +69,22 @@ def recorded_in_space(
     opening, slip, twist = joint_histories(structure, position, axes)
     moved = np.linalg.norm(position - position[0], axis=-1)
     down = fallen(structure, position[0], axes[0], position, axes)
-    since = fallen_since(down)
+    since = {} if failed else fallen_since(down)
     tilt = np.arccos(np.clip(_upright(axes[0], axes), -1.0, 1.0))
     opened, shares, free, free_shares = _shares(structure, moved, opening, slip)
     pairs = [(joint.lower, joint.upper) for joint in structure.space_joints or ()]
-    shifted = shifted_bodies(pairs, shares, moved[-1], free, free_shares)
+    stands = at_rest and not failed  # what still moves may yet fall
+    shifted = shifted_bodies(pairs, shares, moved[-1], free, free_shares) if stands else ()
     names, sizes = (
         [one.name for one in structure.bodies],
         [math.nan if one.fixed else one.size for one in structure.bodies],
     )
     bodies = body_measures(names, sizes, time, position, tilt, since, shifted)
     fell_at = tuple((names[i], float(time[k])) for i, k in since.items())
-    collapsed = bool(fell_at) and not failed
+    collapsed = bool(fell_at)
     first = fell_at[0][1] if collapsed else math.nan
     until = time <= first if collapsed else slice(None)
-    azimuth = next(one.fall_azimuth for one in bodies if one.name == fell_at[0][0]) if collapsed else None
+    azimuth = azimuth_of_fall(bodies, fell_at)
     offsets, turns = slip[-1].T.tolist(), twist[-1].tolist()
     touched = None if struck_at is None else Touch(struck_at)
     blocks = BlockMeasures(

@@ -23,6 +23,7 @@ from ..shapes import (
     RectangularFrustum,
     Shape,
     hull,
+    narrowest,
 )
 from ..turning import UPRIGHT, Quaternion, matrix_of, product
 from .moments import Moments, drum_of, mesh_moments, moments_of, together
@@ -221,6 +222,11 @@ class Stone(Outlined):
     def outline(self) -> np.ndarray:
         """The same."""
         return self.corners
+
+    @property
+    def sides(self) -> tuple[float, ...]:
+        """Of the box around it as it stands, turned about the vertical to where it is narrowest [m]."""
+        return (*narrowest(hull(self.vertices[:, :2])), float(np.ptp(self.vertices[:, 2])))
 
     @cached_property
     def polygon(self) -> np.ndarray:

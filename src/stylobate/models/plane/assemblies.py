@@ -132,23 +132,23 @@ def run_assembly(
 
 
 def follow(engine: Loose, options: RunOptions, recorded: bool = True) -> tuple[list[dict[str, Any]], bool]:
-    """Go on to where the run ends; the states on the way, and whether all lies still.
+    """Go on to where the run ends; the states on the way, and whether all lies still after the motion.
 
     It ends with the motion and its tail, when all lies still, or some time after the last block has fallen.
     """
     every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
     keep = engine.state if recorded else engine.pose
-    states, still = [keep()], False
+    states, still, over = [keep()], False, False
     lowest, rotation = lowest_standing(engine.structure, states[0]["z"]), states[0]["rotation"]
     fallen, since = np.zeros(len(rotation), dtype=bool), 0.0
     while not engine.failed:
         left = engine.chunks - engine.steps // CHUNK
-        still = engine.at_rest()
-        if left <= 0:
+        still, over = engine.at_rest(), left <= 0
+        if over:
             engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0
-        if left <= 0 and (not options.until_rest or still or engine.time > engine.duration + LONGEST_WAIT):
+        if over and (not options.until_rest or still or engine.time > engine.duration + LONGEST_WAIT):
             break
-        engine.advance(min(every, left) if left > 0 else every)
+        engine.advance(every if over else min(every, left))
         states.append(keep())
         if options.progress:
             options.progress(min(engine.time, engine.duration), engine.duration)
@@ -161,7 +161,7 @@ def follow(engine: Loose, options: RunOptions, recorded: bool = True) -> tuple[l
             break
     if not recorded:
         states[-1]["energy"] = engine.energies()
-    return states, still
+    return states, still and over
 
 
 def measures_of_assemblies(

@@ -35,9 +35,6 @@ LARGEST_IMBALANCE = 0.05
 #: Nor has a run a verdict in which a contact was deeper than this share of the least width of any body.
 DEEPEST = 0.25
 
-#: Time after the last body has fallen at which a run ends, if nothing else is asked for [s].
-AFTER_THE_FALL = 5.0
-
 #: About what a step costs on one core for each joint and body [s].
 COST = 2e-6
 
@@ -93,8 +90,8 @@ def step_for(engine: Loose, structure: Structure, numbers: SpatialNumbers) -> fl
 def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, options: RunOptions) -> Response:
     """One run of an assembly in space to the end of the motion and its tail, or until rest.
 
-    With neither ``until_end`` nor ``until_rest`` it ends some seconds after the last body has fallen. The contacts are
-    closed by the weight they carry; an assembly that is not in equilibrium begins as drawn, with a warning.
+    It goes on however much has fallen: what stands may fall later. The contacts are closed by the weight they carry; an
+    assembly that is not in equilibrium begins as drawn, with a warning.
 
     Raises
     ------
@@ -113,7 +110,7 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
         said = f"{structure.name!r} is not in equilibrium as drawn; it moves from the start."
         warnings.warn(said, OutOfRangeWarning, stacklevel=4)
     engine.shake(motion)
-    states, still = _follow(engine, structure, motion, chunks, every, options)
+    states, still = _follow(engine, motion, chunks, every, options)
     stack: dict[str, Any] = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
     failure = ""
     if engine.failed:
@@ -258,33 +255,25 @@ def _imbalance_before_falls(
 
 
 def _follow(
-    engine: Loose, structure: Structure, motion: Motion, chunks: int, every: int, options: RunOptions
+    engine: Loose, motion: Motion, chunks: int, every: int, options: RunOptions
 ) -> tuple[list[dict[str, Any]], bool]:
-    """Go on to where the run ends; the states on the way, and whether all lies still."""
+    """Go on to where the run ends; the states on the way, and whether all lies still after the motion."""
     duration = motion.duration + options.tail
-    states, still = [_state(engine, motion)], False
-    down, since = np.zeros(len(engine.body), dtype=bool), 0.0
+    states, still, over = [_state(engine, motion)], False, False
     while not engine.failed:
         left = chunks - engine.steps // CHUNK
-        still = engine.at_rest()
-        if left <= 0:
+        still, over = engine.at_rest(), left <= 0
+        if over:
             engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0
             if options.until_rest:
                 engine.quieten()
-        if left <= 0 and (not options.until_rest or still or engine.time > duration + LONGEST_WAIT):
+        if over and (not options.until_rest or still or engine.time > duration + LONGEST_WAIT):
             break
-        engine.advance(min(every, left) if left > 0 else every)
+        engine.advance(every if over else min(every, left))
         states.append(_state(engine, motion))
         if options.progress:
             options.progress(min(engine.time, duration), duration)
-        if options.until_end or options.until_rest:
-            continue
-        now = fallen(structure, states[0]["position"], states[0]["axes"], states[-1]["position"], states[-1]["axes"])
-        if (now != down).any():
-            down, since = now, engine.time
-        if down.any() and engine.time - since > AFTER_THE_FALL:
-            break
-    return states, still
+    return states, still and over
 
 
 def _state(engine: Loose, motion: Motion) -> dict[str, Any]:

@@ -44,6 +44,8 @@ def company(
     if execution.emits(summary | {"files": [str(file) for file in files]}):
         return
     print(shares.markdown(summary))
+    print(shares.runs_told(summary))
+    print(summary["doubt"])
     if files:
         print(f"{len(files)} files in {shown(files[0].parent)}")
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from stylobate.analysis.lognormal import bootstrap, fit
 from stylobate.analysis.paired import share_limits
+from stylobate.response.words import STRUCK_IN_SPACE
 
 #: What counts: that a column loses a drum, each column of a run by itself, or that anything of the structure falls.
 KINDS = {"columns": "columns that lose a drum", "anything": "runs in which anything falls"}
@@ -18,8 +19,11 @@ SAMPLES, SEED = 1000, 0
 
 
 def counts(table: Any, kind: str) -> Any:
-    """A row per run that has a verdict, with how many there are (``of``) and fell (``fell``)."""
-    sound = table[~table["failed"].astype(bool)]
+    """A row per run that has a verdict, with how many there are (``of``) and fell (``fell``).
+
+    Runs that failed, and those in which nothing has fallen and not all lies still at the end, have none.
+    """
+    sound = table[table["decided"].astype(bool)]
     if kind == "columns":
         return sound.assign(of=sound["columns"], fell=sound["columns_fallen"])
     return sound.assign(of=1, fell=(sound["bodies_fallen"] > 0).astype(int))
@@ -85,8 +89,11 @@ def summary(table: Any) -> dict[str, Any]:
     found: dict[str, Any] = {
         "runs": len(table),
         "failed": int(table["failed"].sum()),
+        "undecided": int((~table["failed"].astype(bool) & ~table["decided"].astype(bool)).sum()),
+        "fell_and_moving": int((table["decided"].astype(bool) & ~table["at_rest"].astype(bool)).sum()),
         "records": int(table["record"].nunique()),
         "levels_m_s": sorted(float(one) for one in table["pgv_m_s"].unique()),
+        "doubt": STRUCK_IN_SPACE,
     }
     for kind in KINDS:
         found[kind] = {}
@@ -98,6 +105,15 @@ def summary(table: Any) -> dict[str, Any]:
                 row["against_alone"] = difference(table, kind, label, labels[0])
             found[kind][label] = row
     return found
+
+
+def runs_told(found: dict[str, Any]) -> str:
+    """How many runs there are, and how many of them have no verdict, or one that may change."""
+    return (
+        f"{found['runs']} runs: {found['failed']} failed and {found['undecided']} are undecided (nothing has fallen, and "
+        f"not all lies still at the end); these are left out. In {found['fell_and_moving']} something has fallen, and not "
+        "all lies still at the end; what has not fallen by then counts as standing."
+    )
 
 
 def markdown(found: dict[str, Any]) -> str:

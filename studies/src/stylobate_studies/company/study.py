@@ -79,6 +79,8 @@ def row_of(structure: SpatialAssembly, motion: Motion, model: DistinctElement3D)
         "outcome": measures.outcome.label,
         "failed": measures.outcome.label == "failed",
         "reason": measures.reason,
+        "decided": measures.decided,
+        "at_rest": measures.blocks.at_rest,
         "columns": len(columns),
         "columns_fallen": len({name.partition(",")[0] for name in fell if ", drum" in name}),
         "architraves_fallen": sum(", drum" not in name for name in fell),
