@@ -21,6 +21,7 @@ from stylobate.cli.states import describe
 from stylobate.column.files import write_column
 from stylobate.column.materials import material
 from stylobate.column.scatter import usual_scatter
+from stylobate.response.words import UNDAMPED_WOBBLE
 
 JOINT = st.Joint(1e9, 5e8, friction_coefficient=0.7)
 
@@ -174,7 +175,8 @@ def test_what_a_plane_says_of_round_columns_is_doubted_before_any_advice():
         assert "No measure is to be adopted before" in doubt(measures, [round_], model)
         assert doubt(found, [round_], model).endswith("can fall under much weaker motions.")
         assert doubt(measures, [square], model) == ""
-    assert doubt(measures, [round_], st.DistinctElement3D()) == ""
+    assert doubt(measures, [round_], st.DistinctElement3D()) == UNDAMPED_WOBBLE
+    assert doubt(measures, [round_], st.DistinctElement3D(stiffness_damping=1e-4)) == ""
 
 
 def test_a_median_with_undecided_runs_does_not_stand_as_an_interval(capsys):

@@ -2,14 +2,19 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.debris import bodies_over_twins, words_of_bodies
-from stylobate.column.twins import twins_of
-from stylobate.response.words import STRUCK_IN_SPACE
+from stylobate.analysis.debris import bodies_over_twins, not_safe, only_as_seen, words_of_bodies
+from stylobate.analysis.difference import caveat
+from stylobate.campaign.twins import the_twins
+from stylobate.column.twins import drawn_twins, twins_of
+from stylobate.outcome import Outcome
+from stylobate.response.words import STRUCK_IN_SPACE, UNDAMPED_WOBBLE, doubt_of, each_doubt
 
 JOINT = st.Joint(5e9, 2.5e9, 35.0)
 OFFSETS = st.Scatter(0.0, 0.0, 0.0, 0.0, 0.0, 0.01)
@@ -81,11 +86,20 @@ def test_offsets_that_do_not_fit_are_halved():
     close = scene(box("a", (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)), box("b", (1.0, 1.0, 1.0), (1.001, 0.0, 0.0)))
     size = dataclasses.replace(OFFSETS, offset=0.04)
     free = scene(box("a", (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)), box("b", (1.0, 1.0, 1.0), (3.0, 0.0, 0.0)))
+    drawn = [share for _, share in drawn_twins(close, size, 12, 0, space=True)]
     near, far = (
         np.array([moved(twin, one) for twin in twins_of(one, size, 12, 0, space=True)]) for one in (close, free)
     )
     share = np.abs(near).max(axis=(1, 2)) / np.abs(far).max(axis=(1, 2))
     assert set(np.round(share, 12)) > {1.0}
+    assert drawn == pytest.approx(share)
+    twins = the_twins(close, st.DistinctElement3D(), st.Campaign(replicates=12, seed=0, scatter=size))
+    assert twins.facts["offsets_reduced"] == twins.reduced == sum(share < 1.0) > 0
+    assert f"in {twins.reduced} the offsets are halved or left out" in twins.words
+    assert (
+        "offsets_reduced"
+        not in the_twins(st.preset("paper-monolithic"), st.DistinctElement3D(), st.Campaign(replicates=2)).facts
+    )
     assert all(math.isclose(one, 2.0 ** round(math.log2(one))) for one in share if one)
 
 
@@ -109,8 +123,13 @@ def test_bodies_over_twins():
     assert a.middle[0] == 2.0  # median of 1, 2, 2, 3
     assert a.radii == (0.0, 1.0)
     assert b.interval(0.95)[1] > a.share > b.interval(0.95)[0]
-    assert words_of_bodies((a, b)) == "What fell: a in 3, b in 1."
+    assert words_of_bodies((a, b)) == "What fell: a in 3, b in 1 (1 undecided)."
     assert words_of_bodies(bodies_over_twins([row(outcome="rocked")])) == ""
+    hanging = bodies_over_twins([row(outcome="rocked", still=False), row("a", still=False)])
+    assert words_of_bodies(hanging) == "What fell: a in 1 (1 undecided). Fell in none, but undecided: b in 2."
+    assert [one.name for one in not_safe(hanging)] == ["a", "b"]
+    assert only_as_seen(hanging[0].runs).startswith("from 2 runs, fewer than 20, the 90 % region is only that of")
+    assert only_as_seen(0) == only_as_seen(20) == ""
     assert bodies_over_twins([{"outcome": "rocked", "decided": True, "collapsed": False}]) == ()
 
 
@@ -142,3 +161,38 @@ def test_a_push_of_one_box_onto_another():
     assert response.body_velocity[0, 2] == pytest.approx([6.0, 0.0, 0.0])
     assert response.body_angular_velocity.shape == response.body_position.shape
     assert response.dims == "xyz"
+
+
+def test_twins_that_struck_are_cautioned_of_where_the_run_itself_did_not():
+    """Nothing moves here, but what is told of a population holds for all of it; slips have their lengths, too."""
+    still = st.Motion(0.01, np.zeros(6))
+    found = st.certainty(PORTAL, still, st.DistinctElement3D(), replicates=1, threads=1)
+    said = found.response.summary()
+    assert said["doubt"] == ""
+    assert found.sentence.endswith(STRUCK_IN_SPACE)
+    assert found.summary()["doubt"] == STRUCK_IN_SPACE
+    slips = np.hypot(said["residual_slip_x_m"], said["residual_slip_y_m"])
+    assert said["residual_slip_per_joint_m"] == pytest.approx(slips)
+    assert len(slips) == 4
+
+
+def test_round_joints_of_assemblies_that_nothing_damps_are_cautioned_of():
+    """A restitution is that of bodies that no joint holds: it damps no wobble."""
+    drum = st.Stone.drum(0.6, 0.6, 1.0, (0.0, 0.0, 0.0), 2500.0, name="drum")
+    round_ = scene(drum)
+    both = f"{STRUCK_IN_SPACE} {UNDAMPED_WOBBLE}"
+    assert caveat([round_], st.DistinctElement3D()) == both
+    assert caveat([PORTAL, round_], st.DistinctElement3D(restitution=0.5)) == both
+    assert caveat([PORTAL], st.DistinctElement3D()) == STRUCK_IN_SPACE
+    damped = st.DistinctElement3D(stiffness_damping=1e-4)
+    assert caveat([round_], damped) == STRUCK_IN_SPACE
+    assert caveat([round_], damped, st.DistinctElement3D()) == both
+    for outcome, struck, words in (("ROCKED", False, UNDAMPED_WOBBLE), ("COLLAPSED", True, both), ("AT_REST", False, ""),
+                                   ("FAILED", True, "")):  # fmt: skip
+        blocks = SimpleNamespace(hangs_on_strikes=struck)
+        run = SimpleNamespace(
+            measures=SimpleNamespace(space=None, blocks=blocks), outcome=Outcome[outcome], structure=round_,
+            provenance={"parameters": st.DistinctElement3D().parameters()},
+        )  # fmt: skip
+        assert doubt_of(cast(Any, run)) == words
+    assert each_doubt(["", UNDAMPED_WOBBLE, both, both]) == [both]

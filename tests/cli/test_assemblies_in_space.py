@@ -147,6 +147,7 @@ def test_twins_of_an_assembly_and_their_report(answered, tmp_path):
     for words in (
         "Of 2 assemblies like this one, none collapse",
         "Nobody knows an assembly to the last digit",
+        "density of each stone",
         "peak tilt",
     ):
         assert words in page
@@ -164,9 +165,14 @@ def test_many_runs_carry_the_caution_once(answered, tmp_path):
     told = answered("ida", STATUE, record, "--model", "dem3d", "--im", "pga", "--levels", "0.02g:0.03g:2", "--json")
     assert told["edp"] == "peak_displacement_m"
     assert told["doubt"].startswith("Assemblies in space are new")
-    told = answered("states", record, "--as-built", STATUE, "--with", PORTAL, "--model", "dem3d", "--json")
+    states = ("states", record, "--as-built", STATUE, "--with", PORTAL, "--model", "dem3d", "--out", tmp_path / "out")
+    told = answered(*states, "--json")
     assert told["doubt"].startswith("Assemblies in space are new")
     assert [one["runs"] for one in told["states"]] == [1, 1]
+    answered("report", tmp_path / "out", "--out", tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert page.count("The state “") == 2
+    assert "pedestal" in page
 
 
 @pytest.mark.parametrize(

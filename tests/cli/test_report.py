@@ -197,7 +197,7 @@ def test_the_first_page_has_the_shares_and_each_doubt_once():
     )
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(case, "_title", lambda result: "")
-        patch.setattr(case, "_told", lambda result, told, all_: [result])
+        patch.setattr(case, "_sections_of", lambda result, told, all_: [result])
         cases = [case._case(one, set(), []) for one in (run, several)]
     assert [one["verdict"] for one in cases] == ["It stands. 1 of 15 falls.", "It falls at 1 g."]
     (note,) = case._notes([one["notes"] for one in cases])

@@ -1,6 +1,8 @@
 """What ``stylobate run`` says: one story of a fall, a remedy that was not tried, a table of several runs."""
 
 import dataclasses
+import json
+import sys
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -8,9 +10,12 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.analysis.studies import StudyResult
 from stylobate.cli.main import call
+from stylobate.cli.run import write_population
 from stylobate.motion import half_sine_pulse, write_csv
 from stylobate.report.others import sections_of
+from stylobate.report.runs import several_sections
 from stylobate.response import SpaceMeasures
 from stylobate.response.words import doubt_of, longer_tail, sentence_of, to_decide
 from stylobate.results import read_results
@@ -147,11 +152,56 @@ def test_what_a_plane_says_of_round_drums_is_doubted_before_it(command, argument
         file.write_text('model = "dem2d"\ncolumns = ["two.toml"]\n[motions]\nfiles = ["one.csv"]\n')
         words = ["study", "run", file]
     text = said(capsys, *words, "--out", tmp_path / "out")
-    assert text.startswith(DOUBT)
+    assert " ".join(text.split()).startswith(DOUBT)
     if command != "compare":
         (result,) = read_results([tmp_path / "out"])
         assert DOUBT in result.summary["doubt"]
         assert DOUBT in str(sections_of(result, set())[0])
+
+
+def test_what_a_study_and_a_film_show_is_doubted(column, capsys, tmp_path):
+    write_csv(half_sine_pulse(1.0, 0.3 * st.g, 2.0), tmp_path / "one.csv")
+    (tmp_path / "study.toml").write_text('model = "dem2d"\ncolumns = ["two.toml"]\n[motions]\nfiles = ["one.csv"]\n')
+    out = tmp_path / "out"
+    said(capsys, "study", "run", tmp_path / "study.toml", "--out", out)
+    assert " ".join(said(capsys, "study", "status", out).split()).startswith(DOUBT)
+    assert DOUBT in json.loads(said(capsys, "study", "status", out, "--json"))["doubt"]
+    (out / "study.json").unlink()  # of a study that was stopped
+    assert DOUBT in json.loads(said(capsys, "study", "status", out, "--json"))["doubt"]
+    assert DOUBT in json.loads(said(capsys, "study", "export", out, "--to", tmp_path / "a.csv", "--json"))["doubt"]
+    assert " ".join(said(capsys, "study", "export", out, "--to", tmp_path / "b.csv").split()).startswith(DOUBT)
+    result = StudyResult.in_folder(out)
+    assert DOUBT in result.summary()["doubt"]
+    assert DOUBT in result.table.attrs["doubt"]
+    (film,) = (out / "histories").glob("*.nc")
+    shown = ("--format", "html", "--fps", "2", "--out", tmp_path / "film")
+    assert DOUBT in said(capsys, "animate", film, *shown)
+    assert DOUBT in json.loads(said(capsys, "animate", film, *shown, "--json"))["doubt"]
+
+
+def test_runs_in_several_directions_say_their_doubt_once(column, capsys, tmp_path):
+    asked = ("--harmonic", "1Hz,0.3g,0.5s", "--signs", "both", "--replicates", "0", "--no-pictures")
+    text = said(capsys, "run", column, *asked, "--out", tmp_path / "out")
+    assert " ".join(text.split()).count(DOUBT) == 1
+    (result,) = read_results([tmp_path / "out"])
+    (lead, *_) = several_sections(cast(Any, result), set())
+    assert str(lead).count(DOUBT) == 1
+
+
+def test_the_strip_of_the_median_is_followed_as_its_run_was(monkeypatch):
+    """To rest where nothing was carried; what rode along was not."""
+    asked = {}
+    module = sys.modules["stylobate.simulate"]
+    monkeypatch.setattr(module, "simulate", lambda *_, **options: asked.update(options))
+    monkeypatch.setattr("stylobate.plots.draw_filmstrip", lambda response: None)
+    files = SimpleNamespace(table=lambda *_: None, picture=lambda *_: None)
+    population = SimpleNamespace(table=None, bodies=(), median=0, drawn=SimpleNamespace(columns=[None]))
+    known = {"tail_s": 1.0, "output_interval_s": 0.01, "quiet_share": 0.0, "until_rest": True}
+    response = SimpleNamespace(provenance=known, structure=None)
+    for carried, rest in ((0, True), (15, False)):
+        model = SimpleNamespace(paced=lambda one: one, carried=lambda one, carried=carried: carried)
+        write_population(*cast(Any, (population, None, model, response, files)), strip=True)
+        assert asked["until_rest"] is rest
 
 
 def test_a_run_says_its_doubt(column, capsys, tmp_path):
@@ -160,7 +210,7 @@ def test_a_run_says_its_doubt(column, capsys, tmp_path):
     assert "Round columns" not in said(capsys, "run", column, "--harmonic", "1Hz,0.01g,0.5s", "--replicates", "0")
     pulse = write_csv(half_sine_pulse(1.0, 0.3 * st.g, 2.0), tmp_path / "one.csv")
     for command in (("suite", column, pulse), ("ida", column, pulse, "--im", "pga", "--levels", "0.1g:0.2g:2")):
-        assert said(capsys, *command, "--out", tmp_path / command[0]).count(DOUBT) == 1
+        assert " ".join(said(capsys, *command, "--out", tmp_path / command[0]).split()).count(DOUBT) == 1
         (result,) = read_results([tmp_path / command[0]])
         assert DOUBT in result.summary["doubt"]
         assert DOUBT in str(sections_of(result, set())[0])

@@ -77,6 +77,11 @@ def test_debris_is_drawn_as_regions(fallen, tmp_path):
     assert "in 0 of" not in axes.get_title()
     assert axes.get_legend().get_texts()[0].get_text() == "tall: fell in 18 of 20"
     plots.save(figure, tmp_path / "debris")
+    assert "fewer than 20" not in axes.get_xlabel()
+    few = plots.draw_debris(fallen, (BodyOverTwins("tall", 3, 1, 1, 4, ends[:5]),))
+    assert "from 5 runs, fewer than 20, the 90 % region is only that of what was seen" in few.axes[0].get_xlabel()
+    assert few.axes[0].get_legend().get_texts()[0].get_text() == "tall: fell in 3 of 5, 1 undecided"
+    plots.save(few, tmp_path / "few")
     moving = (BodyOverTwins("tall", 20, 0, 0, 5, ends),)
     assert not_yet_debris(moving) == "in 15 of 20 runs not all lay still at the end"
     assert bodies_over_twins([]) == ()

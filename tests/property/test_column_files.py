@@ -13,7 +13,8 @@ from stylobate.column.assembly_files import read_assembly
 from stylobate.column.files import column_from_dict, load_column, read_column, write_column
 from stylobate.column.plausible import unit_doubts
 from stylobate.column.presets import PRESETS, preset
-from stylobate.column.scatter import Scatter, scattered_columns
+from stylobate.column.scatter import Scatter
+from stylobate.column.twins import twins_of
 from stylobate.errors import InputError
 
 LENGTHS = some.floats(1e-3, 1e3)
@@ -195,7 +196,7 @@ def test_a_column_made_in_python_is_doubted_as_one_of_a_file_and_not_again():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert column_from_dict(column.to_dict()) == column
-        assert len(scattered_columns(column, Scatter(), 2, 1)) == 2
+        assert len(twins_of(column, Scatter(), 2, 1)) == 2
         assert st.Joint(5e10, 5e10, friction_angle=0.0).tan_phi == 0.0
         column.replace(name="again")
 

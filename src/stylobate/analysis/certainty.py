@@ -24,6 +24,7 @@ from ..response.words import doubt_of, to_decide
 from ..simulate import simulate
 from . import verdicts as v
 from .debris import BodyOverTwins, bodies_over_twins, words_of_bodies
+from .difference import caveat
 from .directions import peak_of
 
 if TYPE_CHECKING:
@@ -56,12 +57,15 @@ class Population:
         Level of the interval.
     to_decide : str
         What decides those whose verdict is open, in a clause.
+    doubt : str
+        Of assemblies in space, what stands beside all of them: some may have struck where the run itself did not.
     """
 
     drawn: Twins
     rows: tuple[dict, ...]
     confidence: float = 0.95
     to_decide: str = ""
+    doubt: str = ""
 
     @property
     def verdicts(self) -> list[str]:
@@ -198,6 +202,7 @@ class Population:
         counts = self.counts
         middle = self.median
         return {
+            **({"doubt": self.doubt} if self.doubt else {}),
             "collapse_probability": self.probability,
             "collapse_interval_low": low,
             "collapse_interval_high": high,
@@ -252,7 +257,8 @@ class Certainty:
     def sentence(self) -> str:
         """What happened, how sure that is, and why it may be otherwise in space."""
         beside = self.population.beside(self.response.summary())
-        parts = (self.response.sentence, self.population.sentence, beside, doubt_of(self.response))
+        doubt = self.population.doubt or doubt_of(self.response)
+        parts = (self.response.sentence, self.population.sentence, beside, doubt)
         return " ".join(part for part in parts if part)
 
     def summary(self) -> dict[str, Any]:
@@ -363,7 +369,8 @@ def certainty(
     rows = [twin.row() for twin in response.twins]
     rest = until_rest and not model.carried(column)  # what is followed one by one, so are its twins
     rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, quiet, rest)
-    population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail))
+    doubt = "" if column.space_joints is None else caveat([column], model)
+    population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail), doubt=doubt)
     return Certainty(response, population, time.perf_counter() - began)
 
 

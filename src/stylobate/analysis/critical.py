@@ -32,6 +32,7 @@ from . import verdicts as v
 from .capacity import Capacity, bounds, of_levels
 from .critical_population import CriticalPopulation
 from .critical_words import sentence
+from .difference import caveat
 
 if TYPE_CHECKING:
     import pandas
@@ -63,6 +64,8 @@ class CriticalAmplitude:
         Amplitude of the motion as it is [m/s²], of which the amplitudes are factors; None for a formula.
     population : CriticalPopulation, optional
         Twins of the column at the same amplitudes.
+    doubt : str
+        Caveat before all that rests on the runs, because of their model; empty where nothing does.
     """
 
     column: Column
@@ -73,6 +76,7 @@ class CriticalAmplitude:
     wall_time: float
     nominal: float | None = None
     population: CriticalPopulation | None = None
+    doubt: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rows", Rows.of(self.rows))
@@ -210,6 +214,7 @@ class CriticalAmplitude:
             "alternation": self.alternation.to_dict("records"),
             "wall_s": self.wall_time,
             "model": self.model,
+            "doubt": self.doubt,
             **({} if self.population is None else self.population.summary()),
         }
         return found | {"sentence": sentence(found, self.column.kind, self.column.like)}
@@ -322,12 +327,13 @@ def sweep(
     started = time.perf_counter()
     request = Request.of(cases, Hasher(model, campaign.tail), share_of([one.motion for one in shaken], campaign.whole))
     finished = run_all(request, campaign)
-    results = []
+    results, doubt = [], caveat([column], model)
     for one, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):
         rows, record = finished[int(end - count) : int(end)], one.as_is if one.recorded else None
         known = rows[: len(amplitudes)], rows[len(amplitudes) :]
         population = None if drawn is None else CriticalPopulation.of(spread, known[1], drawn, record)
-        results.append(CriticalAmplitude(column, one.motion, model.name, amplitudes, known[0], 0.0, record, population))
+        made = CriticalAmplitude(column, one.motion, model.name, amplitudes, known[0], 0.0, record, population, doubt)
+        results.append(made)
     return results, time.perf_counter() - started
 
 

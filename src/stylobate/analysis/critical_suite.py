@@ -159,6 +159,7 @@ class CriticalSuite:
             "worst": worst,
             "wall_s": self.wall_time,
             "model": self.results[0].model,
+            "doubt": self.results[0].doubt,
         }
         stands = self.results[0].column
         return found | {"sentence": sentence_of_suite(found, stands.kind, stands.like)}

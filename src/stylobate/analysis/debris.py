@@ -17,6 +17,9 @@ REGIONS = (0.5, 0.9)
 #: From fewer twins than this the larger region is only as large as what was seen.
 FEW = 20
 
+#: Of which runs places and regions are.
+OVER_ALL = "over all runs, those in which it stands too"
+
 
 @dataclass(frozen=True, eq=False)
 class BodyOverTwins:
@@ -43,6 +46,11 @@ class BodyOverTwins:
     open: int
     still: int
     ends: np.ndarray
+
+    @property
+    def runs(self) -> int:
+        """Twins that could be computed."""
+        return self.fell + self.stood + self.open
 
     @property
     def share(self) -> float:
@@ -111,11 +119,27 @@ def not_yet_debris(bodies: Sequence[BodyOverTwins]) -> str:
     return f"in {moving} of {len(bodies[0].ends)} runs not all lay still at the end" if moving else ""
 
 
+def only_as_seen(runs: int) -> str:
+    """That a region from so few runs is only as large as what was seen, in a clause; empty where they are enough."""
+    return f"from {runs} run{'s' * (runs != 1)}, fewer than {FEW}, the 90 % region is only that of what was seen" * (
+        0 < runs < FEW
+    )
+
+
+def not_safe(bodies: Sequence[BodyOverTwins]) -> list[BodyOverTwins]:
+    """Bodies that fell in some twin or are undecided in some, those that fell most often first."""
+    return sorted((one for one in bodies if one.fell or one.open), key=lambda one: (-one.fell, -one.open))
+
+
 def words_of_bodies(bodies: Sequence[BodyOverTwins], most: int = 6) -> str:
-    """In how many twins each body fell, those that fell most often first, in a sentence; empty where none fell."""
-    fallen = sorted((one for one in bodies if one.fell), key=lambda one: -one.fell)
-    if not fallen:
-        return ""
-    said = ", ".join(f"{one.name} in {one.fell}" for one in fallen[:most])
-    more = f", and {len(fallen) - most} more" if len(fallen) > most else ""
-    return f"What fell: {said}{more}."
+    """In how many twins each body fell or is undecided, in up to two sentences; empty where all surely stand."""
+    listed = not_safe(bodies)
+    fallen = [f"{one.name} in {one.fell}{f' ({one.open} undecided)' * bool(one.open)}" for one in listed if one.fell]
+    open_ = [f"{one.name} in {one.open}" for one in listed if not one.fell]
+    told = (("What fell", fallen), ("Fell in none, but undecided", open_))
+    return " ".join(f"{title}: {_first_of(some, most)}." for title, some in told if some)
+
+
+def _first_of(names: Sequence[str], most: int) -> str:
+    more = f", and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more

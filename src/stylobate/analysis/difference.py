@@ -10,7 +10,7 @@ from functools import partial
 from ..column.structure import Structure
 from ..models.base import Model
 from ..percent import whole
-from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, round_in_the_plane, struck_in_space, undamped
+from ..response.words import ROUND_IN_THE_PLANE, cautions_in_space, round_in_the_plane
 from .fragility_checks import FEWEST
 
 #: Kinds of difference.
@@ -30,19 +30,21 @@ NO_MEASURE_YET = (
 )
 
 
-def caveat(columns: Sequence[Structure], model: Model) -> str:
-    """Caveat before many runs of these columns, in one sentence; empty where their model gives no reason for any.
+def caveat(columns: Sequence[Structure], *models: Model) -> str:
+    """Caveats before many runs of these columns, or of assemblies, each once; empty where no model gives reason for any.
 
     In a plane, columns of several round drums leave it by themselves; in space, bodies that strike one another hang on how
-    stiff they are, and a column's wobble is damped by nothing.
+    stiff they are, and the wobble of what is round may be damped by nothing.
     """
+    return " ".join(dict.fromkeys(caution for model in models for caution in _cautions(columns, model)))
+
+
+def _cautions(columns: Sequence[Structure], model: Model) -> list[str]:
     known = model.parameters()
     if not model.is_plane(known):
-        wobbles = undamped(known) and any(column.slenderness is not None for column in columns)
-        struck = next((struck_in_space(column) for column in columns if column.space_joints is not None), "")
-        return struck or (UNDAMPED_WOBBLE if wobbles else "")
+        return cautions_in_space(columns, known)
     stacks = (column for column in columns if column.stack is not None and column.stack.n > 1)
-    return next(filter(None, map(round_in_the_plane, stacks)), "")
+    return list(filter(None, map(round_in_the_plane, stacks)))[:1]
 
 
 def doubt(labels: Sequence[str], columns: Sequence[Structure], model: Model) -> str:

@@ -23,6 +23,7 @@ from ..response import Response
 from ..response.rows import Rows
 from ..simulate import simulate
 from . import verdicts as v
+from .difference import caveat
 from .directions import harm
 
 if TYPE_CHECKING:
@@ -58,12 +59,22 @@ class StudyResult:
         return v.verdicts_of(self.rows)
 
     @property
+    def doubt(self) -> str:
+        """Caveat before all that rests on its runs, because of their models; empty where nothing does."""
+        return str(self.plan.axes.get("doubt") or "")
+
+    @property
     def table(self) -> pandas.DataFrame:
-        """One row per finished case: what it is, its verdict (``collapsed`` is empty where there is none), its measures."""
+        """One row per finished case: what it is, its verdict (``collapsed`` is empty where there is none), its measures.
+
+        The caveat before all of them is ``attrs["doubt"]``.
+        """
         labels = self.plan.labels()[self.rows.made].reset_index(drop=True)
         measures, verdicts = self.rows.table(), self.verdicts[self.rows.made]
         labels["verdict"] = verdicts
-        return labels.join(measures)
+        table = labels.join(measures)
+        table.attrs["doubt"] = self.doubt
+        return table
 
     def summary(self) -> dict[str, Any]:
         """Under the names of the JSON object of ``stylobate study``."""
@@ -77,6 +88,7 @@ class StudyResult:
             "stands": counts[v.STANDS],
             "computed": self.computed,
             "wall_s": self.wall_time,
+            "doubt": self.doubt,
         }
 
     def ranked(self) -> list[int]:
@@ -135,6 +147,7 @@ def run_study(
     if folder is not None and not folder.is_dir():
         raise InputError(f"folder {folder} does not exist; create it first.")
     started, plan = time.perf_counter(), study.plan()
+    plan = replace(plan, axes=plan.axes | {"doubt": caveat(study.columns, *study.models)})
     ledger = None if folder is None else folder / RUNS_FILE
     turn = None if ledger is None else its_turn(ledger, plan.digests, campaign.progress, waiting)
     request = study.request(plan)

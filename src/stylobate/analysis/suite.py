@@ -99,7 +99,7 @@ def suite_table(
     Raises
     ------
     InputError
-        Columns and assemblies in one suite, or twins of an assembly.
+        Columns and assemblies in one suite, or twins of an assembly in the plane.
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """

@@ -8,25 +8,32 @@ from typing import Any, NamedTuple
 
 from ..column.scatter import Scatter, usual_scatter
 from ..column.structure import Structure
-from ..column.twins import twins_of
+from ..column.twins import drawn_twins
 from ..errors import InputError, check_kind
 from ..models.base import Model
 from .campaign import MAX_TWINS, Campaign
 
 
 class Twins(NamedTuple):
-    """Columns like one, or assemblies, that a model can take: scatter, seed, what of it is left out, what they are."""
+    """Columns like one, or assemblies, that a model can take: scatter, seed, what of it is left out, what they are.
+
+    ``reduced`` is the number of assemblies whose offsets were halved or left out because their stones would have overlapped.
+    """
 
     columns: Sequence[Any]
     scatter: Scatter
     seed: int
     left_out: tuple[str, ...]
     like: str = "columns"
+    reduced: int | None = None
 
     @property
     def words(self) -> str:
         """How many there are and how they differ."""
-        return described(len(self.columns), self.scatter, self.seed, self.left_out)
+        reduced = (
+            f"; in {self.reduced} the offsets are halved or left out, as stones would overlap" if self.reduced else ""
+        )
+        return described(len(self.columns), self.scatter, self.seed, self.left_out) + reduced
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -36,6 +43,7 @@ class Twins(NamedTuple):
             "scatter": dataclasses.asdict(self.scatter),
             "left_out": list(self.left_out),
             "seed": self.seed,
+            **({} if self.reduced is None else {"offsets_reduced": self.reduced}),
         }
 
 
@@ -77,4 +85,6 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
             f"nothing scatters{why}; give at least one coefficient of variation above 0, such as friction=10%."
         )
     space = not model.is_plane(model.parameters())
-    return Twins(twins_of(stands, size, replicates, seed, space=space), size, seed, left_out, stands.like)
+    drawn = drawn_twins(stands, size, replicates, seed, space=space)
+    reduced = None if stands.space_joints is None else sum(share < 1.0 for _, share in drawn)
+    return Twins([one for one, _ in drawn], size, seed, left_out, stands.like, reduced)

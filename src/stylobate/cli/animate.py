@@ -34,6 +34,7 @@ def animate(
     from ..plots.player import write_player
     from ..plots.view import OBLIQUE, parse_view
     from ..response import load_response
+    from ..response.words import doubt_of
     from . import console
 
     if to not in FORMATS:
@@ -68,8 +69,10 @@ def animate(
                     seen_from=seen_from,
                 )
     duration = float(loaded.time[-1])
-    if not execution.emits({"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label}):
-        console.say(loaded.sentence, {"film": f"{duration:.2f} s, {to}"}, [target])
+    doubt = doubt_of(loaded)
+    found = {"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label, "doubt": doubt}
+    if not execution.emits(found):
+        console.say(f"{loaded.sentence} {doubt}".rstrip(), {"film": f"{duration:.2f} s, {to}"}, [target])
 
 
 def _number(option: str, text: str, high: float) -> float:

@@ -49,8 +49,7 @@ def compare(
     stone = o.the_column(column, project)
     chosen = [_chosen(name, names, settings) for name in names]
     over_domain = frequencies is not None or amplitudes is not None
-    doubts = (caveat([stone], one) for one in chosen)
-    result: dict[str, Any] = {"models": names, "doubt": next(filter(None, doubts), "")}
+    result: dict[str, Any] = {"models": names, "doubt": caveat([stone], *chosen)}
     facts: dict[str, str] = {}
     what: dict[str, Any] = {"structures": [stone], "models": chosen, "labels": names, "tail_s": campaign.tail}
     if over_domain:

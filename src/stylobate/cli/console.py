@@ -7,6 +7,7 @@ import logging
 import math
 import shutil
 import sys
+import textwrap
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -46,7 +47,7 @@ STEADY = 5.0
 #: Speed above which a run was kept from an earlier call: so fast it is read, and no model computes [1/s].
 FASTEST = 5000.0
 
-#: Widest line of a table [characters], and what stands where there is no value.
+#: Widest line of a table or a caveat [characters], and what stands where there is no value.
 WIDEST, MISSING = 100, "-"
 
 
@@ -122,7 +123,12 @@ def print_side_by_side(table: pandas.DataFrame) -> None:
         values = [_as_text(value) for value in table[name]]
         if any(value != MISSING for value in values):
             shown.add_row(Text(name), *map(Text, values))
-    Console(width=min(WIDEST, shutil.get_terminal_size((WIDEST, 24)).columns), highlight=False).print(shown)
+    Console(width=_width(), highlight=False).print(shown)
+
+
+def _width() -> int:
+    """Width of a line [characters]: the terminal's, up to the widest."""
+    return min(WIDEST, shutil.get_terminal_size((WIDEST, 24)).columns)
 
 
 def _as_text(value: Any) -> str:
@@ -134,10 +140,12 @@ def _as_text(value: Any) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
-def print_doubt(result: Mapping[str, Any]) -> None:
-    """Say what stands before all that rests on the runs of a result, because of their model; nothing where nothing does."""
-    if result.get("doubt"):
-        print(result["doubt"])
+def print_doubt(*results: Mapping[str, Any]) -> None:
+    """Say what stands before all that rests on the runs of results, because of their model, each different one once."""
+    from ..response.words import each_doubt
+
+    for doubt in each_doubt(result.get("doubt") or "" for result in results):
+        print(textwrap.fill(doubt, _width(), break_long_words=False, break_on_hyphens=False))
 
 
 #: Motions of which is told what is left out.

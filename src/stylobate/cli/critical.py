@@ -53,7 +53,6 @@ def critical(
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
     from ..analysis.critical_suite import critical_suite
-    from ..analysis.difference import caveat
     from ..motion.specs import parse_acceleration
     from . import console
 
@@ -78,8 +77,7 @@ def critical(
     with execution.files("critical", "critical.csv", "critical.json", "critical", *writes) as files:
         with files.campaign(campaign) as asked:
             result: Any = make(campaign=asked)
-        summary = result.summary() | {"doubt": caveat([stone], how)}
-        summary |= {"refused": suite.refused} if request.several else o.input_facts(taken[0])
+        summary = result.summary() | ({"refused": suite.refused} if request.several else o.input_facts(taken[0]))
         if files.wanted:
             (write_suite if request.several else write)(result, summary, files)
             files.asked(structures=[stone], models=[how], motions=taken, tail_s=campaign.tail)

@@ -78,6 +78,7 @@ def run(
     if asked.several:
         summaries = each_record(stone, found.motions, how, follow, out, drawn)
         if not execution.as_json:
+            console.print_doubt(*summaries)
             console.print_table(table_of_runs(summaries), digits=3)
             console.print_left_out(summaries)
             if out is not None:
@@ -231,8 +232,9 @@ def write_population(
         files.picture(plots.draw_debris(response, population.bodies), "debris")
     if population.median is None or not strip:
         return
-    options = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
+    options: dict[str, Any] = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
     options["quiet"] = response.provenance["quiet_share"]
+    options["until_rest"] = response.provenance.get("until_rest", False) and not model.carried(response.structure)
     middle = simulate(population.drawn.columns[population.median], motion, model.paced(response.structure), **options)
     files.picture(plots.draw_filmstrip(middle), "median")
 
@@ -275,7 +277,8 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
         facts |= population_facts(population)
     elif response.structure.scattered and response.measures.blocks is not None:
         facts["certainty"] = "one run, of exactly these stones; --replicates 15 runs assemblies like it as well"
-    sentence = f"{sentence} {doubt_of(response)}".rstrip()
+    doubt = (population.doubt if population is not None else "") or doubt_of(response)
+    sentence = f"{sentence} {doubt}".rstrip()
     what |= quiet_facts(response)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
     console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)
@@ -292,7 +295,8 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 def population_facts(population: Population) -> dict[str, str]:
     """Columns like this one, or assemblies, and their displacements; of an assembly where its bodies lie."""
-    from ..analysis.debris import not_yet_debris
+    from ..analysis.debris import OVER_ALL, not_safe, not_yet_debris, only_as_seen
+    from ..percent import percents
     from . import console
 
     facts = {f"{population.like} like this": population.drawn.words}
@@ -300,18 +304,23 @@ def population_facts(population: Population) -> dict[str, str]:
     for name, words in (("peak", "their peak, 16/50/84 %"), ("residual", "their residual, 16/50/84 %")):
         if (spread := spreads[name]) is not None:
             facts[words] = ", ".join("collapse" if one == float("inf") else console.length(one) for one in spread)
-    fallen = sorted((one for one in population.bodies if one.fell), key=lambda one: -one.fell)
-    for body in fallen[:MOST_BODIES]:
+    listed = not_safe(population.bodies)
+    for body in listed[:MOST_BODIES]:
         half, most = (console.length(one) for one in body.radii)
-        low, high = (100.0 * one for one in body.interval(population.confidence))
         x, y = (console.length(one) for one in body.middle)
+        open_ = f", {body.open} undecided" * bool(body.open)
         facts[f"body {body.name}"] = (
-            f"fell in {body.fell} of {len(body.ends)} ({low:.0f} to {high:.0f} %); at the end {x} along x and {y} along y "
-            f"from where it stood, half of them within {half} of that and 90 % within {most}"
+            f"fell in {body.fell} of {body.runs}{open_} ({percents(*body.interval(population.confidence))}); at the end, "
+            f"{OVER_ALL}, {x} along x and {y} along y from where it stood (medians), half of the runs within {half} of "
+            f"that and 90 % within {most}"
         )
-    if len(fallen) > MOST_BODIES:
-        facts["other bodies"] = f"{len(fallen) - MOST_BODIES} more fell in some (bodies.csv with --out)"
-    if fallen and (moving := not_yet_debris(population.bodies)):
+    if len(listed) > MOST_BODIES:
+        facts["other bodies"] = (
+            f"{len(listed) - MOST_BODIES} more fell or are undecided in some (bodies.csv with --out)"
+        )
+    if listed and (seen := only_as_seen(listed[0].runs)):
+        facts["regions"] = seen
+    if listed and (moving := not_yet_debris(population.bodies)):
         facts["debris"] = f"{moving}: where bodies were is not yet where they lie"
     return facts
 

@@ -27,7 +27,6 @@ def run(
 
     Finished runs are kept in the folder: a study that was stopped goes on, one that has grown computes only what is new.
     """
-    from ..analysis.difference import caveat
     from ..analysis.studies import TABLES, keep_histories, run_study, write_table
     from ..campaign.study_files import read_plan
     from . import console
@@ -46,8 +45,7 @@ def run(
         what = {"structures": study.columns, "models": study.models, "runs": result.table}
         what |= {"motions": motions if more else [model.taken(motion) for motion in motions]}
         files.asked(**what, tail_s=study.campaign.tail)
-        doubts = (caveat(study.columns, one) for one in study.models)
-        summary = result.summary() | {"refused": refused, "doubt": next(filter(None, doubts), "")}
+        summary = result.summary() | {"refused": refused}
         files.summary(summary, "study.json")
     if execution.emits(summary):
         return
@@ -74,6 +72,7 @@ def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But("t
         summary.pop("computed")
         console.emit(summary)
     else:
+        console.print_doubt(result.summary())
         print(sentence(result))
 
 
@@ -85,6 +84,7 @@ def export(
 ) -> None:
     """Write the table of a study, one row per finished case; of one that is not finished as well."""
     from ..analysis.studies import StudyResult, write_table
+    from . import console
 
     result = StudyResult.in_folder(directory)
     if to.exists():
@@ -93,6 +93,7 @@ def export(
         raise InputError(f"{to} is there already; choose another name.", "to")
     written = write_table(result.table, to)
     if not execution.emits(result.summary() | {"files": [str(written)]}):
+        console.print_doubt(result.summary())
         print(f"{result.rows.finished} of {len(result.plan)} cases in {written}")
 
 

@@ -104,7 +104,7 @@ def suite(
         shown = shown.rename(columns={"chance": CHANCE}) if any(shown["chance"]) else shown.drop(columns="chance")
         console.print_table(shown, digits=3)
     for name, drawn in twins.items():
-        print(f"columns like {name}: {drawn['words']}")
+        print(f"{drawn['like']} like {name}: {drawn['words']}")
     if swept and result["worst"] is not None:
         print(harm_words(result["worst"], compass))
     console.print_left_out(result["inputs"])

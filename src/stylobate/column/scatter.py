@@ -115,15 +115,17 @@ def factors_of(size: Scatter, stream: np.random.Generator, n: int) -> tuple[np.n
     return (*factors, aside)
 
 
-def drawn_column(column: Column, size: Scatter, stream: np.random.Generator, k: int, space: bool) -> Column:
-    """Column number k that could as well stand there."""
+def drawn_column(
+    column: Column, size: Scatter, stream: np.random.Generator, k: int, space: bool
+) -> tuple[Column, float]:
+    """Column number k that could as well stand there, and the share of its offsets that is left: all of them."""
     rough, stiff, dense, wide, high, (aside, across) = factors_of(size, stream, column.n)
     varied = _rebuilt(column, wide, high, rough, stiff, dense, f"{column.name}, twin {k + 1}")
     if not size.offset:
-        return varied
+        return varied, 1.0
     shifts = size.offset * varied.joint_widths * np.array([aside, across if space else np.zeros(column.n)])
     found = tuple(_shifted(column.as_found.of(i + 1), *shifts[:, i]) for i in range(column.n))
-    return varied.unwarned(as_found=dataclasses.replace(column.as_found, drums=found))
+    return varied.unwarned(as_found=dataclasses.replace(column.as_found, drums=found)), 1.0
 
 
 def _rebuilt(

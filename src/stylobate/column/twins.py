@@ -13,8 +13,9 @@ from .spatial.assembly import SpatialAssembly
 from .spatial.scatter import drawn_assembly
 from .structure import Structure
 
-#: Makers of twin number k from what stands, a scatter and its stream, in space or not, by the kind of what stands.
-TWIN_OF: dict[str, Callable[[Any, Scatter, np.random.Generator, int, bool], Structure]] = {
+#: Makers of twin number k and the share of its offsets that is left, from what stands, a scatter and its stream, in space or
+#: not, by the kind of what stands.
+TWIN_OF: dict[str, Callable[[Any, Scatter, np.random.Generator, int, bool], tuple[Structure, float]]] = {
     Column.kind: drawn_column,
     SpatialAssembly.kind: drawn_assembly,
 }
@@ -33,5 +34,12 @@ def twins_of(structure: Structure, scatter: Scatter, number: int, seed: int, *, 
     space : bool
         Offsets in any direction, for a model in space; along x otherwise.
     """
+    return [one for one, _ in drawn_twins(structure, scatter, number, seed, space=space)]
+
+
+def drawn_twins(
+    structure: Structure, scatter: Scatter, number: int, seed: int, *, space: bool = False
+) -> list[tuple[Any, float]]:
+    """The same, each with the share of its offsets that is left: below 1 where its stones would have overlapped."""
     streams = np.random.default_rng(seed).spawn(number)
     return [TWIN_OF[structure.kind](structure, scatter, stream, k, space) for k, stream in enumerate(streams)]

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
-from ..analysis.debris import BodyOverTwins, not_yet_debris
+from ..analysis.debris import BodyOverTwins, not_yet_debris, only_as_seen
 from ..column.block import FAR_AWAY
 from ..column.shapes import hull
 from ..column.structure import Body
@@ -68,10 +68,8 @@ def draw_debris(
             circle = Circle((x, y), radius, fill=False, edgecolor=colour, linewidth=0.9, linestyle=style, zorder=2)
             axes.add_patch(circle)
         if number < len(COLOURS):
-            number_of = one.fell + one.stood + one.open
-            handles.append(
-                Line2D([], [], color=colour, marker=".", label=f"{one.name}: fell in {one.fell} of {number_of}")
-            )
+            label = f"{one.name}: fell in {one.fell} of {one.runs}" + f", {one.open} undecided" * bool(one.open)
+            handles.append(Line2D([], [], color=colour, marker=".", label=label))
     if len(fallen) > len(COLOURS):
         handles.append(Line2D([], [], color=GREY, marker=".", label=f"{len(fallen) - len(COLOURS)} more that fell"))
     axes.set_aspect("equal", adjustable="datalim")
@@ -85,7 +83,9 @@ def draw_debris(
     moving = not_yet_debris(bodies)
     said = f"{response.structure.name}: where bodies were at the end of {runs} runs"
     axes.set_title(in_lines(title or said + f"; {moving}" * bool(moving)))
-    axes.set_xlabel("x [m]\nfull circle: 50 %, dashed: 90 % of the runs, about the median place")
+    lines = ["x [m]", "full circle: 50 %, dashed: 90 % of all runs, about the median place;"]
+    lines += ["runs in which a body stands count, too", *filter(None, [only_as_seen(runs)])]
+    axes.set_xlabel("\n".join(lines))
     return figure
 
 

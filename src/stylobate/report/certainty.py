@@ -6,18 +6,27 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..analysis.certainty import set_against
+from ..analysis.debris import OVER_ALL, only_as_seen
 from ..percent import percent, percents
 from . import numbers as n
 from .page import Facts, Item, Rows, Section
 
-#: Scattered parts, in words.
+#: Scattered parts in words, by what the twins are.
 PARTS = {
-    "friction": "friction of each joint",
-    "joint_stiffness": "stiffness of each joint",
-    "density": "density of each drum",
-    "width": "width of each drum",
-    "height": "height of each drum",
-    "offset": "place of each drum on the one below, over the width",
+    "columns": {
+        "friction": "friction of each joint",
+        "joint_stiffness": "stiffness of each joint",
+        "density": "density of each drum",
+        "width": "width of each drum",
+        "height": "height of each drum",
+        "offset": "place of each drum on the one below, over the width",
+    },
+    "assemblies": {
+        "friction": "friction of each stone's contacts",
+        "joint_stiffness": "stiffness of each stone's contacts",
+        "density": "density of each stone",
+        "offset": "place in plan of each stone, or group that moves together, over the side of its smallest joint",
+    },
 }
 
 #: One of several of a kind, with its article.
@@ -108,10 +117,13 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
             here = "" if own is None else f"; this run {n.length(own) if key.endswith('_m') else f'{own:.4f}'}"
             pairs.append((words, " / ".join(shown) + here))
     scatter = known.get("scatter") or {}
-    sizes = [f"{PARTS.get(key, key)}: {100.0 * float(size):g} %" for key, size in scatter.items() if size]
+    parts = PARTS.get(like, {})
+    sizes = [f"{parts.get(key, key)}: {100.0 * float(size):g} %" for key, size in scatter.items() if size]
     pairs.append(("what varies (coefficient of variation)", "\n".join(sizes) or "nothing"))
     if known.get("left_out"):
         pairs.append(("does not vary, because the model does not take it", ", ".join(map(str, known["left_out"]))))
+    if known.get("offsets_reduced"):
+        pairs.append(("with offsets halved or left out, as stones would overlap", n.plain(known["offsets_reduced"])))
     pairs.append(("seed of the random numbers", n.plain(known.get("seed"))))
     items: list[Item] = [
         f"Nobody knows {one} to the last digit. The same motion was computed for {like} that differ from this one by as "
@@ -124,13 +136,14 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
 
 
 def _bodies(known: Mapping[str, Any]) -> list[Item]:
-    """Of each body of an assembly that fell in some of those like it, in how many, and the regions in which it lay."""
-    bodies = {name: one for name, one in (known.get("bodies") or {}).items() if one.get("fell")}
+    """Of each body of an assembly that fell or is undecided in some of those like it, in how many, and where it was."""
+    bodies = {key: one for key, one in (known.get("bodies") or {}).items() if one.get("fell") or one.get("undecided")}
     if not bodies:
         return []
     header = [
         "body",
         "fell",
+        "undecided",
         "probability",
         "at the end, along x [m]",
         "along y [m]",
@@ -141,13 +154,16 @@ def _bodies(known: Mapping[str, Any]) -> list[Item]:
         [
             name,
             str(one["fell"]),
+            str(one["undecided"]),
             percents(one["interval_low"], one["interval_high"]),
             *(f"{one[key]:.2f}" for key in ("middle_x_m", "middle_y_m", "region_50_m", "region_90_m")),
         ]
-        for name, one in sorted(bodies.items(), key=lambda pair: -pair[1]["fell"])
+        for name, one in sorted(bodies.items(), key=lambda pair: (-pair[1]["fell"], -pair[1]["undecided"]))
     ]
+    seen = only_as_seen(max(sum(one[key] for key in ("fell", "stood", "undecided")) for one in bodies.values()))
     said = (
-        "Bodies that fell in some of them: the median way in plan from where each stood to where it was when its run ended, "
-        "and within which distances of that half and 90 % of the runs left it. Where a body lies in one run is one draw."
-    )
+        f"Bodies that fell, or are undecided, in some of them: {OVER_ALL}, the median way in plan from where each stood to "
+        "where it was when its run ended, and within which distances of that half and 90 % of the runs left it. Where a "
+        "body lies in one run is one draw."
+    ) + f" {seen[:1].upper()}{seen[1:]}." * bool(seen)
     return [Rows(header, rows, said, numbers=True)]

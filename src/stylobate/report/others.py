@@ -100,10 +100,11 @@ def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[S
     lead = [*advice_notes(result), _scope(result.kind), *warnings_of(result)]
     parts = [Section("Result", lead), Section("What was found", states_items(result)), asked_section(result)]
     parts += [motions_section(result)] if result.asked is not None and result.asked.motions else []
-    for label, column in zip(labels, columns):
-        if column is columns[0]:
-            first = structure_section(column)
-            parts.append(once(replace(first, title=f"The state “{label}”"), column.digest, told))
+    for number, (label, structure) in enumerate(zip(labels, result.structures)):
+        column = structure.stack
+        if number == 0 or column is None or not columns:
+            whole = structure_section(structure)
+            parts.append(once(replace(whole, title=f"The state “{label}”"), structure.digest, told))
         else:
             parts.append(state_section(column, label, columns[0], labels[0]))
     return [*parts, *([statics_of_states(dict(zip(labels, columns)))] if columns else [])]

@@ -18,7 +18,7 @@ from ..constants import g
 from ..outcome import Outcome
 from ..percent import percent
 from ..response import Response
-from ..response.words import doubt_of, to_decide
+from ..response.words import doubt_of, each_doubt, to_decide
 from ..results import RunResult, SeveralRuns
 from . import numbers as n
 from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sentence
@@ -92,8 +92,13 @@ def _verdict(run: RunResult) -> Note:
             "properties. It is that of exactly this geometry, these joints and this motion, and near collapse small "
             "differences decide."
         )
-    texts += filter(None, [doubt_of(r)])
+    texts += filter(None, [_doubt(run)])
     return Note([*texts, _scope(run)], verdict_look(r, bool(beside_them(run.summary))), first=len(texts))
+
+
+def _doubt(run: RunResult) -> str:
+    """What stands beside its verdict: as told with those like it, whichever the version that wrote it of the run itself."""
+    return str(run.summary.get("doubt") or doubt_of(run.response))
 
 
 def _how_far(r: Response) -> list[str]:
@@ -358,10 +363,11 @@ def several_sections(found: SeveralRuns, told: set[str]) -> list[Section]:
         )
     looks = {name.replace("_", " "): look for name, look in LOOKS.items()}
     worst = worst_of(runs)
+    doubts = each_doubt(_doubt(run) for run in runs)
     lead = Section(
         "All runs",
         [
-            Note([share.collapses], "verdict bad" if share.exceeded else "verdict"),
+            Note([share.collapses, *doubts], "verdict bad" if share.exceeded else "verdict", first=1 + len(doubts)),
             Rows(header, body, f"One row per motion. {OF_TWINS}", mark=2, looks=looks, numbers=True),
         ],
     )

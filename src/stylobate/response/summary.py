@@ -54,7 +54,8 @@ def _of_blocks(response: Recorded) -> dict:
     before = h.time <= m.collapse_time if gone else np.ones(len(h.time), dtype=bool)
     joints = {"peak_opening_per_joint_m": _finite(h.opening[before].max(axis=0))}
     if blocks.joints is not None:
-        residuals = joints_row(*blocks.joints)
+        x, y, _ = blocks.joints
+        residuals = {"residual_slip_per_joint_m": np.hypot(x, y).tolist(), **joints_row(*blocks.joints)}
         joints |= {name: [None] * len(values) if gone else values for name, values in residuals.items()}
     return {
         "outcome": m.outcome.label,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..outcome import Outcome
@@ -47,7 +47,7 @@ WOBBLES = 0.02
 
 #: What stands before all that rests on wobbles without damping.
 UNDAMPED_WOBBLE = (
-    "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall "
+    "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many like it fall "
     "with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it."
 )
 
@@ -76,10 +76,34 @@ def struck_in_space(structure: Structure) -> str:
     return "" if structure.space_joints is None else STRUCK_IN_SPACE
 
 
+def wobble_in_space(structure: Structure, parameters: Mapping[str, Any]) -> str:
+    """What stands beside runs of what stands in a model in space with these parameters, if nothing damps its wobble.
+
+    Of assemblies round joints wobble; a restitution is that of bodies that no joint holds, and damps none of them.
+    """
+    if structure.space_joints is None:
+        return UNDAMPED_WOBBLE if structure.slenderness is not None and undamped(parameters) else ""
+    round_ = any(joint.round for joint in structure.space_joints)
+    return UNDAMPED_WOBBLE if round_ and not parameters.get("stiffness_damping") else ""
+
+
+def cautions_in_space(structures: Sequence[Structure], parameters: Mapping[str, Any]) -> list[str]:
+    """All that stands beside runs of what stands in a model in space with these parameters, each once."""
+    struck = map(struck_in_space, structures)
+    wobble = (wobble_in_space(structure, parameters) for structure in structures)
+    return list(dict.fromkeys(filter(None, (*struck, *wobble))))
+
+
+def each_doubt(doubts: Iterable[str]) -> list[str]:
+    """Doubts of several runs, each once; what a longer one says as well is left out."""
+    told = list(dict.fromkeys(filter(None, doubts)))
+    return [one for one in told if not any(one != other and one in other for other in told)]
+
+
 def doubt_of(response: Recorded) -> str:
     """Why a verdict may be another one in space; empty where there is no reason.
 
-    Of an assembly in space, if the verdict hangs on bodies that struck one another.
+    Of an assembly in space, if the verdict hangs on bodies that struck one another, or if round joints opened undamped.
 
     In a plane, round drums that stand although joints opened: their own wobble is left out. In space, what nobody has
     measured: without damping a column on rims wobbles long, and how many of a population fall differs several times with
@@ -89,8 +113,12 @@ def doubt_of(response: Recorded) -> str:
     slenderness = response.structure.slenderness
     if space is None:
         blocks = response.measures.blocks
-        if blocks is not None and response.outcome is not Outcome.FAILED and blocks.hangs_on_strikes:
-            return struck_in_space(response.structure)
+        if blocks is not None and response.structure.space_joints is not None:
+            if response.outcome is Outcome.FAILED:
+                return ""
+            struck = struck_in_space(response.structure) if blocks.hangs_on_strikes else ""
+            opened = response.outcome is not Outcome.AT_REST
+            return f"{struck} {wobble_in_space(response.structure, known) if opened else ''}".strip()
         several = len(response.bodies.names) > 1 and response.outcome in (Outcome.ROCKED, Outcome.DISPLACED)
         return round_in_the_plane(response.structure) if several else ""
     wobbled = slenderness is not None and space.peak_tilt > WOBBLES * slenderness

@@ -178,7 +178,7 @@ def _read_study(place: Path) -> StudyFolder:
     summary = study.summary()
     if (place / "study.json").is_file():
         written = read_json(place / "study.json")
-        summary |= {name: written.get(name) for name in ("wall_s", "doubt")}
+        summary |= {name: written[name] for name in ("wall_s", "doubt") if name in written}
     ranked, kept, names = study.ranked(), {}, [PLAN_FILE, "study.json", "study.csv", "study.parquet"]
     for name, number in {"median": (len(ranked) - 1) // 2, "worst": -1}.items() if ranked else ():
         file = f"histories/{study.plan.digests[ranked[number]]}.nc"

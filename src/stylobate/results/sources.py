@@ -12,8 +12,8 @@ from ..analysis.evidence import STOOD
 from ..errors import InputError
 from ..models.registry import MODELS, model_class
 from ..own_files import LIST, OwnFiles, digest
-from ..response.words import ROUND_IN_THE_PLANE, STRUCK_IN_SPACE, UNDAMPED_WOBBLE, undamped
-from .asked import Asked, asked_file, scales_of
+from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, cautions_in_space, undamped
+from .asked import FROM_DICT, Asked, asked_file, scales_of
 
 if TYPE_CHECKING:
     import pandas
@@ -84,15 +84,17 @@ class Source:
     @property
     def doubt(self) -> str:
         """Caveat before all that rests on these runs: stones in space struck, round columns in a plane, undamped wobble."""
-        kept = [one for structure in self.structures for one in structure.values() if isinstance(one, dict)]
-        if any("stones" in one for one in kept):
-            return STRUCK_IN_SPACE
         drums = [drum for one in self.structures for drum in (one.get("column") or {}).get("drums", ())]
         models = [one for one in self.models if one["name"] in MODELS]
         in_plane, in_space = [], []
         for model in models:
             known = model.get("parameters") or {}
             (in_plane if model_class(model["name"]).is_plane(known) else in_space).append(known)
+        pairs = [(kind, one) for structure in self.structures for kind, one in structure.items() if kind in FROM_DICT]
+        if stones := [FROM_DICT[kind](one) for kind, one in pairs if "stones" in one]:
+            return " ".join(
+                dict.fromkeys(text for known in in_space or [{}] for text in cautions_in_space(stones, known))
+            )
         if in_plane and any(drum.get("section") == "circular" for drum in drums):
             return f"{ROUND_IN_THE_PLANE}."
         return UNDAMPED_WOBBLE if drums and any(map(undamped, in_space)) else ""

@@ -21,8 +21,11 @@ HALVED = 4
 
 def drawn_assembly(
     assembly: SpatialAssembly, size: Scatter, stream: np.random.Generator, k: int, space: bool
-) -> SpatialAssembly:
-    """Assembly number k that could as well stand there; its stones fit one another, so that none is wider or higher."""
+) -> tuple[SpatialAssembly, float]:
+    """Assembly number k that could as well stand there; its stones fit one another, so that none is wider or higher.
+
+    Beside it the share of its offsets that is left: 1 where its stones fit as drawn.
+    """
     del space
     rough, stiff, dense, _, _, shifts = factors_of(size, stream, assembly.n)
     return varied(assembly, rough, stiff, dense, size.offset * shifts.T, f"{assembly.name}, twin {k + 1}")
@@ -30,11 +33,11 @@ def drawn_assembly(
 
 def varied(
     assembly: SpatialAssembly, rough: np.ndarray, stiff: np.ndarray, dense: np.ndarray, shifts: np.ndarray, name: str
-) -> SpatialAssembly:
+) -> tuple[SpatialAssembly, float]:
     """The assembly with every stone's contacts and density multiplied by factors of its own, and groups of stones shifted.
 
     Stones that touch otherwise than on level faces move together, and with what is fixed not at all. Where shifted stones
-    would overlap all shifts are halved, in the end left out.
+    would overlap all shifts are halved, in the end left out; what share of them is left stands beside it.
 
     Parameters
     ----------
@@ -66,7 +69,7 @@ def varied(
         share = 0.0 if halved == HALVED else 0.5**halved
         placed = tuple(_placed(stone, share * way) for stone, way in zip(stones, moved, strict=True))
         try:
-            return dataclasses.replace(assembly, stones=placed, **changes)
+            return dataclasses.replace(assembly, stones=placed, **changes), share
         except InputError:
             if not share or not moved.any():
                 raise
