@@ -139,6 +139,22 @@ def test_what_does_not_vary_is_refused():
         st.certainty(PORTAL, still, st.DistinctElement3D(), replicates=2, scatter=st.Scatter(0.1, 0, 0, 0.01, 0, 0))
 
 
+def test_links_move_with_their_stones():
+    """A clamp on the sides of two cubes: all twins have their offsets, and its ends stay on the stones."""
+    stones = box("lower", (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)), box("upper", (1.0, 1.0, 1.0), (0.0, 0.0, 1.0))
+    clamp = st.Clamp(
+        at=(0.5, 0.0, 0.8), to=(0.5, 0.0, 1.2), between=("lower", "upper"), section=(0.04, 0.01), embedment=0.05,
+        material="titanium",
+    )  # fmt: skip
+    clamped = scene(*stones, links=(clamp,))
+    for twin in twins_of(clamped, OFFSETS, 12, 0, space=True):
+        way = moved(twin, clamped)
+        assert np.abs(way[:, :2]).min() > 0.0
+        link = twin.links[0]
+        assert np.subtract(link.at, clamp.at) == pytest.approx(way[0], abs=1e-12)
+        assert np.subtract(link.to, clamp.to) == pytest.approx(way[1], abs=1e-12)
+
+
 def test_a_push_of_one_box_onto_another():
     """A box shoves its neighbour: what fell is told of each body, with a caution as they struck, and over twins."""
     stones = (

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from ...errors import InputError
 from ..joint import Joint
+from ..links.link import Link
 from ..scatter import Scatter, factors_of
 from .assembly import SpatialAssembly
 
@@ -68,8 +70,10 @@ def varied(
     for halved in range(HALVED + 1):
         share = 0.0 if halved == HALVED else 0.5**halved
         placed = tuple(_placed(stone, share * way) for stone, way in zip(stones, moved, strict=True))
+        ways = {stone.name: share * way for stone, way in zip(stones, moved, strict=True)}
+        links = tuple(_carried(link, ways) for link in assembly.links)
         try:
-            return dataclasses.replace(assembly, stones=placed, **changes), share
+            return dataclasses.replace(assembly, stones=placed, links=links, **changes), share
         except InputError:
             if not share or not moved.any():
                 raise
@@ -89,6 +93,16 @@ def _placed(stone: Any, way: np.ndarray) -> Any:
         return stone
     x, y, z = stone.position
     return dataclasses.replace(stone, position=(x + float(way[0]), y + float(way[1]), z))
+
+
+def _carried(link: Link, ways: Mapping[str, np.ndarray]) -> Link:
+    """A link whose ends move with their stones in plan; what lies in a joint, with the first of both."""
+    ends = {
+        name: (float(place[0] + way[0]), float(place[1] + way[1]), place[2])
+        for name, place, body in zip(("at", "to"), link.ends, link.between or (), strict=False)
+        if place is not None and (way := ways.get(body, np.zeros(2))).any()
+    }
+    return dataclasses.replace(link, **ends) if ends else link
 
 
 def _shifts(assembly: SpatialAssembly, shifts: np.ndarray, first: int) -> np.ndarray:
