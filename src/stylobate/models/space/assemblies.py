@@ -247,11 +247,10 @@ def _imbalance_before_falls(
     if not down.any():
         return 0.0
     upright = change[: np.argmax(down)] - np.where([0, 1, 0, 0, 0, 0], change[0], 0.0)
-    work, begun = float(np.abs(upright[:, 0]).max()), float(start[1] + start[3])
-    return max(
-        ledger.imbalance(ledger.unaccounted(row), work=work, start=begun, barrier=0.0, released=ledger.released(row))
-        for row in upright
-    )
+    return ledger.imbalance(
+        max(map(ledger.unaccounted, upright)), work=float(np.abs(upright[:, 0]).max()),
+        start=float(start[1] + start[3]), barrier=0.0, released=max(map(ledger.released, upright)),
+    )  # fmt: skip
 
 
 def _follow(
