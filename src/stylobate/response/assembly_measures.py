@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -85,46 +86,96 @@ def recorded_blocks(
     moved = np.hypot(x - x[0], z - z[0])
     turned = np.abs(rotation - rotation[0])
     since = {} if failed else fallen_since(have_fallen(lowest_standing(assembly, z[0]), z, turned))
-    opened, shares, free, free_shares = _shares(assembly, moved, opening, slip)
-    pairs = [(joint.lower, joint.upper) for joint in assembly.joints]
-    stands = at_rest and not failed  # what still moves may yet fall
-    shifted = shifted_bodies(pairs, shares, moved[-1], free, free_shares) if stands else ()
-    names, sizes = (
-        [one.name for one in assembly.bodies],
-        [math.nan if one.fixed else one.size for one in assembly.bodies],
-    )
-    bodies = body_measures(names, sizes, time, np.stack((x, np.zeros_like(x), z), axis=-1), turned, since, shifted)
-    fell_at = tuple((names[i], float(time[k])) for i, k in since.items())
-    collapsed = bool(fell_at)
-    first = fell_at[0][1] if collapsed else math.nan
-    until = time <= first if collapsed else slice(None)
-    azimuth = azimuth_of_fall(bodies, fell_at)
-    blocks = BlockMeasures(
-        fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, bodies,
-        struck_at=None if touched is None else touched.time,
+    width = [_width(assembly, joint) for joint in assembly.joints]
+    measures = measures_of_bodies(
+        assembly, [(joint.lower, joint.upper) for joint in assembly.joints], width, time,
+        np.stack((x, np.zeros_like(x), z), axis=-1), moved, turned, since, opening, np.abs(slip[-1]),
+        at_rest=at_rest, failed=failed, in_equilibrium=in_equilibrium, touched=touched,
+        energy_imbalance=energy_imbalance, time_step=time_step, steps=steps, links=links,
     )  # fmt: skip
-    measures = Measures(
-        outcome=classify(collapsed, failed, opened, max(_largest(shares), _largest(free_shares))),
-        decided=not failed and (at_rest or collapsed),
-        collapse_time=first,
-        peak_top_displacement=math.nan,
-        residual_top_displacement=math.nan,
-        peak_rotation=float(turned[until].max()),
-        peak_joint_opening=float(opening[until].max(initial=0.0)),
-        residual_joint_slip=float(np.abs(slip[-1]).max(initial=0.0)),
-        energy_imbalance=energy_imbalance,
-        time_step=time_step,
-        steps=steps,
-        collapse=Collapse(first, None, FELL, azimuth, touched) if collapsed else None,
-        blocks=blocks,
-        links=links,
-    )
     histories = Histories.of_blocks(
         time, x, z, rotation, opening, slip, ground_acceleration, ground_displacement, energy, velocity
     )
     if held is not None:
         histories = replace(histories, links=held)
     return Recorded(assembly, histories, measures, model, provenance, followed=True)
+
+
+def measures_of_bodies(
+    structure: Structure,
+    joined: Sequence[tuple[int, int]],
+    width: Sequence[float],
+    time: np.ndarray,
+    position: np.ndarray,
+    moved: np.ndarray,
+    tilt: np.ndarray,
+    since: dict[int, int],
+    opening: np.ndarray,
+    slip: np.ndarray,
+    *,
+    at_rest: bool,
+    failed: bool,
+    in_equilibrium: bool | None,
+    touched: Touch | None,
+    residuals: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]] | None = None,
+    **numbers: Any,
+) -> Measures:
+    """Measures of a run of any assembly, in the plane or in space, from what became of its bodies and joints.
+
+    Parameters
+    ----------
+    structure : Structure
+    joined, width : sequence
+        Bodies of each joint by their numbers, and the width of each [m].
+    time : array
+        [s], shape (T,)
+    position, moved, tilt : array
+        Centroids [m], shape (T, N, 3), their distance from the start [m] and the turn of what was vertical [rad],
+        shape (T, N).
+    since : dict of int to int
+        Recorded state from which on a body had fallen, by its number, in the order of falling; empty where the run failed.
+    opening, slip : array
+        Of each joint over time [m], shape (T, J), and at the end [m], shape (J,).
+    at_rest, failed, in_equilibrium
+        How the run began and ended.
+    touched : Touch or None
+        First touch of bodies that no joint holds.
+    residuals : tuple, optional
+        Slip of each joint at the end along x and y [m] and its twist [rad], where it is in space.
+    **numbers
+        Fields of the measures that hang on the computation: imbalance, step, links and so on.
+    """
+    bodies = structure.bodies
+    held = {i for pair in joined for i in pair}
+    free = [i for i, body in enumerate(bodies) if i not in held and not body.fixed]
+    size = np.array([bodies[i].size for i in free])
+    opened = max(_largest(opening / np.array(width)), _largest(moved[:, free] / size))
+    shares, free_shares = slip / np.array(width), moved[-1, free] / size
+    stands = at_rest and not failed  # what still moves may yet fall
+    shifted = shifted_bodies(joined, shares, moved[-1], free, free_shares) if stands else ()
+    names = [body.name for body in bodies]
+    sizes = [math.nan if body.fixed else body.size for body in bodies]
+    each = body_measures(names, sizes, time, position, tilt, since, shifted)
+    fell_at = tuple((names[i], float(time[k])) for i, k in since.items())
+    collapsed = bool(fell_at)
+    first = fell_at[0][1] if collapsed else math.nan
+    until = time <= first if collapsed else slice(None)
+    return Measures(
+        outcome=classify(collapsed, failed, opened, max(_largest(shares), _largest(free_shares))),
+        decided=not failed and (at_rest or collapsed),
+        collapse_time=first,
+        peak_top_displacement=math.nan,
+        residual_top_displacement=math.nan,
+        peak_rotation=float(tilt[until].max()),
+        peak_joint_opening=float(opening[until].max(initial=0.0)),
+        residual_joint_slip=float(slip.max(initial=0.0)),
+        collapse=Collapse(first, None, FELL, azimuth_of_fall(each, fell_at), touched) if collapsed else None,
+        blocks=BlockMeasures(
+            fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, each, residuals,
+            None if touched is None else touched.time,
+        ),
+        **numbers,
+    )  # fmt: skip
 
 
 def joint_histories(
@@ -203,21 +254,6 @@ def first_touch(
     return Touch(when, found)
 
 
-def _shares(
-    assembly: Assembly, moved: np.ndarray, opening: np.ndarray, slip: np.ndarray
-) -> tuple[float, np.ndarray, list[int], np.ndarray]:
-    """Shares of size: largest opening, slip of each joint at the end, way of blocks that no joint holds, with these."""
-    joints, bodies = assembly.joints, assembly.bodies
-    width = np.array(
-        [min(_length(bodies[j.lower], j.lower_face), _length(bodies[j.upper], j.upper_face)) for j in joints]
-    )
-    held = {i for joint in joints for i in (joint.lower, joint.upper)}
-    free = [i for i, block in enumerate(bodies) if i not in held and not block.fixed]
-    size = np.array([bodies[i].size for i in free])
-    opened = max(_largest(opening / width), _largest(moved[:, free] / size))
-    return opened, np.abs(slip[-1]) / width, free, moved[-1, free] / size
-
-
 def _joint_history(
     assembly: Assembly, joint: FaceJoint, x: np.ndarray, z: np.ndarray, rotation: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -240,6 +276,12 @@ def _joint_history(
     opening = np.maximum(np.maximum(*gap), 0.0)
     middle = 0.5 * (s0 + s1)
     return np.maximum(opening - opening[0], 0.0), middle - middle[0]
+
+
+def _width(assembly: Assembly, joint: FaceJoint) -> float:
+    """Length of the smaller face of a joint [m]."""
+    lower, upper = assembly.bodies[joint.lower], assembly.bodies[joint.upper]
+    return min(_length(lower, joint.lower_face), _length(upper, joint.upper_face))
 
 
 def _length(block: Block, face: int) -> float:

@@ -9,13 +9,10 @@ from typing import Any
 import numpy as np
 
 from ..column.structure import Structure
-from ..outcome import classify
-from .assembly_measures import TURNED, fallen_since, lowest_standing
-from .body_measures import azimuth_of_fall, body_measures, shifted_bodies
-from .collapse import FELL, Collapse, Touch
+from .assembly_measures import TURNED, fallen_since, lowest_standing, measures_of_bodies
+from .collapse import Touch
 from .histories import Histories
 from .links import LinkHistories, LinkMeasures
-from .measures import BlockMeasures, Measures
 from .poses import quaternions
 from .recorded import Recorded
 
@@ -71,43 +68,16 @@ def recorded_in_space(
     down = fallen(structure, position[0], axes[0], position, axes)
     since = {} if failed else fallen_since(down)
     tilt = np.arccos(np.clip(_upright(axes[0], axes), -1.0, 1.0))
-    opened, shares, free, free_shares = _shares(structure, moved, opening, slip)
-    pairs = [(joint.lower, joint.upper) for joint in structure.space_joints or ()]
-    stands = at_rest and not failed  # what still moves may yet fall
-    shifted = shifted_bodies(pairs, shares, moved[-1], free, free_shares) if stands else ()
-    names, sizes = (
-        [one.name for one in structure.bodies],
-        [math.nan if one.fixed else one.size for one in structure.bodies],
-    )
-    bodies = body_measures(names, sizes, time, position, tilt, since, shifted)
-    fell_at = tuple((names[i], float(time[k])) for i, k in since.items())
-    collapsed = bool(fell_at)
-    first = fell_at[0][1] if collapsed else math.nan
-    until = time <= first if collapsed else slice(None)
-    azimuth = azimuth_of_fall(bodies, fell_at)
-    offsets, turns = slip[-1].T.tolist(), twist[-1].tolist()
-    touched = None if struck_at is None else Touch(struck_at)
-    blocks = BlockMeasures(
-        fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, bodies,
-        (tuple(offsets[0]), tuple(offsets[1]), tuple(turns)), struck_at,
+    joints = structure.space_joints or ()
+    along, across = slip[-1].T.tolist()
+    measures = measures_of_bodies(
+        structure, [(joint.lower, joint.upper) for joint in joints], [joint.width for joint in joints], time,
+        position, moved, tilt, since, opening, np.linalg.norm(slip[-1], axis=-1),
+        at_rest=at_rest, failed=failed, in_equilibrium=in_equilibrium,
+        touched=None if struck_at is None else Touch(struck_at),
+        residuals=(tuple(along), tuple(across), tuple(twist[-1].tolist())),
+        energy_imbalance=energy_imbalance, time_step=time_step, steps=steps, reason=failure, links=links,
     )  # fmt: skip
-    measures = Measures(
-        outcome=classify(collapsed, failed, opened, max(_largest(shares), _largest(free_shares))),
-        decided=not failed and (at_rest or collapsed),
-        collapse_time=first,
-        peak_top_displacement=math.nan,
-        residual_top_displacement=math.nan,
-        peak_rotation=float(tilt[until].max()),
-        peak_joint_opening=float(opening[until].max(initial=0.0)),
-        residual_joint_slip=float(np.linalg.norm(slip[-1], axis=-1).max(initial=0.0)),
-        energy_imbalance=energy_imbalance,
-        time_step=time_step,
-        steps=steps,
-        reason=failure,
-        collapse=Collapse(first, None, FELL, azimuth, touched) if collapsed else None,
-        blocks=blocks,
-        links=links,
-    )
     histories = Histories.in_space(
         time, position, quaternions(axes), opening, slip, twist, None, None, ground_acceleration,
         ground_displacement, energy, velocity=velocity, spin=spin,
@@ -167,20 +137,3 @@ def joint_histories(
             np.arctan2(relative[:, 1, 0] - relative[:, 0, 1], relative[:, 0, 0] + relative[:, 1, 1])
         )
     return opening, slip, twist
-
-
-def _shares(
-    structure: Structure, moved: np.ndarray, opening: np.ndarray, slip: np.ndarray
-) -> tuple[float, np.ndarray, list[int], np.ndarray]:
-    """Shares of size: largest opening, slip of each joint at the end, way of bodies that no joint holds, with these."""
-    joints, bodies = structure.space_joints or (), structure.bodies
-    width = np.array([joint.width for joint in joints])
-    held = {i for joint in joints for i in (joint.lower, joint.upper)}
-    free = [i for i, body in enumerate(bodies) if i not in held and not body.fixed]
-    size = np.array([bodies[i].size for i in free])
-    opened = max(_largest(opening / width), _largest(moved[:, free] / size))
-    return opened, np.linalg.norm(slip[-1], axis=-1) / width, free, moved[-1, free] / size
-
-
-def _largest(values: np.ndarray) -> float:
-    return float(np.nan_to_num(values, nan=np.inf).max(initial=0.0))

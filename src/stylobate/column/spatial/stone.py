@@ -14,7 +14,6 @@ from ...errors import InputError, as_typed, check_range
 from ..drum import DENSITIES, LENGTHS
 from ..joint import Joint
 from ..shapes import (
-    Chipped,
     CircularFrustum,
     ConvexSolid,
     Glued,
@@ -27,6 +26,7 @@ from ..shapes import (
 )
 from ..turning import UPRIGHT, Quaternion, matrix_of, product
 from .moments import Moments, drum_of, mesh_moments, moments_of, together
+from .plain_parts import part_of, plain_of
 
 #: Farthest that a body may stand from the origin [m]; fastest that it may move and turn at the start [m/s], [rad/s].
 FARTHEST, FASTEST, FASTEST_TURN = 1e4, 100.0, 1e3
@@ -238,7 +238,7 @@ class Stone(Outlined):
     def to_dict(self) -> dict:
         """Plain values that make it again."""
         plain: dict[str, Any] = {
-            "parts": [_plain(part) for part in self.parts],
+            "parts": [plain_of(part) for part in self.parts],
             "position": list(self.position),
             "density": self.density,
             "name": self.name,
@@ -254,7 +254,7 @@ class Stone(Outlined):
         """The body that :meth:`to_dict` has written."""
         surface, places = data.get("surface"), ("position", "orientation", "velocity", "angular_velocity")
         special: dict[str, Any] = {name: tuple(data[name]) for name in places}
-        special["parts"] = tuple(_part(part) for part in data["parts"])
+        special["parts"] = tuple(part_of(part) for part in data["parts"])
         special["surface"] = None if surface is None else Joint(**surface)
         return cls(**(dict(data) | special))
 
@@ -371,33 +371,3 @@ def _who(others: dict[str, Any]) -> str:
 def _triple(values: Any) -> Triple:
     x, y, z = (float(value) for value in values)
     return x, y, z
-
-
-def _plain(part: Placed) -> dict:
-    shape, cuts = part.shape, None
-    if isinstance(shape, Chipped):
-        shape, cuts = shape.whole, shape.cuts
-    if isinstance(shape, CircularFrustum):
-        plain: dict[str, Any] = {"drum": [shape.bottom, shape.top, shape.height, shape.centroid]}
-    elif isinstance(shape, RectangularFrustum):
-        plain = {"frustum": [list(shape.bottom), list(shape.top), shape.height, shape.centroid]}
-    else:
-        assert isinstance(shape, ConvexSolid)
-        plain = {"hull": np.asarray(shape.vertices).tolist()}
-    if cuts is not None:
-        plain["cuts"] = np.asarray(cuts).tolist()
-    return plain | {"place": list(part.place), "orientation": list(part.orientation)}
-
-
-def _part(plain: dict) -> Placed:
-    shape: Any
-    if "drum" in plain:
-        shape = CircularFrustum(*plain["drum"])
-    elif "frustum" in plain:
-        low, high, height, centroid = plain["frustum"]
-        shape = RectangularFrustum(tuple(low), tuple(high), height, centroid)
-    else:
-        shape = ConvexSolid(np.array(plain["hull"]))
-    if "cuts" in plain:
-        shape = Chipped(shape, np.array(plain["cuts"]))
-    return Placed(shape, tuple(plain["place"]), tuple(plain["orientation"]))
