@@ -38,6 +38,7 @@ def simulate(
     output_interval: float = 0.01,
     until_end: bool = False,
     until_rest: bool = False,
+    until_decided: bool = False,
     start: Start | Toss | None = None,
     twins: Sequence[Column] = (),
     quiet: float = 0.0,
@@ -60,6 +61,8 @@ def simulate(
         Go on after the collapse is certain.
     until_rest : bool
         Go on until everything lies still, on the ground if need be (``DistinctElement2D``; others refuse).
+    until_decided : bool
+        Go on after motion and tail, a minute at most, as long as nothing has fallen and not all lies still (assemblies).
     start : Start or Toss, optional
         Release the column from a pose (``Start``), with a velocity, instead of rest (``DistinctElement2D`` and
         ``DistinctElement3D``; others refuse); or a specimen from anywhere over the base (``Toss``; ``DistinctElement3D``).
@@ -88,7 +91,7 @@ def simulate(
     check_kind("start", start, (Start, Toss), optional=True)
     twins = check_all("twins", twins, Structure)
     cut = quiet if column.moving_acceleration is not None else 0.0  # nobody knows what is quiet for anything else
-    following = run_options(tail, output_interval, until_end, until_rest, cut)
+    following = run_options(tail, output_interval, until_end, until_rest, cut, until_decided)
     options = dataclasses.replace(following, start=start, twins=tuple(twins), progress=progress)
     if len(options.twins) > model.carried(column):
         raise InputError(
@@ -300,6 +303,7 @@ def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) ->
         "left_out": list(model.taken(motion).metadata.get("left_out", ())),
         "tail_s": options.tail,
         "until_rest": options.until_rest,
+        "until_decided": options.until_decided,
         "output_interval_s": options.output_interval,
         "quiet_share": options.quiet,
         "python": platform.python_version(),
@@ -313,6 +317,7 @@ def run_options(
     until_end: bool = False,
     until_rest: bool = False,
     quiet: float = 0.0,
+    until_decided: bool = False,
 ) -> RunOptions:
     """Options of runs, checked; parameters as in :func:`simulate`."""
     return RunOptions(
@@ -320,5 +325,6 @@ def run_options(
         check_range("`output_interval`", output_interval, 0.0, 1e3, unit="s", open_low=True),
         until_end,
         until_rest,
+        until_decided,
         quiet=check_range("quiet", quiet, 0.0, 0.5, remedy="0 steps the whole motion"),
     )

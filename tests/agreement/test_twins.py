@@ -9,7 +9,7 @@ import stylobate as st
 from stylobate.analysis.certainty import Population, batch
 from stylobate.campaign.twins import Twins, the_twins
 from stylobate.column.twins import twins_of
-from stylobate.models.base import Case
+from stylobate.models.base import Case, RunOptions
 from stylobate.response.words import to_decide
 
 COLUMN = st.Column.tapered(
@@ -92,7 +92,7 @@ def test_twins_that_ride_along_are_those_of_a_batch_to_the_bit(model):
     motion = st.sine_pulse(frequency=0.9, amplitude=0.5 * st.g, duration=2.0)
     ridden = st.certainty(COLUMN, motion, model, replicates=18, seed=3).population
     twins = the_twins(COLUMN, model, st.Campaign(replicates=18, seed=3)).columns
-    again = batch([Case(one, motion) for one in twins], COLUMN, model, st.Campaign(threads=2), 0.0)
+    again = batch([Case(one, motion) for one in twins], COLUMN, model, st.Campaign(threads=2), RunOptions())
     assert [str(one) for one in ridden.rows] == [str(one) for one in again]
     assert len({one["peak_top_displacement_m"] for one in ridden.rows}) == 18
 

@@ -10,10 +10,10 @@ from stylobate.constants import g
 from stylobate.kernels.plane import clip as near
 from stylobate.kernels.plane.records import LOCAL
 from stylobate.kernels.run_codes import CHUNK
-from stylobate.models.base import RunOptions
+from stylobate.models.base import RESTITUTION, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.plane.assemblies import follow, stable_step_of
-from stylobate.models.plane.loose import RESTITUTION_TO_REST, Loose
+from stylobate.models.plane.loose import Loose
 from stylobate.motion import harmonic
 from stylobate.response.assembly_measures import recorded_blocks
 from stylobate.simulate import simulate_assembly
@@ -77,7 +77,7 @@ def test_at_rest_nothing_is_deeper_than_static(name):
     overlap is a triangle, at most 2 F/(k L) deep, with L the width of that overlap.
     """
     make, motion = CASES[name]
-    engine = Loose(make(), DistinctElement2D().contacts, motion, motion.duration, RESTITUTION_TO_REST)
+    engine = Loose(make(), DistinctElement2D().contacts, motion, motion.duration, RESTITUTION)
     engine.start(0.4 * stable_step_of(engine))
     assert engine.settle()
     _, rests = follow(engine, RunOptions(until_rest=True, output_interval=0.05))

@@ -54,7 +54,7 @@ CHANGES = {
 def digest(text):
     room = {"__name__": "__main__"}
     exec(compile(text, "<cell>", "exec"), room)
-    return room["Hasher"](room["Mine"](), 0.0).of_product("", __file__)
+    return room["Hasher"](room["Mine"]()).of_product("", __file__)
 
 
 @pytest.mark.parametrize("change", CHANGES)
@@ -66,7 +66,7 @@ def test_a_class_of_a_notebook_that_has_changed_is_another(change):
 
 
 def test_a_class_of_a_notebook_is_the_same_in_every_process():
-    script = f"exec(compile({NOTEBOOK!r}, '<cell>', 'exec'))\nprint(Hasher(Mine(), 0.0)._head)"
+    script = f"exec(compile({NOTEBOOK!r}, '<cell>', 'exec'))\nprint(Hasher(Mine())._head)"
     told = [
         subprocess.run(
             [sys.executable, "-c", script], env={"PYTHONHASHSEED": seed}, capture_output=True, text=True, check=True
@@ -119,7 +119,7 @@ def told(tmp_path, monkeypatch):
             if load:
                 monkeypatch.delitem(sys.modules, name, raising=False)
         importlib.invalidate_caches()
-        return Hasher(importlib.import_module("own_law").Mine(**settings), 0.0).of_product("", __file__)
+        return Hasher(importlib.import_module("own_law").Mine(**settings)).of_product("", __file__)
 
     return digest_of
 

@@ -16,12 +16,12 @@ from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import Twins, the_twins
 from ..column.structure import Structure
-from ..models.base import Case, Model
+from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
 from ..percent import percents
 from ..response import Response
 from ..response.words import doubt_of, to_decide
-from ..simulate import simulate
+from ..simulate import run_options, simulate
 from . import verdicts as v
 from .debris import BodyOverTwins, bodies_over_twins, words_of_bodies
 from .difference import caveat
@@ -368,19 +368,20 @@ def certainty(
     )  # fmt: skip
     rows = [twin.row() for twin in response.twins]
     rest = until_rest and not model.carried(column)  # what is followed one by one, so are its twins
-    rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, quiet, rest)
+    options = run_options(tail, until_rest=rest, quiet=quiet)
+    rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, options)
     doubt = "" if column.space_joints is None else caveat([column], model)
     population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail), doubt=doubt)
     return Certainty(response, population, time.perf_counter() - began)
 
 
 def batch(
-    cases: Sequence[Case], column: Structure, model: Model, campaign: Campaign, quiet: float, until_rest: bool = False
+    cases: Sequence[Case], column: Structure, model: Model, campaign: Campaign, options: RunOptions
 ) -> list[dict]:
     """Rows of twins that did not ride along, computed as those that did; the ledger of the campaign keeps them."""
     rows: list[dict] = [{}] * len(cases)
     if cases:
-        request = Request.of(cases, Hasher(model.paced(column), campaign.tail, until_rest), quiet)
+        request = Request.of(cases, Hasher(model.paced(column), options), options.quiet)
         with closing(Runs(replace(campaign, progress=None))) as runs, closing(runs.run(request)) as finished:
             try:
                 for number, row in finished:

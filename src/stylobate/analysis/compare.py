@@ -134,11 +134,11 @@ def compare_models(
     what: dict[str, Any] = {"response": [column.digest, motion.name, motion.digest, output_interval]}
     quiet = share_of([motion], campaign.whole)
     what |= {"quiet": quiet} if quiet else {}
-    hashers = [Hasher(model, campaign.tail) for model in models]
+    options = run_options(campaign.tail, output_interval, quiet=quiet)
+    hashers = [Hasher(model, options) for model in models]
     same = [hasher.of_product(what, __file__) for hasher in hashers]
     places = [file.name for file in files] or [""] * len(models)
     each = [hasher.of_product([what, place], __file__) for hasher, place in zip(hashers, places, strict=True)]
-    options = run_options(campaign.tail, output_interval, quiet=quiet)
     groups = [(np.array([number]), model, options) for number, model in enumerate(models)]
     request = Request([Case(column, motion)] * len(models), Digests.of(each), groups)
     responses: dict[str, Response] = {}

@@ -325,7 +325,9 @@ def sweep(
     if drawn is not None:
         model = model.paced(column)
     started = time.perf_counter()
-    request = Request.of(cases, Hasher(model, campaign.tail), share_of([one.motion for one in shaken], campaign.whole))
+    request = Request.of(
+        cases, Hasher(model, campaign.options), share_of([one.motion for one in shaken], campaign.whole)
+    )
     finished = run_all(request, campaign)
     results, doubt = [], caveat([column], model)
     for one, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):

@@ -160,7 +160,7 @@ def ida(
             return [] if one.levels else stripes
         return _asked(one, runs, largest_factor, measure.power)
 
-    quiet, hasher = share_of(motions, campaign.whole), Hasher(model, campaign.tail)
+    quiet, hasher = share_of(motions, campaign.whole), Hasher(model, campaign.options)
     try:
         with closing(Runs(campaign)) as kept:
             while asked := [(trace, new) for trace in traces for new in wanted(trace)]:

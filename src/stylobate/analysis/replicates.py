@@ -109,7 +109,7 @@ def collapse_probability(
     peaks = np.full(len(cases), np.nan, dtype=np.float32)
     done = 0
     try:
-        request = Request.of(cases, Hasher(model, campaign.tail))
+        request = Request.of(cases, Hasher(model, campaign.options))
         with closing(Runs(campaign)) as runs, closing(runs.run(request)) as finished:
             for index, row in finished:
                 codes[index] = v.VERDICTS.index(v.verdict(row))

@@ -169,7 +169,7 @@ def histories_of(study: Study, number: int) -> Response:
     """A case of a study once more, with its histories."""
     column, motion = study.case(number)
     tail, quiet = study.campaign.tail, share_of([motion], study.campaign.whole)
-    return simulate(column, motion, study.model_of(number), tail=tail, quiet=quiet)
+    return simulate(column, motion, study.model_of(number), tail=tail, quiet=quiet, until_decided=True)
 
 
 def keep_histories(

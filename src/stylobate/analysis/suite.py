@@ -124,7 +124,7 @@ def suite_table(
     number = campaign.replicates
     drawn = [the_twins(column, model, campaign) for column in stands] if number else []
     cases += [Case(twin, motion) for some in drawn for motion in motions for twin in some.columns]
-    request = Request.of(cases, Hasher(model, campaign.tail), share_of(motions, campaign.whole))
+    request = Request.of(cases, Hasher(model, campaign.options), share_of(motions, campaign.whole))
     found = run_all(request, campaign)
     for i, (case, row, line) in enumerate(zip(cases[:own], found, rows, strict=False)):
         if row is not None:

@@ -12,7 +12,11 @@ from typing import Any, TypedDict, TypeVar
 
 from ..column.scatter import Scatter
 from ..errors import InputError, as_typed, check_range, check_whole
+from ..models.base import RunOptions
 from .ledger import RUNS_FILE
+
+#: Many runs go on until their verdicts are certain.
+DECIDED = RunOptions(until_decided=True)
 
 #: Largest number of twins.
 MAX_TWINS = 100_000
@@ -56,7 +60,8 @@ class Campaign:
     seed : int
         Of these columns: the same seed gives the same ones.
     tail : float
-        Time to go on after each motion has ended [s].
+        Time to go on after each motion has ended [s]. Assemblies of which nothing has fallen go on from there until all
+        lies still, a minute at most.
     whole : bool
         Step all of a record; by default its quiet, below a tenth of what opens a joint, is left out before and between
         shocks and at the end, where the column lies at rest (``stepped_from_s``, ``stepped_to_s``, ``stepped_s`` say so).
@@ -105,6 +110,11 @@ class Campaign:
             raise InputError(f"ledger is {as_typed(self.ledger)}; allowed is the path of a file.", "ledger")
         if self.threads is not None:
             check_range("`threads`", self.threads, 1, 1024, remedy="leave it out to use all cores")
+
+    @property
+    def options(self) -> RunOptions:
+        """How long its runs go on."""
+        return replace(DECIDED, tail=float(self.tail))
 
     @property
     def of_runs(self) -> Campaign:

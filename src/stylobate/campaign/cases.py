@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from numbers import Real
 from typing import Any, Unpack
@@ -20,7 +20,6 @@ from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
 from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
-from ..simulate import run_options
 from ..version import __version__
 from .campaign import COMPUTING, USUAL, Campaign, Fields, campaigning
 from .digests import LENGTH, Digests, Hasher, samples_of
@@ -161,7 +160,7 @@ class Study:
         digests = np.empty((self.size, LENGTH), dtype=np.uint8)
         number = 0
         for model, columns in zip(self.models, self.stands, strict=True):
-            hasher = Hasher(model, self.campaign.tail)
+            hasher = Hasher(model, self.campaign.options)
             ends = [[hasher.of_motion(motion, size, quiet) for size in some] for motion, some, quiet in each]
             for some in columns:
                 starts = [hasher.of_column(one) for one in some]
@@ -183,7 +182,7 @@ class Study:
         for place, model in enumerate(self.models):
             for quiet in sorted(set(self.quiet.tolist())):
                 numbers = place * each + np.flatnonzero(self.quiet[motion] == quiet)
-                yield numbers, model, run_options(self.campaign.tail, quiet=quiet)
+                yield numbers, model, replace(self.campaign.options, quiet=quiet)
 
     def _axes(self) -> dict[str, Any]:
         def one(motion: Motion) -> dict[str, Any]:

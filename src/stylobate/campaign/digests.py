@@ -16,11 +16,11 @@ import numpy as np
 
 from ..column.structure import Structure
 from ..kernels.jit import source_digest
-from ..models.base import Case, Model
+from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
 from ..own_files import digest as digest_of_file
-from ..simulate import run_options
 from ..version import __version__
+from .campaign import DECIDED
 from .code import PACKAGE, Code
 
 #: Bytes of a digest.
@@ -42,17 +42,14 @@ class Hasher:
     Parameters
     ----------
     model : Model
-    tail : float
-        Time to go on after each motion [s].
-    until_rest : bool
-        Whether to go on until everything lies still.
+    options : RunOptions
+        How long runs go on; their quiet is told with each motion.
     """
 
-    def __init__(self, model: Model, tail: float = 0.0, until_rest: bool = False) -> None:
-        self.model, self.tail, self.until_rest = model, run_options(tail).tail, until_rest
-        law = [model.name, model.parameters(), self.tail, __version__, *laws(), Code().of_model(model)]
-        if until_rest:
-            law.append("until_rest")
+    def __init__(self, model: Model, options: RunOptions = DECIDED) -> None:
+        self.model, self.options = model, options
+        length = [options.tail, options.until_rest, options.until_decided]
+        law = [model.name, model.parameters(), length, __version__, *laws(), Code().of_model(model)]
         self._head = json.dumps(law, sort_keys=True, default=str)
         self._samples: dict[tuple, tuple[Motion, str]] = {}
 

@@ -20,6 +20,7 @@ from ..motion import harmonic
 from ..motion.ranges import amplitude_range, frequency_range
 from ..motion.specs import parse_acceleration, parse_frequency
 from ..reading import shown
+from .campaign import Campaign
 from .digests import Hasher
 from .runs import Request
 
@@ -85,7 +86,7 @@ class HarmonicGrid:
         def case(cell: int) -> Case:
             return Case(self.column, units[cell // len(a)].scaled(float(a[cell % len(a)])))
 
-        return Request.of(Cases(len(units) * len(a), case), Hasher(self.model, self.tail))
+        return Request.of(Cases(len(units) * len(a), case), Hasher(self.model, Campaign(tail=self.tail).options))
 
 
 def is_grid(path: str | Path) -> bool:

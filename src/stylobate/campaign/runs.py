@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import ExitStack, closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,7 @@ import numpy as np
 from ..models.base import Case, Cases, Model, RunOptions
 from ..own_files import digest as digest_of_file
 from ..response.rows import Rows
-from ..simulate import check_cases, run_options
+from ..simulate import check_cases
 from .campaign import USUAL, Campaign, Progress
 from .cluster import on_cluster
 from .digests import Digests, Hasher
@@ -57,8 +57,7 @@ class Request:
     @classmethod
     def of(cls, cases: Sequence[Case], hasher: Hasher, quiet: float = 0.0) -> Request:
         """Cases of the model and the end of a hasher, of one share of quiet."""
-        options = run_options(hasher.tail, until_rest=hasher.until_rest, quiet=quiet)
-        groups = [(np.arange(len(cases)), hasher.model, options)]
+        groups = [(np.arange(len(cases)), hasher.model, replace(hasher.options, quiet=quiet))]
         return cls(cases, Digests(hasher.of_cases(cases, quiet)), groups)
 
     def __len__(self) -> int:

@@ -148,8 +148,8 @@ def each_record(
         places.append(None if out is None else out / safe_name(motion.name, places))
     campaign = follow.keywords["campaign"]
     following = {name: one for name, one in follow.keywords.items() if name not in ("model", "campaign")}
-    hasher = Hasher(model, campaign.tail)
     options = run_options(campaign.tail, **following)
+    hasher = Hasher(model, options)
     made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **following}
     each = [
         hasher.of_product(

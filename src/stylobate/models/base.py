@@ -53,6 +53,13 @@ class Cases(Sequence[Any]):
         return self.make(index)
 
 
+#: Share of the closing speed that bodies which no joint holds give back, where the model says nothing else [-].
+RESTITUTION = 0.3
+
+#: Time after motion and tail at which a run that waits, for rest or for its verdict, is given up [s].
+LONGEST_WAIT = 60.0
+
+
 @dataclass(frozen=True)
 class RunOptions:
     """Length and closeness of a run; the same for every model.
@@ -67,6 +74,9 @@ class RunOptions:
         Go on after a collapse is certain.
     until_rest : bool
         Go on after the motion until everything lies still (models that follow a collapse to the ground).
+    until_decided : bool
+        Go on after motion and tail, a minute at most, as long as nothing has fallen and not all lies still (assemblies; the
+        verdicts of columns rest on barriers).
     start : Start or Toss, optional
         Pose and velocity at the start, instead of rest (models with ``takes_start``).
     quiet : float
@@ -83,6 +93,7 @@ class RunOptions:
     output_interval: float = 0.01
     until_end: bool = False
     until_rest: bool = False
+    until_decided: bool = False
     start: Start | Toss | None = None
     quiet: float = 0.0
     twins: tuple[Any, ...] = ()

@@ -15,13 +15,13 @@ from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ...response import Measures, Response
 from ...response.assembly_measures import first_touch, have_fallen, lowest_standing, recorded_blocks
-from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
+from ..base import LONGEST_WAIT, Case, RunOptions, refuse_endless, refuse_long_histories
 from ..drums.links import acting, link_histories, link_measures, with_links
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.stable_step import chosen_step, highest_frequency, stable_step
 from .links import stiffness_between
-from .loose import COST_STANDING, LONGEST_WAIT, Contacts, Loose
+from .loose import COST_STANDING, Contacts, Loose
 
 #: Time after the last block has fallen at which a run of a batch ends [s].
 AFTER_THE_FALL = 5.0
@@ -77,7 +77,7 @@ def run_assembly(
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
-    restitution = contacts.given_back(options)
+    restitution = contacts.given_back
     engine = Loose(assembly, contacts, motion, motion.duration + options.tail, restitution)
     step = step_for(engine, contacts)
     length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
@@ -145,19 +145,19 @@ def follow(engine: Loose, options: RunOptions, recorded: bool = True) -> tuple[l
         left = engine.chunks - engine.steps // CHUNK
         still, over = engine.at_rest(), left <= 0
         if over:
-            engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0
-        if over and (not options.until_rest or still or engine.time > engine.duration + LONGEST_WAIT):
-            break
+            waits = options.until_rest or (options.until_decided and not fallen.any())
+            if not waits or still or engine.time > engine.duration + LONGEST_WAIT:
+                break
+            engine.now["dull"] = engine.now["eta"]
         engine.advance(every if over else min(every, left))
         states.append(keep())
         if options.progress:
             options.progress(min(engine.time, engine.duration), engine.duration)
-        if options.until_end or options.until_rest:
-            continue
         now = have_fallen(lowest, states[-1]["z"], states[-1]["rotation"] - rotation)
         if (now != fallen).any():
             fallen, since = now, engine.time
-        if fallen.any() and engine.time - since > AFTER_THE_FALL:
+        ends = not (options.until_end or options.until_rest)
+        if ends and fallen.any() and engine.time - since > AFTER_THE_FALL:
             break
     if not recorded:
         states[-1]["energy"] = engine.energies()

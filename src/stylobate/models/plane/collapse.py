@@ -14,10 +14,10 @@ from ...response import Collapse, Histories, Measures, Response
 from ...response.assembly_measures import first_touch
 from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
-from ..base import Case, RunOptions
+from ..base import LONGEST_WAIT, Case, RunOptions
 from ..drums.histories import histories
 from .columns import ColumnLanes
-from .loose import ENDLESS, LONGEST_WAIT, Contacts, Loose
+from .loose import ENDLESS, Contacts, Loose
 from .packing import OF_BODY
 
 
@@ -57,7 +57,7 @@ class _ColumnRun:
         self, column: Column, motion: Motion, block: ColumnLanes, contacts: Contacts, options: RunOptions
     ) -> None:
         self.column, self.motion, self.block, self.name, self.options = column, motion, block, contacts.name, options
-        self.restitution = contacts.given_back(options)
+        self.restitution = contacts.given_back
         block.load(0, Case(column, motion))
         duration = motion.duration + options.tail
         self.engine = engine = Loose(column, contacts, motion, duration, self.restitution)

@@ -14,7 +14,7 @@ from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.shared.records import STATE
 from ...motion import Motion
-from ..base import RunOptions
+from ..base import RESTITUTION
 from ..drums.bodies import Topology, body_fields
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_snapshot
@@ -34,12 +34,6 @@ CALM = 0.02
 #: At rest: no corner has moved by this share of the smallest block, for so long [s]. (Not a speed: an undamped joint goes
 #: on ringing, by far less than that.)
 REST_WAY, REST_TIME = 2.0e-4, 0.5
-
-#: Restitution of a run that waits for rest, where the model gives none; elastic contacts never come to rest.
-RESTITUTION_TO_REST = 0.3
-
-#: Time after the motion at which a run that waits for rest is given up [s].
-LONGEST_WAIT = 60.0
 
 #: Bodies that enter each other by more than this share of the thinnest block are too soft.
 DEEPEST = 0.2
@@ -95,11 +89,10 @@ class Contacts(NamedTuple):
     time_step: float | None
     must_settle: bool
 
-    def given_back(self, options: RunOptions) -> float:
-        """Restitution of the bed in a run [-]."""
-        if self.restitution is not None:
-            return self.restitution
-        return RESTITUTION_TO_REST if options.until_rest else 1.0
+    @property
+    def given_back(self) -> float:
+        """Restitution of the bed [-]."""
+        return RESTITUTION if self.restitution is None else self.restitution
 
 
 class Loose:

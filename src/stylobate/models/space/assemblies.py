@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -15,19 +16,13 @@ from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ...response import LinkHistories, Response
 from ...response.space_measures import fallen, recorded_in_space
-from ..base import RunOptions, refuse_endless, refuse_long_histories
+from ..base import LONGEST_WAIT, RESTITUTION, RunOptions, refuse_endless, refuse_long_histories
 from ..drums.links import acting, link_histories, link_measures, link_snapshot
 from ..shared import ledger
 from ..shared.ground import BEFORE, ground_histories, value_at
 from ..shared.stable_step import chosen_step
 from .loose import Loose
 from .packing import joints_of, laws_of, solids_of
-
-#: Restitution of a run that waits for rest, where the model gives none; elastic contacts never come to rest.
-RESTITUTION_TO_REST = 0.3
-
-#: Time after the motion at which a run that waits for rest is given up [s].
-LONGEST_WAIT = 60.0
 
 #: A run has failed when its ledger misses more than this share of the energy at stake, at the end or before anything fell.
 LARGEST_IMBALANCE = 0.05
@@ -52,7 +47,7 @@ class SpatialNumbers:
     step_factor, time_step : float, float or None
         Share of the largest stable step, or the step itself [s].
     restitution : float or None
-        Of the bed; by default 1, and 0.3 in a run until rest.
+        Of what no joint holds; :data:`RESTITUTION` by default.
     """
 
     name: str
@@ -103,14 +98,14 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
-    engine = unsettled(structure, numbers, options)
+    engine = unsettled(structure, numbers)
     chunks, every = chunks_of(structure, motion, engine, options)
     made = settled(structure, engine)
     if made.balanced is False:
         said = f"{structure.name!r} is not in equilibrium as drawn; it moves from the start."
         warnings.warn(said, OutOfRangeWarning, stacklevel=4)
     engine.shake(motion)
-    states, still = _follow(engine, motion, chunks, every, options)
+    states, still = _follow(structure, engine, motion, chunks, every, options)
     stack: dict[str, Any] = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
     failure = ""
     if engine.failed:
@@ -138,7 +133,7 @@ class Begun(NamedTuple):
     balanced: bool | None
 
 
-def unsettled(structure: Structure, numbers: SpatialNumbers, options: RunOptions) -> Loose:
+def unsettled(structure: Structure, numbers: SpatialNumbers) -> Loose:
     """The lane of an assembly in space as drawn, with its step.
 
     Raises
@@ -146,9 +141,7 @@ def unsettled(structure: Structure, numbers: SpatialNumbers, options: RunOptions
     InputError
         The step asked for is unstable.
     """
-    restitution = numbers.restitution
-    if restitution is None:
-        restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
+    restitution = RESTITUTION if numbers.restitution is None else numbers.restitution
     engine = engine_of(structure, numbers, restitution)
     engine.start(step_for(engine, structure, numbers))
     return engine
@@ -254,7 +247,7 @@ def _imbalance_before_falls(
 
 
 def _follow(
-    engine: Loose, motion: Motion, chunks: int, every: int, options: RunOptions
+    structure: Structure, engine: Loose, motion: Motion, chunks: int, every: int, options: RunOptions
 ) -> tuple[list[dict[str, Any]], bool]:
     """Go on to where the run ends; the states on the way, and whether all lies still after the motion."""
     duration = motion.duration + options.tail
@@ -263,16 +256,22 @@ def _follow(
         left = chunks - engine.steps // CHUNK
         still, over = engine.at_rest(), left <= 0
         if over:
-            engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0
-            if options.until_rest:
-                engine.quieten()
-        if over and (not options.until_rest or still or engine.time > duration + LONGEST_WAIT):
-            break
+            waits = options.until_rest or (options.until_decided and not _fallen(structure, states).any())
+            if not waits or still or engine.time > duration + LONGEST_WAIT:
+                break
+            engine.now["dull"] = engine.now["eta"]
+            engine.quieten()
         engine.advance(every if over else min(every, left))
         states.append(_state(engine, motion))
         if options.progress:
             options.progress(min(engine.time, duration), duration)
     return states, still and over
+
+
+def _fallen(structure: Structure, states: Sequence[dict[str, Any]]) -> np.ndarray:
+    """Which bodies have fallen in the last of some states."""
+    first, last = states[0], states[-1]
+    return fallen(structure, first["position"], first["axes"], last["position"], last["axes"])
 
 
 def _state(engine: Loose, motion: Motion) -> dict[str, Any]:

@@ -131,7 +131,7 @@ class IntactLanes:
 
     def _begun(self, structure: Structure) -> tuple[Begun, np.ndarray | None]:
         """A structure as it has settled, and the gaps between its bodies; None if something is loose from the start."""
-        engine = unsettled(structure, self.numbers, self.options)
+        engine = unsettled(structure, self.numbers)
         if self._gaps(engine).min() <= 0.0:
             return Begun(engine, np.zeros(6), None), None
         made, gap = settled(structure, engine), self._gaps(engine)
@@ -282,5 +282,7 @@ class IntactLanes:
         assert made is not None
         stack = self.states[lane].stack()
         still = bool(stack["time"][-1] - self.stood_since[lane] > REST_TIME)
+        if self.options.until_decided and not still:
+            return LOOSE
         response = response_of(case.column, case.motion, self.numbers, made, stack, still=still)
         return LOOSE if response.measures.collapsed else response.measures

@@ -141,7 +141,8 @@ def run(
 
     todo = list(itertools.product(range(len(settings)), range(len(tosses))))
     rows: dict[int, dict] = {}
-    hasher, recorded = Hasher(MODEL, LONGER), [facts(toss) for toss in tosses]
+    options = run_options(LONGER)
+    hasher, recorded = Hasher(MODEL, options), [facts(toss) for toss in tosses]
     each = [hasher.of_product([cube(*settings[s]).digest, recorded[t]], __file__) for s, t in todo]
 
     def make(number: int) -> dict[str, Any]:
@@ -149,7 +150,7 @@ def run(
         return compare(tosses[toss], *settings[setting])
 
     cases = [Case(cube(*settings[s]), still(tosses[t])) for s, t in todo]
-    request = Request(cases, Digests.of(each), [(np.arange(len(todo)), MODEL, run_options(LONGER))])
+    request = Request(cases, Digests.of(each), [(np.arange(len(todo)), MODEL, options)])
     count = thread_count(threads)
     try:
         with closing(Runs(Campaign(ledger=ledger))) as runs, closing(runs.products(request, make, count)) as finished:

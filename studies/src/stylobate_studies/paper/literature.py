@@ -58,7 +58,9 @@ def _population(name: str, law: str, across: float, ledger: Path) -> dict[str, l
     beside = (frequency, across * amplitude, 0.5 * np.pi) if across else None
     motion = harmonic(frequency, amplitude, duration, across=beside)
     cases = [Case(column, motion) for column in columns]
-    rows = run_all(Request.of(cases, Hasher(DistinctElement3D(law=law), tail)), Campaign(ledger=ledger))
+    rows = run_all(
+        Request.of(cases, Hasher(DistinctElement3D(law=law), Campaign(tail=tail).options)), Campaign(ledger=ledger)
+    )
     asked = {
         "collapsed": "collapsed",
         "peak": "peak_top_displacement_m",

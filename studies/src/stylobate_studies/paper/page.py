@@ -16,7 +16,7 @@ from stylobate.version import __version__
 
 from .cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH, Grids
 from .doubt import Doubt
-from .reading import CHOICES, FAILS, HOLDS, MEANINGS, Statement, percent, share
+from .reading import CHOICES, FAILS, HOLDS, MEANINGS, UNDECIDED, Statement, percent, share
 from .space import space_rows
 from .statements import place
 from .study import PaperResults
@@ -74,7 +74,7 @@ def write_paper_page(
             for r in rows
         ],
         mark=2,
-        looks={HOLDS: "good", CHOICES: "fair", FAILS: "bad"},
+        looks={HOLDS: "good", CHOICES: "fair", FAILS: "bad", UNDECIDED: "fair"},
     )
     models = Points(
         (
@@ -139,7 +139,9 @@ def in_short(results: PaperResults, rows: Sequence[Statement]) -> list[str]:
     }
     return [
         f"Of {len(rows)} checkable sentences of the paper {count[HOLDS]} hold, {count[CHOICES]} hold under stated choices, "
-        f"{count[FAILS]} do not hold" + (f" ({failed})." if failed else "."),
+        f"{count[FAILS]} do not hold"
+        + (f" ({failed})" if failed else "")
+        + (f", and {count[UNDECIDED]} is undecided." if count[UNDECIDED] else "."),
         "Which column is the safer one depends on the model. Rigid beam: the monolith collapses in "
         f"{shares[MONOLITH, BEAM]} of all cells, the drums in {shares[DRUMS, BEAM]}. Distinct elements: "
         f"{shares[MONOLITH, DEM]} and {shares[DRUMS, DEM]}.",

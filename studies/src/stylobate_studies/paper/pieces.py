@@ -118,9 +118,10 @@ def histories_piece(
             values[cells[number]] = row[key]
         flags[cells[number]] = row["verdict"]
 
-    hasher, cases = Hasher(model, tail), [Case(column, motion) for motion in motions]
+    options = run_options(tail, 0.02)
+    hasher, cases = Hasher(model, options), [Case(column, motion) for motion in motions]
     each = Digests.of([hasher.of_product([column.digest, motion.digest], __file__) for motion in motions])
-    request = Request(cases, each, [(np.arange(len(cases)), model, run_options(tail, 0.02))])
+    request = Request(cases, each, [(np.arange(len(cases)), model, options)])
     with (
         closing(Runs(Campaign(ledger=data / RUNS_FILE))) as runs,
         closing(runs.products(request, make, threads)) as finished,

@@ -15,7 +15,7 @@ from stylobate.percent import percent
 from .cases import BEAM, DEM, REFERENCE, VARIANTS
 from .study import PaperResults
 
-HOLDS, CHOICES, FAILS = "holds", "holds under stated choices", "does not hold"
+HOLDS, CHOICES, FAILS, UNDECIDED = "holds", "holds under stated choices", "does not hold", "undecided"
 
 #: Meanings of the verdicts, for the page and the documentation.
 MEANINGS = {
@@ -23,6 +23,7 @@ MEANINGS = {
     CHOICES: "it does so for some value of a parameter that the paper leaves open, for one of the two columns, or by one "
     "of two tests; the row says which",
     FAILS: "it does so for none of them",
+    UNDECIDED: "the interval of what is computed here holds both answers",
 }
 
 
@@ -39,7 +40,7 @@ class Statement:
     ours : str
         What is computed here.
     verdict : str
-        holds, holds under stated choices, or does not hold.
+        holds, holds under stated choices, does not hold, or undecided.
     why : str
     sensitivity : str
         How far open parameters move it.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from .company.sentence import company_statement
 from .conclusions import conclusions
 from .drums import drum_statements
 from .monolith import monolith_statements
@@ -25,6 +26,7 @@ def statements(results: PaperResults) -> list[Statement]:
         *conclusions(r),
         *space_statements(results),
         *others_statements(results),
+        *([company_statement(results.company)] if results.company else []),
     ]
     return sorted(rows, key=lambda row: (not row.section[0].isdigit(), row.section[:3]))
 

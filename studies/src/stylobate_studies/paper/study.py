@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from stylobate.simulate import thread_count
 
 from . import cases as c
 from .ahead import compiled_meanwhile
+from .company.piece import company_piece
 from .doubt import Doubt
 from .folder import check_folder, claim, is_ready
 from .literature import literature_piece
@@ -67,6 +68,8 @@ class PaperResults:
         By (column, model, section): plane domains on the grid of ``space``.
     literature : dict
         By population of round columns as others have tested them: peaks, residuals and verdicts of each column.
+    company : dict
+        What columns in company come to; empty in the coarse study.
     cost : dict
         By model: computing time of two seconds of a column of drums [s].
     """
@@ -84,6 +87,7 @@ class PaperResults:
     space: dict[tuple[str, str], CollapseProbability] = field(default_factory=dict)
     rivals: dict[tuple[str, str, str], Domain] = field(default_factory=dict)
     literature: dict[str, dict[str, list[float]]] = field(default_factory=dict)
+    company: dict[str, Any] = field(default_factory=dict)
     cost: dict[str, float] = field(default_factory=dict)
 
     @property
@@ -95,6 +99,7 @@ class PaperResults:
         many = [*(doubt.population for doubt in self.doubts.values()), *self.spots.values(), *self.space.values()]
         tested = sum(len(one["peak"]) for one in self.literature.values())
         cases = tested + sum(history["verdict"].size for history in self.histories.values())
+        cases += self.company.get("runs", 0)
         return sum(len(one.rows) for one in single) + sum(one.codes.size for one in many) + cases
 
 
@@ -199,6 +204,8 @@ def _pieces(
             )  # fmt: skip
     wait()
     pieces.literature = literature_piece(data)
+    if not quick:
+        pieces.company = company_piece(data / "company", count, advance("columns in company"))
     pieces.cost = cost_piece(data)
     for name, section in product(PRESETS, ("rectangular", "circular")):
         pieces.paths[name, section] = pushover(c.paper_column(name, section))

@@ -1,0 +1,82 @@
+"""The study: four structures of the same columns under the same records at the same levels, and what falls of each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from stylobate.analysis.studies import StudyResult
+from stylobate.analysis.verdicts import FAILED, UNDECIDED
+from stylobate.campaign.cases import Study
+from stylobate.column.assembly_files import read_assembly
+from stylobate.column.spatial.assembly import SpatialAssembly
+from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.motion import Motion
+from stylobate.motion.orientation import rotated
+
+#: Files of the structures beside this one; all are made of ``column.toml``. The first is what the others are compared with.
+STRUCTURES = ("alone", "two", "four", "corner")
+
+#: Directions in which every record shakes: its x along the row, and across it [degrees].
+AZIMUTHS = (0.0, 90.0)
+
+#: Measure to which records are scaled, the larger one of all directions, and its levels [m/s].
+MEASURE, LEVELS = "pgv@rotd100", (0.4, 0.6, 0.8, 1.0)
+
+#: What shakes along one line shakes across it by so much as well: nothing is that straight [-].
+ACROSS = 0.01
+
+#: Between the two ends of what is plausible of stone, where the fewest runs are left rocking.
+MODEL = DistinctElement3D(stiffness_damping=1e-4)
+
+
+@cache
+def structures() -> tuple[SpatialAssembly, ...]:
+    """The structures of the study."""
+    read: list[Any] = [read_assembly(Path(__file__).with_name(f"{name}.toml")) for name in STRUCTURES]
+    return tuple(read)
+
+
+def directed(record: Motion, azimuth: float) -> Motion:
+    """A record turned as a whole about the vertical, from its x towards y [degrees]; along a line it shakes across, too."""
+    whole = record if record.y_samples is not None else record.replace(ay=ACROSS * record.samples)
+    bare = whole.replace(metadata={key: value for key, value in whole.metadata.items() if key != "azimuths"})
+    return rotated(bare, azimuth)
+
+
+def study_of(records: Sequence[Motion], levels: Sequence[float] = LEVELS) -> Study:
+    """All structures under all records in both directions at all levels."""
+    motions = [directed(record, azimuth) for record in records for azimuth in AZIMUTHS]
+    return Study(structures(), motions, (MODEL,), levels, MEASURE)
+
+
+def falls(result: StudyResult) -> Any:
+    """A row per finished run: structure, record, motion, level, verdict, how many columns lost a drum, and what else fell.
+
+    Returns
+    -------
+    pandas.DataFrame
+        With ``structure``, ``record``, ``motion``, ``pgv_m_s``, ``failed``, ``open`` (nothing has fallen, and not all lies
+        still), ``at_rest``, ``columns``, ``columns_fallen`` and ``bodies_fallen``.
+    """
+    table = result.table
+    down = [
+        [name for name, body in (bodies or {}).items() if body["fell_at_s"] is not None] for bodies in table["bodies"]
+    ]
+    columns = {
+        structure.name: len({stone.name.partition(",")[0] for stone in structure.stones if ", drum" in stone.name})
+        for structure in structures()
+    }
+    found = table[["column", "record", "motion", "im"]].rename(columns={"column": "structure", "im": "pgv_m_s"})
+    return found.assign(
+        failed=table["verdict"] == FAILED,
+        open=table["verdict"] == UNDECIDED,
+        at_rest=np.array(table["at_rest"], dtype=bool),
+        columns=found["structure"].map(columns),
+        columns_fallen=[len({name.partition(",")[0] for name in names if ", drum" in name}) for names in down],
+        bodies_fallen=[len(names) for names in down],
+    )
