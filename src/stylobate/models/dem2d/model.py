@@ -61,7 +61,7 @@ class DistinctElement2D(SteppedDrums):
         Joints closed by their static weight at once, or settled with local damping from there.
     restitution : float, optional
         Share of the closing speed that contacts of drums which are not, or no longer, joined give back; for single runs
-        that are followed to the ground. By default 1, and 0.3 in a run until rest.
+        that are followed to the ground. By default 0.3.
 
     Notes
     -----
