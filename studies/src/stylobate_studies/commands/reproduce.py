@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stylobate.cli import options as o
+from stylobate.errors import InputError
 from stylobate.percent import percent
 
 if TYPE_CHECKING:
@@ -26,7 +27,10 @@ class Folder(o.Execution):
 
 
 def reproduce(
-    quick: bool = o.option(None, "Coarser grids: one to two minutes on two cores, instead of five to ten.", False),
+    quick: bool = o.option(
+        None, "Coarser grids, no records: one to two minutes on two cores, instead of thirty.", False
+    ),
+    records: Path | None = o.option("DIR", "Folder with the nine records of docs/company.md; the samples without it."),
     *,
     execution: Folder,
 ) -> None:
@@ -37,15 +41,18 @@ def reproduce(
     from stylobate.campaign.cluster import on_cluster
     from stylobate.cli import console
 
+    if quick and records is not None:
+        raise InputError("--quick takes no records; leave one of --quick and --records out.")
+
     count, dask = execution.count, execution.dask
     folder = execution.out or (FOLDER.with_name("reproduction-quick") if quick else FOLDER)
     with nullcontext() if dask is None else on_cluster(dask, count, console.note):
-        summary = build(folder, quick, count)
+        summary = build(folder, quick, count, records=records)
     if not execution.emits(summary):
         describe(summary)
 
 
-def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None) -> dict:
+def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None, records: Path | None = None) -> dict:
     """Compute, draw and write everything; returns the JSON object."""
     import pandas
 
@@ -65,7 +72,7 @@ def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None) -
     with console.folder(folder), signals.keeping(kept):
         try:
             with stages() as report:
-                results = run_study(folder, quick, threads, report, grids)
+                results = run_study(folder, quick, threads, report, grids, records)
                 report("drawing", 0, 0)
                 rows = statements(results)
                 pictures = draw(results, folder)

@@ -14,7 +14,9 @@ from stylobate.constants import g
 from stylobate.report.page import Item, Picture, Points, Rows, Section, kinds, part, write_html
 from stylobate.version import __version__
 
+from .announced import motions_rows
 from .cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH, Grids
+from .company.shares import KINDS, runs_in_words, share_rows, summary
 from .doubt import Doubt
 from .reading import CHOICES, FAILS, HOLDS, MEANINGS, UNDECIDED, Statement, percent, share
 from .space import space_rows
@@ -30,7 +32,7 @@ NAMES = {MONOLITH: "monolith", DRUMS: "12 drums"}
 OVERVIEW, DOUBT = "The result in one picture", "How sure is a verdict"
 LAWS, HISTORIES, BOUNDARIES = "Moment–rotation laws", "Histories of the thirty cases", "First collapse"
 CIRCULAR, PUSHOVER, OPEN = "Circular sections", "Pushover", "Open parameters"
-IN_SPACE = "Round columns in space"
+IN_SPACE, COMPANY = "Round columns in space", "Columns in company"
 
 OPEN_CHOICES = (
     ("damping", "not printed", "none"),
@@ -94,11 +96,25 @@ def write_paper_page(
         Section("What was chosen", ["Where the paper leaves something open:", chosen(results.grids)]),
         *(Section(one, pictures[one]) for one in (HISTORIES, BOUNDARIES, CIRCULAR)),
         Section(IN_SPACE, [*SPACE_TEXT, *pictures[IN_SPACE], space_table(results)]),
+        *_records_sections(results, pictures),
         *(Section(one, pictures[one]) for one in (LAWS, PUSHOVER, OPEN)),
         Section("Domains in numbers", [domain_rows(results)]),
         Section("Files beside this page", [FILES]),
     ]
     return write_page(path, TITLE, lead, sections)
+
+
+def _records_sections(results: PaperResults, pictures: dict[str, list[Picture]]) -> list[Section]:
+    """Columns under real motions, and in company; none of the coarse study."""
+    if results.motions is None or results.company is None:
+        return []
+    header, body = motions_rows(results.motions)
+    made = summary(results.company)
+    tables = [Rows(*share_rows(made, kind), numbers=True) for kind in KINDS]
+    return [
+        Section("Real motions", [Rows(header, [(NAMES[name], *rest) for name, *rest in body], numbers=True)]),
+        Section(COMPANY, [*pictures[COMPANY], *tables, runs_in_words(made), made["doubt"]]),
+    ]
 
 
 DOUBT_TEXT = (

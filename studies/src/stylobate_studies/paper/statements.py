@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from .company.sentence import company_statement
+from .announced import company_statement, motions_statement
+from .company.shares import summary
 from .conclusions import conclusions
 from .drums import drum_statements
 from .monolith import monolith_statements
@@ -26,7 +27,8 @@ def statements(results: PaperResults) -> list[Statement]:
         *conclusions(r),
         *space_statements(results),
         *others_statements(results),
-        *([company_statement(results.company)] if results.company else []),
+        *([] if results.motions is None else [motions_statement(results.motions)]),
+        *([] if results.company is None else [company_statement(summary(results.company))]),
     ]
     return sorted(rows, key=lambda row: (not row.section[0].isdigit(), row.section[:3]))
 

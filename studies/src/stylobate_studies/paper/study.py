@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
@@ -14,22 +14,25 @@ from stylobate.analysis.domain import Domain
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.analysis.pushover import PushoverResult, pushover
 from stylobate.analysis.step_sensitivity import StepComparison, halved_step
+from stylobate.analysis.studies import StudyResult
 from stylobate.campaign.campaign import Progress
 from stylobate.column import preset
 from stylobate.column.presets import PRESETS
 from stylobate.constants import g
 from stylobate.models.base import Model
-from stylobate.motion import harmonic
+from stylobate.motion import Motion, harmonic
 from stylobate.own_files import own_files
 from stylobate.simulate import thread_count
 
 from . import cases as c
 from .ahead import compiled_meanwhile
-from .company.piece import company_piece
+from .company.study import company_piece
 from .doubt import Doubt
 from .folder import check_folder, claim, is_ready
 from .literature import literature_piece
+from .motions import motions_piece
 from .pieces import POPULATION, cost_piece, domain_piece, histories_piece, population_piece, slug
+from .records import read_records
 
 if TYPE_CHECKING:
     import xarray
@@ -68,8 +71,10 @@ class PaperResults:
         By (column, model, section): plane domains on the grid of ``space``.
     literature : dict
         By population of round columns as others have tested them: peaks, residuals and verdicts of each column.
-    company : dict
-        What columns in company come to; empty in the coarse study.
+    company : pandas.DataFrame, optional
+        Runs of columns alone and in company; none in the coarse study.
+    motions : StudyResult, optional
+        Both columns under real motions; none in the coarse study.
     cost : dict
         By model: computing time of two seconds of a column of drums [s].
     """
@@ -87,7 +92,8 @@ class PaperResults:
     space: dict[tuple[str, str], CollapseProbability] = field(default_factory=dict)
     rivals: dict[tuple[str, str, str], Domain] = field(default_factory=dict)
     literature: dict[str, dict[str, list[float]]] = field(default_factory=dict)
-    company: dict[str, Any] = field(default_factory=dict)
+    company: Any = None
+    motions: StudyResult | None = None
     cost: dict[str, float] = field(default_factory=dict)
 
     @property
@@ -99,12 +105,17 @@ class PaperResults:
         many = [*(doubt.population for doubt in self.doubts.values()), *self.spots.values(), *self.space.values()]
         tested = sum(len(one["peak"]) for one in self.literature.values())
         cases = tested + sum(history["verdict"].size for history in self.histories.values())
-        cases += self.company.get("runs", 0)
+        cases += sum(len(one) for one in (self.company, self.motions and self.motions.plan) if one is not None)
         return sum(len(one.rows) for one in single) + sum(one.codes.size for one in many) + cases
 
 
 def run_study(
-    folder: Path, quick: bool, threads: int | None = None, report: Report | None = None, grids: c.Grids | None = None
+    folder: Path,
+    quick: bool,
+    threads: int | None = None,
+    report: Report | None = None,
+    grids: c.Grids | None = None,
+    records: Path | None = None,
 ) -> PaperResults:
     """Compute what the folder does not hold yet.
 
@@ -120,6 +131,8 @@ def run_study(
         Called with (what is being computed, finished, all).
     grids : Grids, optional
         Other grids than those of ``quick``.
+    records : path, optional
+        Folder with the nine records of the fine study; the samples among them by default.
 
     Raises
     ------
@@ -129,16 +142,23 @@ def run_study(
         It was stopped; what is finished is kept.
     """
     grids = c.Grids.of(quick) if grids is None else grids
+    read = [] if quick else read_records(records)
     check_folder(folder)
     with own_files(folder) as own:
         claim(own, grids)
         spaces = (folder / "data" / slug("space", *one) / POPULATION for one in product(PRESETS, c.POPULATIONS))
         with compiled_meanwhile(not all(map(is_ready, spaces))) as wait:
-            return _pieces(folder, quick, grids, threads, report, wait)
+            return _pieces(folder, quick, grids, threads, report, wait, read)
 
 
 def _pieces(
-    folder: Path, quick: bool, grids: c.Grids, threads: int | None, report: Report | None, wait: Callable[[], object]
+    folder: Path,
+    quick: bool,
+    grids: c.Grids,
+    threads: int | None,
+    report: Report | None,
+    wait: Callable[[], object],
+    records: Sequence[Motion],
 ) -> PaperResults:
     data = folder / "data"
     pieces, count = PaperResults(grids, quick), thread_count(threads)
@@ -204,8 +224,9 @@ def _pieces(
             )  # fmt: skip
     wait()
     pieces.literature = literature_piece(data)
-    if not quick:
-        pieces.company = company_piece(data / "company", count, advance("columns in company"))
+    if records:
+        pieces.motions = motions_piece(data / "motions", records, count, advance("real motions"))
+        pieces.company = company_piece(data / "company", records, count, advance("columns in company"))
     pieces.cost = cost_piece(data)
     for name, section in product(PRESETS, ("rectangular", "circular")):
         pieces.paths[name, section] = pushover(c.paper_column(name, section))

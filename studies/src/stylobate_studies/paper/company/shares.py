@@ -54,7 +54,7 @@ def difference(table: Any, kind: str, structure: str, against: str) -> dict[str,
 
     Runs without a verdict are left out with those that they are paired with.
     """
-    keys = ["record", "motion", "pgv_m_s"]
+    keys = ["record", "azimuth_deg", "pgv_m_s"]
     mine, other = (
         counts(table[table["structure"] == name], kind)[[*keys, "fell", "of"]] for name in (structure, against)
     )
@@ -111,21 +111,22 @@ def runs_in_words(made: dict[str, Any]) -> str:
     )
 
 
-def markdown(made: dict[str, Any]) -> str:
-    """The tables of the page."""
-    lines = []
-    for kind, words in KINDS.items():
-        lines += [
-            f"| {words} | share of all | half of them at PGV (95 %) | against the column alone (95 %) | better, worse |",
-            "| --- | --- | --- | --- | --- |",
-        ]
-        for label, row in made[kind].items():
-            half = f"{row['median_m_s']:.2f} m/s ({row['median_low']:.2f} to {row['median_high']:.2f})"
-            cells = [label, f"{100.0 * row['share']:.0f} %", half, "", ""]
-            if "against_alone" in row:
-                a = row["against_alone"]
-                points = [f"{100.0 * a[key]:+.0f}".replace("-", "−") for key in ("difference", "low", "high")]
-                cells[3:] = [f"{points[0]} points ({points[1]} to {points[2]})", f"{a['better']}, {a['worse']}"]
-            lines.append(f"| {' | '.join(cells)} |")
-        lines.append("")
-    return "\n".join(lines)
+def share_rows(made: dict[str, Any], kind: str) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Header and rows of a table: shares of each structure, and differences from the column alone."""
+    header = (
+        KINDS[kind],
+        "share of all",
+        "half of them at PGV (95 %)",
+        "against the column alone (95 %)",
+        "better, worse",
+    )
+    body = []
+    for label, row in made[kind].items():
+        half = f"{row['median_m_s']:.2f} m/s ({row['median_low']:.2f} to {row['median_high']:.2f})"
+        cells = [label, f"{100.0 * row['share']:.0f} %", half, "", ""]
+        if "against_alone" in row:
+            a = row["against_alone"]
+            points = [f"{100.0 * a[key]:+.0f}".replace("-", "−") for key in ("difference", "low", "high")]
+            cells[3:] = [f"{points[0]} points ({points[1]} to {points[2]})", f"{a['better']}, {a['worse']}"]
+        body.append(tuple(cells))
+    return header, body

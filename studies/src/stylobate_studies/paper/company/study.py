@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis.studies import StudyResult
+from stylobate.analysis.studies import StudyResult, run_study
 from stylobate.analysis.verdicts import FAILED, UNDECIDED
+from stylobate.campaign.campaign import Progress
 from stylobate.campaign.cases import Study
 from stylobate.column.assembly_files import read_assembly
 from stylobate.column.spatial.assembly import SpatialAssembly
@@ -55,14 +56,16 @@ def study_of(records: Sequence[Motion], levels: Sequence[float] = LEVELS) -> Stu
 
 
 def falls(result: StudyResult) -> Any:
-    """A row per finished run: structure, record, motion, level, verdict, how many columns lost a drum, and what else fell.
+    """A row per finished run: what it is, its verdict, how many columns lost a drum, and how many bodies fell.
 
     Returns
     -------
     pandas.DataFrame
-        With ``structure``, ``record``, ``motion``, ``pgv_m_s``, ``failed``, ``open`` (nothing has fallen, and not all lies
-        still), ``at_rest``, ``columns``, ``columns_fallen`` and ``bodies_fallen``.
+        With ``structure``, ``record``, ``azimuth_deg``, ``pgv_m_s``, ``failed``, ``open`` (nothing has fallen, and not all
+        lies still), ``at_rest``, ``columns``, ``columns_fallen`` and ``bodies_fallen``.
     """
+    import pandas
+
     table = result.table
     down = [
         [name for name, body in (bodies or {}).items() if body["fell_at_s"] is not None] for bodies in table["bodies"]
@@ -71,12 +74,19 @@ def falls(result: StudyResult) -> Any:
         structure.name: len({stone.name.partition(",")[0] for stone in structure.stones if ", drum" in stone.name})
         for structure in structures()
     }
-    found = table[["column", "record", "motion", "im"]].rename(columns={"column": "structure", "im": "pgv_m_s"})
-    return found.assign(
+    return pandas.DataFrame({"structure": table["column"], "pgv_m_s": table["im"]}).assign(
+        record=table["record"],
+        azimuth_deg=table["azimuth_deg"],
         failed=table["verdict"] == FAILED,
         open=table["verdict"] == UNDECIDED,
         at_rest=np.array(table["at_rest"], dtype=bool),
-        columns=found["structure"].map(columns),
+        columns=[columns[name] for name in table["column"]],
         columns_fallen=[len({name.partition(",")[0] for name in names if ", drum" in name}) for names in down],
         bodies_fallen=[len(names) for names in down],
     )
+
+
+def company_piece(folder: Path, records: Sequence[Motion], threads: int, progress: Progress | None) -> Any:
+    """A row per run of all structures under records, as :func:`falls` tells them; resumes in its folder."""
+    folder.mkdir(exist_ok=True)
+    return falls(run_study(study_of(records), folder, threads=threads, progress=progress))

@@ -1,5 +1,6 @@
 """Pictures of the paper's study that stylobate itself does not draw."""
 
+from .company import draw_shares
 from .curves import draw_history_grid, draw_moment_laws, draw_pushover_paths, draw_sensitivity
 from .domain_panels import draw_domain_panels, draw_doubt
 from .probability_panels import draw_probability_panels
@@ -12,4 +13,5 @@ __all__ = [
     "draw_probability_panels",
     "draw_pushover_paths",
     "draw_sensitivity",
+    "draw_shares",
 ]

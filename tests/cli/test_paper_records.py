@@ -1,7 +1,6 @@
-"""``stylobate company``: what it writes of made-up runs, bad input, and what its shares, intervals and sentence come to."""
+"""Records in the paper's study: columns in company, and all models under real motions; on made-up runs and tiny ones."""
 
 import itertools
-import json
 
 import numpy as np
 import pandas
@@ -9,7 +8,9 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.main import call
-from stylobate_studies.paper.company import sentence, shares, study
+from stylobate_studies.paper import announced, motions
+from stylobate_studies.paper.cases import DEM, MONOLITH
+from stylobate_studies.paper.company import shares, study
 from stylobate_studies.paper.pictures.company import draw_shares
 from stylobate_studies.paper.reading import CHOICES, FAILS, HOLDS, UNDECIDED
 
@@ -26,7 +27,7 @@ def made_up(falls=lambda structure, record, level: level > 0.5):
             {
                 "structure": name,
                 "record": f"record {number}",
-                "motion": f"record {number}, {azimuth:g}°",
+                "azimuth_deg": azimuth,
                 "pgv_m_s": level,
             }
             | {"failed": False, "open": False, "at_rest": True, "columns": COLUMNS[name]}
@@ -62,6 +63,7 @@ def test_rows_of_runs_tell_columns_from_architraves():
     table = study.falls(st.run_study(asked))
     assert table["columns_fallen"].tolist() == [1, 2]
     assert table["bodies_fallen"].tolist() == [3, 7]
+    assert table["azimuth_deg"].tolist() == [0.0, 0.0]
     assert not table["open"].any()
 
 
@@ -75,13 +77,13 @@ def test_no_difference_is_told_where_there_is_none():
             against = row["against_alone"]
             assert (against["difference"], against["better"], against["worse"]) == (0.0, 0, 0)
             assert against["low"] < 0.0 < against["high"]
-    assert sentence.company_statement(made).verdict == UNDECIDED
+    assert announced.company_statement(made).verdict == UNDECIDED
 
 
 @pytest.mark.parametrize(("safe", "verdict"), [(NAMES[1:], HOLDS), (NAMES[1:2], CHOICES), (NAMES[:1], FAILS)])
 def test_the_sentence_holds_as_far_as_intervals_tell(safe, verdict):
     made = shares.summary(made_up(lambda name, record, level: name not in safe and level > 0.5))
-    assert sentence.company_statement(made).verdict == verdict
+    assert announced.company_statement(made).verdict == verdict
 
 
 def test_a_difference_is_of_pairs_that_both_have_a_verdict():
@@ -97,30 +99,44 @@ def test_a_difference_is_of_pairs_that_both_have_a_verdict():
     assert "1 failed and 1 are undecided" in shares.runs_in_words(shares.summary(table))
 
 
-def test_files_of_the_command(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(study, "falls", lambda result: made_up())
-    monkeypatch.setattr("stylobate.analysis.studies.run_study", lambda *what, **how: None)
-    assert call(["company", "--out", str(tmp_path / "out"), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert {"columns", "anything", "runs", "failed", "records", "levels_m_s", "files"} <= set(told)
-    assert {file.name for file in (tmp_path / "out").iterdir()} >= {"company.csv", "company.json", "company.png"}
-    assert call(["company"]) == 0
-    assert "Assemblies in space are new: where bodies strike one another" in capsys.readouterr().out
+def test_the_table_of_companies_and_their_picture():
+    made = shares.summary(made_up())
+    header, body = shares.share_rows(made, "columns")
+    assert [len(row) for row in body] == [len(header)] * 4
+    assert body[0][3] == ""
+    assert body[1][4] == "0, 0"
     assert [axes.get_xlabel() for axes in draw_shares(made_up()).axes] == ["PGV, largest of all directions [m/s]"] * 2
+
+
+def test_all_models_under_a_record(tmp_path, monkeypatch):
+    """A pulse that overturns the monolith by distinct elements in the plane at its largest level, and by itself agrees."""
+    monkeypatch.setattr(motions, "TAIL", 0.5)
+    t = np.arange(0.0, 1.2, 0.01)
+    pulse = st.Motion(0.01, np.sin(2.0 * np.pi * t / 1.2), lateral=0.01 * np.sin(2.0 * np.pi * t / 1.2), name="pulse")
+    result = motions.motions_piece(tmp_path / "motions", [pulse], 2, None)
+    header, body = announced.motions_rows(result)
+    assert len(body) == 2 * len(motions.COMPARED)
+    assert {len(row) for row in body} == {len(header)}
+    assert all(row[2] == "3" for row in body)
+    assert motions.against(result, MONOLITH, DEM)[0].all()
+    row = announced.motions_statement(result)
+    assert row.verdict in (HOLDS, CHOICES, FAILS)
+    assert "nan" not in row.ours
 
 
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["nowhere"], "nowhere is no folder; give one with the nine records, or leave it out for the samples"),
-        (["."], "lacks 9 of the 9 records, csmip_v1_Northridge1994_LA116thSt.RAW among them"),
-        (["--levels", "0.4;0.8"], "--levels is '0.4;0.8'; allowed are different numbers from 0.01 to 5 m/s"),
-        (["--levels", "0.4,nan"], "--levels is '0.4,nan'; allowed"),
-        (["--levels", "0.4,0.4"], "--levels is '0.4,0.4'; allowed"),
+        (
+            ["--records", "nowhere"],
+            "nowhere is no folder; give one with the nine records, or leave it out for the samples",
+        ),
+        (["--records", "."], "lacks 9 of the 9 records, csmip_v1_Northridge1994_LA116thSt.RAW among them"),
+        (["--records", ".", "--quick"], "--quick takes no records; leave one of --quick and --records out"),
     ],
 )
-def test_bad_input_is_one_sentence(tmp_path, monkeypatch, capsys, arguments, says):
+def test_bad_records_are_refused_before_anything_is_computed(tmp_path, monkeypatch, capsys, arguments, says):
     monkeypatch.chdir(tmp_path)
-    assert call(["company", *arguments, "--out", "out"]) == 2
+    assert call(["reproduce", *arguments, "--out", "out"]) == 2
     assert says in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
+    assert not list(tmp_path.rglob("*.nc"))
