@@ -105,7 +105,9 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
     )
     sections[page.IN_SPACE] = [keep("space", figure, caption)]
     if results.company is not None:
-        caption = "Left, each column of a run by itself; right, runs in which anything falls. Runs without a verdict are left out."
+        caption = (
+            "Left, each column by itself; right, runs in which anything falls. Those without a verdict are left out."
+        )
         sections[page.COMPANY] = [keep("company", p.draw_shares(results.company), caption)]
     some = sections[page.DOUBT] = []
     for name, doubt in results.doubts.items():

@@ -104,7 +104,7 @@ def write_paper_page(
     return write_page(path, TITLE, lead, sections)
 
 
-def _records_sections(results: PaperResults, pictures: dict[str, list[Picture]]) -> list[Section]:
+def _records_sections(results: PaperResults, pictures: Mapping[str, Sequence[Picture]]) -> list[Section]:
     """Columns under real motions, and in company; none of the coarse study."""
     if results.motions is None or results.company is None:
         return []
