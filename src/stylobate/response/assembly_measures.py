@@ -18,6 +18,7 @@ from .histories import Histories
 from .links import LinkHistories, LinkMeasures
 from .measures import BlockMeasures, Measures
 from .recorded import Recorded
+from .residuals import Residuals
 
 #: A block has fallen when its centroid is lower than at the start by this share of the smallest side of its box …
 DROP = 0.5
@@ -87,10 +88,13 @@ def recorded_blocks(
     turned = np.abs(rotation - rotation[0])
     since = {} if failed else fallen_since(have_fallen(lowest_standing(assembly, z[0]), z, turned))
     width = [_width(assembly, joint) for joint in assembly.joints]
+    free = [not body.fixed for body in assembly.bodies]
+    ways = (one[-1, free] - one[0, free] for one in (x, z, rotation))
     measures = measures_of_bodies(
         assembly, [(joint.lower, joint.upper) for joint in assembly.joints], width, time,
         np.stack((x, np.zeros_like(x), z), axis=-1), moved, turned, since, opening, np.abs(slip[-1]),
         at_rest=at_rest, failed=failed, in_equilibrium=in_equilibrium, touched=touched,
+        residuals=Residuals.in_plane(slip[-1], *ways),
         energy_imbalance=energy_imbalance, time_step=time_step, steps=steps, links=links,
     )  # fmt: skip
     histories = Histories.of_blocks(
@@ -117,7 +121,7 @@ def measures_of_bodies(
     failed: bool,
     in_equilibrium: bool | None,
     touched: Touch | None,
-    residuals: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]] | None = None,
+    residuals: Residuals,
     **numbers: Any,
 ) -> Measures:
     """Measures of a run of any assembly, in the plane or in space, from what became of its bodies and joints.
@@ -140,8 +144,7 @@ def measures_of_bodies(
         How the run began and ended.
     touched : Touch or None
         First touch of bodies that no joint holds.
-    residuals : tuple, optional
-        Slip of each joint at the end along x and y [m] and its twist [rad], where it is in space.
+    residuals : Residuals
     **numbers
         Fields of the measures that hang on the computation: imbalance, step, links and so on.
     """
@@ -169,9 +172,10 @@ def measures_of_bodies(
         peak_rotation=float(tilt[until].max()),
         peak_joint_opening=float(opening[until].max(initial=0.0)),
         residual_joint_slip=float(slip.max(initial=0.0)),
+        residuals=residuals,
         collapse=Collapse(first, None, FELL, azimuth_of_fall(each, fell_at), touched) if collapsed else None,
         blocks=BlockMeasures(
-            fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, each, residuals,
+            fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, each,
             None if touched is None else touched.time,
         ),
         **numbers,
