@@ -87,12 +87,10 @@ def recorded_blocks(
     moved = np.hypot(x - x[0], z - z[0])
     turned = np.abs(rotation - rotation[0])
     since = {} if failed else fallen_since(have_fallen(lowest_standing(assembly, z[0]), z, turned))
-    width = [_width(assembly, joint) for joint in assembly.joints]
     free = [not body.fixed for body in assembly.bodies]
     ways = (one[-1, free] - one[0, free] for one in (x, z, rotation))
     measures = measures_of_bodies(
-        assembly, [(joint.lower, joint.upper) for joint in assembly.joints], width, time,
-        np.stack((x, np.zeros_like(x), z), axis=-1), moved, turned, since, opening, np.abs(slip[-1]),
+        assembly, time, np.stack((x, np.zeros_like(x), z), axis=-1), moved, turned, since, opening, np.abs(slip[-1]),
         at_rest=at_rest, failed=failed, in_equilibrium=in_equilibrium, touched=touched,
         residuals=Residuals.in_plane(slip[-1], *ways),
         energy_imbalance=energy_imbalance, time_step=time_step, steps=steps, links=links,
@@ -107,8 +105,6 @@ def recorded_blocks(
 
 def measures_of_bodies(
     structure: Structure,
-    joined: Sequence[tuple[int, int]],
-    width: Sequence[float],
     time: np.ndarray,
     position: np.ndarray,
     moved: np.ndarray,
@@ -129,8 +125,6 @@ def measures_of_bodies(
     Parameters
     ----------
     structure : Structure
-    joined, width : sequence
-        Bodies of each joint by their numbers, and the width of each [m].
     time : array
         [s], shape (T,)
     position, moved, tilt : array
@@ -148,12 +142,12 @@ def measures_of_bodies(
     **numbers
         Fields of the measures that hang on the computation: imbalance, step, links and so on.
     """
-    bodies = structure.bodies
+    bodies, (joined, width) = structure.bodies, joined_bodies(structure)
     held = {i for pair in joined for i in pair}
     free = [i for i, body in enumerate(bodies) if i not in held and not body.fixed]
     size = np.array([bodies[i].size for i in free])
-    opened = max(_largest(opening / np.array(width)), _largest(moved[:, free] / size))
-    shares, free_shares = slip / np.array(width), moved[-1, free] / size
+    opened = max(_largest(opening / width), _largest(moved[:, free] / size))
+    shares, free_shares = slip / width, moved[-1, free] / size
     stands = at_rest and not failed  # what still moves may yet fall
     shifted = shifted_bodies(joined, shares, moved[-1], free, free_shares) if stands else ()
     names = [body.name for body in bodies]
@@ -180,6 +174,18 @@ def measures_of_bodies(
         ),
         **numbers,
     )  # fmt: skip
+
+
+def joined_bodies(structure: Structure) -> tuple[list[tuple[int, int]], np.ndarray]:
+    """Bodies of each joint of an assembly by their numbers, and the width of each [m]."""
+    if structure.space_joints is not None:
+        joints: Sequence[Any] = structure.space_joints
+        width = [joint.width for joint in joints]
+    else:
+        assembly: Assembly = structure.must_be("assembly")
+        joints = assembly.joints
+        width = [_width(assembly, joint) for joint in joints]
+    return [(joint.lower, joint.upper) for joint in joints], np.array(width)
 
 
 def joint_histories(

@@ -105,20 +105,24 @@ def no_residuals(*, space: bool) -> Residuals:
 
 
 def turned_up(axes: np.ndarray, first: np.ndarray) -> np.ndarray:
-    """What was vertical at first, in the axes of space [-], by the axes of bodies as columns, shape (n, 3, 3) to (n, 3)."""
-    return np.einsum("nij,nj->ni", axes, first[:, 2, :])
+    """What was vertical at first [-], in the axes of space, by axes of bodies as columns, shape (…, n, 3, 3)."""
+    return np.einsum("...nij,nj->...ni", axes, first[:, 2, :])
 
 
-def residuals_of(structure: Structure, histories: Histories) -> Residuals:
-    """Residuals of a run by its first and its last recorded state."""
+def residuals_of(structure: Structure, histories: Histories, since: int | None = None) -> Residuals:
+    """Residuals of a run by its last recorded state, from how it stood before the run, or from a later state on."""
     h, poses = histories, histories.poses
+    slip, twist = h.slip[-1], h.twist[-1]
+    if since is not None:
+        slip, twist = slip - h.slip[since], twist - h.twist[since]
     free = [not body.fixed for body in structure.bodies[structure.first :]]
     if isinstance(poses, PlanePoses):
         states = np.stack((poses.x, poses.z, poses.rotation), axis=-1)[:, free]
-        return Residuals.in_plane(h.slip[-1, :, 0], *(states[-1] - (0.0 if structure.relative else states[0])).T)
-    first, last = (rotation_matrices(poses.orientation[k, free]) for k in (0, -1))
-    moved = (poses.position[-1] - poses.position[0])[free]
-    return Residuals.in_space(h.slip[-1], h.twist[-1], moved, turned_up(last, first))
+        before = 0.0 if since is None and structure.relative else states[since or 0]
+        return Residuals.in_plane(slip[:, 0], *(states[-1] - before).T)
+    first, last = (rotation_matrices(poses.orientation[k, free]) for k in (since or 0, -1))
+    moved = (poses.position[-1] - poses.position[since or 0])[free]
+    return Residuals.in_space(slip, twist, moved, turned_up(last, first))
 
 
 def _plain(values: np.ndarray) -> tuple[float, ...]:
