@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
@@ -31,11 +32,20 @@ SHOWN = {
 }
 
 
+@dataclass(frozen=True)
+class Earthquakes(o.Motions):
+    """What is shaken with, one after the other."""
+
+    motion: list[Path] | None = o.option(
+        "FILE|DIR", "Earthquake: a record, a folder of them, or sample:NAME; may be repeated, and they come in this order."
+    )
+
+
 def sequence(
     column: o.StructureName,
     model: o.ModelName = "dem2d",
     *,
-    motions: Annotated[o.Motions, o.But(*o.SEVERAL)],
+    motions: Annotated[Earthquakes, o.But(*o.SEVERAL)],
     rest: str = o.option("TIME", "Quiet ground after each earthquake.", "30s"),
     repeat: str = o.option("N", "How often all of them come.", "1"),
     factors: str | None = o.option("X,X,…", "A factor for each earthquake, or for each time that a single one comes."),

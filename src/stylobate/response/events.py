@@ -38,7 +38,8 @@ class Event:
         The sequence so far, as if it ended with the rest after this earthquake. Peaks are those of the recorded states since
         the beginning; of the last earthquake that was reached it is the whole run.
     added : Residuals or None
-        Slips, twists, displacements and tilts by this earthquake alone; None where the structure fell in it, or before.
+        Slips, twists, displacements and tilts by this earthquake alone, of an assembly those of what fell, too; None of a
+        column that fell in it, or before.
     peak_rotation, peak_opening : float
         Largest turn of a body since the beginning [rad], and opening of a joint [m], during this earthquake and the rest
         after it; until the first body of an assembly fell, and NaN of a column that fell in it.
@@ -65,8 +66,8 @@ class Event:
 
     @property
     def added_slip(self) -> float:
-        """Largest slip of a joint by this earthquake [m]; NaN where the structure fell."""
-        return math.nan if self.added is None else max(self.added.slips, default=0.0)
+        """Largest slip of a joint by this earthquake [m]; NaN where something has fallen."""
+        return math.nan if self.added is None or self.run.collapsed else max(self.added.slips, default=0.0)
 
     def row(self) -> dict[str, Any]:
         """A row of the table."""
@@ -80,7 +81,7 @@ class Event:
             "peak_rotation_rad": self.peak_rotation,
             "peak_joint_opening_m": self.peak_opening,
             "added_slip_m": self.added_slip,
-            "residual_slip_m": self.run.residual_joint_slip if self.added is not None else math.nan,
+            "residual_slip_m": math.nan if self.run.collapsed else self.run.residual_joint_slip,
             "fallen": len(self.fallen),
             "links_broken": len(self.broken),
             "at_rest": self.at_rest,
@@ -124,11 +125,11 @@ def events_of(response: Response, spans: Sequence[Span]) -> tuple[Event, ...]:
         run = response if final else _so_far(response, last)
         inside = np.zeros(len(h.time), dtype=bool)
         inside[first : last + 1] = True
-        fell = run.collapsed
-        known = inside & stood if response.measures.blocks is not None else inside & (not fell)
+        gone = run.collapsed and response.measures.blocks is None
+        known = inside & stood & (not gone)
         found.append(
             Event(
-                number, span, run, None if fell else residuals_of(response.structure, _cut(h, last), first),
+                number, span, run, None if gone else residuals_of(response.structure, _cut(h, last), first),
                 float(turn[known].max()) if known.any() else math.nan,
                 float(h.opening[known].max(initial=0.0)) if known.any() else math.nan,
                 _within(response.fell_at.items(), reached, number),
