@@ -143,6 +143,7 @@ def test_an_assembly_goes_on_when_a_block_has_fallen():
     assert [event.run.fallen for event in found.events] == [(), ("tall",), ("tall",)]
     assert [event.run.summary()["fallen"] for event in found.events] == [[], ["tall"], ["tall"]]
     assert found.fell_in == 2
+    assert found.sentence.startswith("1 body falls in earthquake 2 of 3")
     assert found.events[2].span.ends == pytest.approx(found.response.time[-1], abs=0.02)
 
 
@@ -222,3 +223,28 @@ def test_what_cannot_be_used_is_refused_in_a_sentence(call, said):
     with pytest.raises(st.InputError, match=said) as refused:
         call()
     assert str(refused.value).count("\n") == 0
+
+
+def test_records_leave_their_quiet_out_as_any_run_does():
+    """The same bits as one run with the share of quiet of records; a block that slides slides as far when all is stepped."""
+    low = st.Column.tapered(height=0.3, bottom_width=0.8, top_width=0.8, drums=1, density=2000.0, joint=SLIPPERY)
+    recorded = [one.scaled(2.0).replace(metadata={"format": "columns"}) for one in (FIRST, SECOND)]
+    found = st.sequence(low, recorded, st.DistinctElement2D(), rest=20.0)
+    whole = st.Motion(0.01, by_hand(*(one.acceleration for one in recorded), rest=20.0))
+    once = st.simulate(low, whole, st.DistinctElement2D(), quiet=0.1)
+    assert found.response.measures == once.measures
+    assert found.response.measures.stepped[2] < 0.6 * whole.duration
+    all_of_it = st.sequence(low, recorded, st.DistinctElement2D(), rest=20.0, whole=True)
+    assert all_of_it.response.measures.stepped is None
+    for mine, other in zip(found.events, all_of_it.events, strict=True):
+        assert abs(other.added.slip_x[0]) > 5e-4
+        np.testing.assert_allclose(mine.added.slip_x, other.added.slip_x, atol=1e-4)
+
+
+def test_pictures_are_drawn():
+    from stylobate import plots
+
+    for structure in (COLUMN, plane_assembly()):
+        found = st.sequence(structure, [FIRST, SECOND], st.DistinctElement2D(), rest=REST)
+        plots.draw_sequence(found.response, found.events).draw_without_rendering()
+        plots.draw_ends(found.response, found.events).draw_without_rendering()

@@ -62,6 +62,9 @@ def test_an_object_a_table_and_files(folder, capsys):
     (result,) = read_folder(out)  # the folder of a run, for reports and films
     assert result.kind.value == "run"
     assert result.summary["events"][0]["ends_s"] == pytest.approx(1.6)
+    code, _, _ = run(capsys, "report", out, "--out", folder / "page.html")
+    assert code == 0
+    assert "Earthquake by earthquake" in (folder / "page.html").read_text()
 
 
 def test_words_for_people(folder, capsys):

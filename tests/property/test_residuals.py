@@ -10,6 +10,7 @@ import stylobate as st
 from stylobate import store
 from stylobate.response.labelled import to_dataset
 from stylobate.response.residuals import NAMES, Residuals, residuals_of
+from stylobate.response.rows import Rows
 
 SLIPPERY = st.Joint(5e8, 2.5e8, 20.0)
 COLUMN = st.Column.tapered(height=3.0, bottom_width=0.8, top_width=0.6, drums=2, density=2000.0, joint=SLIPPERY)
@@ -105,3 +106,12 @@ def test_a_file_of_before_has_its_residuals_from_its_histories(tmp_path):
     assert loaded.residuals.slip_x == response.residuals.slip_x
     np.testing.assert_allclose(loaded.residuals.tilt_x, response.residuals.tilt_x, atol=1e-12)
     assert loaded.peak_twist == response.peak_twist
+
+
+def test_rows_of_before_and_of_now_are_one_table():
+    """A ledger that was begun without these names is read; what it does not hold is empty."""
+    now = st.simulate(COLUMN, ALONG, st.DistinctElement2D()).measures.row()
+    before = {name: value for name, value in now.items() if name not in set(NAMES.values()) | {"collapse_azimuth_deg"}}
+    table = Rows.of([before, now]).table()
+    assert table["residual_slip_x_m"].tolist() == [None, now["residual_slip_x_m"]]
+    assert table["peak_rotation_rad"].nunique() == 1

@@ -177,7 +177,10 @@ class SequenceResult:
         if not self.events:
             return self.response.sentence
         if fell is not None:
-            words = [f"It falls in earthquake {fell} of {len(spans)} ({spans[fell - 1].motion})."]
+            which, many = f"earthquake {fell} of {len(spans)} ({spans[fell - 1].motion})", len(self.response.fallen)
+            words = [f"It falls in {which}."]
+            if self.response.measures.blocks is not None:
+                words = [f"{many} bod{'ies fall, the first of them' if many > 1 else 'y falls'} in {which}."]
             if len(self.events) < len(spans):
                 words.append(f"The run ends there: {len(spans) - len(self.events)} more would have come.")
         else:

@@ -37,7 +37,8 @@ class Earthquakes(o.Motions):
     """What is shaken with, one after the other."""
 
     motion: list[Path] | None = o.option(
-        "FILE|DIR", "Earthquake: a record, a folder of them, or sample:NAME; may be repeated, and they come in this order."
+        "FILE|DIR",
+        "Earthquake: a record, a folder of them, or sample:NAME; may be repeated, and they come in this order.",
     )
 
 
@@ -196,16 +197,14 @@ def describe_counts(told: UntilFall) -> None:
     """Print how many earthquakes of each kind it takes."""
     from . import console
 
-    console.print_table(told.table[["motion", "earthquakes"]])
+    console.print_table(told.table.filter(["motion", "earthquakes"]))
     if len(told.each) > 1:
         print(f"Over the kinds, {told.over_motions.sentence}.")
 
 
 def _shown(table: pandas.DataFrame) -> pandas.DataFrame:
     """Columns that are printed; of what never happened none."""
-    kept = [
-        name for name in SHOWN if name in table and not (name in ("fallen", "links_broken") and not table[name].any())
-    ]
+    never = [name for name in ("fallen", "links_broken") if name in table and not any(table[name])]
     if "at_rest" in table:
         table = table.assign(at_rest=["yes" if one else "no" for one in table["at_rest"]])
-    return table[kept].rename(columns=SHOWN)
+    return table.filter([name for name in SHOWN if name not in never]).rename(columns=SHOWN)

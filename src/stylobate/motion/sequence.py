@@ -113,17 +113,16 @@ def in_sequence(motions: Motion | Sequence[Motion], rest: float = REST, repeat: 
             said.append(
                 f"{motion.name}: step of {motion.dt:g} s divided into {part} of {dt:.6g} s, linear between samples"
             )
-    whole = {f"a{axis}": np.concatenate(values) for axis, values in samples.items()}
-    known: dict[str, Any] = {"format": "sequence"} if all("format" in motion.metadata for motion in once) else {}
-    first = next((motion.metadata["azimuths"] for motion in once if motion.metadata.get("azimuths")), None)
-    if first and all(motion.metadata.get("azimuths") == first for motion in once):
-        known["azimuths"] = first
-    references = [key for motion in once for key in motion.metadata.get("references", ())]
-    if references:
+    known: dict[str, Any] = {KEY: tuple(spans)}
+    if all("format" in motion.metadata for motion in once):
+        known["format"] = "sequence"
+    azimuths = [motion.metadata.get("azimuths") for motion in once]
+    if azimuths[0] and all(one == azimuths[0] for one in azimuths):
+        known["azimuths"] = azimuths[0]
+    if references := [key for motion in once for key in motion.metadata.get("references", ())]:
         known["references"] = tuple(dict.fromkeys(references))
-    return Motion(
-        dt, **whole, name=_name(once, repeat), metadata=known | {KEY: tuple(spans)}, processing=tuple(dict.fromkeys(said))
-    )  # fmt: skip
+    x, y, z = (np.concatenate(samples[axis]) if axis in samples else None for axis in "xyz")
+    return Motion(dt, x, y, z, name=_name(once, repeat), metadata=known, processing=tuple(dict.fromkeys(said)))
 
 
 def spans_of(motion: Motion) -> tuple[Span, ...]:
