@@ -81,6 +81,28 @@ def test_words_for_people(folder, capsys):
     assert "Over the kinds, median of 2: more than 2 (no interval of fewer than 6)." in printed
 
 
+def test_counts_are_kept_and_have_no_page(folder, capsys):
+    asked = [
+        "sequence",
+        folder / "column.toml",
+        "--motion",
+        folder / "first.csv",
+        "--until-fall",
+        "2",
+        "--rest",
+        "0.5s",
+    ]
+    out = folder / "out"
+    told = [json.loads(run(capsys, *asked, "--replicates", "6", "--json", "--out", out)[1]) for _ in range(2)]
+    assert told[0]["until_fall"] == told[1]["until_fall"]
+    assert told[0]["motions"][0]["not_fallen"] == 6
+    assert told[0]["motions"][0]["median_high"] is None
+    assert pandas.read_csv(out / "until_fall.csv")["most"].tolist() == [2]
+    code, _, error = run(capsys, "report", out, "--out", folder / "page.html")
+    assert (code, error.count("\n")) == (2, 1)
+    assert "which no page shows" in error
+
+
 def test_a_study_of_sequences(folder):
     (folder / "study.toml").write_text("""column = "column.toml"
 model = "dem2d"

@@ -345,6 +345,7 @@ def earthquakes_until_fall(
     check_kind("structure", structure, Structure)
     check_kind("model", model, Model)
     check_whole("`most`", most, 1, LONGEST)
+    structure = structure.stack or structure
     kinds = check_all("motions", motions, Motion)
     if not kinds:
         raise InputError("no motion is given; give at least one.", "motions")

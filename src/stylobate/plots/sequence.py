@@ -72,7 +72,9 @@ def draw_sequence(
     return figure
 
 
-def draw_ends(response: Response, events: Sequence[Event], title: str | None = None) -> Figure:
+def draw_ends(
+    response: Response, events: Sequence[Event], title: str | None = None, *, figure: Figure | SubFigure | None = None
+) -> Figure:
     """The structure before the first earthquake and at the end of each; of more than eight of some of them.
 
     Parameters
@@ -80,7 +82,9 @@ def draw_ends(response: Response, events: Sequence[Event], title: str | None = N
     response : Response
     events : sequence of Event
     title : str, optional
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     last = [float(event.run.time[-1]) for event in events]
     some = np.unique(np.linspace(0, len(last) - 1, min(len(last), MOST_STATES - 1)).round().astype(int))
-    return draw_filmstrip(response, [float(response.time[0]), *(last[k] for k in some)], title=title)
+    return draw_filmstrip(response, [float(response.time[0]), *(last[k] for k in some)], title=title, figure=figure)
