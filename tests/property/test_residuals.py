@@ -115,3 +115,14 @@ def test_rows_of_before_and_of_now_are_one_table():
     table = Rows.of([before, now]).table()
     assert table["residual_slip_x_m"].tolist() == [None, now["residual_slip_x_m"]]
     assert table["peak_rotation_rad"].nunique() == 1
+
+
+@pytest.mark.parametrize("model", [st.HousnerBlock(initial_rotation=0.05), st.RigidBeam(initial_rotation=0.05)])
+def test_residuals_of_what_was_let_go_tilted_are_from_there(model):
+    """A pose at the start is how it stood: what falls back upright has moved by what it leaned."""
+    rest = st.Motion(0.01, np.zeros(3001))
+    column = BLOCK if model.name == "housner" else COLUMN
+    response = st.simulate(column, rest, model)
+    top = response.histories.top_displacement[-1]
+    assert response.residuals.moved_x[-1] == pytest.approx(response.histories.drum_x[-1, -1], abs=1e-12)
+    assert top * response.residuals.moved_x[-1] > 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,6 +44,11 @@ class Residuals:
         """From slips [m], shape (J,), displacements [m] and rotations, counter-clockwise [rad], shape (n,)."""
         tilt = np.arctan2(-np.sin(rotation), np.cos(rotation)) + 0.0  # no -0.0
         return cls(_plain(slip), moved_x=_plain(x), moved_z=_plain(z), tilt_x=_plain(tilt))
+
+    @classmethod
+    def of_one(cls, slip: float, x: float, z: float, tilt: float) -> Residuals:
+        """Of a single body in the plane, which leans to the right by ``tilt`` [rad]: numbers cost less than arrays."""
+        return cls((slip,), moved_x=(x,), moved_z=(z,), tilt_x=(math.atan2(math.sin(tilt), math.cos(tilt)),))
 
     @classmethod
     def in_space(cls, slip: np.ndarray, twist: np.ndarray, moved: np.ndarray, up: np.ndarray) -> Residuals:

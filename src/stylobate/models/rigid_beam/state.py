@@ -146,18 +146,19 @@ def _collapse(found: dict, time: float, slid: int) -> Collapse:
 
 
 def _residuals(beam: PackedBeam, theta: np.ndarray, slip: np.ndarray) -> Residuals:
-    start = np.full((2, beam.column.n), -beam.initial_rotation)
-    start[1] = theta
-    x, z = (one[1] - one[0] for one in _places(beam, start, np.stack((np.zeros_like(slip), slip))))
+    x, z = _places(beam, theta, slip)
+    if beam.initial_rotation:
+        first = _places(beam, np.full_like(theta, -beam.initial_rotation), np.zeros_like(slip))
+        x, z = x - first[0], z - first[1]
     return Residuals.in_plane(slip, x, z, -theta)
 
 
 def _places(beam: PackedBeam, theta: np.ndarray, slip: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Displacement of the centroids from upright, along x and z [m], shape (T, n) as rotations and slips are."""
+    """Displacement of the centroids from upright, along x and z [m], shape (…, n) as rotations and slips are."""
     lever = beam.matrices.lever
     # Seconds of small angles: the drums sink as they tilt and rise as their joints open.
     rise = 0.5 * beam.lift(beam.joint_rotations(theta))
-    return theta @ lever.T + np.cumsum(slip, axis=1), np.cumsum(rise, axis=1) - 0.5 * theta**2 @ lever.T
+    return theta @ lever.T + np.cumsum(slip, axis=-1), np.cumsum(rise, axis=-1) - 0.5 * theta**2 @ lever.T
 
 
 def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, energy) -> Histories:
