@@ -16,6 +16,8 @@ from .analysis.replicates import collapse_probability as collapse_probability
 from .analysis.risk import risk as risk
 from .analysis.risk import survival as survival
 from .analysis.rocking_spectrum import rocking_spectrum as rocking_spectrum
+from .analysis.sequence import earthquakes_until_fall as earthquakes_until_fall
+from .analysis.sequence import sequence as sequence
 from .analysis.states import compare_states as compare_states
 from .analysis.studies import run_study as run_study
 from .analysis.suite import suite_table as suite_table

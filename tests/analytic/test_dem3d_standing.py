@@ -175,7 +175,7 @@ def test_twists_count_full_turns():
     assert block.records.joints(0)[2] == pytest.approx([9.0], abs=1e-6)
     measures = block.collect(0)
     assert measures.space.peak_twist == pytest.approx(9.0, abs=1e-6)
-    assert measures.space.residual_twist_per_joint == pytest.approx((9.0,), abs=1e-6)
+    assert measures.residuals.twist == pytest.approx((9.0,), abs=1e-6)
 
 
 def test_a_found_lean_is_not_a_rotation_of_the_run():

@@ -103,7 +103,7 @@ def test_it_turns_about_the_vertical_as_its_twist_says():
     twist = response.twist[:, 0]
     assert np.abs(twist).max() > 5e-5
     assert response.measures.space.peak_twist == pytest.approx(np.abs(twist).max(), rel=0.05)
-    assert response.measures.space.residual_twist_per_joint[0] == twist[-1]
+    assert response.residual_twist_per_joint[0] == twist[-1]
 
 
 def test_static_threshold_of_a_tripod():

@@ -103,7 +103,7 @@ def test_an_assembly_is_no_column(capsys, tmp_path):
     ],
 )
 def test_a_verdict_on_undamped_wobble_is_doubted(parameters, tilt, doubted):
-    space = SpaceMeasures(0.1, 0.1, tilt, 0.0, (), ())
+    space = SpaceMeasures(0.1, 0.1, tilt, 0.0)
     run = SimpleNamespace(
         measures=SimpleNamespace(space=space),
         structure=SimpleNamespace(slenderness=0.15),

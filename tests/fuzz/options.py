@@ -62,6 +62,7 @@ USUAL: tuple[tuple[str, ...], ...] = (
     ),
     ("limit", "COLUMN", "--compressive-strength", "2MPa"),
     ("pushover", "COLUMN"),
+    ("sequence", "COLUMN", "--model", "MODEL", "--harmonic", "2Hz,0.3g,0.2s", "--rest", "0.2s", "--factors", "1,0.5"),
     ("columns", "COLUMN"),
     ("compare", "COLUMN", "--models", "housner,rigid-beam", "--harmonic", "1Hz,0.3g,0.2s"),
     ("motion", "RECORD"),

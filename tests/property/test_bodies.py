@@ -10,7 +10,7 @@ import pytest
 import stylobate as st
 from stylobate.column.presets import preset
 from stylobate.column.shapes import Chipped, CircularFrustum, ConvexSolid, Prism, RectangularFrustum
-from stylobate.response import Collapse, Histories, Measures, Response, SpaceMeasures, Touch
+from stylobate.response import Collapse, Histories, Measures, Residuals, Response, SpaceMeasures, Touch
 from stylobate.response.poses import SpacePoses, exaggerated, quaternions, rotation_matrices
 
 CORNERS = np.array([[-0.5, -0.4], [0.6, -0.4], [0.2, 0.8], [-0.4, 0.5]])
@@ -69,7 +69,8 @@ def spatial():
     measures = Measures(
         st.Outcome.COLLAPSED, True, 0.3, 0.5, 0.5, 0.1, 0.0, 0.0, 0.0, 1e-4, 4000, "overturned",
         Collapse(0.3, 3, "overturned", azimuth, Touch(0.35, ("drum 12", "ground"))),
-        SpaceMeasures(0.4, 0.25, 0.1, 0.3, (0.01,) * n, (0.02,) * n),
+        SpaceMeasures(0.4, 0.25, 0.1, 0.3),
+        residuals=Residuals(*((each,) * n for each in (0.006, 0.008, 0.02)), *((0.1,) * n for _ in range(5))),
     )  # fmt: skip
     return Response(column, histories, measures, "dem3d", {"motion": "made up", "version": "0"})
 
@@ -85,7 +86,8 @@ def test_a_response_in_space():
     row = response.measures.row()
     assert row["collapse_azimuth_deg"] == pytest.approx(30.0)
     assert row["peak_tilt_rad"] == response.peak_tilt == 0.1
-    assert response.summary()["residual_slip_per_joint_m"] == [0.01, 0.01] + [None] * 10
+    assert response.summary()["residual_slip_per_joint_m"] == pytest.approx([0.01, 0.01] + [None] * 10)
+    assert response.summary()["residual_tilt_y_rad"] == [0.1, 0.1] + [None] * 10
     assert response.collapse.side == "right"
 
 

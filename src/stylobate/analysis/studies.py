@@ -72,6 +72,13 @@ class StudyResult:
         labels = self.plan.labels()[self.rows.made].reset_index(drop=True)
         measures, verdicts = self.rows.table(), self.verdicts[self.rows.made]
         labels["verdict"] = verdicts
+        begins = [one.get("begins_s") or [] for one in self.plan.axes["motions"]]
+        if any(begins):  # the number of the earthquake in which it fell, of a sequence
+            which = np.unravel_index(np.flatnonzero(self.rows.made), self.plan.shape)[2]
+            when = np.where(verdicts == v.COLLAPSED, self.rows.floats("collapse_time_s")[self.rows.made], np.nan)
+            fell = [np.searchsorted(begins[k], time, "right") for k, time in zip(which, when, strict=True)]
+            there = np.isfinite(when) & np.array([bool(begins[k]) for k in which])
+            labels["fell_in_earthquake"] = np.where(there, fell, np.nan)
         table = labels.join(measures)
         table.attrs["doubt"] = self.doubt
         return table

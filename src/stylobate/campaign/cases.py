@@ -20,6 +20,7 @@ from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
 from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
+from ..motion.sequence import spans_of
 from ..version import __version__
 from .campaign import COMPUTING, USUAL, Campaign, Fields, campaigning
 from .digests import LENGTH, Digests, Hasher, samples_of
@@ -193,6 +194,7 @@ class Study:
                 "motion": motion.name,
                 "azimuth_deg": direction.get("azimuth", known),
                 "reversed": bool(direction.get("reversed", False)),
+                "begins_s": [span.begins for span in spans_of(motion)],
             }
 
         number, sizes = self.campaign.replicates, self.campaign.scatter

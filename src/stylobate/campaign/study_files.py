@@ -15,11 +15,12 @@ from ..column.toml import Table, parse_toml, read_table
 from ..constants import g
 from ..errors import InputError, as_typed, check_whole, within
 from ..models.registry import make_model
-from ..motion import harmonic
+from ..motion import Motion, Suite, harmonic
 from ..motion.intensity_specs import IntensityMeasure, parse_measure
 from ..motion.ranges import azimuth_range
 from ..motion.readers.samples import PREFIX
 from ..motion.request import MotionRequest
+from ..motion.sequence import REST, in_sequence
 from ..motion.specs import parse_acceleration, parse_time, parse_velocity
 from ..reading import shown
 from .campaign import Campaign
@@ -27,10 +28,21 @@ from .cases import Study
 from .grid import read_grid
 
 
-class MotionsTable(Table):
-    """``[motions]``: records and the directions in which they act."""
+class SequenceTable(Table):
+    """``[[motions.sequences]]``: records one after another as one motion, a factor each if need be."""
 
     files: list[str]
+    factors: list[float] | None = None
+    rest: Any = REST
+    repeat: int = 1
+    name: str = ""
+
+
+class MotionsTable(Table):
+    """``[motions]``: records, or sequences of them, and the directions in which they act."""
+
+    files: list[str] | None = None
+    sequences: list[SequenceTable] | None = None
     unit: str | None = None
     components: str | None = None
     azimuths: Any = None
@@ -108,29 +120,73 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     settings = {key: str(value) for key, value in (table.set or {}).items()}
     if settings and len(models) > 1:
         raise InputError("[set] is for one model, and several are named; give each a study of its own.")
-    request = MotionRequest(
-        files=tuple(_listed(table.motions.files, folder)),
-        separate=True,
-        unit=table.motions.unit,
-        component=_component(table.motions.components),
-        azimuths=_azimuths(table.motions.azimuths),
-        signs=table.motions.signs,
-        condition=tuple(table.motions.condition or ()),
-        vertical=table.motions.vertical,
-    )
-    suite = request.expand()
+    motions, refused = _motions(table.motions, folder)
     im, levels = (None, [1.0]) if table.scale is None else levels_of(table.scale.im, table.scale.levels)
     drawn: dict[str, Any] = {} if table.scatter is None else _drawn(table.scatter)
     study = Study(
         [load_structure(folder / name if (folder / name).is_file() else name) for name in names],
-        suite.motions,
+        motions,
         [make_model(model, settings) for model in models],
         levels,
         im,
         keep=table.keep,
         campaign=Campaign(**drawn, tail=_seconds(table.tail), whole=table.whole),
     )
-    return study, suite.refused
+    return study, refused
+
+
+def _motions(table: MotionsTable, folder: Path) -> tuple[Sequence[Motion], dict[str, str]]:
+    """Motions of a study: its records, then its sequences; and what could not be used, with the reason."""
+
+    def expanded(patterns: Sequence[str]) -> Suite:
+        return MotionRequest(
+            files=tuple(_listed(patterns, folder)),
+            separate=True,
+            unit=table.unit,
+            component=_component(table.components),
+            azimuths=_azimuths(table.azimuths),
+            signs=table.signs,
+            condition=tuple(table.condition or ()),
+            vertical=table.vertical,
+        ).expand()
+
+    if not table.files and not table.sequences:
+        raise InputError("the study names no record; give files = [...] in [motions], or [[motions.sequences]].")
+    suite = expanded(table.files) if table.files else Suite((), {})
+    found = list(suite.motions)
+    for number, one in enumerate(table.sequences or [], 1):
+        with within(f"sequence {number} of [motions]"):
+            found += _in_sequence(one, [expanded([file]) for file in one.files])
+    return found, dict(suite.refused)
+
+
+def _in_sequence(table: SequenceTable, parts: Sequence[Suite]) -> list[Motion]:
+    """A sequence in each of the directions in which its records act; none of them is left out."""
+    for part in parts:
+        for name, reason in part.refused.items():
+            raise InputError(f"{name} cannot be used: {reason}")
+    sizes = table.factors or [1.0] * len(parts)
+    if len(parts) == 1:
+        parts = list(parts) * len(sizes)
+    if len(sizes) != len(parts):
+        raise InputError(f"{len(sizes)} factors are given for {len(parts)} files; give one for each.")
+    if len({len(part.motions) for part in parts}) > 1:
+        raise InputError(
+            "each of its files must be one record, and have the same components and directions; name files."
+        )
+    rest = parse_time(table.rest, "rest") if isinstance(table.rest, str) else table.rest
+    made: list[Motion] = []
+    for motions in zip(*(part.motions for part in parts), strict=True):
+        each = [motion if size == 1.0 else motion.scaled(size) for motion, size in zip(motions, sizes, strict=True)]
+        made.append(in_sequence(each, rest, table.repeat))
+    record = table.name or made[0].name
+    for place, (motion, first) in enumerate(zip(made, parts[0].motions, strict=True)):
+        known: dict[str, Any] = {"record": record}
+        if "direction" in first.metadata:
+            known["direction"] = {**first.metadata["direction"], "record": record}
+        name = table.name and (table.name if len(made) == 1 else f"{table.name}, {first.name}")
+        made[place] = motion.replace(name=name or motion.name, metadata={**motion.metadata, **known})
+    return made
 
 
 def _of_grid(path: str | Path) -> Study:

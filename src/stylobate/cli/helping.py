@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from textwrap import wrap
 from typing import Any
 
 from typer.core import TyperCommand, TyperOption
@@ -40,7 +41,9 @@ class Command(TyperCommand):
             one.hidden = False
         if rare:
             with formatter.section("More options, which --help-all explains"):
-                formatter.write_text(" ".join(one.opts[0] for one in rare))
+                names = " ".join(one.opts[0] for one in rare)
+                for line in wrap(names, formatter.width - formatter.current_indent, break_on_hyphens=False):
+                    formatter.write_text(line)
 
 
 _ALL = "stylobate.help_all"

@@ -33,6 +33,7 @@ from . import (
     report,
     risk,
     run,
+    sequence,
     serve,
     signals,
     spectrum,
@@ -80,7 +81,7 @@ def _passing_on() -> Iterator[None]:
 
 
 for _room in (
-    run, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, motion,
+    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, motion,
     spectrum, columns, draw, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]

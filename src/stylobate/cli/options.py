@@ -158,9 +158,9 @@ class Population(Group):
             return {}
         example = "--scatter friction=10%,joint_stiffness=20%"
         return {
-            "replicates": _whole_number("--replicates", self.replicates, 30),
+            "replicates": whole_number("--replicates", self.replicates, 30),
             "scatter": None if self.scatter is None else Scatter(**_sizes("--scatter", self.scatter, LARGEST, example)),
-            "seed": 0 if self.seed is None else _whole_number("--seed", self.seed, 1),
+            "seed": 0 if self.seed is None else whole_number("--seed", self.seed, 1),
         }
 
 
@@ -295,7 +295,7 @@ def field_of(option: str) -> str:
     return option.strip("-").replace("-", "_")
 
 
-def _whole_number(option: str, text: str, example: int) -> int:
+def whole_number(option: str, text: str, example: int) -> int:
     """A whole number as typed after an option."""
     if not text.isdecimal():
         raise InputError(f"{option} is {text!r}; allowed is a whole number, such as {example}.", field_of(option))

@@ -38,6 +38,7 @@ from .pulses import (
 )
 from .readers import Suite, read_motion, read_suite, sample_motion, samples
 from .request import MotionRequest
+from .sequence import Span, in_sequence, spans_of
 from .specs import parse_acceleration, parse_frequency, parse_harmonic, parse_pulse, parse_synthetic, parse_time
 from .spectra import ResponseSpectrum, housner_intensity, response_spectrum, rotated_pga, rotated_spectrum
 from .synthesis import REGIONS, Region, fourier_target, stochastic_motion, with_directivity_pulse
@@ -51,6 +52,7 @@ __all__ = [
     "PulseMatch",
     "Region",
     "ResponseSpectrum",
+    "Span",
     "Suite",
     "along",
     "arias_intensity",
@@ -69,6 +71,7 @@ __all__ = [
     "half_sine_pulse",
     "harmonic",
     "housner_intensity",
+    "in_sequence",
     "integrate",
     "keep_axes",
     "mavroeidis_papageorgiou",
@@ -99,6 +102,7 @@ __all__ = [
     "scale_to_sa",
     "significant_duration",
     "sine_pulse",
+    "spans_of",
     "stochastic_motion",
     "strongest",
     "taper",

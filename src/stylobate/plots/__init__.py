@@ -21,6 +21,7 @@ from .record_verdicts import draw_record_verdicts
 from .residuals import draw_residuals
 from .risk import draw_risk, draw_survival
 from .rocking_spectrum import draw_rocking_spectrum
+from .sequence import draw_ends, draw_sequence
 from .spectra import draw_spectra
 from .states import draw_states
 from .style import save, save_as
@@ -38,6 +39,7 @@ __all__ = [
     "draw_domain",
     "draw_efficiency",
     "draw_elevation",
+    "draw_ends",
     "draw_energy",
     "draw_filmstrip",
     "draw_fragility",
@@ -54,6 +56,7 @@ __all__ = [
     "draw_residuals",
     "draw_risk",
     "draw_rocking_spectrum",
+    "draw_sequence",
     "draw_spectra",
     "draw_states",
     "draw_suite",

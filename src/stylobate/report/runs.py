@@ -25,6 +25,7 @@ from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sente
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import picture
 from .record import asked_section, model_section, record_section, sources_section, titled, versions_of, warnings_of
+from .sequence import sequence_section
 from .shaking import motion_section
 from .statics import statics_section
 from .structure import structure_section
@@ -51,6 +52,7 @@ def run_sections(run: RunResult, told: set[str]) -> list[Section]:
     parts = [Section("Verdict", [_verdict(run), *warnings_of(run, _doubts(run))]), asked_section(run, _asked(r))]
     parts.append(once(structure_section(r.structure), r.structure.digest, told))
     parts.append(motion_section(run.motion, r, asked, column))
+    parts += sequence_section(run)
     parts += _motion_of_what_stood(r, summary)
     sure = certainty_section(summary)
     parts += [sure] if sure is not None else []

@@ -6,6 +6,7 @@ from .collapse import Collapse, Touch
 from .histories import ENERGY_TERMS, Histories
 from .links import LinkHistories, LinkMeasures
 from .measures import BlockMeasures, Measures, SpaceMeasures
+from .residuals import Residuals
 from .response import Response
 
 __all__ = [
@@ -16,6 +17,7 @@ __all__ = [
     "LinkHistories",
     "LinkMeasures",
     "Measures",
+    "Residuals",
     "Response",
     "SpaceMeasures",
     "Touch",

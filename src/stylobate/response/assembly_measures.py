@@ -18,6 +18,7 @@ from .histories import Histories
 from .links import LinkHistories, LinkMeasures
 from .measures import BlockMeasures, Measures
 from .recorded import Recorded
+from .residuals import Residuals
 
 #: A block has fallen when its centroid is lower than at the start by this share of the smallest side of its box …
 DROP = 0.5
@@ -86,11 +87,12 @@ def recorded_blocks(
     moved = np.hypot(x - x[0], z - z[0])
     turned = np.abs(rotation - rotation[0])
     since = {} if failed else fallen_since(have_fallen(lowest_standing(assembly, z[0]), z, turned))
-    width = [_width(assembly, joint) for joint in assembly.joints]
+    free = [not body.fixed for body in assembly.bodies]
+    ways = (one[-1, free] - one[0, free] for one in (x, z, rotation))
     measures = measures_of_bodies(
-        assembly, [(joint.lower, joint.upper) for joint in assembly.joints], width, time,
-        np.stack((x, np.zeros_like(x), z), axis=-1), moved, turned, since, opening, np.abs(slip[-1]),
+        assembly, time, np.stack((x, np.zeros_like(x), z), axis=-1), moved, turned, since, opening, np.abs(slip[-1]),
         at_rest=at_rest, failed=failed, in_equilibrium=in_equilibrium, touched=touched,
+        residuals=Residuals.in_plane(slip[-1], *ways),
         energy_imbalance=energy_imbalance, time_step=time_step, steps=steps, links=links,
     )  # fmt: skip
     histories = Histories.of_blocks(
@@ -103,8 +105,6 @@ def recorded_blocks(
 
 def measures_of_bodies(
     structure: Structure,
-    joined: Sequence[tuple[int, int]],
-    width: Sequence[float],
     time: np.ndarray,
     position: np.ndarray,
     moved: np.ndarray,
@@ -117,7 +117,7 @@ def measures_of_bodies(
     failed: bool,
     in_equilibrium: bool | None,
     touched: Touch | None,
-    residuals: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]] | None = None,
+    residuals: Residuals,
     **numbers: Any,
 ) -> Measures:
     """Measures of a run of any assembly, in the plane or in space, from what became of its bodies and joints.
@@ -125,8 +125,6 @@ def measures_of_bodies(
     Parameters
     ----------
     structure : Structure
-    joined, width : sequence
-        Bodies of each joint by their numbers, and the width of each [m].
     time : array
         [s], shape (T,)
     position, moved, tilt : array
@@ -140,17 +138,16 @@ def measures_of_bodies(
         How the run began and ended.
     touched : Touch or None
         First touch of bodies that no joint holds.
-    residuals : tuple, optional
-        Slip of each joint at the end along x and y [m] and its twist [rad], where it is in space.
+    residuals : Residuals
     **numbers
         Fields of the measures that hang on the computation: imbalance, step, links and so on.
     """
-    bodies = structure.bodies
+    bodies, (joined, width) = structure.bodies, joined_bodies(structure)
     held = {i for pair in joined for i in pair}
     free = [i for i, body in enumerate(bodies) if i not in held and not body.fixed]
     size = np.array([bodies[i].size for i in free])
-    opened = max(_largest(opening / np.array(width)), _largest(moved[:, free] / size))
-    shares, free_shares = slip / np.array(width), moved[-1, free] / size
+    opened = max(_largest(opening / width), _largest(moved[:, free] / size))
+    shares, free_shares = slip / width, moved[-1, free] / size
     stands = at_rest and not failed  # what still moves may yet fall
     shifted = shifted_bodies(joined, shares, moved[-1], free, free_shares) if stands else ()
     names = [body.name for body in bodies]
@@ -169,13 +166,26 @@ def measures_of_bodies(
         peak_rotation=float(tilt[until].max()),
         peak_joint_opening=float(opening[until].max(initial=0.0)),
         residual_joint_slip=float(slip.max(initial=0.0)),
+        residuals=residuals,
         collapse=Collapse(first, None, FELL, azimuth_of_fall(each, fell_at), touched) if collapsed else None,
         blocks=BlockMeasures(
-            fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, each, residuals,
+            fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, each,
             None if touched is None else touched.time,
         ),
         **numbers,
     )  # fmt: skip
+
+
+def joined_bodies(structure: Structure) -> tuple[list[tuple[int, int]], np.ndarray]:
+    """Bodies of each joint of an assembly by their numbers, and the width of each [m]."""
+    if structure.space_joints is not None:
+        joints: Sequence[Any] = structure.space_joints
+        width = [joint.width for joint in joints]
+    else:
+        assembly: Assembly = structure.must_be("assembly")
+        joints = assembly.joints
+        width = [_width(assembly, joint) for joint in joints]
+    return [(joint.lower, joint.upper) for joint in joints], np.array(width)
 
 
 def joint_histories(

@@ -28,6 +28,7 @@ from .measures import BlockMeasures, Measures, SpaceMeasures
 from .mechanism import Mechanism
 from .poses import PlanePoses
 from .recorded import Recorded
+from .residuals import Residuals, residuals_of
 
 if TYPE_CHECKING:
     import xarray
@@ -109,6 +110,7 @@ def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
     facts = {
         "collapse": None if m.collapse is None else m.collapse.to_dict(),
         "space": None if m.space is None else dataclasses.asdict(m.space),
+        "residuals": None if m.residuals is None else dataclasses.asdict(m.residuals),
         "blocks": None if m.blocks is None else dataclasses.asdict(m.blocks),
         "mechanism": None if response.mechanism is None else dataclasses.asdict(response.mechanism),
         "followed": response.followed,
@@ -207,9 +209,15 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
     if blocks is not None:
         blocks["fell_at"] = tuple((str(name), float(time)) for name, time in blocks["fell_at"])
         blocks["bodies"] = tuple(BodyMeasures(**_tuples(one)) for one in blocks.get("bodies", ()))
-        if blocks.get("joints") is not None:
-            blocks["joints"] = tuple(map(tuple, blocks["joints"]))
+        blocks.pop("joints", None)  # of an earlier version
+    histories = _histories(data, structure)
+    if "residuals" in facts:
+        left = None if facts["residuals"] is None else Residuals(**_tuples(facts["residuals"]))
+    else:  # of an earlier version: without directions, or among other measures
+        left = residuals_of(structure, histories)
+        space = None if space is None else {name: one for name, one in space.items() if name.startswith("peak")}
     parts = {
+        "residuals": left,
         "collapse": None if collapse is None else Collapse.from_dict(collapse),
         "space": None if space is None else SpaceMeasures(**_tuples(space)),
         "blocks": None if blocks is None else BlockMeasures(**blocks),
@@ -219,7 +227,7 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
     mechanism = facts["mechanism"]
     return Recorded(
         structure,
-        _histories(data, structure),
+        histories,
         _measures(data.attrs, **parts),
         str(data.attrs["model"]),
         provenance,

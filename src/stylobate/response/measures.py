@@ -9,6 +9,7 @@ from ..outcome import Outcome
 from .body_measures import BodyMeasures
 from .collapse import Collapse
 from .links import LinkMeasures, row_of
+from .residuals import Residuals, no_residuals
 
 
 @dataclass(frozen=True)
@@ -23,22 +24,12 @@ class SpaceMeasures:
         Largest angle between a drum's axis and the vertical [rad].
     peak_twist : float
         Largest absolute twist of any joint [rad].
-    residual_slip_per_joint : tuple of float
-        Length of the offset along each joint at the end [m].
-    residual_twist_per_joint : tuple of float
-        Turn about each joint's normal at the end, from x towards y [rad].
-    residual_slip_x, residual_slip_y : tuple of float
-        Offset along each joint at the end, along x and y of its lower face [m].
     """
 
     peak_top_x: float
     peak_top_y: float
     peak_tilt: float
     peak_twist: float
-    residual_slip_per_joint: tuple[float, ...]
-    residual_twist_per_joint: tuple[float, ...]
-    residual_slip_x: tuple[float, ...] = ()
-    residual_slip_y: tuple[float, ...] = ()
 
     def row(self) -> dict:
         """The facts under the names that scripts rely on."""
@@ -47,21 +38,7 @@ class SpaceMeasures:
             "peak_top_y_m": float(self.peak_top_y),
             "peak_tilt_rad": float(self.peak_tilt),
             "peak_twist_rad": float(self.peak_twist),
-            "residual_slip_per_joint_m": [float(one) for one in self.residual_slip_per_joint],
-            "residual_twist_per_joint_rad": [float(one) for one in self.residual_twist_per_joint],
-            **joints_row(self.residual_slip_x, self.residual_slip_y, self.residual_twist_per_joint),
         }
-
-
-#: Residuals of joints in space, under the names of rows; what has fallen has none.
-RESIDUALS_OF_JOINTS = ("residual_slip_x_m", "residual_slip_y_m", "residual_twist_rad")
-
-
-def joints_row(x: tuple[float, ...], y: tuple[float, ...], twist: tuple[float, ...]) -> dict[str, list[float]]:
-    """Offsets of joints in space along x and y [m] and their twists [rad] at the end, joint by joint."""
-    return {
-        name: [float(one) for one in values] for name, values in zip(RESIDUALS_OF_JOINTS, (x, y, twist), strict=True)
-    }
 
 
 def blank_row(*, space: bool = False, links: bool = False, blocks: bool = False) -> dict:
@@ -77,11 +54,12 @@ def blank_row(*, space: bool = False, links: bool = False, blocks: bool = False)
         Of an assembly, which has no top.
     """
     nan = math.nan
-    in_space = SpaceMeasures(nan, nan, nan, nan, (), ()) if space and not blocks else None
+    in_space = SpaceMeasures(nan, nan, nan, nan) if space and not blocks else None
     of_blocks = BlockMeasures((), nan, nan, False) if blocks else None
     row = Measures(
-        Outcome.AT_REST, False, nan, nan, nan, nan, nan, nan, nan, nan, 0, space=in_space, blocks=of_blocks
-    ).row()
+        Outcome.AT_REST, False, nan, nan, nan, nan, nan, nan, nan, nan, 0, space=in_space, blocks=of_blocks,
+        residuals=no_residuals(space=space),
+    ).row()  # fmt: skip
     return row | (row_of(()) if links else {})
 
 
@@ -101,8 +79,6 @@ class BlockMeasures:
         Whether the assembly is in equilibrium as drawn; None if it is not known.
     bodies : tuple of BodyMeasures
         Of those that can move, in the assembly's order.
-    joints : (tuple, tuple, tuple), optional
-        Of joints in space, offsets along x and y of the lower face [m] and twist [rad] at the end, joint by joint.
     struck_at : float, optional
         When bodies that no joint holds together first touched [s]; None if none did, or the record does not tell.
     """
@@ -113,7 +89,6 @@ class BlockMeasures:
     at_rest: bool
     in_equilibrium: bool | None = None
     bodies: tuple[BodyMeasures, ...] = ()
-    joints: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]] | None = None
     struck_at: float | None = None
 
     @property
@@ -130,7 +105,7 @@ class BlockMeasures:
 
     def row(self) -> dict:
         """The facts under the names that scripts rely on."""
-        row = {
+        return {
             "peak_displacement_m": float(self.peak_displacement),
             "residual_displacement_m": float(self.residual_displacement),
             "at_rest": bool(self.at_rest),
@@ -139,11 +114,6 @@ class BlockMeasures:
             "displaced": list(self.displaced),
             "bodies": {body.name: body.row() for body in self.bodies},
         }
-        if self.joints is not None:
-            x, y, twist = self.joints
-            row["residual_slip_per_joint_m"] = [math.hypot(*one) for one in zip(x, y, strict=True)]
-            row |= joints_row(x, y, twist)
-        return row
 
 
 @dataclass(frozen=True, eq=False)
@@ -186,6 +156,8 @@ class Measures:
         Where the quiet of the motion was left out: times from and to which it was stepped, and how much of it [s].
     links : tuple of LinkMeasures
         Of the links that act, in the column's order.
+    residuals : Residuals, optional
+        Joint by joint and body by body; None where the model does not tell.
     """
 
     outcome: Outcome
@@ -205,6 +177,7 @@ class Measures:
     blocks: BlockMeasures | None = None
     stepped: tuple[float, float, float] | None = None
     links: tuple[LinkMeasures, ...] = ()
+    residuals: Residuals | None = None
 
     def __eq__(self, other: object) -> bool:
         """Equal to the bit, one missing number (NaN) like another; left alone, Python 3.13 tells NaN from NaN."""
@@ -241,9 +214,12 @@ class Measures:
         if self.blocks is not None:  # an assembly has no top
             del row["peak_top_displacement_m"], row["residual_top_displacement_m"]
             row |= self.blocks.row()
+        azimuth = None if self.collapse is None else self.collapse.azimuth
+        row["collapse_azimuth_deg"] = None if azimuth is None else math.degrees(azimuth)
         if self.space is not None:
-            azimuth = None if self.collapse is None else self.collapse.azimuth
-            row |= self.space.row() | {"collapse_azimuth_deg": None if azimuth is None else math.degrees(azimuth)}
+            row |= self.space.row()
+        if self.residuals is not None:
+            row |= self.residuals.row()
         if self.stepped is not None:
             row |= dict(zip(("stepped_from_s", "stepped_to_s", "stepped_s"), map(float, self.stepped), strict=True))
         if self.links:

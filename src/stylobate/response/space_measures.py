@@ -15,6 +15,7 @@ from .histories import Histories
 from .links import LinkHistories, LinkMeasures
 from .poses import quaternions
 from .recorded import Recorded
+from .residuals import Residuals, turned_up
 
 
 def recorded_in_space(
@@ -68,14 +69,15 @@ def recorded_in_space(
     down = fallen(structure, position[0], axes[0], position, axes)
     since = {} if failed else fallen_since(down)
     tilt = np.arccos(np.clip(_upright(axes[0], axes), -1.0, 1.0))
-    joints = structure.space_joints or ()
-    along, across = slip[-1].T.tolist()
+    free = [not body.fixed for body in structure.bodies]
+    left = Residuals.in_space(
+        slip[-1], twist[-1], (position[-1] - position[0])[free], turned_up(axes[-1, free], axes[0, free])
+    )
     measures = measures_of_bodies(
-        structure, [(joint.lower, joint.upper) for joint in joints], [joint.width for joint in joints], time,
-        position, moved, tilt, since, opening, np.linalg.norm(slip[-1], axis=-1),
+        structure, time, position, moved, tilt, since, opening, np.linalg.norm(slip[-1], axis=-1),
         at_rest=at_rest, failed=failed, in_equilibrium=in_equilibrium,
         touched=None if struck_at is None else Touch(struck_at),
-        residuals=(tuple(along), tuple(across), tuple(twist[-1].tolist())),
+        residuals=left,
         energy_imbalance=energy_imbalance, time_step=time_step, steps=steps, reason=failure, links=links,
     )  # fmt: skip
     histories = Histories.in_space(

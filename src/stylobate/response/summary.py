@@ -9,7 +9,6 @@ import numpy as np
 
 from .block_words import mechanism_of
 from .links import row_of
-from .measures import RESIDUALS_OF_JOINTS, joints_row
 from .words import doubt_of
 
 if TYPE_CHECKING:
@@ -35,9 +34,11 @@ def _of_column(response: Recorded) -> dict:
     if m.collapsed:
         first = 1 if m.collapse is None or m.collapse.joint is None else m.collapse.joint
         row["residual_top_displacement_m"] = row["residual_joint_slip_m"] = None
-        for name in ("residual_slip_per_joint_m", "residual_twist_per_joint_rad", *RESIDUALS_OF_JOINTS):
-            if name in row:
-                row[name] = [one if i + 1 < first else None for i, one in enumerate(row[name])]
+        listed = (
+            {"residual_slip_per_joint_m"} if m.residuals is None else {"residual_slip_per_joint_m", *m.residuals.row()}
+        )
+        for name in row.keys() & listed:  # body and joint by their numbers: what stood on the first joint that was lost
+            row[name] = [one if i + 1 < first else None for i, one in enumerate(row[name])]
         if m.collapse is not None:
             row["collapse"] = m.collapse.to_dict() | {"side": m.collapse.side}
     row |= _of_links(m)
@@ -53,10 +54,11 @@ def _of_blocks(response: Recorded) -> dict:
     h = response.histories
     before = h.time <= m.collapse_time if gone else np.ones(len(h.time), dtype=bool)
     joints = {"peak_opening_per_joint_m": _finite(h.opening[before].max(axis=0))}
-    if blocks.joints is not None:
-        x, y, _ = blocks.joints
-        residuals = {"residual_slip_per_joint_m": np.hypot(x, y).tolist(), **joints_row(*blocks.joints)}
-        joints |= {name: [None] * len(values) if gone else values for name, values in residuals.items()}
+    if m.residuals is not None:
+        fell = [body.fell_at is not None for body in blocks.bodies]
+        joints |= {name: [None] * len(each) if gone else each for name, each in m.residuals.of_joints().items()}
+        for name, each in m.residuals.of_bodies().items():
+            joints[name] = [None if down else one for one, down in zip(each, fell, strict=True)]
     return {
         "outcome": m.outcome.label,
         "collapsed": m.collapsed,

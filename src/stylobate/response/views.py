@@ -11,6 +11,7 @@ from .links import LinkHistories
 from .measures import Measures
 from .mechanism import Mechanism
 from .poses import PlanePoses, SpacePoses
+from .residuals import Residuals
 
 
 class Views:
@@ -203,14 +204,19 @@ class Views:
         return None if self.measures.space is None else self.measures.space.peak_twist
 
     @property
+    def residuals(self) -> Residuals | None:
+        """Residuals with their directions, joint by joint and body by body; None where the model does not tell."""
+        return self.measures.residuals
+
+    @property
     def residual_slip_per_joint(self) -> tuple[float, ...] | None:
-        """Length of the offset along each joint at the end [m]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.residual_slip_per_joint
+        """Length of the offset along each joint at the end [m]."""
+        return None if self.residuals is None else self.residuals.slips
 
     @property
     def residual_twist_per_joint(self) -> tuple[float, ...] | None:
         """Turn about each joint's normal at the end [rad]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.residual_twist_per_joint
+        return None if self.residuals is None else self.residuals.twist
 
     @property
     def at_rest(self) -> bool | None:

@@ -107,6 +107,11 @@ def _foreign(place: Path) -> str:
         return f"folder {shown(place)} is empty; give one in which a command wrote its files."
     if (place / "data" / "study.json").is_file() or (place / "index.html").is_file():
         return f"{shown(place)} holds no result of a command, but a page or the paper's study; open its HTML file."
+    if (place / "sequence.json").is_file():
+        return (
+            f"{shown(place)} holds numbers of earthquakes until a fall, which no page shows; read until_fall.csv there, or "
+            "report a sequence."
+        )
     refuse_former(*place.glob(FORMER_FILES))
     if (place / RUNS_FILE).is_file():
         return f"{shown(place)} holds a command's work that is not finished; give the same command again, then report."

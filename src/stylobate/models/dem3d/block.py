@@ -16,6 +16,7 @@ from ...kernels.shared.records import LANE, STATE
 from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF, what_is_lost
 from ...response.measures import SpaceMeasures
+from ...response.residuals import Residuals, turned_up
 from ..base import Case, RunOptions
 from ..drums.records import Packed, sink
 from ..drums.runs import LaneRuns
@@ -125,11 +126,15 @@ class SpaceBlock(LaneRuns):
     ) -> None:
         super().__init__(pack, records, options, cost)
         self.records, self.bodies, self.planar = records, bodies, planar
+        n = len(records.body) - 1
+        self.stood = np.zeros((self.lanes, n, 3)), np.zeros((self.lanes, n, 3, 3))
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
     def stand(self, lane: int, case: Case) -> None:
-        """Note how the base of a lane moves."""
+        """Note how a column stands in a lane, and how its base moves."""
+        for kept, one in zip(self.stood, (self.records.places(lane), self.records.axes(lane)), strict=True):
+            kept[lane] = one
         motion, feed, watch = case.motion, self.feed[0], self.watch[0]
         along, high = motion.samples**2, 0.0
         if motion.y_samples is not None:
@@ -229,19 +234,17 @@ class SpaceBlock(LaneRuns):
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run is over."""
         _, slip, twist = self.records.joints(lane)
-        slips = np.hypot(slip[:, 0], slip[:, 1])
+        place, axes = (one[lane] for one in self.stood)
+        up = turned_up(self.records.axes(lane), axes)
+        left = Residuals.in_space(slip, twist, self.records.places(lane) - place, up)
         lean, tilt = (math.acos(max(-1.0, 1.0 - self.peak(lane, name))) for name in ("lean", "turn"))
         space = SpaceMeasures(
             peak_top_x=self.peak(lane, "topx"),
             peak_top_y=self.peak(lane, "topy"),
             peak_tilt=tilt,
             peak_twist=self.peak(lane, "spin"),
-            residual_slip_per_joint=tuple(slips.tolist()),
-            residual_twist_per_joint=tuple(twist.tolist()),
-            residual_slip_x=tuple(slip[:, 0].tolist()),
-            residual_slip_y=tuple(slip[:, 1].tolist()),
         )
-        return self.measures(lane, slips, float(np.hypot(*self.top(lane))), lean, space)
+        return self.measures(lane, left, float(np.hypot(*self.top(lane))), lean, space)
 
     def stays(self, lane: int, energy: float) -> bool:
         """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""

@@ -15,6 +15,7 @@ from ...outcome import Outcome, classify
 from ...response import Collapse, LinkMeasures, Measures
 from ...response.collapse import what_is_lost
 from ...response.measures import SpaceMeasures
+from ...response.residuals import Residuals
 from ..base import Case, RunOptions
 from ..shared import ledger, quiet
 from ..shared.lanes import longest_piece
@@ -254,7 +255,7 @@ class LaneRuns:
     def measures(
         self,
         lane: int,
-        slips: np.ndarray,
+        left: Residuals,
         top: float,
         rotation: float,
         space: SpaceMeasures | None = None,
@@ -265,8 +266,7 @@ class LaneRuns:
         Parameters
         ----------
         lane : int
-        slips : array
-            How far each joint has slipped [m], shape (n,).
+        left : Residuals
         top : float
             Residual displacement of the top [m].
         rotation : float
@@ -275,7 +275,7 @@ class LaneRuns:
         since : array, optional
             Change of the ledger since the start [J], shape (6,); that of the lane if left out.
         """
-        watch, packed = self.watch[0], self.packed[lane]
+        watch, packed, slips = self.watch[0], self.packed[lane], np.array(left.slips)
         status, when = watch["status"][lane], int(watch["when"][lane])
         step, dt = int(self.feed["step"][0, lane]), float(self.dt[lane])
         change = self.energies(lane) - self.start[lane] if since is None else since
@@ -303,6 +303,7 @@ class LaneRuns:
             space=space,
             stepped=self.spans.stepped(lane, step, dt),
             links=self.links_done(lane),
+            residuals=left,
         )
 
     def reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:

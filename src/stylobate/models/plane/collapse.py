@@ -16,7 +16,7 @@ from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..base import LONGEST_WAIT, Case, RunOptions
 from ..drums.histories import histories
-from .columns import ColumnLanes
+from .columns import ColumnLanes, residuals_in
 from .loose import ENDLESS, Contacts, Loose
 from .packing import OF_BODY
 
@@ -203,7 +203,7 @@ class _ColumnRun:
         block, watch = self.block, self.block.watch[0]
         if self.collapsed and watch["status"][0] != FAILED:
             watch["status"][0] = COLLAPSED
-        slips, residual = np.abs(last["slip"]), float(found.top_displacement[-1])
+        residual = float(found.top_displacement[-1])
         change = last["energy"] - self.start
-        measures = block.measures(0, slips, residual, block.peak(0, "turn"), since=change)
+        measures = block.measures(0, residuals_in(last), residual, block.peak(0, "turn"), since=change)
         return measures if measures.collapse is None else replace(measures, collapse=self.collapse(found))

@@ -11,6 +11,7 @@ from ...column import Column
 from ...constants import DEGREE
 from ...response import Collapse, Measures
 from ...response.collapse import in_plane
+from ...response.residuals import Residuals
 from ..base import Case, RunOptions
 from ..drums.bodies import Topology
 from ..drums.records import Packed
@@ -20,6 +21,11 @@ from .block import Records, base_acceleration, slope_base
 from .laws import Types
 from .pose import leans_right, placed, sink_in
 from .standing import numbers_for
+
+
+def residuals_in(state: dict[str, Any]) -> Residuals:
+    """Residuals of a column by the state in which it is left."""
+    return Residuals.in_plane(*(state[name] for name in ("slip", "x", "z", "rotation")))
 
 
 class ColumnLanes(LaneRuns):
@@ -110,26 +116,30 @@ class ColumnLanes(LaneRuns):
 
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
-        body = self.records.body
-        opening, slip = self.records.joint_state(lane)
-        bottom = body[1]
-        state = {
+        bottom = self.records.body[1]
+        state = self.poses(lane) | {
             "time": self.time(lane),
-            "x": body["x"][1:, lane] - self.stood[lane, 0],
-            "z": body["z"][1:, lane] - self.stood[lane, 1],
-            "rotation": body["th"][1:, lane].copy(),
-            "opening": opening,
-            "slip": slip - self.slip[lane],
             "base": bottom["x"][lane] + bottom["s"][lane] * self.records.joint["hb"][0, lane],
             "top": self.top(lane) - self.watch["stood"][0, lane],
             "energy": self.energies(lane),
         }
         return state | self.links_now(lane)
 
+    def poses(self, lane: int) -> dict[str, np.ndarray]:
+        """Displacements and rotations of drums, openings and slips of joints, from how the column stood."""
+        body, (opening, slip) = self.records.body, self.records.joint_state(lane)
+        return {
+            "x": body["x"][1:, lane] - self.stood[lane, 0],
+            "z": body["z"][1:, lane] - self.stood[lane, 1],
+            "rotation": body["th"][1:, lane].copy(),
+            "opening": opening,
+            "slip": slip - self.slip[lane],
+        }
+
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run is over."""
         residual = self.top(lane) - float(self.watch["stood"][0, lane])
-        return self.measures(lane, np.abs(self.slips(lane)), residual, self.peak(lane, "turn"))
+        return self.measures(lane, residuals_in(self.poses(lane)), residual, self.peak(lane, "turn"))
 
     def slips(self, lane: int) -> np.ndarray:
         """Slip of every joint since the start [m], shape (n,)."""

@@ -12,6 +12,7 @@ from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
 from ...response.collapse import OVERTURNED, in_plane
+from ...response.residuals import Residuals
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.lanes import MOST_SAMPLES
@@ -125,6 +126,7 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
         peak_rotation=found["turn"],
         peak_joint_opening=found["opening"],
         residual_joint_slip=float(np.abs(found["slip"]).max()),
+        residuals=_residuals(beam, found["theta"], found["slip"]),
         energy_imbalance=imbalance,
         time_step=found["step"],
         steps=found["steps"],
@@ -143,6 +145,22 @@ def _collapse(found: dict, time: float, slid: int) -> Collapse:
     return Collapse(time, None, OVERTURNED, towards)
 
 
+def _residuals(beam: PackedBeam, theta: np.ndarray, slip: np.ndarray) -> Residuals:
+    x, z = _places(beam, theta, slip)
+    if beam.initial_rotation:
+        first = _places(beam, np.full_like(theta, -beam.initial_rotation), np.zeros_like(slip))
+        x, z = x - first[0], z - first[1]
+    return Residuals.in_plane(slip, x, z, -theta)
+
+
+def _places(beam: PackedBeam, theta: np.ndarray, slip: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement of the centroids from upright, along x and z [m], shape (…, n) as rotations and slips are."""
+    lever = beam.matrices.lever
+    # Seconds of small angles: the drums sink as they tilt and rise as their joints open.
+    rise = 0.5 * beam.lift(beam.joint_rotations(theta))
+    return theta @ lever.T + np.cumsum(slip, axis=-1), np.cumsum(rise, axis=-1) - 0.5 * theta**2 @ lever.T
+
+
 def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, energy) -> Histories:
     """Histories from the recorded states.
 
@@ -156,11 +174,8 @@ def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, energy) ->
     """
     column = beam.column
     phi = beam.joint_rotations(theta)
-    lever = beam.matrices.lever
     base = np.cumsum(slip, axis=1)
-    x = theta @ lever.T + base
-    # Seconds of small angles: the drums sink as they tilt and rise as their joints open.
-    z = np.cumsum(0.5 * beam.lift(phi), axis=1) - 0.5 * theta**2 @ lever.T
+    x, z = _places(beam, theta, slip)
     a_g, u_g = ground_histories(motion, time)
     return Histories.of_drums(
         time=time,

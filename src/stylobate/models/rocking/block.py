@@ -11,6 +11,7 @@ from ...motion import Motion
 from ...outcome import classify
 from ...response import Measures
 from ...response.collapse import in_plane
+from ...response.residuals import Residuals
 from ..shared import ledger
 from ..shared.ground import values_at
 
@@ -155,6 +156,7 @@ class RockingBlock:
         tilts = np.array([peaks[0], -peaks[1], side * x, start])
         moved = self.displacement(tilts, self.height)[0]
         moved = moved[:3] - moved[3]  # from the start
+        along, up = (float(one[0] - one[1]) for one in self.displacement(tilts[2:], self.centroid_height))
         return Measures(
             outcome=classify(collapsed, bool(failure), opening / width, 0.0),
             decided=decided,
@@ -168,6 +170,7 @@ class RockingBlock:
             time_step=step,
             steps=steps,
             reason=failure or ("overturns as one block" if collapsed else ""),
+            residuals=Residuals.of_one(0.0, along, up, side * x),
             collapse=in_plane(collapse_time if found else end, 1, side) if collapsed else None,
         )
 

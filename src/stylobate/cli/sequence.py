@@ -1,0 +1,210 @@
+"""``stylobate sequence``: earthquakes one after another, each of which finds what the one before has left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from ..errors import InputError
+from . import options as o
+
+if TYPE_CHECKING:
+    import pandas
+
+    from ..analysis.sequence import SequenceResult, UntilFall
+    from ..column.structure import Structure
+    from ..models.base import Model
+    from ..motion import Motion
+
+#: Columns of the table that are printed, and how they are headed.
+SHOWN = {
+    "earthquake": "earthquake",
+    "motion": "motion",
+    "outcome": "outcome so far",
+    "peak_rotation_rad": "peak rotation [rad]",
+    "added_slip_m": "slip added [m]",
+    "residual_slip_m": "slip so far [m]",
+    "fallen": "fell",
+    "links_broken": "links broken",
+    "at_rest": "came to rest",
+    "fallen_share": "those like it that fell",
+}
+
+
+@dataclass(frozen=True)
+class Earthquakes(o.Motions):
+    """What is shaken with, one after the other."""
+
+    motion: list[Path] | None = o.option(
+        "FILE|DIR",
+        "Earthquake: a record, a folder of them, or sample:NAME; may be repeated, and they come in this order.",
+    )
+
+
+def sequence(
+    column: o.StructureName,
+    model: o.ModelName = "dem2d",
+    *,
+    motions: Annotated[Earthquakes, o.But(*o.SEVERAL)],
+    rest: str = o.option("TIME", "Quiet ground after each earthquake.", "30s"),
+    repeat: str = o.option("N", "How often all of them come.", "1"),
+    factors: str | None = o.option("X,X,…", "A factor for each earthquake, or for each time that a single one comes."),
+    until_fall: str | None = o.option("N", "How many of each kind it takes until it falls, up to this number."),
+    following: Annotated[o.Following, o.But("tail")],
+    until_end: bool = o.option(None, "Go on after the collapse of a column (dem2d).", False),
+    output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
+    settings: o.Settings = None,
+    project: o.Project = None,
+    population: o.Population,
+    pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
+    execution: o.Execution,
+) -> None:
+    """Shake a column or an assembly with earthquakes one after another, each beginning as the last one left it.
+
+    Every --motion is an earthquake of its own, in this order, a folder all of its records. Prints what had become of the
+    structure after each; with --out writes histories, a table and figures. With --until-fall each earthquake comes again
+    and again by itself.
+    """
+    from ..motion.specs import parse_time
+
+    campaign, given = execution.campaign(following, population), population.replicates is not None
+    stone = o.the_structure(column, project)
+    how = o.the_model(model, settings)
+    kinds = scaled(the_kinds(motions, stone), factors)
+    pause, times = parse_time(rest, "rest"), o.whole_number("--repeat", repeat, 3)
+    if until_fall is not None:
+        if times != 1:
+            raise InputError("--repeat and --until-fall are both given; give one of the two.", "repeat")
+        from ..analysis.sequence import earthquakes_until_fall
+
+        most = o.whole_number("--until-fall", until_fall, 20)
+        with execution.files("sequence", "until_fall.csv", "sequence.json") as files:
+            with files.campaign(campaign) as asked:
+                told = earthquakes_until_fall(stone, kinds, how, most, rest=pause, campaign=asked)
+            summary = told.summary() | {"rest_s": pause, "model": how.name, "files": []}
+            if files.wanted:
+                files.table(told.table, "until_fall.csv")
+                taken = [how.taken(motion) for motion in kinds]
+                files.asked(structures=[stone], models=[how], motions=taken, rest_s=pause, most=most)
+                files.summary(summary, "sequence.json")
+        if not execution.emits(summary):
+            describe_counts(told)
+        return
+    if execution.dask is not None:
+        raise InputError("--dask computes many runs, and this is one; leave it out, or give --until-fall.", "dask")
+    options: dict[str, Any] = {"rest": pause, "repeat": times, "until_end": until_end}
+    options["output_interval"] = parse_time(output_interval)
+    if given or not until_end:
+        campaign = o.with_twins(stone, how, campaign, given)
+    _run(stone, how, kinds, campaign, options, execution, pictures)
+
+
+def the_kinds(motions: o.Motions, stone: Structure) -> list[Motion]:
+    """The earthquakes as they are named, each a motion of its own."""
+    frequency = stone.frequency_parameter
+    if motions.component == "all":
+        raise InputError(
+            "--component all makes a motion of each component, and earthquakes come with all of theirs; name one, or leave "
+            "it out.",
+            "component",
+        )
+    if not motions.motion:
+        return [motions.request().motion(frequency)]
+    found: list[Motion] = []
+    for path in motions.motion:
+        suite = motions.request(motion=[path]).expand(frequency)
+        for name, reason in suite.refused.items():
+            raise InputError(f"{name} of {path} cannot be used, and no earthquake is left out: {reason}", "files")
+        found += suite.motions
+    return found
+
+
+def scaled(motions: list[Motion], factors: str | None) -> list[Motion]:
+    """The earthquakes with a factor each; a single one comes once for each factor."""
+    from ..motion.specs import parse_number
+
+    if factors is None:
+        return motions
+    sizes = [parse_number("`factors`", one.strip(), "such as 1,0.6,0.4") for one in factors.split(",")]
+    if len(motions) == 1:
+        motions = motions * len(sizes)
+    if len(motions) != len(sizes):
+        raise InputError(
+            f"{len(sizes)} factors are given for {len(motions)} earthquakes; give one for each.", "factors"
+        )
+    return [motion if size == 1.0 else motion.scaled(size) for motion, size in zip(motions, sizes, strict=True)]
+
+
+def _run(
+    stone: Structure, how: Model, kinds: list[Motion], campaign: Any, options: dict[str, Any], execution: o.Execution,
+    pictures: bool,
+) -> None:  # fmt: skip
+    from ..analysis.sequence import sequence as run_sequence
+    from ..motion.writing import write_csv
+    from . import console
+    from .run import SPACE_PICTURES, write, write_population
+
+    names = ("response.nc", "run.json", "motion.csv", "events.csv", "replicates.csv", "bodies.csv", "debris")
+    drawn = ("histories", "filmstrip", "joints", "energy", "motion", *SPACE_PICTURES, "sequence", "ends")
+    with execution.files("run", *names, *drawn) as files:
+        with console.progress("seconds of motion") as progress:
+            asked = replace(campaign, progress=progress).kept_in(files.folder)
+            found = run_sequence(stone, kinds, how, campaign=asked, **options)
+        console.show(found.response)
+        taken = how.taken(found.motion)
+        summary = found.summary() | o.input_facts(taken) | {"rest_s": options["rest"], "files": []}
+        if files.folder is not None:
+            files += [*write(found.response, taken, files.folder, pictures), write_csv(taken, files / "motion.csv")]
+            files.table(found.table, "events.csv")
+            if pictures and found.events:
+                from .. import plots
+
+                files.picture(plots.draw_sequence(found.response, found.events), "sequence")
+                files.picture(plots.draw_ends(found.response, found.events), "ends")
+            if found.population is not None:
+                write_population(found.population, found.motion, how, found.response, files, False)
+            files.asked(structures=[stone], models=[how], motions=[taken])
+            files.summary(summary, "run.json")
+    if not execution.emits(summary):
+        describe(found, taken)
+        console.print_files(files)
+
+
+def describe(found: SequenceResult, motion: Motion) -> None:
+    """Print what became of the structure, earthquake by earthquake."""
+    from ..response.words import doubt_of
+    from . import console
+    from .run import quiet_facts
+
+    print(found.sentence)
+    table = _shown(found.table)
+    if len(table):
+        console.print_table(table, digits=3)
+    if found.falls is not None and found.falls.low:
+        print(f"Earthquakes until those like it fall, {found.falls.sentence}.")
+    if found.unsettled:
+        numbers = ", ".join(map(str, found.unsettled))
+        print(f"Something still moved at the end of the rest after earthquake {numbers}: give a longer --rest.")
+    for name, value in (o.input_lines(motion) | quiet_facts(found.response)).items():
+        print(f"  {name}: {value}")
+    doubt = (found.population.doubt if found.population is not None else "") or doubt_of(found.response)
+    if doubt:
+        print(doubt)
+
+
+def describe_counts(told: UntilFall) -> None:
+    """Print how many earthquakes of each kind it takes."""
+    from . import console
+
+    console.print_table(told.table.filter(["motion", "earthquakes"]))
+    if len(told.each) > 1:
+        print(f"Over the kinds, {told.over_motions.sentence}.")
+
+
+def _shown(table: pandas.DataFrame) -> pandas.DataFrame:
+    """Columns that are printed; of what never happened none."""
+    never = [name for name in ("fallen", "links_broken") if name in table and not any(table[name])]
+    if "at_rest" in table:
+        table = table.assign(at_rest=["yes" if one else "no" for one in table["at_rest"]])
+    return table.filter([name for name in SHOWN if name not in never]).rename(columns=SHOWN)
