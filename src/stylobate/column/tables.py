@@ -169,8 +169,8 @@ def density_of(entry: str, *stated: float | None) -> float:
 
 
 def describes_assembly(data: dict[str, Any]) -> bool:
-    """Whether the content of a TOML file is that of an assembly: it has blocks, beams, or columns from files."""
-    return "block" in data or "beam" in data or isinstance(data.get("column"), list)
+    """Whether the content of a TOML file is that of an assembly: it has blocks, beams, columns from files, or settles."""
+    return any(key in data for key in ("block", "beam", "settle")) or isinstance(data.get("column"), list)
 
 
 def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
