@@ -101,8 +101,13 @@ SHAKEN = ["--pulse", "ricker,1Hz,0.2g"]
 def test_it_is_shaken_by_dem3d(answered):
     """Which the screen of help names."""
     assert "in space dem3d" in answered("run", "--help")
-    found = answered("run", STATUE, "--model", "dem3d", "--pulse", "ricker,2Hz,0.05g,1.5s", "--json")
+    run = ("run", STATUE, "--model", "dem3d", "--pulse", "ricker,2Hz,0.05g,1.5s", "--json")
+    found = answered(*run)
     assert found["outcome"] == "rocked"
+    both = answered(
+        *run, "--set", "restitution=0.5", "--set", "stiffness_damping=1e-3"
+    )  # of the bed, and of the joints
+    assert both["peak_displacement_m"] < found["peak_displacement_m"]
 
 
 @pytest.mark.parametrize(
@@ -208,6 +213,7 @@ def test_states_and_settings_side_by_side(answered, tmp_path):
             "the scatter has width, by which twins of an assembly in space",
         ),
         (["--project", "30deg"], "--project is for columns, and 'statue' is an assembly in space."),
+        (["--set", "restitution=1.5", "--set", "stiffness_damping=1e-4"], "restitution is 1.5; allowed is [0, 1]"),
         (["--set", "planar=true"], "planar is True, which assemblies in space such as 'statue' do not know"),
     ],
 )
