@@ -48,6 +48,20 @@ def clamp(**what: float | str) -> Link:
     return block_link("clamp", **ends, **what)
 
 
+@pytest.mark.parametrize("azimuth", [0.0, 90.0, 37.0])
+def test_a_bar_is_drawn_as_long_as_its_upper_stone_reaches_along_it(azimuth) -> None:
+    """0.15 of that, whichever way the scene is turned; what is seen along y is 0.5 m high and, turned, 1 m wide."""
+    about_z, turn = about((0.0, 0.0, 1.0), math.radians(azimuth)), math.radians(azimuth)
+    places = [(r * math.cos(turn), r * math.sin(turn), 0.0) for r in (0.0, 2.0)]
+    stones = [
+        st.Stone.box((2.0, 1.0, 0.5), place, DENSITY, name=name, orientation=about_z)
+        for place, name in zip(places, "ab", strict=True)
+    ]
+    bar = block_link("bar", ("a", "b"), shear_stiffness=1e6, axial_stiffness=1e6, axial_capacity=1e4)
+    (placed,) = st.SpatialAssembly(stones, SMOOTH, links=(bar,)).placed_links
+    assert placed.stroke == pytest.approx(0.15 * 2.0)
+
+
 def test_a_clamp_in_pull_snaps_at_its_capacity() -> None:
     """The force m a rises by 4 kN in a second: T = m a to 2 kN, at 0.5 s, where it snaps; then the box slides by itself.
 

@@ -46,6 +46,15 @@ def test_a_twin_is_the_same_for_any_number_of_them():
     assert [len(one.space_joints) for one in many] == [4, 4, 4, 4]
 
 
+def test_a_stone_has_the_same_deviations_in_every_state_of_what_stands():
+    """Without its beam, and numbered otherwise, so that states are compared pair by pair."""
+    alone = scene(PORTAL.stones[1], PORTAL.stones[0])
+    for whole, other in zip(*(twins_of(one, st.Scatter(), 3, 0, space=True) for one in (PORTAL, alone))):
+        kept = {stone.name: stone.to_dict() for stone in whole.stones}
+        assert all(kept[stone.name] == stone.to_dict() for stone in other.stones)
+        assert kept["left"]["density"] != kept["right"]["density"]
+
+
 def test_each_part_varies_alone_and_as_much_as_it_says():
     """Coefficients of variation of 400 draws of three stones, half of whose variance is common: to 15 %, four deviations."""
     for part, read in (

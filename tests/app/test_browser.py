@@ -70,6 +70,10 @@ def open_page(chromium, site):
     assert [one for one in asked if not one.startswith((site, "data:", "blob:"))] == []
 
 
+#: An assembly in space.
+STATUE = Path(__file__).parents[2] / "gallery" / "assemblies" / "statue.toml"
+
+
 def until(holds, limit=15.0):
     end = time.monotonic() + limit
     while not holds():
@@ -368,6 +372,36 @@ def test_an_assembly_and_links_through_the_page(open_page, tmp_path):
     page.click("[data-tab=column]")
     page.click("text=Back to the column")
     expect(page.locator('[data-field="link.1.diameter"]')).to_have_value("0.04")
+
+
+def test_an_assembly_in_space_from_its_file_to_its_film_and_its_critical_amplitude(open_page):
+    page, expect = open_page(1440), playwright.expect
+    page.set_input_files("[data-upload=column]", str(STATUE))
+    expect(page.locator("#column-facts")).to_contain_text("statue")
+    painted = "one => new Set(one.getContext('2d').getImageData(0, 0, one.width, one.height).data).size"
+    until(lambda: page.locator("canvas.elevation").evaluate(painted) > 20)
+    page.click("[data-tab=motion]")
+    page.fill("[data-field=duration]", "1")
+    page.click("[data-tab=run]")
+    expect(page.locator("[data-field=model] option")).to_have_text(["dem3d"])
+    page.fill("[data-field=replicates]", "2")
+    page.click("#go")
+    expect(page.locator("#run-said .verdict:not(.sentence)")).to_contain_text("2 assemblies like this", timeout=120_000)
+    expect(page.locator("#film")).to_be_visible()
+    page.fill("[data-field=replicates]", "")
+    page.click("text=What amplitude brings it down?")
+    for field, value in (("start", "0.1"), ("stop", "0.2"), ("step", "0.1")):
+        page.fill(f"[data-field={field}]", value)
+    page.click("text=Find it")
+    expect(page.locator("canvas[data-curves=critical]")).to_be_visible(timeout=120_000)
+    page.click("[data-tab=fragility]")
+    expect(page.locator("#fragility-asked input[type=radio]")).to_have_count(1)
+    page.locator("#fragility-asked input[type=checkbox]").nth(4).check()
+    page.fill("[data-field=runs]", "2")
+    page.locator("#fragility-asked button.primary").click()
+    expect(page.locator("#fragility-found")).to_contain_text("Runs is 2; allowed is [4, 1000]", timeout=60_000)
+    page.click("[data-tab=domain]")
+    expect(page.locator("#domain-case")).to_contain_text("domains are of columns")
 
 
 def test_what_the_process_of_jobs_refuses_is_marked_at_its_field(open_page):

@@ -204,15 +204,22 @@ density = 2500
 
 
 def test_an_assembly_is_told_apart_from_a_column(client):
-    assert client.post("/api/column/file", content=ASSEMBLY.encode()).json() == {"assembly": ASSEMBLY}
+    assert client.post("/api/column/file", content=ASSEMBLY.encode()).json() == {"assembly": ASSEMBLY, "model": "dem2d"}
     told = client.post("/api/assembly", json={"assembly": ASSEMBLY}).json()
     assert told["facts"] | {"digest": ""} == {
         "name": "portal", "blocks": 1, "fixed": 0, "joints": 1, "links": 0, "mass": 7500.0, "height": 3.0, "digest": ""
     }  # fmt: skip
-    assert told["outlines"]["xz"] == [[[0.0, 0.0], [1.0, 0.0], [1.0, 3.0], [0.0, 3.0]]]
+    (view,) = told["views"]  # the outline of the block, and its face
+    assert (
+        sorted(view["polygons"][0]) == sorted(view["polygons"][1]) == [[0.0, 0.0], [0.0, 3.0], [1.0, 0.0], [1.0, 3.0]]
+    )
+    assert (view["outlines"][0], view["ground"]) == (True, 0.0)
     asked = {"kind": "run", "assembly": ASSEMBLY, "motion": {"kind": "harmonic", "text": "1Hz,0.1g,1s"}}
     job = client.post("/api/jobs", json=asked).json()
     assert job["commands"][0].startswith("stylobate run assembly.toml --model=dem2d ")
+    steps = {"first": "0.1g", "last": "0.2g", "step": "0.1g"}
+    job = client.post("/api/jobs", json=asked | {"kind": "critical"} | steps).json()
+    assert job["commands"][0].startswith("stylobate critical assembly.toml ")
     wrong = client.post("/api/jobs", json=asked | {"kind": "domain"})
     assert (wrong.status_code, "takes a column" in wrong.json()["error"]) == (422, True)
 
@@ -234,12 +241,46 @@ def test_what_is_wrong_in_a_file_is_said_without_where_it_lies(client):
         assert error.startswith("your-")
 
 
-@pytest.mark.parametrize("path", ["/etc/passwd", "../../secret.obj"])
-def test_an_assembly_in_space_is_refused_before_its_mesh_is_read(client, path):
-    text = f'{ASSEMBLY}[[block]]\nname = "stone"\nmesh = "{path}"\n'
+IN_SPACE = """\
+density = 2500
+[joint]
+normal_stiffness = 5e9
+shear_stiffness = 2.5e9
+friction_angle = 35
+[[block]]
+name = "base"
+box = [2.0, 1.0, 0.5]
+at = [0.0, 0.0, 0.0]
+fixed = true
+[[block]]
+name = "stone"
+box = [0.5, 0.4, 1.5]
+at = [0.0, 0.0, 0.5]
+"""
+
+
+def test_an_assembly_in_space_is_seen_from_two_sides_from_above_and_askew(client):
+    opened = client.post("/api/column/file", content=IN_SPACE.encode()).json()
+    assert opened["model"] == "dem3d"
+    told = client.post("/api/assembly", json=opened).json()
+    facts = told["facts"]
+    assert (facts["blocks"], facts["fixed"], facts["joints"], facts["mass"]) == (2, 1, 1, pytest.approx(750.0))
+    sides = [np.ptp(np.concatenate(view["polygons"]), axis=0).tolist() for view in told["views"]]
+    assert sides[:3] == [[2.0, 2.0], [1.0, 2.0], [2.0, 1.0]]
+    assert [view["ground"] for view in told["views"]] == [0.0, 0.0, None, None]
+    asked = {"kind": "run", "assembly": IN_SPACE, "model": "dem3d", "replicates": "3"}
+    job = client.post("/api/jobs", json=asked | {"motion": {"kind": "harmonic", "text": "1Hz,0.1g,1s"}}).json()
+    assert job["commands"][0].startswith("stylobate run assembly.toml --model=dem3d ")
+
+
+@pytest.mark.parametrize(
+    "mesh", ['mesh = "/etc/passwd"', 'mesh = "../../secret.obj"', 'parts = [{ mesh = "secret.obj" }]', "mesh = 3"]
+)
+def test_an_assembly_in_space_opens_no_mesh_of_this_machine(client, mesh):
+    text = f'{IN_SPACE}[[block]]\nname = "other"\n{mesh}\n'
     for answer in (
         client.post("/api/column/file", content=text.encode()),
         client.post("/api/assembly", json={"assembly": text}),
     ):
-        assert "the page does not take assemblies in space yet" in answer.text
-        assert path not in answer.text
+        assert "is a mesh, and the page has no other file at hand; give its vertices." in answer.text
+        assert "secret" not in answer.text

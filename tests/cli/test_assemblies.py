@@ -266,13 +266,37 @@ def test_what_does_not_stand_cannot_settle(portal, capsys, tmp_path):
     [
         ["domain", "PORTAL", *MODEL, "--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2"],
         ["pushover", "PORTAL"],
-        ["compare", "PORTAL", "--models", "dem2d,housner", "--harmonic", "1Hz,0.1g,1s"],
+        ["compare", "PORTAL", "--models", "dem2d", "--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2"],
     ],
     ids=lambda arguments: arguments[0],
 )
 def test_other_commands_say_that_assemblies_are_for_run(arguments, refused, portal):
     message = refused(*(portal if one == "PORTAL" else one for one in arguments))
-    assert "describes an assembly of blocks, which 'run', 'critical', 'suite', 'study', 'ida' and 'states'" in message
+    assert "describes an assembly of blocks, which 'run', 'critical', 'suite', 'study', 'ida', 'states' " in message
+
+
+def test_settings_of_the_model_side_by_side(command, refused, portal, tmp_path):
+    """What moves farthest stands for the top of a column."""
+    asked = [
+        "compare",
+        portal,
+        "--models",
+        "dem2d,dem2d:points=3",
+        "--harmonic",
+        "1Hz,0.25g,1s",
+        "--out",
+        tmp_path / "out",
+    ]
+    told, _ = command(*asked, "--json")
+    assert [one["peak_displacement_m"] > 0.01 for one in told["runs"]] == [True, True]
+    said, _ = command(*asked)
+    assert "peak_tilt_rad" not in said  # bodies of their own are in the files
+    command("report", tmp_path / "out", "--out", tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "Displacement of the body that has moved farthest of each model" in page
+    assert "dem3d computes columns, and 'portal' is an assembly" in refused(
+        "compare", portal, "--models", "dem3d", "--harmonic", "1Hz,0.1g,1s"
+    )
 
 
 def test_animate_refuses_what_is_no_response(refused, portal):

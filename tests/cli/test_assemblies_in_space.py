@@ -101,8 +101,13 @@ SHAKEN = ["--pulse", "ricker,1Hz,0.2g"]
 def test_it_is_shaken_by_dem3d(answered):
     """Which the screen of help names."""
     assert "in space dem3d" in answered("run", "--help")
-    found = answered("run", STATUE, "--model", "dem3d", "--pulse", "ricker,2Hz,0.05g,1.5s", "--json")
+    run = ("run", STATUE, "--model", "dem3d", "--pulse", "ricker,2Hz,0.05g,1.5s", "--json")
+    found = answered(*run)
     assert found["outcome"] == "rocked"
+    both = answered(
+        *run, "--set", "restitution=0.5", "--set", "stiffness_damping=1e-3"
+    )  # of the bed, and of the joints
+    assert both["peak_displacement_m"] < found["peak_displacement_m"]
 
 
 @pytest.mark.parametrize(
@@ -111,7 +116,11 @@ def test_it_is_shaken_by_dem3d(answered):
         (["run", STATUE, *SHAKEN], "dem2d cannot shake 'statue', which is an assembly in space; dem3d can, and its"),
         (["run", STATUE, "--model", "housner", *SHAKEN], "housner cannot shake 'statue'"),
         (["critical", STATUE, "--pulse", "ricker,1Hz,?g", "--from", "0.1g", "--to", "0.2g"], "dem2d cannot shake"),
-        (["compare", STATUE, "--models", "dem2d,dem3d", *SHAKEN], "and where it is in space 'limit'"),
+        (["compare", STATUE, "--models", "dem3d,dem2d", *SHAKEN], "dem2d cannot shake 'statue'"),
+        (
+            ["compare", STATUE, "--models", "dem3d", "--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2"],
+            "and where it is in space 'limit'",
+        ),
         (["pushover", STATUE], "and where it is in space 'limit'"),
         (["limit", STATUE, "--project", "30deg"], "--project is for columns, and 'statue' is an assembly in space."),
         (["limit", STATUE, "--tilt", "3"], "--pattern, --tilt and --compressive-strength are for"),
@@ -175,6 +184,27 @@ def test_many_runs_carry_the_caution_once(answered, tmp_path):
     assert "pedestal" in page
 
 
+def test_states_and_settings_side_by_side(answered, tmp_path):
+    """A portal, with a tie between its columns, and without its beam, run by run; then two steps of time."""
+    whole = Path(PORTAL).read_text(encoding="utf-8")
+    tie = 'kind = "tie"\nbetween = ["left", "right"]\nat = [-0.75, 0.0, 3.0]\nto = [0.75, 0.0, 3.0]\ndiameter = 0.03\n'
+    (tmp_path / "tied.toml").write_text(f'{whole}\n[[link]]\n{tie}material = "stainless steel"\n')
+    (tmp_path / "columns.toml").write_text(whole[: whole.rindex("[[block]]")])
+    asked = ["states", "--as-built", PORTAL, "--with", tmp_path / "tied.toml", "--with", tmp_path / "columns.toml"]
+    asked += ["--model", "dem3d", "--pulse", "sine,2Hz,0.25g,0.6s", "--state", "peak_displacement_m:0.02m"]
+    told = answered(*asked, "--replicates", "2", "--out", tmp_path / "out", "--json")
+    assert [(one["label"], one["runs"]) for one in told["states"]] == [("as built", 2), ("tied", 2), ("columns", 2)]
+    assert [(one["against"], one["pairs"] + one["undecided"]) for one in told["differences"]] == [("as built", 2)] * 2
+    assert [one["link"] for one in told["links"]] == ["tie between left and right"]
+    answered("report", tmp_path / "out", "--out", tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "the same slightly different columns or assemblies" in page
+    two = ["compare", PORTAL, "--models", "dem3d,dem3d:step_factor=0.2", "--pulse", "sine,2Hz,0.25g,0.6s"]
+    peaks = [one["peak_displacement_m"] for one in answered(*two, "--json")["runs"]]
+    assert peaks[0] == pytest.approx(peaks[1], rel=0.02)
+    assert peaks[0] != peaks[1]
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -183,6 +213,7 @@ def test_many_runs_carry_the_caution_once(answered, tmp_path):
             "the scatter has width, by which twins of an assembly in space",
         ),
         (["--project", "30deg"], "--project is for columns, and 'statue' is an assembly in space."),
+        (["--set", "restitution=1.5", "--set", "stiffness_damping=1e-4"], "restitution is 1.5; allowed is [0, 1]"),
         (["--set", "planar=true"], "planar is True, which assemblies in space such as 'statue' do not know"),
     ],
 )

@@ -158,4 +158,4 @@ def test_a_target_restitution_chooses_the_damping_and_says_its_cost():
     with pytest.raises(InputError, match=r"restitution is 0\.5; the joints of 'column' give"):
         DistinctElement3D(restitution=0.5).damping(MONOLITH)
     with pytest.raises(InputError, match="both given"):
-        DistinctElement3D(restitution=0.9, stiffness_damping=1e-4)
+        simulate(MONOLITH, two_ways(1.0), DistinctElement3D(restitution=0.9, stiffness_damping=1e-4))

@@ -220,6 +220,20 @@ TWICE = "at = [0.0, 0.0, 0.0]\nparts = [{ box = [1.0, 1.0, 1.0] }, { box = [1.0,
          "a joint_override names block 'a', which does not exist"),
         (TWO.replace('file = "shaft.toml"', 'file = "shaft.toml"\nheight = 3.0'), "unknown key 'height'"),
         ("ground = false\n" + TWO, "columns stand on the ground, and ground is false"),
+        (TWO.replace('"column 2"]', '"column 1"]'), r"between of beam .* is \['column 1', 'column 1'\]; name two different"),
+        (HEAD + block("vertices = [[0,0,0],[1,0,0],[0,1,0]]"), "block 'a' has 3 vertices; give four or more, those of"),
+        (HEAD + block("vertices = [[0,0,0],[1,0,0],[0,1,0],[0,0,nan]]"), "z of vertex 4 of block 'a' is nan m; allowed"),
+        (HEAD + block("box = [1.0, 1.0, 1.0]\nat = [0.0, inf, 0.0]"), "y of at of block 'a' is inf m; allowed is"),
+        (HEAD + block(HERE + "density = -2500.0"), "density of block 'a' is -2500 kg/m³; allowed is"),
+        (HEAD + block(HERE + "fixed = true"), "nothing of 'scene' can move; give a block that is not fixed"),
+        ("settle = false\n" + HEAD, r"there is neither \[\[block\]\] nor \[\[column\]\]; add one of the two"),
+        ("ground = false\n" + HEAD + block(HERE), "block 'a' hangs in the air; put it down, or let it fall with settle"),
+        (HEAD + block(HERE) + '[[link]]\nkind = "clamp"\nbetween = ["ground", "a"]\nat = [0.4, 0.0, -0.1]\n'
+         'to = [0.4, 0.0, 0.1]\ndiameter = 0.02\nmaterial = "titanium"',
+         "a clamp of titanium has no embedment; give its length in each of the two stones"),
+        (HEAD + block(HERE) + '[[link]]\nkind = "tie"\nbetween = ["ground", "a"]\nat = [2.0, 0.0, 0.0]\n'
+         'to = [2.5, 0.0, 0.5]\ndiameter = 0.02\nmaterial = "titanium"',
+         r"to of a tie is \[2.5, 0, 0.5\] m, 2 m outside block 'a'; its end must be within 1 m of it"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_refused(read, text, says):
@@ -248,6 +262,8 @@ def test_beams_that_meet_on_an_axis(read):
         st.InputError, match=r"'architrave 1' and 'architrave 2' reach beyond one another by 0\.1 m; end"
     ):
         read(three + second + "overhang = [0.1, 0.0]\n")
+    with pytest.raises(st.InputError, match=r"reach beyond one another by 0\.7 m"):  # farther than a section is high
+        read(three + second + "overhang = [0.7, 0.0]\n")
 
 
 @pytest.mark.parametrize(

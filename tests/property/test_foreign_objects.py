@@ -14,6 +14,7 @@ COLUMN, M = st.preset("paper-monolithic"), st.DistinctElement2D()
 MOTION = st.harmonic(1.0, 0.1 * st.g, 0.5)
 JOINT, DRUM = COLUMN.joints[0], COLUMN.drums[0]
 STUDY = {"models": [M], "levels": [1.0]}
+STONE = st.Stone.box((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), 2500.0)
 TAPER = {"height": 2.0, "bottom_width": 1.0, "top_width": 0.8, "drums": 2, "density": 2500.0}
 
 WRONG = {
@@ -63,6 +64,24 @@ WRONG = {
     "directions": lambda: st.limit_directions(None),
     "spectrum": lambda: st.rocking_spectrum(None),
     "certainty": lambda: st.certainty(None, MOTION, M, replicates=3),
+    "stones": lambda: st.SpatialAssembly(None, JOINT),
+    "number 1 of stones": lambda: st.SpatialAssembly([DRUM], JOINT),
+    "joint of stones": lambda: st.SpatialAssembly([STONE], None),
+    "name of stones": lambda: st.SpatialAssembly([STONE], JOINT, name=3),
+    "settle": lambda: st.SpatialAssembly([STONE], JOINT, settle="yes"),
+    "links of stones": lambda: st.SpatialAssembly([STONE], JOINT, links=None),
+    "overrides of stones": lambda: st.SpatialAssembly([STONE], JOINT, overrides=None),
+    "override of stones": lambda: st.SpatialAssembly([STONE], JOINT, overrides=[("a", "b")]),
+    "law of an override": lambda: st.SpatialAssembly([STONE], JOINT, overrides=[("a", "b", 35.0)]),
+    "blocks": lambda: st.Assembly(None, JOINT),
+    "joint of blocks": lambda: st.Assembly([st.Block([(0, 0), (1, 0), (1, 1)], 2500.0)], "stiff"),
+    "parts": lambda: st.Stone(None, (0.0, 0.0, 0.0)),
+    "number 1 of parts": lambda: st.Stone(["box"], (0.0, 0.0, 0.0)),
+    "name of a stone": lambda: st.Stone.box((1, 1, 1), (0, 0, 0), 2500.0, name=None),
+    "surface": lambda: st.Stone.box((1, 1, 1), (0, 0, 0), 2500.0, surface="rough"),
+    "fixed": lambda: st.Stone.box((1, 1, 1), (0, 0, 0), 2500.0, fixed="yes"),
+    "hull": lambda: st.Stone.hull("corners", 2500.0),
+    "domain of stones": lambda: st.collapse_domain(st.SpatialAssembly([STONE], JOINT), M, [1.0], [1.0]),
     "drums": lambda: st.Column(["drum"], [JOINT]),
     "no drums": lambda: st.Column(None, None),
     "joint": lambda: st.Column.of_drums([DRUM], None),

@@ -96,7 +96,7 @@ class DomainComparison:
 
 @campaigning(Fields, but=("replicates", "scatter", "seed", "threads", "dask"))
 def compare_models(
-    column: Column,
+    column: Structure,
     motion: Motion,
     models: Sequence[Model],
     *,
@@ -106,7 +106,7 @@ def compare_models(
     campaign: Campaign = USUAL,
     **fields: Unpack[Fields],
 ) -> Comparison:
-    """One column and one motion through several models.
+    """One column, or assembly, and one motion through several models.
 
     Parameters
     ----------

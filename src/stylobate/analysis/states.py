@@ -39,7 +39,7 @@ FEWEST_STATES = 2
 
 @dataclass(frozen=True, eq=False)
 class StateComparison:
-    """Several states of a column under the same motions.
+    """Several states of a column, or of an assembly, under the same motions.
 
     Parameters
     ----------
@@ -171,7 +171,8 @@ def compare_states(
     out : path, optional
         Folder that keeps the runs.
     campaign : Campaign, optional
-        With replicates, twins of every state are run instead of it; the same seed draws the same deviations for each.
+        With replicates, twins of every state are run instead of it; the same seed draws the same deviations for each: of a
+        column drum by drum, of an assembly in space stone by stone, by their names.
 
     Raises
     ------

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
-from ..column.assembly import Assembly
 from ..column.assembly_files import read_assembly
+from ..column.block import FAR_AWAY
 from ..column.links.placed import strokes
 from ..column.presets import PRESETS
-from ..column.spatial.tables import describes_space
+from ..column.structure import Structure
 from ..column.toml import parse_toml
 from ..errors import InputError
 from .words import doubted, warned
@@ -22,13 +22,13 @@ LARGEST = 100_000
 FILE = "your-assembly.toml"
 
 
-def assembly_of(text: str) -> Assembly:
-    """The assembly that a file describes; its columns are presets, as no other file is at hand here.
+def assembly_of(text: str) -> Structure:
+    """The assembly of a file, in the plane or in space; its columns are presets, as no other file is at hand here.
 
     Raises
     ------
     InputError
-        It describes none, or takes a column from a file.
+        It describes none, or takes a column or a mesh from a file.
     """
     if len(text) > LARGEST:
         raise InputError(f"the assembly file has {len(text)} characters; the page takes up to {LARGEST}.")
@@ -37,13 +37,9 @@ def assembly_of(text: str) -> Assembly:
         path.write_text(text, encoding="utf-8")
         try:
             data = parse_toml(path)
-            if describes_space(data):  # before anything is read that the file names, such as a mesh of this machine
-                raise InputError(
-                    "the page does not take assemblies in space yet; use 'stylobate run' with the model dem3d, 'limit' "
-                    "and 'draw'."
-                )
-            _only_presets(data.get("column"))
-            return cast(Assembly, read_assembly(path))
+            _only_presets(data.get("column"))  # before anything of this machine is read that the file names
+            _no_meshes(data.get("block"))
+            return read_assembly(path)
         except InputError as error:
             error.without(f"{folder}/")
             raise
@@ -59,6 +55,22 @@ def _only_presets(tables: Any) -> None:
             )
 
 
+def _no_meshes(tables: Any) -> None:
+    blocks = [one for one in tables if isinstance(one, dict)] if isinstance(tables, list) else []
+    parts = [
+        part for one in blocks if isinstance(one.get("parts"), list) for part in one["parts"] if isinstance(part, dict)
+    ]
+    if any("mesh" in one for one in (*blocks, *parts)):
+        raise InputError(
+            "a block of the assembly is a mesh, and the page has no other file at hand; give its vertices."
+        )
+
+
+def model_of(assembly: Structure) -> str:
+    """Name of the model that computes it."""
+    return "dem2d" if assembly.space_joints is None else "dem3d"
+
+
 def describe(text: str) -> dict[str, Any]:
     """Assembly on the page: what it is, warnings, and outlines [m].
 
@@ -69,26 +81,41 @@ def describe(text: str) -> dict[str, Any]:
     """
     with doubted() as doubts:
         assembly = assembly_of(text)
-    moving = [block for block in assembly.blocks if not block.fixed]
+    from ..plots.view import OBLIQUE  # matplotlib is loaded for those who look at an assembly
+    from ..plots.views import SEEN, solids_of
+
+    bodies = [one for one in assembly.bodies if not (one.fixed and one.size > FAR_AWAY)]
+    plane, solids = assembly.space_joints is None, solids_of(assembly)[0]
     return {
         "facts": {
             "name": assembly.name,
-            "blocks": len(assembly.blocks),
-            "fixed": len(assembly.blocks) - len(moving),
-            "joints": len(assembly.joints),
+            "blocks": len(bodies),
+            "fixed": sum(body.fixed for body in bodies),
+            "joints": len(assembly.space_joints or assembly.face_pairs),
             "links": len(assembly.links),
-            "mass": sum(one.properties[0] for one in moving),
-            "height": max(z for block in assembly.blocks for _, z in block.vertices),
+            "mass": sum(body.mass for body in bodies if not body.fixed),
+            "height": max(float(body.corners[:, 1].max()) for body in bodies),
             "digest": assembly.digest,
         },
-        "links": {
-            "xz": [
-                [low[[0, 2]].round(4).tolist(), high[[0, 2]].round(4).tolist()]
-                for _, (*_, low), (*_, high) in strokes(assembly.placed_links)
-            ]
-        },
-        "outlines": {"xz": [block.corners.round(4).tolist() for block in assembly.blocks]},
-        "held": [block.fixed for block in assembly.blocks],
-        "ground": assembly.ground,
+        "views": [
+            _seen(assembly, solids, view, said)
+            for view, said in (SEEN[:1] if plane else (*SEEN, (OBLIQUE, "from above")))
+        ],
         "warnings": warned(doubts),
+    }
+
+
+def _seen(assembly: Structure, solids: list[Any], view: Any, said: str) -> dict[str, Any]:
+    """What is seen from a direction: polygons with their colours in the order of painting, links, the ground's level [m]."""
+    from ..plots.solids import painted
+
+    polygons, colours, outlines = painted(solids, view)
+    lines = [(low, high) for _, (*_, low), (*_, high) in strokes(assembly.placed_links)]
+    return {
+        "said": said,
+        "polygons": [one.round(4).tolist() for one in polygons],
+        "colours": ["#" + "".join(f"{round(255 * float(part)):02x}" for part in one) for one in colours],
+        "outlines": outlines,
+        "links": [[view.across(end).round(4).tolist() for end in ends] for ends in lines],
+        "ground": assembly.ground if view.elevation == 0.0 else None,
     }

@@ -34,7 +34,7 @@ def curves(folder: Path) -> dict[str, Any]:
         found["fragility"] = _fragility(json.loads((folder / FRAGILITY / "fragility.json").read_text(encoding="utf-8")))
     if (folder / RESULT / "critical.csv").is_file():
         found["critical"] = [
-            [_number(row["amplitude_g"]), _number(row["peak_top_displacement_m"]), row["verdict"]]
+            [_number(row["amplitude_g"]), _moved(row), row["verdict"]]
             for row in _rows(folder / RESULT / "critical.csv")
         ]
     return found
@@ -47,7 +47,7 @@ def _ida(folder: Path) -> dict[str, Any]:
     width = 1.0
     for row in _rows(folder / "runs.csv"):
         width = _number(row.get("base_width_m")) or 1.0
-        level, moved = _number(row["level"]), _number(row["peak_top_displacement_m"])
+        level, moved = _number(row["level"]), _moved(row)
         if level is not None and moved is not None:
             runs.setdefault(_curve(row), []).append((level, abs(moved) / width))
     lines, ends = [], []
@@ -78,7 +78,10 @@ def _ida(folder: Path) -> dict[str, Any]:
         shares[share] = {"x": _plain(x), "y": _plain(y)}
     for line in lines:
         line["x"], line["y"] = _plain(line["x"]), _plain(line["y"])
-    return {"records": lines, "shares": shares, "right": right, "words": _words(said)}
+    moves = (
+        "peak displacement [m]" if said.get("edp") == "peak_displacement_m" else "peak top displacement [base widths]"
+    )
+    return {"records": lines, "shares": shares, "right": right, "moves": moves, "words": _words(said)}
 
 
 def _fragility(said: Mapping[str, Any]) -> dict[str, Any]:
@@ -99,6 +102,11 @@ def _fragility(said: Mapping[str, Any]) -> dict[str, Any]:
 
 def _words(said: Mapping[str, Any]) -> str:
     return "intensity" if said["im"] == "im" else parse_measure(said["im"]).words
+
+
+def _moved(row: Mapping[str, str]) -> float | None:
+    """Peak displacement of the top, or of the body of an assembly that goes farthest [m]."""
+    return _number(row.get("peak_top_displacement_m", row.get("peak_displacement_m")))
 
 
 def _curve(row: Mapping[str, str]) -> tuple[str, str]:

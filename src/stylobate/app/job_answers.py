@@ -248,9 +248,9 @@ class JobAnswers:
 
 
 def _structure(asked: JobAsked) -> Structure:
-    """Structure: a column, or an assembly, of which runs alone are made here."""
+    """Structure: a column, or an assembly, which has no domain."""
     if asked.assembly is not None:
-        if asked.kind != "run":
+        if asked.kind == "domain":
             raise InputError(f"a {asked.kind} takes a column here; go back to one.")
         return assembly_of(asked.assembly)
     if asked.column is None:

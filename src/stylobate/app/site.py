@@ -105,8 +105,8 @@ class Site:
             try:
                 if is_assembly(path):
                     text = path.read_text(encoding="utf-8")
-                    await run_in_threadpool(assemblies.assembly_of, text)
-                    return Answer({"assembly": text})
+                    found = await run_in_threadpool(assemblies.assembly_of, text)
+                    return Answer({"assembly": text, "model": assemblies.model_of(found)})
                 return Answer({"table": await run_in_threadpool(columns.tables_in, path)})
             except InputError as error:
                 error.without(f"{folder}/")

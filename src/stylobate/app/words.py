@@ -27,7 +27,7 @@ LABELS = {
     "pga": "Scale to a peak of",
     "vertical": "vertical component acts",
     "model": "Model",
-    "replicates": "Columns like this one",
+    "replicates": "Others like this one",
     "tail": "Tail after the motion",
     "from": "From",
     "to": "to",

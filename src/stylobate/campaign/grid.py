@@ -71,6 +71,11 @@ class HarmonicGrid:
     def __post_init__(self) -> None:
         check_kind("column", self.column, Structure)
         check_kind("model", self.model, Model)
+        if self.column.stack is None:
+            raise InputError(
+                f"column is {self.column.name!r}, which is {self.column.described}; allowed is a Column: run a study of "
+                "harmonic motions instead."
+            )
         f = grid_axis("frequencies", self.frequencies, 1e-3, 1e3, "Hz")
         a = grid_axis("amplitudes", self.amplitudes, 0.0, 1e4, "m/s²")
         if len(f) * len(a) > MAX_CELLS:

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 
 
 def compare(
-    column: str = o.argument("COLUMN", "Name of a preset, or a column file (TOML)."),
+    column: str = o.argument(
+        "COLUMN", "Name of a preset, or a file (TOML) of a column; under one motion also of an assembly."
+    ),
     models: str = o.option(
         "A,B,C", "Models to compare, such as housner,dem2d; with options, such as dem3d:planar=true,dem3d.", ...
     ),
@@ -46,9 +48,9 @@ def compare(
     if len(set(names)) != len(names):
         raise InputError(f"--models is {models!r}, with a model given twice; give each once.", "models")
     campaign = execution.campaign(following)
-    stone = o.the_column(column, project)
-    chosen = [_chosen(name, names, settings) for name in names]
     over_domain = frequencies is not None or amplitudes is not None
+    stone: Any = (o.the_column if over_domain else o.the_structure)(column, project)
+    chosen = [_chosen(name, names, settings) for name in names]
     result: dict[str, Any] = {"models": names, "doubt": caveat([stone], *chosen)}
     facts: dict[str, str] = {}
     what: dict[str, Any] = {"structures": [stone], "models": chosen, "labels": names, "tail_s": campaign.tail}
@@ -96,7 +98,11 @@ def compare(
     console.print_doubt(result)
     for name, text in facts.items():
         print(f"{name}: {text}")
-    (console.print_table if over_domain else console.print_side_by_side)(table)
+    if over_domain:
+        console.print_table(table)
+    else:
+        told = table.drop(columns="bodies", errors="ignore")  # each has measures of its own, which the files hold
+        console.print_side_by_side(told)
     console.print_files(files)
 
 

@@ -30,7 +30,7 @@ def the_states(as_built: str | None, as_found: str | None, strengthened: list[st
 
 def states(
     records: list[Path] | None = o.argument("[DIR|FILE]...", "Folders of records, or records; or sample:NAME.", None),
-    as_built: str | None = o.option("COLUMN", "Name of a preset, or a column file (TOML)."),
+    as_built: str | None = o.option("COLUMN", "Name of a preset, or a file (TOML) of a column or an assembly."),
     as_found: str | None = o.option("COLUMN", "The column as it is found today."),
     strengthened: list[str] | None = o.option("COLUMN", "With a measure; may be repeated.", flag="--with"),
     model: str = o.option("MODEL", "How it is computed.", "dem2d"),
@@ -45,7 +45,7 @@ def states(
     project: o.Project = None,
     execution: o.Execution,
 ) -> None:
-    """States of one column side by side: as built, as found, with a measure. Was it worth it?
+    """States of one column or assembly side by side: as built, as found, with a measure. Was it worth it?
 
     Fragility curves under the same records with paired differences, and what the links bore.
     """

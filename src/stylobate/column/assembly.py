@@ -75,8 +75,7 @@ class Assembly(Structure):
     links: tuple[Link, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "blocks", tuple(self.blocks))
-        object.__setattr__(self, "overrides", tuple(self.overrides))
+        self.check_kinds("blocks", Block)
         object.__setattr__(self, "links", in_numbers(self.links, self.name))
         if self.gravity != 0.0:
             check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²", remedy="or 0")

@@ -101,25 +101,30 @@ def _same(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=1e-9)
 
 
-def factors_of(size: Scatter, stream: np.random.Generator, n: int) -> tuple[np.ndarray, ...]:
-    """Factors of friction, stiffness, density, width, height of n bodies, shape (n,), and draws of their places, (2, n)."""
-    # The order of the draws is part of what a seed means.
-    common = _normal(stream, 3)[:, None]
-    own = _normal(stream, (5, n))
-    aside = _normal(stream, (2, n))
-    material = math.sqrt(0.5) * (common + own[:3])
+def factors_of(size: Scatter, common: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Factors of friction, stiffness, density, width, height of n bodies, shape (n,), and draws of their places, (2, n).
+
+    Parameters
+    ----------
+    size : Scatter
+    common, own : array
+        Draws [-] of the material, shape (3,), and of each body, shape (7, n).
+    """
+    material = math.sqrt(0.5) * (common[:, None] + own[:3])
     factors = np.exp(
-        np.vstack((material, own[3:]))
+        np.vstack((material, own[3:5]))
         * [[_spread(one)] for one in (size.friction, size.joint_stiffness, size.density, size.width, size.height)]
     )
-    return (*factors, aside)
+    return (*factors, own[5:])
 
 
 def drawn_column(
     column: Column, size: Scatter, stream: np.random.Generator, k: int, space: bool
 ) -> tuple[Column, float]:
     """Column number k that could as well stand there, and the share of its offsets that is left: all of them."""
-    rough, stiff, dense, wide, high, (aside, across) = factors_of(size, stream, column.n)
+    # The order of the draws is part of what a seed means.
+    common, own = normal(stream, 3), normal(stream, (7, column.n))
+    rough, stiff, dense, wide, high, (aside, across) = factors_of(size, common, own)
     varied = _rebuilt(column, wide, high, rough, stiff, dense, f"{column.name}, twin {k + 1}")
     if not size.offset:
         return varied, 1.0
@@ -180,7 +185,8 @@ def _shifted(drum: FoundDrum, x: float, y: float) -> FoundDrum:
     return dataclasses.replace(drum, offset=math.hypot(along, across), offset_azimuth=azimuth)
 
 
-def _normal(stream: np.random.Generator, shape: int | tuple[int, int]) -> np.ndarray:
+def normal(stream: np.random.Generator, shape: int | tuple[int, int]) -> np.ndarray:
+    """Draws of a standard normal distribution within :data:`WITHIN` [-]."""
     return np.clip(stream.standard_normal(shape), -WITHIN, WITHIN)
 
 

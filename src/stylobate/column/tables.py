@@ -123,8 +123,9 @@ def read_as(kind: Any, path: str | Path) -> Any:
     data = parse_toml(check_kind("path", path, (str, Path)))
     if describes_assembly(data):
         raise InputError(
-            f"{shown(path)} describes an assembly of blocks, which 'run', 'critical', 'suite', 'study', 'ida' and 'states' "
-            "take, and where it is in space 'limit'; give a column here: a preset, or a file with [tapered] or [[drum]]."
+            f"{shown(path)} describes an assembly of blocks, which 'run', 'critical', 'suite', 'study', 'ida', 'states' "
+            "and, under one motion, 'compare' take, and where it is in space 'limit'; give a column here: a preset, or a "
+            "file with [tapered] or [[drum]]."
         )
     return made_of(kind, data, shown(path), shown(Path(path).stem))
 
@@ -168,8 +169,8 @@ def density_of(entry: str, *stated: float | None) -> float:
 
 
 def describes_assembly(data: dict[str, Any]) -> bool:
-    """Whether the content of a TOML file is that of an assembly: it has blocks, beams, or columns from files."""
-    return "block" in data or "beam" in data or isinstance(data.get("column"), list)
+    """Whether the content of a TOML file is that of an assembly: it has blocks, beams, columns from files, or settles."""
+    return any(key in data for key in ("block", "beam", "settle")) or isinstance(data.get("column"), list)
 
 
 def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:

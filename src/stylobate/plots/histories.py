@@ -122,7 +122,7 @@ def draw_comparison(
     window: tuple[float, float] | None = None,
     figure: Figure | SubFigure | None = None,
 ) -> Figure:
-    """Top displacement of several models under one motion, over the acceleration of the ground.
+    """Top displacement of several models under one motion, or that of an assembly's farthest body, over that of the ground.
 
     Parameters
     ----------
@@ -145,11 +145,12 @@ def draw_comparison(
         label = f"{name} ({response.outcome.label.replace('_', ' ')})"
         upper.plot(response.time, way_of(response), label=label, **line)
         marks.append((response, line["color"]))
-    upper.set_ylabel("top displacement\nrelative to the ground [m]")
+    top = responses[0].histories.top is not None
+    upper.set_ylabel(f"{'top displacement' if top else 'farthest body'}\nrelative to the ground [m]")
     _mark_collapse(upper, marks)
     _focus(upper, responses, (begin, end))
     upper.legend(loc="upper left", ncols=2)
-    named = f"{responses[0].column.name}, {responses[0].provenance.get('motion', 'motion')}"
+    named = f"{responses[0].structure.name}, {responses[0].provenance.get('motion', 'motion')}"
     upper.set_title(in_lines(title or named))
     _draw_ground(lower, responses[0], (begin, end))
     figure.align_ylabels()
@@ -194,9 +195,10 @@ def _focus(axes: Axes, responses: Sequence[Response], window: tuple[float, float
     low = high = 0.0
     for response in responses:
         inside = (response.time >= window[0]) & (response.time <= window[1])
-        values = np.nan_to_num(response.top_displacement[inside])
+        top = response.histories.top
+        values = np.nan_to_num((way_of(response) if top is None else top)[inside])
         if not math.isnan(response.measures.collapse_time):
-            limit = 2.0 * response.column.base_width
+            limit = size_of(response) if top is None else 2.0 * response.column.base_width
             values = np.clip(values, -limit, limit)
         low, high = min(low, float(values.min(initial=0.0))), max(high, float(values.max(initial=0.0)))
     size = high - low

@@ -29,6 +29,25 @@ TALL, LOW = (4.6, 1.8), (3.2, 1.6)
 BESIDE = 5.0
 
 
+#: Elevations and plan, with what is said of each.
+SEEN = (
+    (ALONG_X, "along y: x to the right"),
+    (ALONG_Y, "against x: y to the right"),
+    (PLAN, "plan: x to the right, y upward"),
+)
+
+
+def solids_of(structure: Structure) -> tuple[list[Solid], list[str]]:
+    """Parts of the bodies as they stand, as solids to be painted, and the names of their bodies; no ground."""
+    bodies = [one for one in structure.bodies if not (one.fixed and one.size > FAR_AWAY)]
+    named = [(body.name, body.fixed, part) for body in bodies for part in body.placed]
+    solids = [
+        Solid(_plain(surface_of(part.shape, fixed)), np.array(part.place), matrix_of(part.orientation))
+        for _, fixed, part in named
+    ]
+    return solids, [name for name, *_ in named]
+
+
 @styled
 def draw_views(structure: Structure, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
     """What stands, before the motion: elevations along x and along y, the plan, and an oblique view, dimensions in m.
@@ -41,13 +60,7 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
     figure : Figure or SubFigure, optional
         Where it is drawn; a new figure by default.
     """
-    bodies = [one for one in structure.bodies if not (one.fixed and one.size > FAR_AWAY)]
-    named = [(body.name, body.fixed, part) for body in bodies for part in body.placed]
-    solids = [
-        Solid(_plain(surface_of(part.shape, fixed)), np.array(part.place), matrix_of(part.orientation))
-        for _, fixed, part in named
-    ]
-    names = [name for name, *_ in named]
+    solids, names = solids_of(structure)
     points = np.concatenate([solid.vertices for solid in solids])
     size = np.ptp(points, axis=0)
     across, up, deep = (max(float(one), 0.05 * float(size.max())) for one in (size[0], size[2], size[1]))
@@ -56,9 +69,8 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
     figure = page(figure, (WIDTH, sum(heights)))
     ratio = min(max(across / deep, 0.6), 1.7)
     (front, side), (plan, oblique) = figure.subplots(2, 2, width_ratios=(ratio, 1.0), height_ratios=heights)
-    elevations = ((front, ALONG_X, "along y: x to the right"), (side, ALONG_Y, "against x: y to the right"))
-    scale = max(_sheet(axes, solids, view, structure.ground).metres for axes, view, _ in elevations)
-    for axes, view, said in (*elevations, (plan, PLAN, "plan: x to the right, y upward")):
+    scale = max(_sheet(axes, solids, view, structure.ground).metres for axes, (view, _) in zip((front, side), SEEN))
+    for axes, (view, said) in zip((front, side, plan), SEEN):
         level, least = (None, 0.0) if view is PLAN else (structure.ground, scale)
         sheet = _sheet(axes, solids, view, level, least)
         if level is not None:

@@ -214,15 +214,11 @@ def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
             open_ = "" if row["decided"] or row["outcome"] == "failed" else ", undecided"
             row["outcome"] = str(row["outcome"]).replace("_", " ") + open_
         said = "; ".join(f"{row['model']} {row['outcome']}" for row in rows)
-        sentence, caption = f"Models under one motion: {said}.", "Top displacement of each model under the same motion."
-        keys = [
-            "model",
-            "outcome",
-            "collapse_time_s",
-            "peak_top_displacement_m",
-            "residual_top_displacement_m",
-            "energy_imbalance",
-        ]
+        top = "peak_top_displacement_m" in result.table
+        moves = "Top displacement" if top else "Displacement of the body that has moved farthest"
+        sentence, caption = f"Models under one motion: {said}.", f"{moves} of each model under the same motion."
+        went = [f"{when}_{'top_' * top}displacement_m" for when in ("peak", "residual")]
+        keys = ["model", "outcome", "collapse_time_s", *went, "energy_imbalance"]
     else:
         said = ", ".join(
             f"{row.get('first')} and {row.get('second')} differ in {row.get('differing')} of {row.get('comparable')} cells"

@@ -50,11 +50,11 @@ def states_items(result: Numbers) -> list[Item]:
              median_words(state["fragility"]) if state["fragility"] else "no curve"]
         )  # fmt: skip
     caption = (
-        "The same motions and levels for every state, and the same slightly different columns where these are drawn; runs "
-        "that failed in one of them are left out of all. Undecided: the run ended before its verdict was certain; share, "
-        "interval and median are with none and with all of them counted in; the interval is over records. A pair of runs is "
-        "undecided where either of them is. Shares are of all levels together, as many as were asked for: they compare "
-        "states, and are no probability of collapse."
+        "The same motions and levels for every state, and the same slightly different columns or assemblies where these "
+        "are drawn; runs that failed in one of them are left out of all. Undecided: the run ended before its verdict was "
+        "certain; share, interval and median are with none and with all of them counted in; the interval is over records. "
+        "A pair of runs is undecided where either of them is. Shares are of all levels together, as many as were asked for: "
+        "they compare states, and are no probability of collapse."
     )
     if not all(state["fragility"] for state in s["states"]):
         caption += f" No curve: all runs of a state end alike, or they are of fewer than {FEWEST} records."

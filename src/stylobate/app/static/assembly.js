@@ -2,7 +2,7 @@
 
 import { check as ask, latest } from "./api.js";
 import { el, facts, fill, find, length, mark, number, save, warnings } from "./dom.js";
-import { BLUE, BROWN, INK, SAND, sharp } from "./plot.js";
+import { BLUE, BROWN, INK, sharp } from "./plot.js";
 import { change, state } from "./state.js";
 
 let described = null;
@@ -12,7 +12,7 @@ export function render(panel, files) {
   described = null;
   fill(panel,
     el("h1", {}, "Column"),
-    el("p", { class: "lead" }, "An assembly of blocks stands, from its file. It is run as it is (dem2d, in the plane); domains and fragilities take columns."),
+    el("p", { class: "lead" }, "An assembly of blocks stands, from its file: run it, find what amplitude brings it down, or its fragility. Domains are of columns."),
     el("div", { class: "sheet" },
       el("div", {},
         el("div", { class: "card", "data-errors": true },
@@ -22,7 +22,7 @@ export function render(panel, files) {
             el("button", { type: "button", onclick: () => change({ assembly: "" }) }, "Back to the column"),
             el("button", { type: "button", onclick: () => change({ tab: "motion" }, { record: true }) }, "Next: motion →"))),
         el("div", { class: "card", id: "column-facts", "aria-live": "polite" })),
-      el("div", { class: "card" }, el("canvas", { class: "elevation", role: "img", "aria-label": "Elevation of the assembly" }))));
+      el("div", { class: "card" }, el("canvas", { class: "elevation", role: "img", "aria-label": "The assembly as it stands" }))));
   show(panel);
 }
 
@@ -36,21 +36,31 @@ async function show(panel) {
   draw(find("canvas", panel));
 }
 
+// Elevations, plan and a view from above a corner, all in one scale; of an assembly in the plane its one elevation.
 export function draw(canvas) {
   if (!described || !canvas || !canvas.clientWidth) return;
-  const [c, width, height] = sharp(canvas), points = described.outlines.xz.flat(), ground = described.ground;
-  const xs = points.map(p => p[0]), zs = [...points.map(p => p[1]), ...(ground === null ? [] : [ground])];
-  const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...zs), Math.max(...zs)];
-  const scale = Math.min((width - 80) / (right - left), (height - 80) / (high - low || 1));
-  const across = x => width / 2 + (x - 0.5 * (left + right)) * scale, up = z => height - 40 - (z - low) * scale;
+  const [c, width, height] = sharp(canvas), views = described.views.map(boxed), across = views.length > 1 ? 2 : 1, down = Math.ceil(views.length / across);
+  const [wide, high] = [width / across, height / down];
+  const scale = Math.min(...views.map(one => Math.min((wide - 50) / one.wide, (high - 70) / (one.high || 1))));
+  views.forEach((one, k) => paint(c, one, scale, (k % across + 0.5) * wide, (Math.floor(k / across) + 1) * high - 42, wide));
+}
+
+function boxed(view) {
+  const points = view.polygons.flat(), xs = points.map(p => p[0]), ys = points.map(p => p[1]), [left, right] = [Math.min(...xs), Math.max(...xs)];
+  const [bottom, top] = [Math.min(...ys), Math.max(...ys)], low = view.ground === null ? bottom : Math.min(bottom, Math.max(view.ground, bottom - 5));
+  return { ...view, middle: 0.5 * (left + right), wide: right - left, low, high: top - low };
+}
+
+function paint(c, view, scale, x0, y0, room) {
+  const point = ([x, y]) => [x0 + (x - view.middle) * scale, y0 - (y - view.low) * scale];
+  if (view.ground !== null) { const y = point([0, view.ground])[1]; if (y < y0 + 20) { c.strokeStyle = INK; c.lineWidth = 1.2; c.beginPath(); c.moveTo(x0 - 0.48 * room, y); c.lineTo(x0 + 0.48 * room, y); c.stroke(); } }
   c.lineJoin = "round";
-  described.outlines.xz.forEach((corners, i) => {
-    c.beginPath(); corners.forEach(([x, z]) => c.lineTo(across(x), up(z))); c.closePath();
-    c.fillStyle = described.held[i] ? "#dcdcdc" : SAND; c.strokeStyle = BROWN; c.lineWidth = 1.1; c.fill(); c.stroke();
+  view.polygons.forEach((corners, i) => {
+    c.beginPath(); for (const corner of corners) c.lineTo(...point(corner)); c.closePath();
+    c.fillStyle = view.colours[i]; c.strokeStyle = view.outlines[i] ? BROWN : view.colours[i]; c.lineWidth = view.outlines[i] ? 1.6 : 0.4; c.fill(); c.stroke();
   });
   c.strokeStyle = BLUE; c.lineWidth = 1.6;
-  for (const ends of described.links.xz) { c.beginPath(); ends.forEach(([x, z]) => c.lineTo(across(x), up(z))); c.stroke(); }
-  c.strokeStyle = c.fillStyle = INK;
-  if (ground !== null) { c.beginPath(); c.moveTo(10, up(ground)); c.lineTo(width - 10, up(ground)); c.stroke(); }
-  c.textAlign = "center"; c.textBaseline = "top"; c.fillText(`${number(right - left, 4)} m × ${number(high - low, 4)} m`, width / 2, height - 24);
+  for (const [from, to] of view.links) { c.beginPath(); c.moveTo(...point(from)); c.lineTo(...point(to)); c.stroke(); }
+  c.fillStyle = INK; c.textAlign = "center"; c.textBaseline = "top";
+  c.fillText(`${number(view.wide, 4)} m × ${number(view.high, 4)} m`, x0, y0 + 8); c.fillText(view.said, x0, y0 + 24);
 }

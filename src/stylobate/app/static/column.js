@@ -285,7 +285,7 @@ export async function open(file) {
   if (!file) return;
   try {
     const found = await upload("/api/column/file", file);
-    if (found.assembly) change({ assembly: found.assembly, model: "dem2d", settings: {} }); else replace(found.table);
+    if (found.assembly) change({ assembly: found.assembly, model: found.model, settings: {}, replicates: "" }); else replace(found.table);
     notice(`${file.name} is open.`);
   } catch (error) { notice(error.error); }
 }

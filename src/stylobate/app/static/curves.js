@@ -14,7 +14,7 @@ export function redraw() { shown = shown.filter(one => one.canvas.isConnected); 
 // Fills a place with the figures of a job.
 export async function show(place, job) {
   const found = await get(`/api/jobs/${job}/curves`);
-  const parts = [["fragility", "Fragility curve", fragility], ["ida", "Incremental dynamic analysis: intensity over response", ida], ["critical", "What each amplitude did to the column", critical]]
+  const parts = [["fragility", "Fragility curve", fragility], ["ida", "Incremental dynamic analysis: intensity over response", ida], ["critical", "What each amplitude did", critical]]
     .filter(([name]) => found[name]).map(([name, label, draw]) => {
       const canvas = el("canvas", { class: "plot curves", role: "img", "aria-label": label, "data-curves": name });
       shown.push({ canvas, draw: () => draw(canvas, found[name]) });
@@ -24,11 +24,11 @@ export async function show(place, job) {
   redraw();
 }
 
-function ida(canvas, { records, shares, right, words }) {
+function ida(canvas, { records, shares, right, moves, words }) {
   plot(canvas, [
     ...records.map((one, k) => ({ x: one.x, y: one.y, color: "#9a9a9a", width: 0.8, label: k ? "" : "one record" })),
     ...Object.entries(shares).map(([share, one]) => ({ ...one, color: LOOKS[share][0], dash: LOOKS[share][1], width: 1.9, label: `${share} % of the records` })),
-  ], { xLabel: "peak top displacement [base widths], collapse →", yLabel: words, xRange: [0, right] });
+  ], { xLabel: `${moves}, collapse →`, yLabel: words, xRange: [0, right] });
 }
 
 function fragility(canvas, { x, y, points, median, state, words }) {
@@ -48,5 +48,5 @@ function critical(canvas, rows) {
     return { x: found.map(one => one[0]), y: found.map(one => verdict === "collapsed" ? top : Math.abs(one[1] || 0)), color, dots, label: `${verdict} (${found.length})` };
   }).filter(one => one.x.length);
   const ends = rows.map(one => one[0]), room = 0.04 * (Math.max(...ends) - Math.min(...ends) || 0.1);
-  plot(canvas, series, { xLabel: "amplitude [g]", yLabel: "peak top [m], collapse on top", xRange: [Math.min(...ends) - room, Math.max(...ends) + room], high: 1.1 * top });
+  plot(canvas, series, { xLabel: "amplitude [g]", yLabel: "peak displacement [m], collapse on top", xRange: [Math.min(...ends) - room, Math.max(...ends) + room], high: 1.1 * top });
 }

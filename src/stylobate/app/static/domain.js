@@ -16,7 +16,7 @@ export function start(where) {
     if (keys.has("domainJob")) show();
     if (keys.has("domain")) count();
     if (keys.has("tab") && state.tab === "domain") paint();
-    if (keys.has("column") || keys.has("model")) about();
+    if (keys.has("column") || keys.has("assembly") || keys.has("model")) about();
   });
   addEventListener("resize", later(paint, 60));
   render(); show();
@@ -51,7 +51,7 @@ function render() {
   };
   about(); count();
 }
-function about() { find("#domain-case", panel).textContent = `${(state.column || {}).name || "column"} · ${state.model}`; }
+function about() { find("#domain-case", panel).textContent = state.assembly ? "An assembly stands, and domains are of columns: go back to one." : `${(state.column || {}).name || "column"} · ${state.model}`; }
 function count() {
   const n = Number(state.domain.fn) * Number(state.domain.an);
   find("#domain-count", panel).textContent = n > 0 ? `${n} runs` : "";

@@ -10,22 +10,25 @@ import { change, listen, state } from "./state.js";
 
 const MEASURES = [["pgv", "peak velocity"], ["pga", "peak acceleration"], ["sa:1.0s", "spectral acceleration at 1 s"], ["avgsa", "average spectral acceleration"]];
 const STATES = [["collapse", "collapse"], ["top:0.35d", "top moves 0.35 d"], ["drums:0.01d", "drums shift 0.01 d"]];
-let panel, samples, uploaded = [];
+let panel, samples, uploaded = [], typing = false;  // what is typed stays in its field, and a click after it finds its button
 
 export function start(place, about) {
   panel = place; samples = about.samples; uploaded = motion.kept();
   listen(keys => {
-    if (keys.has("fragility") || keys.has("column") || keys.has("model")) render();
+    if ((keys.has("fragility") && !typing) || keys.has("column") || keys.has("assembly") || keys.has("model")) render();
     if (keys.has("fragilityJob")) show();
     if (keys.has("motion")) { uploaded = motion.kept(); }
     if (keys.has("tab") && state.tab === "fragility") { uploaded = [...new Map([...uploaded, ...motion.kept()].map(one => [one.id, one])).values()]; render(); curves.redraw(); }
   });
-  fill(panel, el("h1", {}, "Fragility"), el("p", { class: "lead" }, "Each record is scaled up until the column falls; from all of them comes the curve: how likely it falls at which intensity."),
+  fill(panel, el("h1", {}, "Fragility"), el("p", { class: "lead" }, "Each record is scaled up until what stands falls; from all of them comes the curve: how likely it falls at which intensity."),
     el("div", { class: "sheet left" }, el("div", { id: "fragility-asked", class: "card", "data-errors": true }), el("div", { id: "fragility-found" })));
   render(); show();
 }
 // What describes a station goes with the records; one of several files is for a single run.
 const isRecord = one => !/\.xml$/i.test(one.name) && one.files === 1;
+// An assembly has no top and no drums of one width: of it collapse alone is asked for.
+const limits = () => state.assembly ? STATES.slice(0, 1) : STATES;
+const wanted = () => state.assembly ? "collapse" : state.fragility.state;
 const set = changes => change({ fragility: { ...state.fragility, ...changes } });
 
 function render() {
@@ -35,15 +38,15 @@ function render() {
   const tick = id => event => set({ records: event.target.checked ? [...s.records, id] : s.records.filter(one => one !== id) });
   const place = find("#fragility-asked", panel), held = find(".pick", place), down = held ? held.scrollTop : 0;
   const focused = document.activeElement && document.activeElement.dataset.key;
-  fill(place, el("p", { class: "hint" }, `${(state.column || {}).name || "column"} · ${state.model}`),
+  fill(place, el("p", { class: "hint" }, `${state.assembly ? "The assembly" : (state.column || {}).name || "column"} · ${state.model}`),
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Upload records …"), files,
       el("button", { type: "button", onclick: () => folder.click() }, "Upload a folder …"), folder,
       el("button", { type: "button", class: "quiet", onclick: () => set({ records: s.records.length === list.length ? [] : list.map(one => one[0]) }) }, "All or none")),
     el("ul", { class: "pick" }, list.map(([id, name, about]) => el("li", {}, el("label", { title: about }, el("input", { type: "checkbox", checked: s.records.includes(id), "data-key": id, onchange: tick(id) }), name)))),
     el("div", { class: "row" }, field(labels.im, select(MEASURES, s.im, im => set({ im }), { "data-field": "im" })),
-      field(labels.runs, el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", onchange: event => set({ runs: event.target.value.trim() }) })),
+      field(labels.runs, el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", oninput: event => { typing = true; set({ runs: event.target.value.trim() }); typing = false; } })),
       field(`${labels.unit}, where a file states none`, select(motion.UNITS.map(one => [one, one || "as stated"]), s.unit, unit => set({ unit }), { "data-field": "unit" }))),
-    choice("state", labels.state, STATES, s.state, one => set({ state: one })),
+    choice("state", labels.state, limits(), wanted(), one => set({ state: one })),
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records${s.records.length < 10 ? "; a fragility takes ten" : ""}`)));
   find(".pick", place).scrollTop = down;
   if (focused) { const again = find(`[data-key="${CSS.escape(focused)}"]`, place); if (again) again.focus(); }
@@ -62,7 +65,7 @@ async function go() {
   const s = state.fragility, asked = find("#fragility-asked", panel);
   try {
     mark(asked, null);
-    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: s.runs, state: s.state, page: { fragility: s }, ...(s.unit ? { unit: s.unit } : {}) });
+    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: s.runs, state: wanted(), page: { fragility: s }, ...(s.unit ? { unit: s.unit } : {}) });
     change({ fragilityJob: job.id });
   } catch (error) { mark(asked, error); }
 }

@@ -34,19 +34,19 @@ export function start(place) {
 function stop() { if (player && find("#play", panel) && find("#play", panel).textContent === "Pause") player.toggle(); }
 
 function renderAsked() {
-  const column = state.column || {}, about = MODELS.find(one => one[0] === state.model);
+  const column = state.column || {}, about = MODELS.find(one => one[0] === state.model), twins = !state.assembly || state.model === "dem3d";
   find("#run-case", panel).textContent = `${state.assembly ? "The assembly" : `${column.name || "column"}, ${(column.drum || []).length} drums`} · ${motion.words()}`;
   const place = find("#run-asked", panel), had = document.activeElement && document.activeElement.dataset.field;
   fill(place,
-    field(labels.model, select(MODELS.filter(([key]) => !state.assembly || key === "dem2d").map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
+    field(labels.model, select(MODELS.filter(([key]) => !state.assembly || key === state.model).map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
     el("p", { class: "hint" }, about ? about[2] : ""),
-    state.model === "dem3d" && choice("law", "Contact in space", [["rim", "rim"], ["bed", "bed"]], state.settings.law || "rim", law => change({ settings: { ...state.settings, law } })),
+    state.model === "dem3d" && !state.assembly && choice("law", "Contact in space", [["rim", "rim"], ["bed", "bed"]], state.settings.law || "rim", law => change({ settings: { ...state.settings, law } })),
     el("div", { class: "row" },
-      !state.assembly && field(labels.replicates, el("input", { value: state.replicates, placeholder: "15", inputmode: "numeric", "data-field": "replicates", oninput: event => change({ replicates: event.target.value.trim() }) })),
+      twins && field(labels.replicates, el("input", { value: state.replicates, placeholder: "15", inputmode: "numeric", "data-field": "replicates", oninput: event => change({ replicates: event.target.value.trim() }) })),
       field(`${labels.tail} [s]`, el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
-    !state.assembly && el("p", { class: "hint" }, "How sure the verdict is: columns that differ by what nobody has measured."),
+    twins && el("p", { class: "hint" }, `How sure the verdict is: ${state.assembly ? "assemblies" : "columns"} that differ by what nobody has measured.`),
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: go }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")),
-    !state.assembly && critical());
+    critical());
   if (had) { const again = find(`[data-field="${had}"]`, place); if (again) { again.focus(); if (again.setSelectionRange) again.setSelectionRange(99, 99); } }
 }
 
@@ -84,7 +84,7 @@ export async function go(changes = {}) {
 
 // The job of the address: what is known of it now.
 async function show() {
-  if (!state.job) { fill(find("#run-film", panel), el("div", { class: "card empty" }, "Run the column to see how it moves.")); find("#run-said", panel).hidden = true; loaded = ""; return; }
+  if (!state.job) { fill(find("#run-film", panel), el("div", { class: "card empty" }, "Run it to see how it moves.")); find("#run-said", panel).hidden = true; loaded = ""; return; }
   try { hear(await get(`/api/jobs/${state.job}`)); }
   catch (error) { notice(error.error); change({ job: "" }); }
 }
@@ -117,7 +117,7 @@ function foundCritical(job) {
     el("p", { class: `verdict ${r.lowest_collapse_g !== null ? "collapsed" : r.open_below ? "undecided" : "stands"}` }, verdict, ...rest.map(one => el("small", {}, one))),
     facts([["runs", r.runs], ["amplitudes", `${asked.first} to ${asked.last}`], ["steps of", asked.step], ["undecided", r.undecided || ""], ["failed", r.failed || ""]]),
     warnings(job.warnings),
-    !none && el("div", { class: "row" }, el("button", { type: "button", onclick: () => go({ column: asked.column, model: asked.model, settings: asked.settings || {}, motion: near }) }, "Run it at this amplitude")),
+    !none && el("div", { class: "row" }, el("button", { type: "button", onclick: () => go({ column: asked.column, assembly: asked.assembly, model: asked.model, settings: asked.settings || {}, motion: near }) }, "Run it at this amplitude")),
     files(job),
   ].flat());
   curves.show(find("#run-film", panel), job.id).catch(error => notice(error.error || String(error)));
@@ -203,7 +203,7 @@ function film({ film: shown, histories: h }) {
   const top = canvas("top", "Top displacement over time", "plot low"), opening = canvas("opening", "Opening of the joints over time", "plot low"), energy = canvas("energy", "Energy over time", "plot");
   fill(find("#run-film", panel),
     el("div", { class: "card" }, parts.film, el("div", { class: "bar" }, parts.play, parts.place, parts.now, parts.speed, parts.larger), parts.trace,
-      el("p", { class: "hint" }, `Drag to ${shown.space ? "turn" : "move"}, wheel or two fingers to zoom, double click to return; or arrows, + − and 0; the space bar plays.${shown.space ? " The blue mark is on the same side of every drum." : ""}`)),
+      el("p", { class: "hint" }, `Drag to ${shown.space ? "turn" : "move"}, wheel or two fingers to zoom, double click to return; or arrows, + − and 0; the space bar plays.${shown.space ? " The blue mark is on the same side of every body." : ""}`)),
     el("div", { class: "card" }, h.top && [el("h2", {}, "Top"), top], el("h2", {}, "Joints"), joints(h, opening), el("h2", {}, "Energy"), energy));
   const x = shown.time;
   const widest = h.opening.map((values, i) => [peak(values), i]).sort((a, b) => b[0] - a[0]).slice(0, 4).map(one => one[1]).sort((a, b) => a - b);

@@ -59,7 +59,8 @@ class Pin(Link):
             )
         if self.material is not None and self.embedment is None:
             raise InputError(
-                f"a {self.kind} of {self.material} has no embedment; give its length in each drum [m].", "embedment"
+                f"a {self.kind} of {self.material} has no embedment; give its length in each of the two stones [m].",
+                "embedment",
             )
         self._check_hole()
 

@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...constants import g as STANDARD_GRAVITY
-from ...errors import InputError, check_range
+from ...errors import InputError, check_kind, check_range
 from ..block import FAR_AWAY, ground_block
 from ..column import GRAVITIES
 from ..joint import Joint, given
@@ -75,8 +75,8 @@ class SpatialAssembly(Structure):
     links: tuple[Link, ...] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "stones", tuple(self.stones))
-        object.__setattr__(self, "overrides", tuple(self.overrides))
+        self.check_kinds("stones", Stone)
+        check_kind("settle", self.settle, bool, allowed="True or False")
         object.__setattr__(self, "links", in_numbers(self.links, self.name))
         if self.gravity != 0.0:
             check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²", remedy="or 0")
@@ -89,7 +89,9 @@ class SpatialAssembly(Structure):
             raise InputError(f"two blocks are called {double!r}; give each a name of its own.")
         if "ground" in names and self.ground is not None:
             raise InputError("a block is called 'ground', which is the name of the ground; call it otherwise.")
-        if not any(not stone.fixed for stone in self.stones):
+        if not self.stones:
+            raise InputError(f"{self.name!r} has no blocks; give one at least.")
+        if all(stone.fixed for stone in self.stones):
             raise InputError(f"nothing of {self.name!r} can move; give a block that is not fixed.")
         laws = (self.joint, *(law for *_, law in self.overrides), *(stone.surface for stone in self.stones))
         if any(law is not None and law.ring_width is not None for law in laws):

@@ -85,11 +85,18 @@ class _Scene:
         origins, turns = ([where(self.bodies[i]) for i in ends] for where in (self._origin, _turn))
         return placed_between(
             link, lower, upper, low, high, origins=tuple(origins), turns=tuple(turns), frame=frame,
-            stroke=STROKE * self.bodies[upper].thickness,
+            stroke=STROKE * self._along(upper, frame[2]),
         )  # fmt: skip
 
     def _origin(self, body: Any) -> Point:
         return getattr(body, "position", (0.0, 0.0, self.ground or 0.0))
+
+    def _along(self, body: int, way: Point) -> float:
+        """How far a body reaches along a direction [m]; 0 of a ground without ends."""
+        ways = np.outer((1.0, -1.0), way)
+        return (
+            float(np.max([part.extent(ways) for part in self.solids[body]], axis=0).sum()) if self.solids[body] else 0.0
+        )
 
     def _depth(self, body: int, points: np.ndarray) -> np.ndarray:
         """Depth of points in a body [m], shape (m, 3) to (m,); negative outside, as far as they are beyond its faces."""

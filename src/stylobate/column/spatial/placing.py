@@ -138,7 +138,7 @@ def lay_beam(table: SpaceBeamTable, name: str, density: float, axes: Sequence[Ax
             known = f"the columns are {', '.join(named) or 'none'}"
             raise InputError(f"beam {name!r} lies between {one!r}; {suggest(one, named)}{known}.")
     if len(table.between) != 2 or len(set(table.between)) != 2:
-        raise InputError(f"beam {name!r} lies between {len(table.between)} columns; name two different ones.")
+        raise InputError(f"between of beam {name!r} is {as_typed(table.between)}; name two different columns.")
     if len(table.section) != 2:
         raise InputError(f"section of beam {name!r} is {as_typed(table.section)}; give [across, height] in m.")
     one, other = (named[each] for each in table.between)
@@ -187,8 +187,10 @@ def refuse_crossing(beams: Sequence[Stone]) -> None:
         for k in range(i):
             gap, _ = separation(solids[k], solid, 0.0)
             if gap < -1e-6 * solid.size:
+                ends = np.outer((1.0, -1.0), solid.axes[:, 0])  # the later one, along which it has to be shorter
+                beyond = float(min(solid.extent(ends) + solids[k].extent(-ends)))
                 raise InputError(
-                    f"beams {beams[k].name!r} and {beams[i].name!r} reach beyond one another by {-gap:.3g} m; end one of "
+                    f"beams {beams[k].name!r} and {beams[i].name!r} reach beyond one another by {beyond:.3g} m; end one of "
                     "them before the other, such as with overhang = [0.0, -0.4]."
                 )
 

@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import InputError
 from ..joint import Joint
 from ..links.link import Link
-from ..scatter import Scatter, factors_of
+from ..scatter import Scatter, factors_of, normal
 from .assembly import SpatialAssembly
 
 #: A joint whose normal is inclined to the vertical by less than this slides without pushing its bodies apart [rad].
@@ -26,10 +26,13 @@ def drawn_assembly(
 ) -> tuple[SpatialAssembly, float]:
     """Assembly number k that could as well stand there; its stones fit one another, so that none is wider or higher.
 
-    Beside it the share of its offsets that is left: 1 where its stones fit as drawn.
+    A stone's deviations are those of its name, so that it has the same ones in every state of what stands. Beside it the
+    share of its offsets that is left: 1 where its stones fit as drawn.
     """
     del space
-    rough, stiff, dense, _, _, shifts = factors_of(size, stream, assembly.n)
+    common, seed = normal(stream, 3), int(stream.integers(2**62))
+    own = [normal(np.random.default_rng([seed, *stone.name.encode()]), 7) for stone in assembly.stones]
+    rough, stiff, dense, _, _, shifts = factors_of(size, common, np.stack(own, axis=1))
     return varied(assembly, rough, stiff, dense, size.offset * shifts.T, f"{assembly.name}, twin {k + 1}")
 
 

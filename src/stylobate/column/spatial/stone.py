@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, as_typed, check_range
+from ...errors import InputError, as_typed, check_all, check_kind, check_range
 from ..drum import DENSITIES, LENGTHS
 from ..joint import Joint
 from ..shapes import (
@@ -79,8 +79,11 @@ class Stone(Outlined):
     surface: Joint | None = None
 
     def __post_init__(self) -> None:
-        who = f"block {self.name!r}"
-        object.__setattr__(self, "parts", tuple(self.parts))
+        who = f"block {check_kind('name of a block', self.name, str)!r}"
+        object.__setattr__(self, "parts", tuple(check_all(f"parts of {who}", self.parts, Placed)))
+        fixed = check_kind(f"fixed of {who}", self.fixed, (bool, np.bool_), allowed="True or False")
+        object.__setattr__(self, "fixed", bool(fixed))
+        check_kind(f"surface of {who}", self.surface, Joint, optional=True)
         if not 1 <= len(self.parts) <= MOST_PARTS:
             raise InputError(f"{who} has {len(self.parts)} parts; allowed are 1 to {MOST_PARTS}.")
         lightest = 0.0 if self.fixed else DENSITIES[0]
@@ -282,14 +285,10 @@ def hull_shape(vertices: Any, who: str) -> tuple[ConvexSolid, np.ndarray]:
     """
     from scipy.spatial import ConvexHull, QhullError
 
-    try:
-        points = np.array(vertices, dtype=float)
-    except (TypeError, ValueError):
-        points = np.empty(0)
-    if points.ndim != 2 or points.shape[-1] != 3 or len(points) < 4 or not np.isfinite(points).all():
-        raise InputError(f"the vertices of {who} are at least four points of three finite coordinates [m].")
-    if np.abs(points).max() > FARTHEST:
-        raise InputError(f"a vertex of {who} is at {np.abs(points).max():.4g} m; allowed is up to {FARTHEST:g} m.")
+    given = check_kind(f"vertices of {who}", vertices, (list, tuple, np.ndarray), allowed="a list of points")
+    points = np.array([triple(f"vertex {number} of {who}", one, FARTHEST, "m") for number, one in enumerate(given, 1)])
+    if len(points) < 4:
+        raise InputError(f"{who} has {len(points)} vertices; give four or more, those of a solid.")
     middle, size = points.mean(axis=0), float(np.ptp(points, axis=0).max())
     if not LENGTHS[0] <= size <= LENGTHS[1]:
         raise InputError(f"{who} is {size:.4g} m large; allowed is {LENGTHS[0]:g} to {LENGTHS[1]:g} m: use SI units.")

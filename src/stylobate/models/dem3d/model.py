@@ -102,7 +102,9 @@ class DistinctElement3D(SteppedDrums):
         shear and torsion [s].
     restitution : float, optional
         Velocity restitution that the first impact of the column as one body shall have: chooses β, in place of
-        ``stiffness_damping``. The provenance says which β that is, and how many times as many steps it costs.
+        ``stiffness_damping``. The provenance says which β that is, and how many times as many steps it costs. Of an assembly
+        in space the share of the speed that bodies keep which strike one another or the ground, 1 unless they are followed
+        until rest (0.3); it does not act on joints, faces that lie on one another from the start.
     mass_damping : float
         α: force −α m v on every drum, v relative to the base, and moment −α L [1/s].
 
@@ -156,11 +158,6 @@ class DistinctElement3D(SteppedDrums):
         check_range("rolling_resistance", self.rolling_resistance, 0.0, 1.0)
         if self.restitution is not None:
             check_range("restitution", self.restitution, 0.0, 1.0)
-            if self.stiffness_damping:
-                raise InputError(
-                    f"restitution = {self.restitution:g} and stiffness_damping = {self.stiffness_damping:g} are both given; "
-                    "the one chooses the other: give one of the two."
-                )
         if self.block_modulus is not None:
             check_range("block_modulus", self.block_modulus, 0.0, 1e14, unit="Pa", open_low=True)
 
@@ -173,6 +170,11 @@ class DistinctElement3D(SteppedDrums):
         """Stiffness damping β for a column [s]: as given, or as its restitution asks for."""
         if self.restitution is None:
             return self.stiffness_damping
+        if self.stiffness_damping:
+            raise InputError(
+                f"restitution = {self.restitution:g} and stiffness_damping = {self.stiffness_damping:g} are both given, and "
+                f"of columns such as {column.name!r} the one chooses the other; give one of the two."
+            )
         return damping_for(with_beds_alone(column), replace(self, restitution=None), self.restitution)
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
