@@ -11,6 +11,7 @@ VERSION = mujoco.__version__
 #: Time step [s], solref (time constant [s], damping ratio) and solimp of each variant.
 VARIANTS = {
     "MuJoCo, default contact": (2e-3, "0.02 1", "0.9 0.95 0.001"),
+    "MuJoCo, 1 ms": (1e-3, "0.004 1", "0.95 0.99 0.001"),
     "MuJoCo, stiff contact": (5e-4, "0.002 1", "0.95 0.99 0.001"),
     "MuJoCo, sharp contact": (1e-4, "0.0005 1", "0.95 0.99 0.001"),
     "MuJoCo, ringing contact": (1e-4, "0.001 0.1", "0.95 0.99 0.001"),

@@ -1,8 +1,9 @@
-"""Speed of assemblies in space on this machine: in lanes, beside the engine that finds contacts, in one run."""
+"""Speed of assemblies in space on this machine: in lanes, alone and as they fall, beside other engines, in one run."""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,10 @@ from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.space.lanes import IntactLanes
-from stylobate.motion import harmonic
+from stylobate.motion import Motion, harmonic, sine_pulse
 from stylobate.simulate import simulate, simulate_many
+
+from .others import MISSING, others
 
 #: Chunks of steps in each of several rounds, in which lanes and the other engine take turns.
 CHUNKS, ROUNDS = 40, 7
@@ -35,9 +38,11 @@ def colonnade() -> SpatialAssembly:
     return SpatialAssembly(tuple(stones), Joint(5e9, 2.5e9, 35.0), name="colonnade")
 
 
-def assemblies() -> dict[str, Any]:
+def assemblies(say: Callable[[str], None]) -> dict[str, Any]:
     """Nanoseconds per joint and step of a colonnade of 15 bodies that stays intact, motion of its bodies included, in lanes
-    and alone; how far apart both are; and what runs of 10 s cost on one core in a batch, and alone [s]."""
+    and alone; how far apart both are; and what runs of 10 s cost on one core in a batch, and alone [s].
+
+    Then its collapse: the dearest second of it, and all of its 5 s; and both runs by other engines."""
     structure, model = colonnade(), DistinctElement3D()
     motions = [harmonic(1.0, a * g, 10.0) for a in np.linspace(0.02, 0.08, 16)]
     block = IntactLanes(model.spatial_numbers, RunOptions())
@@ -60,10 +65,32 @@ def assemblies() -> dict[str, Any]:
     batch = (time.process_time() - started) / len(motions)
     started = time.process_time()
     simulate(structure, motions[0], model)
+    intact = time.process_time() - started
+    say("the collapse of an assembly")
+    thrown, seen = over(), []
+    fell = simulate(structure, thrown, model, progress=lambda now, _: seen.append((now, time.process_time())))
+    assert fell.measures.collapsed
+    now, spent = np.array(seen).T
+    dearest = np.max(np.interp(now + 1.0, now, spent) - spent)
+    rivals = {}
+    for name, shaken in (("run_of_colonnade", motions[0]), ("collapse", thrown)):
+        found = others(structure, shaken)
+        rivals |= {f"assembly_{name}_{engine}_s": seconds for engine, seconds in found.items()}
+    if None in rivals.values():
+        say(MISSING)
     return {
         "assembly_ns_per_joint_step": min(in_lanes[1:]),
         "assembly_alone_ns_per_joint_step": min(alone[1:]),
         "assembly_difference_m": float(difference),
         "assembly_run_of_colonnade_s": batch,
-        "assembly_run_of_colonnade_alone_s": time.process_time() - started,
-    }
+        "assembly_run_of_colonnade_alone_s": intact,
+        "assembly_second_of_collapse_s": float(dearest),
+        "assembly_collapse_s": float(spent[-1] - spent[0]),
+    } | rivals
+
+
+def over() -> Motion:
+    """A pulse from askew that throws the colonnade over, and rest to 5 s."""
+    pulse, rest = sine_pulse(0.8, g, 1.25), np.zeros(375)
+    samples = np.concatenate((pulse.acceleration[:: round(0.01 / pulse.dt)], rest))
+    return Motion(0.01, 0.5 * samples, lateral=0.87 * samples)

@@ -95,7 +95,7 @@ def bench(
     say("kernel and native reference in space")
     out |= _in_space(count, full)
     say("an assembly in space")
-    out |= assemblies()
+    out |= assemblies(say)
     say("one run")
     shaking = harmonic(1.0, 0.3 * g, 10.0)
     simulate(column, shaking.scaled(0.0), model)
