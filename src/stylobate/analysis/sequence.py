@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -354,6 +355,7 @@ def earthquakes_until_fall(
     rows: list[dict] = []
     for motion in long:
         cases = [Case(one, motion) for one in stands]
-        rows += batch(cases, structure, model, campaign, share_of([motion], campaign.whole))
+        options = dataclasses.replace(campaign.options, quiet=share_of([motion], campaign.whole))
+        rows += batch(cases, structure, model, campaign, options)
     each = [Count.of_rows(rows[k * len(stands) : (k + 1) * len(stands)], spans_of(one)) for k, one in enumerate(long)]
     return UntilFall(tuple(one.name for one in kinds), tuple(each), time.perf_counter() - began)
