@@ -248,3 +248,11 @@ def test_pictures_are_drawn():
         found = st.sequence(structure, [FIRST, SECOND], st.DistinctElement2D(), rest=REST)
         plots.draw_sequence(found.response, found.events).draw_without_rendering()
         plots.draw_ends(found.response, found.events).draw_without_rendering()
+
+
+def test_components_that_the_model_leaves_out_need_not_be_alike():
+    """A record with a component across and one without, by a plane model: the one across is left out, and told."""
+    across = FIRST.replace(ay=0.5 * FIRST.samples)
+    found, same = (st.sequence(COLUMN, [one, SECOND], st.DistinctElement2D(), rest=REST) for one in (across, FIRST))
+    assert "first: second horizontal component" in found.response.provenance["left_out"][0]
+    assert found.response.measures == same.response.measures

@@ -20,7 +20,7 @@ REST = 30.0
 LONGEST_REST, MOST = 3600.0, 1000
 
 #: Most parts into which a step of a record is divided, so that the steps of all are one.
-FINEST = 1000
+FINEST = 50
 
 #: Key of the metadata of a motion that is a sequence.
 KEY = "sequence"
@@ -114,6 +114,8 @@ def in_sequence(motions: Motion | Sequence[Motion], rest: float = REST, repeat: 
                 f"{motion.name}: step of {motion.dt:g} s divided into {part} of {dt:.6g} s, linear between samples"
             )
     known: dict[str, Any] = {KEY: tuple(spans)}
+    if left_out := [f"{one.name}: {text}" for one in once for text in one.metadata.get("left_out", ())]:
+        known["left_out"] = tuple(dict.fromkeys(left_out))
     if all("format" in motion.metadata for motion in once):
         known["format"] = "sequence"
     azimuths = [motion.metadata.get("azimuths") for motion in once]
@@ -158,7 +160,7 @@ def _common_step(motions: Sequence[Motion]) -> float:
         shortest, longest = min(steps), max(steps)
         raise InputError(
             f"the steps of the motions, {shortest:.6g} s and {longest:.6g} s, have no common one of at least a "
-            f"{FINEST}th of them; resample one of them (`resample` of the conditioning).",
+            f"{FINEST}th of them; resample one of them (the step resample of `condition`).",
             "motions",
         )
     return float(common)
