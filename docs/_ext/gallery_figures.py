@@ -27,6 +27,7 @@ ORDER = (
     "plot_rocking_spectrum.py",
     "plot_collapse.py",
     "plot_portal.py",
+    "plot_temple_corner.py",
     "plot_in_space.py",
 )
 

@@ -10,6 +10,7 @@ HEAD = """\
 # {title}; written by write_in_space.py.
 #
 #   stylobate limit gallery/assemblies/{name}.toml --directions {directions}
+#   stylobate run gallery/assemblies/{name}.toml --model dem3d --pulse ricker,1Hz,0.3g --tail 2s
 
 name = "{name}"
 density = 2700.0

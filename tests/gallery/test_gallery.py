@@ -254,6 +254,20 @@ def test_in_space(run):
     assert "square: 0.2000 g at 0°, at most 0.2828 g; moving: south-west, north-west" in run("in_space")["printed"]
 
 
+def test_temple_corner(run):
+    """Masses by hand: of a frustum of a cone, of the parts of a capital; a pulse over twice the limit brings all down."""
+    found = run("temple_corner")
+    cone = math.pi / 12.0 * 5.2 * (0.8**2 + 0.8 * 0.677 + 0.677**2) * 2500.0
+    neck = math.pi / 4.0 * 0.1333 * 0.677**2 + math.pi / 12.0 * 0.1333 * (0.677**2 + 0.677 * 0.867 + 0.867**2)
+    shaft, capital, *_ = found["corner"].stones
+    assert shaft.mass == pytest.approx(cone, rel=1e-9)
+    assert capital.mass == pytest.approx(2500.0 * (neck + 0.1334 * 0.867**2), rel=1e-9)
+    response = found["response"]
+    assert response.collapsed
+    assert len(response.fallen) >= 7
+    assert response.measures.energy_imbalance < 0.01
+
+
 def test_fragility(run):
     # PGV tells more than PGA: dispersions 0.066 and 0.19 from brackets of 4 to 8 %; a factor 1.5 is asked for.
     found = run("fragility")
