@@ -115,3 +115,16 @@ def test_a_lane_does_not_hang_on_its_neighbours(monkeypatch):
     again = batch(cases[::-1], monkeypatch)[0][::-1]
     assert together[:-1] == again
     assert batch(cases[4:5], monkeypatch)[0] == together[4:5]
+
+
+def test_a_joint_that_opens_far_over_is_told_alone(monkeypatch):
+    """A block that leans by some 25° while the ground falls away below it; what lifts upright stays in lanes."""
+    time = np.arange(0.0, 0.4, 0.005)
+    drop = np.where((time > 0.28) & (time < 0.36), -3.0 * st.g, 0.0)
+    stone = st.Stone.box((0.8, 0.8, 1.0), (0.0, 0.0, 0.0), 2700.0, name="block")
+    block = st.SpatialAssembly((stone,), st.Joint(5e9, 2.5e9, 60.0), name="block")
+    motions = [st.Motion(0.005, np.where(time < 0.25, push * st.g, 0.0), vertical=drop) for push in (1.6, 0.0)]
+    found, alone = batch([Case(block, motion) for motion in motions], monkeypatch)
+    assert alone == 1
+    assert found[0] == st.simulate(block, motions[0], st.DistinctElement3D()).measures
+    assert math.radians(20.0) < found[0].peak_rotation < math.radians(35.0)

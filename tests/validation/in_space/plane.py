@@ -90,13 +90,10 @@ def swing(name: str, depth: float | None) -> Swing:
 
 @cache
 def falls(name: str, depth: float | None, share: float, duration: float) -> bool:
-    """Whether anything falls under a whole sine; at half the step where the ledger of the usual one does not add up."""
+    """Whether anything falls under a whole sine."""
     structure = plane_assembly(name, True) if depth is None else space_assembly(name, depth, True)
-    kind = st.DistinctElement2D if depth is None else st.DistinctElement3D
-    for factor in (0.4, 0.2):
-        response = st.simulate(structure, pulse(share, duration, 1.0), kind(step_factor=factor), tail=3.0)
-        if response.measures.outcome != st.Outcome.FAILED:
-            break
+    model = st.DistinctElement2D() if depth is None else st.DistinctElement3D()
+    response = st.simulate(structure, pulse(share, duration, 1.0), model, tail=3.0)
     assert response.measures.outcome != st.Outcome.FAILED, response.measures.reason
     return bool(response.measures.blocks.fell_at)
 

@@ -103,6 +103,21 @@ def velocity_then(u, r):
 
 
 @long_law
+def motion_then(q, u, v):
+    """Velocity of the second body over the first one where the last force acted, and spin about its normal, after it."""
+    spin = dot(minus(of(v.past), of(u.past)), of(q.n))
+    return minus(velocity_then(v, of(q.rb)), velocity_then(u, of(q.ra))), spin
+
+
+@long_law
+def act_at(q, n, ru, rv):
+    """Note the normal, and where the force of a step acts on either body."""
+    put(q.n, n)
+    put(q.ra, ru)
+    put(q.rb, rv)
+
+
+@long_law
 def forget(p):
     """The contact is open: nothing is left of it but the direction."""
     relax(p)
@@ -343,11 +358,9 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     fn = kn * volume
     if now.last == 0.0:  # no work has pressed what overlaps at the start
         p.en = 0.5 * fn * depth
-    past = minus(velocity_then(v, of(p.rb)), velocity_then(u, of(p.ra)))
-    past_spin = dot(minus(of(v.past), of(u.past)), of(p.n))
+    past, past_spin = motion_then(p, u, v)
     before = late(p.pn, p.fn * dot(past, of(p.n)), now)
-    if share == 1.0:  # a joint that hands over has its own
-        fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, depth, vn, ease, now.kick, p.en)
+    fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, depth, vn, ease, now.kick, p.en)
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
     p.pn = fn * vn
     p.en -= before + 0.5 * p.pn * now.last
@@ -358,9 +371,7 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     p.fn = fn
     grown = max(area - p.area, 0.0) * (now.dt / max(now.last, 1e-300) if p.area > 0.0 else 1.0)
     p.area = area
-    put(p.n, n)
-    put(p.ra, ru)
-    put(p.rb, rv)
+    act_at(p, n, ru, rv)
     now.deepest = max(now.deepest, depth)
     now.rate = max(now.rate, kn * (area + grown) * ease)
     f = along(f, fn, n)

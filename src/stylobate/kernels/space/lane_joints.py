@@ -124,8 +124,6 @@ def keep_elastic(e, s):
 def act(damped, e, u, v, s, o, l):
     """Force of a joint on its two bodies in a lane; brings its memory from t_{n−1} to t_n."""
     area, k, pressing, middle, force, moment = resultant(s, e.kn[l], l)
-    loose = (s.n[2, l] < e.from_c[l]) | (area < OVERLAP_FROM * e.width[l])
-    o.loose[l] = 1 if loose else o.loose[l]
     ml, last = row(s.ml, l), o.last[l]
     away = v.x[l] - u.x[l], v.y[l] - u.y[l], v.z[l] - u.z[l]
     foot = minus(ml, away)  # the middle of the lower face from the upper centroid
@@ -140,6 +138,9 @@ def act(damped, e, u, v, s, o, l):
         write(e.gm, l, turn)
     else:
         e.en[l] = 0.5 * k * (s.sums[SQUARE, l] + s.sums[LOWER + SQUARE, l])
+    loose = (s.n[2, l] < e.from_c[l]) | (area < OVERLAP_FROM * e.width[l])
+    loose |= (e.en[l] == 0.0) & ((s.n[2, l] < e.apart_c[l]) | (area < e.apart[l]))
+    o.loose[l] = 1 if loose else o.loose[l]
     force, moment = in_axes(s, l, force), in_axes(s, l, moment)
     each = 1.0 / max(pressing, NOTHING)
     middle = in_axes(s, l, scaled(each, middle))
@@ -152,6 +153,9 @@ def act(damped, e, u, v, s, o, l):
     w = minus(at_point(v, l, rv), at_point(u, l, at))
     spin_u = dot((u.wx[l], u.wy[l], u.wz[l]), n)
     spin_v = dot((v.wx[l], v.wy[l], v.wz[l]), n)
+    past = minus(at_point(v, l, row(e.rb, l)), at_point(u, l, row(e.ra, l)))
+    write(e.ra, l, at)
+    write(e.rb, l, rv)
     kf, slip, spin, before, turn = e.ks[l] * closed, along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
     kt, limit, arm = TORSION * kf * spread, e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
     f, twist = sprung(before, turn, e.kf[l], e.kt[l], n, slip, 0.5 * (spin_u + spin_v), spin, kf, kt, limit, arm, last)
@@ -159,13 +163,13 @@ def act(damped, e, u, v, s, o, l):
     keep = 1.0 if pressing > 0.0 else 0.0
     half = 0.5 * last * keep
     f, twist = scaled(keep, f), keep * twist
-    o.shear[l] -= half * (dot(before, w) + dot(f, slip) + (turn + twist) * spin)
+    o.shear[l] -= half * (dot(before, past) + dot(f, slip) + (turn + twist) * spin)
     write(e.f, l, f)
     e.t[l], e.kf[l], e.kt[l] = twist, keep * kf, keep * kt
     if damped:
         g, more = slowed(f, twist, slip, spin, kf, kt, limit, arm, (0.0, 0.0, 0.0), o.beta[l])
         g, more = scaled(keep, g), keep * more
-        o.visc[l] -= half * (dot(along(g, 1.0, row(e.d, l)), w) + (more + e.dt[l]) * spin)
+        o.visc[l] -= half * (dot(g, w) + dot(row(e.d, l), past) + (more + e.dt[l]) * spin)
         write(e.d, l, g)
         e.dt[l] = more
         f, twist = along(f, 1.0, g), twist + more

@@ -36,9 +36,10 @@ Legend::
                kn ks tan co   stiffness and cohesion per area [N/m³], [Pa], tan φ
                width          area of the smaller face [m²]
                from_c to_c    cosines of the relative tilts from which the bed acts too, and alone
+               apart_c apart  faces that open at a tilt of more than this cosine, or an overlap below it [m²], part for good
                weight live    1 joint, 0 bed, between them both; 0: the faces have parted for good
                gf gm          force and moment of damping on the upper body about the middle of the lower face [N], [N m]
-               f t kf kt d dt en pf pd  what is remembered, as of a pair;  over  area of the overlap [m²]
+               f t kf kt d dt en pf pd n ra rb  what is remembered, as of a pair;  over  area of the overlap [m²]
     law[a, b]  k_n, k_s [N/m³], tan φ of bodies a < b
     now        dt last earlier  step, the last part of one that was taken, and the one before [s]
                kick           longest time for which forces at t_n may act [s]
@@ -100,8 +101,8 @@ def types() -> dict[str, np.dtype]:
         ),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
-            + fields("ml il jl mu iu ju f d gf gm", 3)
-            + fields("rl ru kn ks tan co width from_c to_c weight t dt kf kt en over pf pd")
+            + fields("ml il jl mu iu ju f d gf gm n ra rb", 3)
+            + fields("rl ru kn ks tan co width from_c to_c apart_c apart weight t dt kf kt en over pf pd")
         ),
         "now": np.dtype(
             fields("dt last earlier kick eta dull calm beta skin rate deepest work shear visc")

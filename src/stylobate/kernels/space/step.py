@@ -47,12 +47,15 @@ def forces(state):
         b = shape[p.b]
         u = body[a.body]
         v = body[b.body]
-        share = 1.0 - joint[p.joint].weight if p.joint >= 0 and joint[p.joint].live != 0 else 1.0
+        joined = p.joint >= 0 and joint[p.joint].live != 0
+        share = 1.0 - joint[p.joint].weight if joined else 1.0
+        # what a joint has held and handed over strikes only when it has been apart
+        foreign = p.joint < 0 or (not joined and p.area == 0.0)
         wide = 2.0 * min(u.r, v.r)
         if share > 0.0 and touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
             numbers = law[min(a.body, b.body), max(a.body, b.body)]
             press(p, a, u, b, v, vertex, numbers[0], numbers[1], numbers[2], share, now, total, simplex)
-            if now.touched < 0 and p.joint < 0:
+            if now.touched < 0 and foreign:
                 now.touched = feed[0].step[0]
         elif share > 0.0:
             if p.area > 0.0:

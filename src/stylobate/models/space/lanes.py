@@ -35,8 +35,8 @@ POSE = ("x", "y", "z", "ix", "iy", "iz", "jx", "jy", "jz", "kx", "ky", "kz")
 #: Numbers of a lane that the engine's bodies and joints have too.
 OF_BODY = (*POSE, "vx", "vy", "vz", "lx", "ly", "lz", "wx", "wy", "wz", "m", "im", "ia", "ic", "ib")
 OF_JOINT = (
-    "ml", "il", "jl", "mu", "iu", "ju", "f", "d", "gf", "gm",
-    "rl", "ru", "kn", "ks", "tan", "co", "width", "from_c", "t", "dt", "kf", "kt", "en",
+    "ml", "il", "jl", "mu", "iu", "ju", "f", "d", "gf", "gm", "ra", "rb",
+    "rl", "ru", "kn", "ks", "tan", "co", "width", "from_c", "apart_c", "apart", "t", "dt", "kf", "kt", "en",
 )  # fmt: skip
 
 

@@ -88,6 +88,7 @@ def joints_of(structure: Structure, solids: list[Solid], first: np.ndarray) -> l
                 law.tan_phi,
                 law.cohesion,
                 LAST_TILT,
+                joint.area,
             )
         )
     return joints

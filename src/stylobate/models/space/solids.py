@@ -11,6 +11,10 @@ import numpy as np
 from ...column.shapes import Mesh
 from ...kernels.space.records import BLOCK, DRUM, FACETS, GROUND, LESS, MOST_FACES, MOST_VERTICES, types
 
+#: Shares of the tilt at which faces have parted: from which on they hand over, and beyond which they part as soon as they
+#: open; so they do with less than this share of their overlap at the start.
+HANDING_OVER, APART, LEFT = 0.7, 0.4, 0.3
+
 
 class Drum(NamedTuple):
     """A frustum of a cone: middle of its lower face [m], unit axis, height and both radii [m], in the axes of its body."""
@@ -84,8 +88,8 @@ class Face(NamedTuple):
 
 
 class FacesJoined(NamedTuple):
-    """A joint of two faces: numbers of their parts over all bodies, the faces, k_n, k_s [N/m³], tan φ, cohesion [Pa], and
-    the relative tilt at which they have parted [rad]."""
+    """A joint of two faces: numbers of their parts over all bodies, the faces, k_n, k_s [N/m³], tan φ, cohesion [Pa], the
+    relative tilt at which they have parted [rad], and their overlap at the start, by default the smaller face [m²]."""
 
     lower: int
     upper: int
@@ -96,6 +100,7 @@ class FacesJoined(NamedTuple):
     tan_phi: float
     cohesion: float
     last: float
+    over: float = math.inf
 
 
 class Packed(NamedTuple):
@@ -242,7 +247,8 @@ def pack_joints(joints: Sequence[FacesJoined], packed: Packed) -> tuple[np.ndarr
             first += len(corners)
         e["kn"], e["ks"], e["tan"], e["co"] = one.kn, one.ks, one.tan_phi, one.cohesion
         e["width"] = min(one.below.area, one.above.area)
-        e["from_c"], e["to_c"] = math.cos(0.7 * one.last), math.cos(one.last)
+        e["from_c"], e["to_c"], e["apart_c"] = (math.cos(share * one.last) for share in (HANDING_OVER, 1.0, APART))
+        e["apart"] = LEFT * min(one.over, e["width"])
         e["live"], e["weight"] = 1, 1.0
     return records, np.concatenate(rows)
 
