@@ -3,7 +3,8 @@
 The law of a joint is that of ``joints.py``. Where it is no longer all that happens, because a joint is about to hand over or
 two bodies that no joint holds might touch, the lane has failed: its run is made anew by the engine that finds contacts.
 
-State, a tuple in this order: body, joint, corner, spot, between, lane, work, ground, feed, watch; see ``lane_records.py``.
+State, a tuple in this order: body, joint, corner, spot, between, lane, ground, feed, watch, work; see ``lane_records.py``.
+The frame of the run finds lane, ground, feed and watch where they are in the state of every engine.
 """
 
 import math
@@ -13,7 +14,7 @@ from ..dem3d.move import rotate_any, twice_kinetic
 from ..dem3d.step import fill_ground
 from ..jit import apart, kernel, law, strict
 from ..run_codes import CHUNK, FAILED, RUNNING
-from ..shared.frame import end_runs, running_lanes
+from ..shared.frame import run_chunks
 from .edges import sum_up
 from .joints import NOTHING
 from .lane_joints import act_damped, act_elastic, keep_elastic, look_along, look_on, place_corner, row
@@ -34,7 +35,7 @@ def clear(u):
 @kernel
 def forces(state):
     """Forces of all joints at t_n on all bodies; brings their memory from t_{n−1} to t_n."""
-    body, joint, corner, spot, _, lane, work, _, _, _ = state
+    body, joint, corner, spot, _, lane, _, _, _, work = state
     o, s = lane[0], work[0]
     damped = False
     for l in range(o.beta.shape[0]):
@@ -92,7 +93,7 @@ def work_done(o, g, h):
 @kernel
 def move(state, k):
     """Motion of all bodies over step k of the chunk."""
-    body, _, _, _, _, lane, _, ground, _, _ = state
+    body, _, _, _, _, lane, ground, _, _, _ = state
     for i in range(body.shape[0]):
         if body[i].fixed == 0:
             drift(body[i], lane[0], ground[k])
@@ -149,7 +150,7 @@ def fail_loose(body, lane, watch):
 @kernel
 def look(state):
     """Looks between chunks of steps."""
-    body, _, _, _, between, lane, _, _, _, watch = state
+    body, _, _, _, between, lane, _, _, watch, _ = state
     for i in range(body.shape[0]):
         if body[i].fixed == 0:
             look_at_body(body[i], lane[0])
@@ -229,19 +230,11 @@ def gaps(state, out):
 
 
 @kernel
+def look_ahead(state):
+    """Nothing is searched before a chunk of steps."""
+
+
+@kernel
 def advance(state, chunks):
-    """Advance all lanes by up to ``chunks`` × CHUNK steps; returns as soon as the run in some lane is over."""
-    _, _, _, _, _, lane, _, ground, feed, watch = state
-    before = running_lanes(watch)
-    for _ in range(chunks):
-        if before == 0 or running_lanes(watch) < before:
-            break
-        fill_ground(ground, feed, watch)
-        for k in range(CHUNK):
-            forces(state)
-            move(state, k)
-        for l in range(watch[0].status.shape[0]):
-            if watch[0].status[l] == RUNNING:
-                feed[0].step[l] += CHUNK
-        look(state)
-        end_runs(lane, feed, watch)
+    """Advance all lanes: see :func:`run_chunks`."""
+    run_chunks(fill_ground, look_ahead, forces, move, look, state, chunks)

@@ -174,9 +174,9 @@ class IntactLanes:
             "body": n, "joint": len(joined), "corner": len(edge), "spot": max(int(joined["many_u"].max(initial=0)), 1),
             "between": self.pairs.shape[1], "ground": CHUNK + 1,
         }  # fmt: skip
-        names = ["body", "joint", "corner", "spot", "between", "lane", "work", "ground", "feed", "watch"]
+        names = ["body", "joint", "corner", "spot", "between", "lane", "ground", "feed", "watch", "work"]
         state = tuple(aligned_zeros(counts.get(name, 1), kinds[name.replace("spot", "corner")]) for name in names)
-        self.body, self.joint, self.corner, _, self.between, self.lane, _, _, self.feed, self.watch = state
+        self.body, self.joint, self.corner, _, self.between, self.lane, _, self.feed, self.watch, _ = state
         self.body["fixed"] = engine.body["fixed"]
         for name in ("first_l", "many_l", "first_u", "many_u"):
             self.joint[name] = joined[name]
