@@ -15,7 +15,7 @@ import stylobate as st
 from stylobate import plots
 from stylobate.cli.main import call
 from stylobate.column import Column, Joint
-from stylobate.column.shapes import CircularFrustum, RectangularFrustum
+from stylobate.column.shapes import CircularFrustum, Glued, Placed, RectangularFrustum
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.dem3d.model import DistinctElement3D
@@ -23,7 +23,7 @@ from stylobate.plots.animation import draw_frame, film_of, write_gif
 from stylobate.plots.player import write_player
 from stylobate.plots.residuals import round_factor
 from stylobate.plots.scene import Scene
-from stylobate.plots.solids import FLUTE, MARK, STONE, Solid, painted, painting_order, surface_of
+from stylobate.plots.solids import FLUTE, MARK, STONE, Solid, painted, painting_order, surface_of, surfaces_of
 from stylobate.plots.uplift import rim_radius, rim_uplift
 from stylobate.plots.view import ALONG_X, ALONG_Y, OBLIQUE, View, parse_view
 from stylobate.response.poses import SpacePoses, exaggerated, quaternions, rotation_matrices
@@ -194,6 +194,18 @@ def test_a_small_block_before_a_tall_one_is_painted_after_it():
     assert tall.place @ View(0.0, 0.5).toward > small.place @ View(0.0, 0.5).toward
     assert painting_order([small, tall], View(0.0, 0.5)) == [1, 0]
     assert painting_order([small, tall], View(math.pi, 0.5)) == [0, 1]
+
+
+def test_parts_of_one_body_are_painted_one_by_one():
+    """A neck under a wide slab: its outline is its own, and from above the slab hides it, in whichever order."""
+    neck = Placed(RectangularFrustum((0.4, 0.4), (0.4, 0.4), 1.0, 0.5), (0.0, 0.0, -0.5))
+    slab = Placed(RectangularFrustum((2.0, 2.0), (2.0, 2.0), 0.2, 0.1), (0.0, 0.0, 0.1))
+    for parts, place in (((neck, slab), 0), ((slab, neck), 1)):
+        surfaces = surfaces_of(Glued(parts))
+        solids = [Solid(one, np.zeros(3), np.eye(3)) for one in surfaces]
+        assert np.ptp(surfaces[place].vertices, axis=0) == pytest.approx([0.4, 0.4, 1.0])
+        assert painting_order(solids, View(-0.5, 0.9)) == [place, 1 - place]
+    assert len(surfaces_of(neck.shape)) == 1
 
 
 @pytest.mark.parametrize(

@@ -123,9 +123,9 @@ def _upright(scene: Scene, position: np.ndarray, orientation: np.ndarray) -> np.
 
 
 def _vertices(scene: Scene) -> list[np.ndarray]:
-    """Vertices of every body in its own axes [m], each of shape (m, 3)."""
+    """Vertices of every body in its own axes [m], each of shape (m, 3); of what is seen in space, of every part of one."""
     if scene.seen_from is not None:
-        return [surface.vertices for surface in scene.surfaces]
+        return [surface.vertices for _, surface in scene.parts]
     return [scene.response.bodies.shapes[i].mesh(AROUND).vertices for i in scene.shown]
 
 
@@ -134,8 +134,9 @@ def _in_space(scene: Scene, view: View) -> dict:
     return {
         "faces": [
             [(tone, *face) for tone, face in zip(surface.tones, surface.faces, strict=True)]
-            for surface in scene.surfaces
+            for _, surface in scene.parts
         ],
+        "bodies": [body for body, _ in scene.parts],
         "plate": scene.plate.round(4).tolist(),
         "directions": scene.directions.round(4).tolist(),
         "view": (view.azimuth, view.elevation),

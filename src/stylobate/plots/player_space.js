@@ -77,8 +77,8 @@ function spacePainter(data, film) {
         c.beginPath(); c.moveTo(...from); c.lineTo(...to); c.stroke(); c.fillText("xy"[i], ...beyond);
       });
       const axes = [rightward, upward, toward];
-      const bodies = data.poses[k].map((pose, i) =>
-        formed(i, data.shapes[i], space.faces[i], magnified(pose, data.start[i], factor), axes));
+      const bodies = space.bodies.map((body, i) =>
+        formed(i, data.shapes[i], space.faces[i], magnified(data.poses[k][body], data.start[body], factor), axes));
       for (const { seen, edge, faces } of ordered(bodies)) {
         const points = seen.map(onScreen);
         c.lineWidth = 2; c.strokeStyle = "#8c6d3f"; path(edge.map(onScreen)); c.stroke();

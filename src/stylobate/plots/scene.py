@@ -16,7 +16,7 @@ from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
 from ..response.poses import exaggerated, rotation_matrices
-from .solids import Solid, Surface, surface_of
+from .solids import Solid, Surface, surfaces_of
 from .style import BLACK, BROWN, GREY, SAND
 from .view import View
 
@@ -104,20 +104,25 @@ class Scene:
         """Corners of every body at a recorded state, displacements times a factor [m], each of shape (k, 2)."""
         if self.seen_from is None:
             return [self.response.outline(index, i, factor) for i in self.shown]
-        return [hull(self.seen_from.across(solid.vertices)) for solid in self.solids(index, factor)]
+        points: list[list[np.ndarray]] = [[] for _ in self.shown]
+        for (place, _), solid in zip(self.parts, self.solids(index, factor), strict=True):
+            points[place].append(self.seen_from.across(solid.vertices))
+        return [hull(np.concatenate(some)) for some in points]
 
     def solids(self, index: int, factor: float = 1.0) -> list[Solid]:
-        """Every body in space at a recorded state, displacements and turns times a factor."""
+        """Every part of a body in space at a recorded state, displacements and turns times a factor."""
         poses = exaggerated(self.response.poses, index, factor)
         turns = self.upright @ rotation_matrices(poses.orientation)
         places = poses.position @ self.upright.T
-        return [Solid(surface, places[i], turns[i]) for i, surface in zip(self.shown, self.surfaces, strict=True)]
+        shown = list(self.shown)
+        return [Solid(surface, places[shown[k]], turns[shown[k]]) for k, surface in self.parts]
 
     @cached_property
-    def surfaces(self) -> tuple[Surface, ...]:
-        """Of the bodies in the picture."""
+    def parts(self) -> tuple[tuple[int, Surface], ...]:
+        """Surfaces of the convex parts of what is shown, in the axes of their bodies, each with its body's place there."""
         bodies = self.response.bodies
-        return tuple(surface_of(bodies.shapes[i], bodies.fixed[i]) for i in self.shown)
+        each = ((k, surfaces_of(bodies.shapes[i], bodies.fixed[i])) for k, i in enumerate(self.shown))
+        return tuple((k, surface) for k, surfaces in each for surface in surfaces)
 
     @cached_property
     def way(self) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Solids as painted: faces with fluting and a mark, shaded, the farther ones first.
 
-Bodies are convex: faces of one that are turned to the viewer never hide each other, and of two bodies that are seen over
+Parts of bodies are convex: faces of one that are turned to the viewer never hide each other, and of two that are seen over
 each other the one that is nearer along one common line of sight is nearer along all of them.
 """
 
@@ -11,7 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from ..column.shapes import Chipped, CircularFrustum, Mesh, Shape, hull
+from ..column.shapes import Chipped, CircularFrustum, Glued, Mesh, Shape, hull
+from ..column.turning import matrix_of
 from .view import View
 
 #: Flutes around a round drum, as on a Doric shaft.
@@ -69,6 +70,17 @@ def surface_of(shape: Shape, fixed: bool = False) -> Surface:
     sides = len(mesh.faces) - 2 - chips
     strips = [MARK if i in (0, sides - 1) else FLUTE if i % 2 else STONE for i in range(sides)]
     return Surface(mesh.vertices, mesh.faces, (STONE, STONE, *strips, *(STONE,) * chips))
+
+
+def surfaces_of(shape: Shape, fixed: bool = False) -> list[Surface]:
+    """Surfaces of the convex parts of a body, each in the axes of the body, as of :func:`surface_of`."""
+    if not isinstance(shape, Glued):
+        return [surface_of(shape, fixed)]
+    found = []
+    for part in shape.parts:
+        one = surface_of(part.shape, fixed)
+        found.append(Surface(one.vertices @ matrix_of(part.orientation).T + np.array(part.place), one.faces, one.tones))
+    return found
 
 
 def _marked(mesh: Mesh) -> Surface:
