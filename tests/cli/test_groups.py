@@ -81,6 +81,7 @@ def test_options_of_a_group_are_said_alike_wherever_they_are():
     }
     own |= {
         ("spectrum", "tail"),
+        ("sequence", "motion"),
         ("compare", "settings"),
         ("reproduce", "out"),
         ("draw", "out"),

@@ -351,7 +351,7 @@ def earthquakes_until_fall(
     began = time.perf_counter()
     check_kind("structure", structure, Structure)
     check_kind("model", model, Model)
-    check_whole("`most`", most, 1, LONGEST)
+    check_whole("most", most, 1, LONGEST)
     structure = structure.stack or structure
     kinds = check_all("motions", motions, Motion)
     if not kinds:

@@ -158,8 +158,8 @@ def to_decide(structure: Structure, parameters: Mapping[str, Any], given: float)
     given : float
         How long it went on after the motion [s].
     """
-    if "assembly" in structure.kind:
-        return "follow it with `until_rest`, or damp it (`stiffness_damping`)"
+    if structure.stack is None and structure.slenderness is None:
+        return "follow it with `until_rest`, or damp it (stiffness_damping)"
     free = parameters.get("pivot_friction", 1.0) < 1.0 and not parameters.get("planar")
     moved = any(drum.offset or drum.tilt or drum.chipped for drum in structure.as_found.drums)
     if free and moved and structure.section == "circular":
