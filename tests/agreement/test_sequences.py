@@ -210,7 +210,7 @@ def test_how_many_it_takes_of_a_kind():
         (lambda: in_sequence([FIRST, st.Motion(0.01, SECOND.samples, SECOND.samples)]), "has the components x and"),
         (lambda: in_sequence([FIRST.replace(dt=1e-5)] * 100, rest=3600.0), "samples; allowed is up to"),
         (lambda: st.earthquakes_until_fall(COLUMN, [], st.DistinctElement2D()), "no motion is given"),
-        (lambda: st.earthquakes_until_fall(COLUMN, FIRST, st.DistinctElement2D(), 0), "`most` is 0"),
+        (lambda: st.earthquakes_until_fall(COLUMN, FIRST, st.DistinctElement2D(), 0), "most is 0"),
         (
             lambda: st.sequence(
                 COLUMN, FIRST.replace(dt=1.0), st.RigidBeam(), rest=3600.0, repeat=20, output_interval=1e-3
