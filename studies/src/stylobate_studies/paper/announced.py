@@ -67,11 +67,10 @@ def company_statement(made: dict[str, Any]) -> Statement:
     return Statement(
         "1", "Columns that stand free today are more prone to collapse than those that top beams connected.",
         f"columns that lose a drum, over {made['records']} records, two directions and {len(made['levels_m_s'])} levels: "
-        f"{alone} {columns[alone]['share']:.0%}; less than that by the same motions in company (95 %): {differences}"
-        .replace("%", " %"),
+        f"{alone} {percent(columns[alone]['share'])}; beside that, in company under the same motions (95 %): {differences}",
         verdict,
         f"Taken as: the interval of the difference lies below zero in all {len(others)} structures. That anything falls: "
-        + ", ".join(f"{name} {anything[name]['share']:.0%}".replace("%", " %") for name in columns) + ".",
+        + ", ".join(f"{name} {percent(anything[name]['share'])}" for name in columns) + ".",
         "Nine records: the page on columns in company. Where stones strike one another, a fall is one draw of many.",
     )  # fmt: skip
 

@@ -26,7 +26,7 @@ LEVELS = (0.3, 0.6, 0.9)
 ROCKS = 0.005
 
 #: Models by what the table calls them; those of the plane leave what acts across it out.
-COMPARED = {**MODELS, SPACE: POPULATIONS[SPACE]}
+COMPARED = {**MODELS, "distinct elements in space, both components": POPULATIONS[SPACE]}
 
 
 def motions_piece(folder: Path, records: Sequence[Motion], threads: int, progress: Progress | None) -> StudyResult:
