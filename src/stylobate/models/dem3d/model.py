@@ -103,8 +103,8 @@ class DistinctElement3D(SteppedDrums):
     restitution : float, optional
         Velocity restitution that the first impact of the column as one body shall have: chooses β, in place of
         ``stiffness_damping``. The provenance says which β that is, and how many times as many steps it costs. Of an assembly
-        in space the share of the speed that bodies keep which strike one another or the ground, 1 unless they are followed
-        until rest (0.3); it does not act on joints, faces that lie on one another from the start.
+        in space the share of the speed that bodies keep which strike one another or the ground, 0.3 by default; it does not
+        act on joints, faces that lie on one another from the start.
     mass_damping : float
         α: force −α m v on every drum, v relative to the base, and moment −α L [1/s].
 

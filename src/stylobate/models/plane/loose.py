@@ -72,7 +72,7 @@ class Contacts(NamedTuple):
     block_modulus : float or None
         Of the stone of a column, in series with its joints [Pa].
     restitution : float or None
-        Of the bed; by default 1, and 0.3 in a run until rest.
+        Of the bed; 0.3 by default.
     step_factor, time_step : float, float or None
         Of assemblies: share of the largest stable step, or the step itself [s].
     must_settle : bool
