@@ -55,7 +55,7 @@ def test_friction_is_told_where_it_acted():
 
 @pytest.mark.parametrize("last", [40.0, 50.0])
 def test_a_block_that_falls_over_its_edge_does_not_bounce_where_the_joint_hands_over(last):
-    """Its tilt goes on as about a fixed edge, and what carries it stays within a third; it had doubled and vanished.
+    """Its tilt goes on as about a fixed edge, and what carries it stays within a third; it had more than doubled.
 
     The bed is eighty times softer under an edge than the joint, so that it must take over long before the joint is gone.
     """
