@@ -60,7 +60,8 @@ def simulate(
     until_end : bool
         Go on after the collapse is certain.
     until_rest : bool
-        Go on until everything lies still, on the ground if need be (``DistinctElement2D``; others refuse).
+        Go on until everything lies still, on the ground if need be (``DistinctElement2D``, and ``DistinctElement3D`` with
+        assemblies; others refuse).
     until_decided : bool
         Go on after motion and tail, a minute at most, as long as nothing has fallen and not all lies still (assemblies).
     start : Start or Toss, optional

@@ -1,12 +1,14 @@
 """Earthquakes one after another: one run of all of them, to the bit; what each leaves, and how many it takes."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.sequence import Count
+from stylobate.analysis.sequence import Count, SequenceResult
+from stylobate.analysis.verdicts import wilson_interval
 from stylobate.motion import in_sequence, spans_of
 from stylobate.motion.sequence import Span, number_at
 
@@ -256,3 +258,19 @@ def test_components_that_the_model_leaves_out_need_not_be_alike():
     found, same = (st.sequence(COLUMN, [one, SECOND], st.DistinctElement2D(), rest=REST) for one in (across, FIRST))
     assert "first: second horizontal component" in found.response.provenance["left_out"][0]
     assert found.response.measures == same.response.measures
+
+
+def test_undecided_runs_widen_the_share_that_has_fallen_and_a_fall_without_a_time_is_one():
+    """Of four under two earthquakes one fell in the first, one at the end without a time, one stands, one is undecided."""
+    sound = {"outcome": "rocked", "collapsed": False, "decided": True, "collapse_time_s": None}
+    fell = sound | {"outcome": "collapsed", "collapsed": True}
+    rows = [fell | {"collapse_time_s": 0.3}, fell, sound, sound | {"decided": False}]
+    spans = [Span("a", 0.0, 0.5, 1.0), Span("b", 1.0, 1.5, 2.0)]
+    assert Count.of_rows(rows, spans) == Count((1, 2, 3, 2), (1, 2, 3, 3), 2)
+    response = st.sequence(COLUMN, [FIRST, SECOND], st.RigidBlock(), rest=REST).response
+    whole = in_sequence([FIRST, SECOND], REST)
+    table = SequenceResult(response, whole, SimpleNamespace(rows=rows), 0.0).table
+    assert table["fallen_share"].iloc[-1] == 0.5
+    low, high = wilson_interval(np.array([2, 3]), np.array([4, 4]))
+    assert table["fallen_share_low"].iloc[-1] == pytest.approx(low[0])
+    assert table["fallen_share_high"].iloc[-1] == pytest.approx(high[1])

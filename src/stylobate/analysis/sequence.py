@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -65,7 +64,7 @@ class Count:
             if row is None or verdict == v.FAILED:
                 failed += 1
                 continue
-            fell = number_at(spans, row["collapse_time_s"]) if verdict == v.COLLAPSED else None
+            fell = (number_at(spans, row["collapse_time_s"]) or most) if verdict == v.COLLAPSED else None
             low.append(fell or (most if verdict == v.UNDECIDED else most + 1))
             high.append(fell or most + 1)
         return cls(tuple(low), tuple(high), most, failed)
@@ -166,9 +165,11 @@ class SequenceResult:
         falls = self.falls
         if falls is not None and falls.low and len(table):
             numbers = table["earthquake"].to_numpy()[:, None]
-            fell, open_ = (np.array(falls.high) <= numbers).sum(axis=1), len(falls.low)
-            low, high = v.collapse_interval(fell, open_ - fell, 0)
-            table = table.assign(fallen_share=fell / open_, fallen_share_low=low, fallen_share_high=high)
+            fell, stood = (np.array(falls.high) <= numbers).sum(axis=1), (np.array(falls.low) > numbers).sum(axis=1)
+            open_ = len(falls.low) - fell - stood
+            low, high = v.collapse_interval(fell, stood, open_)
+            share = v.share_collapsed(fell, stood, open_)
+            table = table.assign(fallen_share=share, fallen_share_low=low, fallen_share_high=high)
         return table
 
     @property
@@ -361,7 +362,7 @@ def earthquakes_until_fall(
     rows: list[dict] = []
     for motion in long:
         cases = [Case(one, motion) for one in stands]
-        options = dataclasses.replace(campaign.options, quiet=share_of([motion], campaign.whole))
+        options = replace(campaign.options, quiet=share_of([motion], campaign.whole))
         rows += batch(cases, structure, model, campaign, options)
     each = [Count.of_rows(rows[k * len(stands) : (k + 1) * len(stands)], spans_of(one)) for k, one in enumerate(long)]
     return UntilFall(tuple(one.name for one in kinds), tuple(each), time.perf_counter() - began)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from ..motion import harmonic
 from ..motion.ranges import amplitude_range, frequency_range
 from ..motion.specs import parse_acceleration, parse_frequency
 from ..reading import shown
-from .campaign import Campaign
+from .campaign import DECIDED
 from .digests import Hasher
 from .runs import Request
 
@@ -91,7 +91,7 @@ class HarmonicGrid:
         def case(cell: int) -> Case:
             return Case(self.column, units[cell // len(a)].scaled(float(a[cell % len(a)])))
 
-        return Request.of(Cases(len(units) * len(a), case), Hasher(self.model, Campaign(tail=self.tail).options))
+        return Request.of(Cases(len(units) * len(a), case), Hasher(self.model, replace(DECIDED, tail=self.tail)))
 
 
 def is_grid(path: str | Path) -> bool:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_range, warn
+from .assembly_fields import check_fields
 from .block import FAR_AWAY, TOUCHING, Block, FaceJoint, ground_block, separation, smallest_turn, touching_faces
 from .column import GRAVITIES
 from .faces import FacePair, face_between
@@ -75,7 +76,7 @@ class Assembly(Structure):
     links: tuple[Link, ...] = ()
 
     def __post_init__(self) -> None:
-        self.check_kinds("blocks", Block)
+        check_fields(self, "blocks", Block)
         object.__setattr__(self, "links", in_numbers(self.links, self.name))
         if self.gravity != 0.0:
             check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²", remedy="or 0")

@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from ..errors import InputError, as_typed, check_all, check_kind
+from ..errors import InputError
 from .as_found import AS_BUILT, AsFound
 from .faces import FacePair
 from .joint import Joint
@@ -292,31 +292,6 @@ class Structure:
         """A copy of this name."""
         fields: Any = self
         return dataclasses.replace(fields, name=name)
-
-    def check_kinds(self, bodies: str, kind: type) -> None:
-        """Refuse what is no body, link, override or law of an assembly, before anything reads it; all as tuples.
-
-        Parameters
-        ----------
-        bodies : str
-            Name of the field of its bodies.
-        kind : type
-            Of these.
-
-        Raises
-        ------
-        InputError
-        """
-        fields: Any = self
-        for name, each in ((bodies, kind), ("links", Link)):
-            object.__setattr__(self, name, tuple(check_all(name, getattr(self, name), each)))
-        object.__setattr__(self, "overrides", tuple(check_kind("overrides", fields.overrides, (tuple, list))))
-        for one in fields.overrides:
-            kinds = (str, str, Joint)
-            if not isinstance(one, (tuple, list)) or len(one) != 3 or not all(map(isinstance, one, kinds)):
-                raise InputError(f"an override is {as_typed(one)}; allowed is (name, name, Joint), of two blocks.")
-        check_kind("joint", fields.joint, Joint)
-        check_kind("name", self.name, str)
 
     # -- what asks for less ------------------------------------------------------------------------------------------
 

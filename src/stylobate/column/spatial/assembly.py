@@ -11,6 +11,7 @@ import numpy as np
 
 from ...constants import g as STANDARD_GRAVITY
 from ...errors import InputError, check_kind, check_range
+from ..assembly_fields import check_fields
 from ..block import FAR_AWAY, ground_block
 from ..column import GRAVITIES
 from ..joint import Joint, given
@@ -75,7 +76,7 @@ class SpatialAssembly(Structure):
     links: tuple[Link, ...] = ()
 
     def __post_init__(self) -> None:
-        self.check_kinds("stones", Stone)
+        check_fields(self, "stones", Stone)
         check_kind("settle", self.settle, bool, allowed="True or False")
         object.__setattr__(self, "links", in_numbers(self.links, self.name))
         if self.gravity != 0.0:
