@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from .. import store
 from ..bibliography import cite_run
+from .joint_forces import JointForces, joint_forces
 from .page import as_html
 from .recorded import Recorded
 from .summary import summary_of
@@ -98,6 +99,20 @@ class Response(Recorded):
         from .. import Film  # of the package: who draws stands above what is drawn, and is loaded when asked for
 
         return Film(self, frames_per_second, speed, window)
+
+    def joint_forces(self) -> JointForces:
+        """Normal force, shear and moment of every joint of a column in the plane, averaged over two recording intervals.
+
+        Returns
+        -------
+        JointForces
+
+        Raises
+        ------
+        InputError
+            It is no run of a column in the plane, or has fewer than three states at equal intervals.
+        """
+        return joint_forces(self)
 
     def with_provenance(self, provenance: dict, wall_time: float) -> Response:
         """A copy with provenance and wall time filled in (done once, by ``simulate``)."""
