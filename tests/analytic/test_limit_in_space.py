@@ -1,5 +1,6 @@
 """Limit analysis of assemblies in space against closed forms: overturning, sliding, frames, arches, overhangs."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -215,11 +216,26 @@ def test_what_would_take_too_long_or_has_no_weight_is_refused(monkeypatch):
         limits([column(0, 0, "one")], [0.0], gravity=0.0)
 
 
-def test_assemblies_of_the_plane_and_limit_analysis_in_the_plane_are_refused():
-    square = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
-    flat = st.Assembly((st.Block(square, 2500.0),), LAW)
-    with pytest.raises(st.InputError, match="is an assembly of the plane; give its blocks as boxes"):
-        st.limit_directions(flat)
+def trapezium(level, top, low=1.0, high=0.7, name="block"):
+    return st.Block(((-0.5 * low, level), (0.5 * low, level), (0.5 * high, top), (-0.5 * high, top)), 2500.0, name)
+
+
+def test_polygons_of_the_plane_overturn_about_their_corners():
+    """A trapezium b wide below and t above: half of the base over the height of its centroid, h (b + 2 t) / 3 (b + t)."""
+    multiplier = 1.5 * 1.0 * 1.7 / (3.0 * 2.4)
+    for blocks in (
+        (trapezium(0.0, 3.0),),
+        tuple(trapezium(i, i + 1.0, 1.0 - 0.1 * i, 0.9 - 0.1 * i, f"block {i}") for i in range(3)),
+    ):
+        found = st.limit_directions(st.Assembly(blocks, LAW))
+        assert found.azimuths.tolist() == [0.0, 180.0]
+        np.testing.assert_allclose(found.multipliers, multiplier, rtol=1e-7)
+
+
+def test_what_is_no_prism_of_the_plane_and_limit_analysis_in_the_plane_are_refused():
+    round_one = dataclasses.replace(trapezium(0.0, 3.0), solid=(1e3, 1e3, 0.0, 1.4))
+    with pytest.raises(st.InputError, match="is no prism of its outline"):
+        st.limit_directions(st.Assembly((round_one,), LAW))
     with pytest.raises(st.InputError, match="is an assembly in space; use limit_directions"):
         st.limit_analysis(st.SpatialAssembly(portal(), LAW))
 

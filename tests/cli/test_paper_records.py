@@ -12,7 +12,7 @@ from stylobate_studies.paper import announced, motions
 from stylobate_studies.paper.cases import DEM, MONOLITH
 from stylobate_studies.paper.company import shares, study
 from stylobate_studies.paper.pictures.company import draw_shares
-from stylobate_studies.paper.reading import CHOICES, FAILS, HOLDS, UNDECIDED
+from stylobate_studies.paper.sentences import FAILS, HOLDS, PARTLY, UNDECIDED
 
 NAMES = [structure.name for structure in study.structures()]
 COLUMNS = dict(zip(NAMES, (1, 2, 4, 3), strict=True))
@@ -77,13 +77,13 @@ def test_no_difference_is_told_where_there_is_none():
             against = row["against_alone"]
             assert (against["difference"], against["better"], against["worse"]) == (0.0, 0, 0)
             assert against["low"] < 0.0 < against["high"]
-    assert announced.company_statement(made).verdict == UNDECIDED
+    assert announced.company_statement(made).verdict.kind == UNDECIDED
 
 
-@pytest.mark.parametrize(("safe", "verdict"), [(NAMES[1:], HOLDS), (NAMES[1:2], CHOICES), (NAMES[:1], FAILS)])
+@pytest.mark.parametrize(("safe", "verdict"), [(NAMES[1:], HOLDS), (NAMES[1:2], PARTLY), (NAMES[:1], FAILS)])
 def test_the_sentence_holds_as_far_as_intervals_tell(safe, verdict):
     made = shares.summary(made_up(lambda name, record, level: name not in safe and level > 0.5))
-    assert announced.company_statement(made).verdict == verdict
+    assert announced.company_statement(made).verdict.kind == verdict
 
 
 def test_a_difference_is_of_pairs_that_both_have_a_verdict():
@@ -120,7 +120,7 @@ def test_all_models_under_a_record(tmp_path, monkeypatch):
     assert all(row[2] == "3" for row in body)
     assert motions.against(result, MONOLITH, DEM)[0].all()
     row = announced.motions_statement(result)
-    assert row.verdict in (HOLDS, CHOICES, FAILS)
+    assert row.verdict.kind in (HOLDS, PARTLY, FAILS)
     assert "nan" not in row.ours
 
 

@@ -18,7 +18,7 @@ from stylobate_studies.paper.cases import (
     Grids,
     paper_column,
 )
-from stylobate_studies.paper.reading import FAILS, HOLDS, Statement
+from stylobate_studies.paper.sentences import FAILS, HOLDS, PARTLY, Statement, Verdict, judged
 from stylobate_studies.paper.statements import markdown_row
 from stylobate_studies.paper.statics import joint_law, static_statements, static_values
 
@@ -32,7 +32,7 @@ def static():
 
 def test_numbers_of_the_paper_that_need_no_time_history(static):
     """Section 3: 0.205 g for both columns; the shape explains the rigid beam's 0.16 g."""
-    assert [row.verdict for row in static] == [HOLDS] * 5
+    assert [row.verdict.kind for row in static] == [HOLDS] * 6
     values = static_values()
     assert values["prism"] == pytest.approx(0.81 / 5.0, rel=1e-6)
     for name in ("paper-monolithic", "paper-12-drums"):
@@ -84,6 +84,14 @@ def test_circular_columns_keep_their_widths_as_diameters():
 
 
 def test_a_row_of_the_table_survives_its_own_marks():
-    row = Statement("3", "a | b", "c", FAILS, "d")
+    row = Statement("3", "a | b", "c", Verdict(FAILS), "d")
     assert markdown_row(row) == "| §3 | a \\| b | c | **does not hold** | d |  |"
     assert dataclasses.asdict(row)["sensitivity"] == ""
+
+
+def test_a_verdict_names_the_part_for_which_a_sentence_holds():
+    assert judged(True, {"drums": False}) == Verdict(HOLDS)
+    assert judged(False, {"drums": False}) == judged(False) == Verdict(FAILS)
+    assert str(judged(False, {"monolith": True, "drums": False})) == f"{PARTLY}: monolith; not drums"
+    many = judged(False, {f"variant {i}": i > 3 for i in range(9)})
+    assert str(many) == f"{PARTLY}: 5 of 9, variant 4; variant 5; variant 6; variant 7 and others"

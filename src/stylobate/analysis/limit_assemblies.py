@@ -40,12 +40,7 @@ class AssemblyProgramme:
     """
 
     def __init__(self, structure: Structure) -> None:
-        joints = structure.space_joints
-        if joints is None:
-            raise InputError(
-                f"limit analysis takes columns and assemblies in space, and {structure.name!r} is {structure.described} of "
-                "the plane; give its blocks as boxes, box = [x, y, z]."
-            )
+        joints = structure.space_joints or ()
         if len(joints) > MOST_JOINTS:
             minutes = TAKES / 60.0 * (len(joints) / MOST_JOINTS) ** GROWS
             raise InputError(

@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
+from ..column.assembly import Assembly
 from ..column.found_in_space import SpaceGeometry, base_axes, inside_overlap, space_geometry, space_load, upward
+from ..column.spatial.prisms import as_prisms
 from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError, check_kind
@@ -53,21 +55,25 @@ def limit_directions(structure: Structure, azimuths: Sequence[float] | None = No
 
     Parameters
     ----------
-    structure : Column or SpatialAssembly
+    structure : Column, Assembly or SpatialAssembly
     azimuths : sequence of float, optional
-        Where the forces push to, from x towards y [degrees]. By default both directions of the plane for a column found in
-        it, and every 15 degrees for any other.
+        Where the forces push to, from x towards y [degrees]. By default both directions of the plane for an assembly of the
+        plane and a column found in it, and every 15 degrees for any other.
     **loads
         Of :func:`stylobate.limit_analysis`, for the directions of the plane.
 
     Raises
     ------
     InputError
-        A direction that is not finite, or none; a column on rings; an assembly that does not stand, or lies in a plane.
+        A direction that is not finite, or none; a column on rings; an assembly that does not stand, or
+        of the plane and has links or round drums.
     """
     column = check_kind("structure", structure, Structure).stack
     if azimuths is None and column is not None and column.as_found and column.as_found.in_plane:
         return LimitByDirection(tuple(_in_plane(column, one, loads) for one in (0.0, 180.0)), "xz")
+    if isinstance(structure, Assembly):
+        azimuths = (0.0, 180.0) if azimuths is None else azimuths
+        structure = as_prisms(structure)
     asked = ALL_ROUND if azimuths is None else tuple(float(azimuth) for azimuth in azimuths)
     if not asked or not np.isfinite(asked).all():
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")

@@ -1,8 +1,7 @@
 """What each joint of a column carries in a run in the plane, from the motion of what stands on it.
 
-The part of the column above a joint is moved by its weight and by what the joint and the links across it give, and by nothing
-else. With r the place of a drum's centroid, u the displacement of the ground, θ̈ the rate of its spin, and c the middle of the
-face that stands on the joint,
+Its weight, the joint and the links across it move what is above a joint, and nothing else does. With r the place of a drum's
+centroid, u the displacement of the ground, θ̈ the rate of its spin, and c the middle of the face that stands on the joint,
 
     (V, N) = Σ m (r̈ + ü + g),    M = Σ [I θ̈ + (r − c) × m (r̈ + ü + g)],
 

@@ -14,6 +14,7 @@ import numpy as np
 
 import stylobate as st
 from stylobate.column.assembly_files import read_assembly
+from stylobate.column.spatial.prisms import as_prisms
 
 GALLERY = Path(__file__).resolve().parents[3] / "gallery" / "assemblies"
 
@@ -53,15 +54,7 @@ def plane_assembly(name: str, sliding: bool) -> st.Assembly:
 @cache
 def space_assembly(name: str, depth: float, sliding: bool) -> st.SpatialAssembly:
     """The same blocks as prisms of a depth."""
-    plane = plane_assembly(name, sliding)
-    stones = [
-        st.Stone.hull(
-            [(x, y, z) for x, z in np.asarray(block.corners) for y in (-0.5 * depth, 0.5 * depth)],
-            block.density, name=block.name, fixed=block.fixed,
-        )
-        for block in plane.blocks
-    ]  # fmt: skip
-    return st.SpatialAssembly(stones, plane.joint, name, ground=plane.ground, overrides=plane.overrides)
+    return as_prisms(plane_assembly(name, sliding), depth)
 
 
 def pulse(share: float, duration: float, cycles: float) -> st.Motion:

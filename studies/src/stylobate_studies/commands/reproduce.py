@@ -83,7 +83,9 @@ def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None, r
         numbers = {"domains": domain_rows(results), "certainty": doubt_rows(results)}
         frames = {
             "cases": pandas.DataFrame(case_rows(results)),
-            "statements": pandas.DataFrame([dataclasses.asdict(row) for row in rows]),
+            "statements": pandas.DataFrame(
+                [dataclasses.asdict(row) | {"verdict": row.verdict.kind, "part": row.verdict.part} for row in rows]
+            ),
         } | {name: pandas.DataFrame(list(one.body), columns=list(one.header)) for name, one in numbers.items()}
         for name, frame in frames.items():
             console.write_table(frame, tables / f"{name}.csv")

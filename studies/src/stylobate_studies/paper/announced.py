@@ -10,9 +10,10 @@ from stylobate.analysis import verdicts as v
 from stylobate.analysis.studies import StudyResult
 from stylobate.column.presets import PRESETS
 
-from .cases import BEAM, DEM, DRUMS, MONOLITH
+from .cases import BEAM, DEM, SHORT
 from .motions import COMPARED, LEVELS, against, outcome_of
-from .reading import CHOICES, FAILS, HOLDS, UNDECIDED, Statement, judged, percent
+from .reading import percent
+from .sentences import FAILS, UNDECIDED, Statement, Verdict, judged
 
 
 def motions_rows(result: StudyResult) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
@@ -35,18 +36,20 @@ def motions_rows(result: StudyResult) -> tuple[tuple[str, ...], list[tuple[str, 
 
 def motions_statement(result: StudyResult) -> Statement:
     """The announced tests of the rigid beam under real motions, judged as its harmonic tests are."""
-    names = {MONOLITH: "monolith", DRUMS: "drums"}
-    agree = {name: against(result, name, BEAM)[0] for name in names}
-    enough = [len(same) > 0 and same.mean() >= 0.8 for same in agree.values()]
-    peaks = {name: against(result, name, BEAM)[1] for name in names}
+    agree = {name: against(result, name, BEAM)[0] for name in PRESETS}
+    enough = {
+        f"{SHORT[name]}, {same.sum()} of {same.size}": len(same) > 0 and bool(same.mean() >= 0.8)
+        for name, same in agree.items()
+    }
+    peaks = {name: against(result, name, BEAM)[1] for name in PRESETS}
     records = len(result.plan.axes["motions"])
     return Statement(
         "4, announced", "The rigid beam agrees with the DEM under real ground motions, too.",
         f"same verdict under {records} records at {len(LEVELS)} levels: "
-        + ", ".join(f"{names[name]} {percent(float(same.mean()))} of {len(same)}" for name, same in agree.items())
+        + ", ".join(f"{SHORT[name]} {percent(float(same.mean()))} of {len(same)}" for name, same in agree.items())
         + "; median ratio beam/DEM of the peaks where both rock and neither collapses: "
-        + ", ".join(f"{names[name]} {_middle(peaks[name])}" for name in names),
-        judged(all(enough), enough),
+        + ", ".join(f"{SHORT[name]} {_middle(peaks[name])}" for name in PRESETS),
+        judged(all(enough.values()), enough),
         "The paper announces these tests, and says nothing of how they come out. Taken as: four verdicts in five. Round "
         f"columns, records scaled to PGV {LEVELS[0]:g} to {LEVELS[-1]:g} m/s.",
     )  # fmt: skip
@@ -60,9 +63,11 @@ def company_statement(made: dict[str, Any]) -> Statement:
     """The sentence, judged by intervals of differences from the column alone under the same motions."""
     columns, anything = made["columns"], made["anything"]
     alone, *others = columns
-    safer = [columns[name]["against_alone"]["high"] < 0.0 for name in others]
+    safer = {name: columns[name]["against_alone"]["high"] < 0.0 for name in others}
     worse = [columns[name]["against_alone"]["low"] > 0.0 for name in others]
-    verdict = HOLDS if all(safer) else CHOICES if any(safer) else FAILS if any(worse) else UNDECIDED
+    verdict = judged(all(safer.values()), safer)
+    if verdict.kind == FAILS and not any(worse):
+        verdict = Verdict(UNDECIDED)
     differences = ", ".join(_difference(name, columns[name]["against_alone"]) for name in others)
     return Statement(
         "1", "Columns that stand free today are more prone to collapse than those that top beams connected.",

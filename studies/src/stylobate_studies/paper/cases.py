@@ -27,6 +27,9 @@ AMPLITUDES = np.array([0.1, 0.2, 0.3, 0.4, 0.5]) * g
 DURATION, TAIL = 10.0, 5.0
 
 MONOLITH, DRUMS = PRESETS
+
+#: The columns, for people.
+SHORT = {MONOLITH: "monolith", DRUMS: "drums"}
 BEAM, SLIDING, BLOCKS, DEM = "rigid beam (paper)", "rigid beam with sliding", "rigid block", "distinct elements"
 
 MODELS: Mapping[str, Model] = {

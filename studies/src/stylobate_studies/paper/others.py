@@ -10,7 +10,8 @@ from stylobate.column.presets import PRESETS
 
 from . import cases as c
 from .literature import NUMBER, SHAKING, population_name
-from .reading import Statement, judged, percent
+from .reading import percent
+from .sentences import Statement, judged
 from .study import PaperResults
 
 TESTS = "Mouzakis et al. 2002"
@@ -25,37 +26,36 @@ def others_statements(results: PaperResults) -> list[Statement]:
     fell = int(sum(found[shaken]["collapsed"]))
     peaks = np.array([p for p, down in zip(found[shaken]["peak"], found[shaken]["collapsed"], strict=True) if not down])
     spread = float(peaks.max() / peaks.min()) if len(peaks) else np.nan
-    out = [planar[name] > 0.25 for name in found]
-    small = [left[name] < 0.5 for name in found]
+    out = {name: planar[name] > 0.25 for name in found}
+    small = {name: left[name] < 0.5 for name in found}
     far = {name: _moved(results, name) for name in PRESETS}
-    still = [far[c.MONOLITH] < 0.05, far[c.DRUMS] > 0.05]
     return [
         Statement(
             TESTS, "Planar shaking of a round column of drums goes out of its plane, triggered by imperfections.",
             "peak of the top across over its peak along the shaking, medians of those that stand: " + _said(planar),
-            judged(all(out), out),
+            judged(all(out.values()), out),
             "Taken as: a quarter. One per cent of the shaking across is enough; drums on their rims leave the plane from "
             "rounding alone.",
         ),
         Statement(
             TESTS, "Large deformation during the shaking is not necessarily reflected by what is left at its end.",
             f"displacement of the top left {SHAKING[3]:g} s after the shaking over its peak, medians: " + _said(left),
-            judged(all(small), small),
+            judged(all(small.values()), small),
             "Taken as: less than half. Undamped columns still wobble then.",
         ),
         Statement(
             TESTS, "The response is very sensitive to small changes of the column or of the motion.",
             f"of {NUMBER} columns of drums within 0.1 %, {fell} collapse; the largest peak of those that stand is "
             f"{spread:.2f} times the smallest",
-            judged(0 < fell < NUMBER and spread > 1.2, [0 < fell < NUMBER, spread > 1.2]),
+            judged(0 < fell < NUMBER and spread > 1.2, {"some collapse": 0 < fell < NUMBER, "peaks differ": spread > 1.2}),
             "Taken as: some collapse and some do not, and their peaks differ by a fifth.",
         ),
         Statement(
             "arXiv:0807.2101", "The smallest acceleration that overturns a single round body is nearly the same in the "
             "plane and in space.",
             "mean difference of the share that collapses, between space and its planar twin: "
-            + ", ".join(f"{'monolith' if name == c.MONOLITH else 'drums'} {percent(far[name])}" for name in PRESETS),
-            judged(still[0], still),
+            + ", ".join(f"{c.SHORT[name]} {percent(far[name])}" for name in PRESETS),
+            judged(far[c.MONOLITH] < 0.05),
             "Taken as: less than 5 % for the monolith. Thresholds of columns of drums do move: they are less safe in space.",
         ),
     ]  # fmt: skip

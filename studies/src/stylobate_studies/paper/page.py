@@ -18,7 +18,8 @@ from .announced import motions_rows
 from .cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH, Grids
 from .company.shares import KINDS, runs_in_words, share_rows, summary
 from .doubt import Doubt
-from .reading import CHOICES, FAILS, HOLDS, MEANINGS, UNDECIDED, Statement, percent, share
+from .reading import percent, share
+from .sentences import FAILS, HOLDS, MEANINGS, PARTLY, UNDECIDED, Statement
 from .space import space_rows
 from .statements import place
 from .study import PaperResults
@@ -66,17 +67,22 @@ def write_paper_page(
         f"again and lays it beside what they print. stylobate {__version__}, {'coarse' if results.quick else 'fine'} "
         f"grids, {results.runs} time histories.",
         Points(in_short(results, rows)),
-        f"Look first at “{OVERVIEW}”, then at the rows of “What holds” that do not hold or hold under stated choices, "
+        f"Look first at “{OVERVIEW}”, then at the rows of “What holds” that do not hold or hold in part, "
         f"and at “{DOUBT}” before relying on any single verdict.",
     )
     table = Rows(
         ("the paper says", "computed here", "verdict", "why, and how far open parameters move it"),
         [
-            (f"{place(r.section)}: {r.sentence}", r.ours, r.verdict, "\n".join(filter(None, (r.why, r.sensitivity))))
+            (
+                f"{place(r.section)}: {r.sentence}",
+                r.ours,
+                str(r.verdict),
+                "\n".join(filter(None, (r.why, r.sensitivity))),
+            )
             for r in rows
         ],
         mark=2,
-        looks={HOLDS: "good", CHOICES: "fair", FAILS: "bad", UNDECIDED: "fair"},
+        looks={HOLDS: "good", PARTLY: "fair", FAILS: "bad", UNDECIDED: "fair"},
     )
     models = Points(
         (
@@ -147,14 +153,14 @@ FILES = Points(
 
 def in_short(results: PaperResults, rows: Sequence[Statement]) -> list[str]:
     """Summary for a reader in a hurry."""
-    count = Counter(row.verdict for row in rows)
-    failed = "; ".join(row.sentence.rstrip(".") for row in rows if row.verdict == FAILS)
+    count = Counter(row.verdict.kind for row in rows)
+    failed = "; ".join(row.sentence.rstrip(".") for row in rows if row.verdict.kind == FAILS)
     shares = {
         (name, label): percent(share(results.domains[name, label, "rectangular"]))
         for name, label in product(NAMES, (BEAM, DEM))
     }
     return [
-        f"Of {len(rows)} checkable sentences of the paper {count[HOLDS]} hold, {count[CHOICES]} hold under stated choices, "
+        f"Of {len(rows)} checkable sentences of the paper {count[HOLDS]} hold, {count[PARTLY]} hold in part, "
         f"{count[FAILS]} do not hold"
         + (f" ({failed})" if failed else "")
         + (f", and {count[UNDECIDED]} is undecided." if count[UNDECIDED] else "."),

@@ -148,14 +148,15 @@ def cost_piece(data: Path) -> dict[str, float]:
     if not is_ready(place):
         shaking = [harmonic(1.5, amplitude, 2.0) for amplitude in np.linspace(0.25, 0.3, 16) * g]
         found = {label: min(_seconds(shaking, c.MODELS[label]) for _ in range(3)) for label in (c.BEAM, c.DEM)}
+        found[c.SPACE] = min(_seconds(shaking, c.POPULATIONS[c.SPACE], "circular") for _ in range(3))
         with replacing(place) as partial:
             partial.write_text(json.dumps(found), encoding="utf-8")
     return json.loads(place.read_text(encoding="utf-8"))
 
 
-def _seconds(shaking: list, model: Model) -> float:
+def _seconds(shaking: list, model: Model, section: str = "rectangular") -> float:
     started = time.perf_counter()
-    simulate_many(preset(c.DRUMS), shaking, model, threads=1)
+    simulate_many(c.paper_column(c.DRUMS, section), shaking, model, threads=1)
     return (time.perf_counter() - started) / len(shaking)
 
 

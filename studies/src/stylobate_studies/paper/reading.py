@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,44 +13,6 @@ from stylobate.percent import percent
 
 from .cases import BEAM, DEM, REFERENCE, VARIANTS
 from .study import PaperResults
-
-HOLDS, CHOICES, FAILS, UNDECIDED = "holds", "holds under stated choices", "does not hold", "undecided"
-
-#: Meanings of the verdicts, for the page and the documentation.
-MEANINGS = {
-    HOLDS: "our value meets the criterion that the row states, with the choices of this study where the paper is silent",
-    CHOICES: "it does so for some value of a parameter that the paper leaves open, for one of the two columns, or by one "
-    "of two tests; the row says which",
-    FAILS: "it does so for none of them",
-    UNDECIDED: "the interval of what is computed here holds both answers",
-}
-
-
-@dataclass(frozen=True)
-class Statement:
-    """One checkable sentence.
-
-    Parameters
-    ----------
-    section : str
-        Where the paper says it.
-    sentence : str
-        What it says, in our words.
-    ours : str
-        What is computed here.
-    verdict : str
-        holds, holds under stated choices, does not hold, or undecided.
-    why : str
-    sensitivity : str
-        How far open parameters move it.
-    """
-
-    section: str
-    sentence: str
-    ours: str
-    verdict: str
-    why: str
-    sensitivity: str = ""
 
 
 class Reader:
@@ -102,11 +63,6 @@ class Reader:
 
     def _falls(self, name: str, label: str) -> np.ndarray:
         return self.results.histories[name, label]["verdict"].values == v.VERDICTS.index(v.COLLAPSED)
-
-
-def judged(holds: bool, otherwise: Sequence[bool] = ()) -> str:
-    """The verdict: the criterion itself, or whether anything else that is open meets it."""
-    return HOLDS if holds else CHOICES if any(otherwise) else FAILS
 
 
 def first(domain: Domain, low: float = 0.0, high: float = np.inf) -> np.ndarray:

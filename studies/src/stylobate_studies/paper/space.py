@@ -9,8 +9,9 @@ from stylobate.analysis.domain import Domain
 from stylobate.analysis.probability import SAFE, UNSAFE, CollapseProbability
 from stylobate.column.presets import PRESETS
 
-from .cases import BEAM, BLOCKS, DEM, DRUMS, MONOLITH, RIVALS, SPACE
-from .reading import Statement, judged, percent
+from .cases import BEAM, BLOCKS, DEM, RIVALS, SHORT, SPACE
+from .reading import percent
+from .sentences import Statement, judged
 from .study import PaperResults
 
 
@@ -36,20 +37,22 @@ def space_statements(results: PaperResults) -> list[Statement]:
         for name in PRESETS
         for rival in RIVALS
     }
-    nearer = [
-        far[name, label, "circular"] < far[name, DEM, "rectangular"] for name in PRESETS for label in (BEAM, BLOCKS)
-    ]
+    nearer = {
+        f"{SHORT[name]}, {label}": far[name, label, "circular"] < far[name, DEM, "rectangular"]
+        for name in PRESETS
+        for label in (BEAM, BLOCKS)
+    }
     said = "; ".join(
-        f"{'monolith' if name == MONOLITH else 'drums'}: "
+        f"{SHORT[name]}: "
         + ", ".join(f"{label}, {section} {_share(far[name, label, section])}" for label, section in RIVALS)
-        for name in (MONOLITH, DRUMS)
+        for name in PRESETS
     )
     return [
         Statement(
             "4", "With the circular section, rigid beam and rigid block give more accurate results, comparable with "
             "analyses in three dimensions, than the plane DEM with its rectangular section.",
             f"mean distance of the plane verdict from the share of round columns that collapse in space: {said}",
-            judged(all(nearer), nearer),
+            judged(all(nearer.values()), nearer),
             "In space: distinct elements with round drums, a population of columns within 1 %. A distance of 0 % is a plane "
             "verdict that is right in every cell and for every column, 50 % a coin toss.",
         )

@@ -6,12 +6,17 @@ from collections import Counter
 from collections.abc import Sequence
 
 from .announced import company_statement, motions_statement
+from .cases import DEM, DRUMS
 from .company.shares import summary
 from .conclusions import conclusions
+from .contacts import contacts_statement, time_statement
 from .drums import drum_statements
+from .forces import forces_statement
+from .mechanisms import mechanisms_statement, openings
 from .monolith import monolith_statements
 from .others import others_statements
-from .reading import MEANINGS, Reader, Statement
+from .reading import Reader
+from .sentences import MEANINGS, Statement, Verdict
 from .space import space_statements
 from .statics import static_statements
 from .study import PaperResults
@@ -25,8 +30,12 @@ def statements(results: PaperResults) -> list[Statement]:
         *static_statements(),
         *drum_statements(r),
         *conclusions(r),
+        forces_statement(),
+        mechanisms_statement(results.mechanisms, openings(r.domain(DRUMS, DEM))),
+        time_statement(results.cost),
         *space_statements(results),
         *others_statements(results),
+        *([contacts_statement(results.contacts)] if results.contacts else []),
         *([] if results.motions is None else [motions_statement(results.motions)]),
         *([] if results.company is None else [company_statement(summary(results.company))]),
     ]
@@ -40,7 +49,7 @@ def place(section: str) -> str:
 
 def statements_markdown(rows: Sequence[Statement], quick: bool) -> str:
     """The statements as a page in Markdown."""
-    count = Counter(row.verdict for row in rows)
+    count = Counter(row.verdict.kind for row in rows)
     lines = [
         "# The paper, sentence by sentence",
         "",
@@ -56,7 +65,12 @@ def statements_markdown(rows: Sequence[Statement], quick: bool) -> str:
     return "\n".join([*lines, *map(markdown_row, rows)]) + "\n"
 
 
+def mark(verdict: Verdict) -> str:
+    """The verdict in bold, and for which part it holds."""
+    return f"**{verdict.kind}**" + (f": {verdict.part}" if verdict.part else "")
+
+
 def markdown_row(row: Statement) -> str:
     """One line of the table."""
-    cells = (place(row.section), row.sentence, row.ours, f"**{row.verdict}**", row.why, row.sensitivity)
+    cells = (place(row.section), row.sentence, row.ours, mark(row.verdict), row.why, row.sensitivity)
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 
 from stylobate.analysis.limit import limit_analysis
+from stylobate.analysis.limit_directions import limit_directions
 from stylobate.analysis.pushover import pushover
 from stylobate.column import Column, preset
+from stylobate.column.assembly import Assembly, Block
 from stylobate.column.presets import PRESETS
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.rigid_beam.model import RigidBeam
 
-from .cases import DRUMS, MONOLITH, paper_column
-from .reading import Statement, judged
+from .cases import DRUMS, MONOLITH, SHORT, paper_column
+from .sentences import Statement, judged
 
 
 def static_values() -> dict[str, float]:
@@ -28,6 +30,7 @@ def static_values() -> dict[str, float]:
         column = paper_column(name, section)
         values[f"limit, {name}, {section}"] = limit_analysis(column).multiplier
         values[f"pushover, {name}, {section}"] = pushover(column).collapse_multiplier
+        values[f"polygons, {name}"] = limit_directions(as_polygons(preset(name)), [0.0]).weakest.multiplier
     column, model = preset(MONOLITH), RigidBeam.paper()
     seen = column.as_prism()
     alpha = float(model.critical_angles(seen)[0])
@@ -39,6 +42,20 @@ def static_values() -> dict[str, float]:
     values["elastic"] = 0.5 * float(seen.joint_widths[0] * seen.joint_weights[0]) / stiffness / alpha
     values["work"] = 1.0 - float(np.trapezoid(cut, rotation) / np.trapezoid(moment, rotation))
     return values
+
+
+def as_polygons(column: Column) -> Assembly:
+    """The drums of a column as built as polygons of an assembly: trapezia of unit depth."""
+    levels = [*column.joint_heights.tolist(), column.height]
+    blocks = [
+        Block(
+            [(-0.5 * drum.bottom_width, low), (0.5 * drum.bottom_width, low),
+             (0.5 * drum.top_width, high), (-0.5 * drum.top_width, high)],
+            drum.density, f"drum {i}", depth=drum.depth,
+        )
+        for i, (drum, (low, high)) in enumerate(zip(column.drums, pairwise(levels), strict=True), 1)
+    ]  # fmt: skip
+    return Assembly(tuple(blocks), column.joints[0], name=f"{column.name}, polygons")
 
 
 def static_statements() -> list[Statement]:
@@ -56,6 +73,15 @@ def static_statements() -> list[Statement]:
             judged(s["elastic"] < 0.001 and s["work"] < 0.02),
             "Taken as: elastic branch below a thousandth of the critical angle, and work to overturn within 2 %.",
             "The acceleration that opens a joint falls in proportion to ξ, and that is not slight.",
+        ),
+        Statement(
+            "2.3",
+            "The rigid block model can consider quadrilateral or polygonal elements, and so the trapezoidal sections.",
+            "limit analysis of the same stones as polygons of an assembly: "
+            + ", ".join(f"{SHORT[name]} {s[f'polygons, {name}']:.4f} g" for name in PRESETS)
+            + f"; as drums {limit[0]:.4f} g and {limit[1]:.4f} g",
+            judged(all(abs(s[f"polygons, {name}"] - one) < 1e-6 for name, one in zip(PRESETS, limit, strict=True))),
+            "Blocks of an assembly are any convex polygons of up to 24 corners, from a file; `limit` and `dem2d` take them.",
         ),
         Statement(
             "3.1",

@@ -27,9 +27,11 @@ from stylobate.simulate import thread_count
 from . import cases as c
 from .ahead import compiled_meanwhile
 from .company.study import company_piece
+from .contacts import contacts_piece
 from .doubt import Doubt
 from .folder import check_folder, claim, is_ready
 from .literature import literature_piece
+from .mechanisms import COUNTED, mechanisms_piece
 from .motions import motions_piece
 from .pieces import POPULATION, cost_piece, domain_piece, histories_piece, population_piece, slug
 from .records import read_records
@@ -71,6 +73,10 @@ class PaperResults:
         By (column, model, section): plane domains on the grid of ``space``.
     literature : dict
         By population of round columns as others have tested them: peaks, residuals and verdicts of each column.
+    mechanisms : dict
+        By model: how many collapses of the drums are of each kind.
+    contacts : dict
+        By (column, plane or space, setting): round columns with other contact parameters; none in the coarse study.
     company : pandas.DataFrame, optional
         Runs of columns alone and in company; none in the coarse study.
     motions : StudyResult, optional
@@ -92,6 +98,8 @@ class PaperResults:
     space: dict[tuple[str, str], CollapseProbability] = field(default_factory=dict)
     rivals: dict[tuple[str, str, str], Domain] = field(default_factory=dict)
     literature: dict[str, dict[str, list[float]]] = field(default_factory=dict)
+    mechanisms: dict[str, dict[str, int]] = field(default_factory=dict)
+    contacts: dict[tuple[str, str, str], CollapseProbability] = field(default_factory=dict)
     company: Any = None
     motions: StudyResult | None = None
     cost: dict[str, float] = field(default_factory=dict)
@@ -103,6 +111,7 @@ class PaperResults:
         single += [*self.shaken.values(), *self.rivals.values()]
         single += [one for doubt in self.doubts.values() for one in (doubt.steps.domain, doubt.steps.halved)]
         many = [*(doubt.population for doubt in self.doubts.values()), *self.spots.values(), *self.space.values()]
+        many += self.contacts.values()
         tested = sum(len(one["peak"]) for one in self.literature.values())
         cases = tested + sum(history["verdict"].size for history in self.histories.values())
         cases += sum(len(one) for one in (self.company, self.motions and self.motions.plan) if one is not None)
@@ -197,6 +206,8 @@ def _pieces(
                 advance(f"open parameters, {name}: {variant}"),
             )  # fmt: skip
         pieces.doubts[name] = _doubt(data, name, grids, count, advance)
+    falls = {label: pieces.domains[c.DRUMS, label, "rectangular"] for label in COUNTED}
+    pieces.mechanisms = mechanisms_piece(data, falls, grids.tail, count, advance)
     for variant in grids.variants:
         label, model, change, duration = c.VARIANTS[variant]
         if duration == c.VARIANTS[c.REFERENCE][3] and (label == c.BEAM or variant == c.REFERENCE):
@@ -225,6 +236,7 @@ def _pieces(
     wait()
     pieces.literature = literature_piece(data)
     if records:
+        pieces.contacts = contacts_piece(data, grids.tail, count, advance)
         pieces.motions = motions_piece(data / "motions", records, count, advance("real motions"))
         pieces.company = company_piece(data / "company", records, count, advance("columns in company"))
     pieces.cost = cost_piece(data)

@@ -15,7 +15,7 @@ from stylobate.analysis.pushover import PushoverResult
 from stylobate.column import Column, preset
 from stylobate.constants import g
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.plots.style import BLACK, CYCLE, GREY, RED, SAND, WIDTH, styled, zero_line
+from stylobate.plots.style import BLACK, BLUE, CYCLE, GREY, RED, SAND, WIDTH, styled, zero_line
 
 from ..cases import MONOLITH
 from ..statics import joint_law
@@ -25,33 +25,41 @@ TINT = "#f3d9d2"
 
 
 @styled
-def draw_history_grid(histories: Any, column: Column, title: str) -> Figure:
+def draw_history_grid(histories: Any, column: Column, title: str, *, absolute: bool = False) -> Figure:
     """Base and top displacement of all cases, amplitudes rising upward, frequencies to the right.
 
-    Tinted where it collapses, hatched where there is no verdict; dotted, the end of the shaking.
+    Tinted where it collapses, hatched where there is no verdict; dotted, the end of the shaking. In absolute terms, with
+    the drift a t/ω of a ground that a sine of acceleration moves from rest.
 
     Parameters
     ----------
     histories : xarray.Dataset
         Over frequency, amplitude and time, as in ``PaperResults.histories``.
     column : Column
-        Its base width is the unit.
+        Its base width is the unit of displacements relative to the ground.
     title : str
+    absolute : bool
+        Displacements in space [m], each panel with its own scale, instead of those relative to the ground.
     """
     f, a, time = (histories[name].values for name in ("frequency", "amplitude", "time"))
     end = histories.attrs["duration_s"]
     figure = Figure(figsize=(WIDTH, 6.0))
     figure.set_layout_engine("none")  # which would take seconds for thirty panels
     margins = {"left": 0.105, "right": 0.985, "bottom": 0.075, "top": 0.91, "wspace": 0.14, "hspace": 0.12}
-    grid = figure.subplots(len(a), len(f), sharex=True, sharey=True, gridspec_kw=margins)
+    if absolute:
+        margins |= {"left": 0.125, "wspace": 0.42}
+    grid = figure.subplots(len(a), len(f), sharex=True, sharey=not absolute, gridspec_kw=margins)
     for j, amplitude in enumerate(a[::-1]):
         for i, frequency in enumerate(f):
             axes, one = grid[j, i], histories.sel(frequency=frequency, amplitude=amplitude)
-            top, base = (one[name].values / column.base_width for name in ("top", "base"))
+            top, base = (_shown(one, name, column, absolute) for name in ("top", "base"))
             verdict = v.VERDICTS[int(one["verdict"])]
             zero_line(axes)
-            axes.plot(time, np.clip(top, -1.2, 1.2), color=BLACK, linestyle=(0, (3.0, 1.0)), linewidth=0.7)
-            axes.plot(time, np.clip(base, -1.2, 1.2), color=RED, linewidth=0.9)
+            axes.plot(time, top, color=BLACK, linestyle=(0, (3.0, 1.0)), linewidth=0.7)
+            axes.plot(time, base, color=RED, linewidth=0.9)
+            if absolute:
+                drift = amplitude * np.array([0.0, end]) / (2.0 * np.pi * frequency)
+                axes.plot([0.0, end], drift, color=BLUE, linewidth=0.7, linestyle=(0, (1.0, 1.0)))
             if end < time[-1]:
                 axes.axvline(end, color=GREY, linewidth=0.6, linestyle=(0, (1.0, 1.5)), zorder=0)
             if verdict == v.COLLAPSED:
@@ -59,21 +67,36 @@ def draw_history_grid(histories: Any, column: Column, title: str) -> Figure:
             elif verdict != v.STANDS:
                 _note(axes, verdict, "white")
                 axes.patch.set(hatch="////", edgecolor="#cccccc")
-            axes.set(xlim=(0.0, time[-1]), ylim=(-1.05, 1.05), yticks=(-1.0, 0.0, 1.0))
-            axes.tick_params(labelsize=7.0)
+            axes.set_xlim(0.0, time[-1])
+            if absolute:
+                axes.locator_params(axis="y", nbins=3)
+            else:
+                axes.set(ylim=(-1.05, 1.05), yticks=(-1.0, 0.0, 1.0))
+            axes.tick_params(labelsize=6.0 if absolute else 7.0)
             if j == 0:
                 axes.set_title(f"{frequency:g} Hz", fontsize=8.5)
             if i == 0:
                 axes.set_ylabel(f"{amplitude / g:.1f} g", fontsize=8.5)
     figure.suptitle(title, x=0.01, y=0.985, ha="left", size=10.0)
     figure.supxlabel("time [s]", size=9.0, y=0.005)
-    figure.supylabel("displacement relative to the ground / base width [–]", size=9.0, x=0.005)
+    what = "displacement in space [m]" if absolute else "displacement relative to the ground / base width [–]"
+    figure.supylabel(what, size=9.0, x=0.005)
     lines = [
         Line2D([], [], color=RED, label="base"),
         Line2D([], [], color=BLACK, linestyle=(0, (3.0, 1.0)), label="top"),
     ]
-    figure.legend(handles=lines, loc="upper right", ncols=2)
+    if absolute:
+        lines.append(Line2D([], [], color=BLUE, linestyle=(0, (1.0, 1.0)), label="drift a t/ω of the ground"))
+    figure.legend(handles=lines, loc="upper right", ncols=3)
     return figure
+
+
+def _shown(one: Any, name: str, column: Column, absolute: bool) -> np.ndarray:
+    """A displacement of a case in what its panel is drawn in; where the column falls, no further than that shows."""
+    if absolute:
+        ground = one["ground"].values
+        return ground + np.clip(one[name].values, -column.height, column.height)
+    return np.clip(one[name].values / column.base_width, -1.2, 1.2)
 
 
 def _note(axes: Axes, text: str, color: str) -> None:
