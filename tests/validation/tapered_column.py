@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from stylobate import DistinctElement2D, DistinctElement3D, RigidBlock, simulate_many
+from stylobate import DistinctElement2D, DistinctElement3D, RigidBeam, RigidBlock, simulate_many
 from stylobate.analysis import verdicts as v
 from stylobate.column import Column, Drum, Joint
 from stylobate.column.scatter import Scatter
@@ -98,6 +98,7 @@ MODELS = {
     "`dem2d`": (DistinctElement2D(), False, 0.01),
     "`dem2d`, β = 10⁻⁴ s": (DistinctElement2D(stiffness_damping=1e-4), False, 0.02),
     "`rigid-block`": (RigidBlock(), False, 0.02),
+    "`rigid-beam`": (RigidBeam(), False, 0.02),
     "`dem3d`, square": (DistinctElement3D(), True, 0.02),
 }
 
@@ -149,7 +150,7 @@ def computed_map() -> list[str]:
 
 def case_digest() -> str:
     """Digest of what is computed: column, motions, grids, models."""
-    models = {name: [model.title, model.damped, square, step] for name, (model, square, step) in MODELS.items()}
+    models = {name: [model.title, model.parameters(), square, step] for name, (model, square, step) in MODELS.items()}
     grids = [*(amplitudes(length, 0.02) for length in LENGTHS), MAP_LENGTHS, MAP_SIZES]
     grids = [[f"{one:.6f}" for one in row] for row in grids]
     stones = [one.digest for one in (column(), column(square=True), motion(1.0))]
