@@ -81,8 +81,8 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
             results.histories[name, label], c.paper_column(name), f"{TITLES[name]}, {label}, in space", absolute=True
         )
         caption = (
-            f"The same as displacements in space, as the paper's Figure {number} may have drawn them: a sine of acceleration "
-            "from rest lets the ground drift by a t/ω (blue), while a cosine of velocity does not. Scales differ."
+            f"The same as displacements in space, as the paper's Figure {number} may have drawn them: a sine of "
+            "acceleration from rest lets the ground drift by a t/ω (blue), while a cosine of velocity does not. Scales differ."
         )
         some.append(keep(f"figure-{number}-{slug(name, label)}-absolute", figure, caption))
     looks = {label: i for i, label in enumerate(c.MODELS)}
