@@ -82,7 +82,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
         )
         caption = (
             f"The same as displacements in space, as the paper's Figure {number} may have drawn them: a sine of "
-            "acceleration from rest lets the ground drift by a t/ω (blue), while a cosine of velocity does not. Scales differ."
+            "acceleration from rest lets the ground drift by a t/ω (blue), while a cosine of velocity does not."
         )
         some.append(keep(f"figure-{number}-{slug(name, label)}-absolute", figure, caption))
     looks = {label: i for i, label in enumerate(c.MODELS)}
