@@ -49,8 +49,8 @@ def as_polygons(column: Column) -> Assembly:
     levels = [*column.joint_heights.tolist(), column.height]
     blocks = [
         Block(
-            [(-0.5 * drum.bottom_width, low), (0.5 * drum.bottom_width, low),
-             (0.5 * drum.top_width, high), (-0.5 * drum.top_width, high)],
+            ((-0.5 * drum.bottom_width, low), (0.5 * drum.bottom_width, low),
+             (0.5 * drum.top_width, high), (-0.5 * drum.top_width, high)),
             drum.density, f"drum {i}", depth=drum.depth,
         )
         for i, (drum, (low, high)) in enumerate(zip(column.drums, pairwise(levels), strict=True), 1)
