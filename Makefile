@@ -110,12 +110,12 @@ docs: $(DOCS_STAMP)
 lock:
 	@[ -x .venv-lock/bin/uv ] || $(PYTHON) -m venv .venv-lock
 	@.venv-lock/bin/python -m pip --disable-pip-version-check -qq install uv==$(UV_VERSION)
-	$(LOCK) --extra test --extra dev --extra seismology --extra video --extra parquet --extra cluster --extra app \
+	$(LOCK) --extra test --extra dev --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra app \
 	    requirements/build.in pyproject.toml -o requirements/base.lock > /dev/null
 	$(LOCK) --extra docs -c requirements/base.lock pyproject.toml -o requirements/docs.lock > /dev/null
 	.venv-lock/bin/uv pip compile -q --python-version 3.11 --resolution lowest-direct --generate-hashes \
 	    --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
-	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra app requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
+	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra app requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
 	$(LOCK) --no-deps requirements/peers.in -o requirements/peers.lock > /dev/null
 	@! grep -n -e '://' -e '^ *--\(extra-\)\?index' -e '--find-links' requirements/*.lock || \
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }

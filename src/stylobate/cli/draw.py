@@ -18,9 +18,9 @@ def draw(
     *,
     execution: Annotated[o.Execution, o.But("threads", "dask", "out")],
 ) -> None:
-    """Elevations from two sides and the plan.
+    """Elevations from two sides, the plan, and the plan of every joint.
 
-    Of a column or an assembly as it stands before the motion, with its measures in m.
+    Of a column or an assembly as it stands before the motion, its measures in m; what is as found is red, links are blue.
     """
     from . import console
 
@@ -32,7 +32,7 @@ def draw(
         raise InputError(f"--out {str(out)!r} {what}; name a file in a folder that is there.", "out")
     from .. import plots
 
-    files = plots.save_as(plots.draw_views(structure, structure.name), out)
+    files = plots.save_as(plots.draw_sheet(structure, structure.name), out)
     moving = sum(not body.fixed for body in structure.bodies)
     if execution.emits({"name": structure.name, "bodies": moving, "files": [str(file) for file in files]}):
         return

@@ -21,9 +21,11 @@ from . import (
     columns,
     compare,
     console,
+    convert,
     critical,
     domain,
     draw,
+    export,
     fragility,
     ida,
     limit,
@@ -82,7 +84,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, motion,
-    spectrum, columns, draw, materials, animate, report, serve, cite
+    spectrum, columns, draw, convert, materials, animate, export, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))

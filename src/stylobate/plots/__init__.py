@@ -11,6 +11,7 @@ from .filmstrip import draw_filmstrip
 from .fragility import draw_fragility
 from .histories import draw_comparison, draw_histories
 from .ida import draw_efficiency, draw_ida
+from .joint_plans import draw_sheet
 from .joints import draw_joints
 from .limit_directions import draw_limit_directions
 from .motion import draw_motion
@@ -57,6 +58,7 @@ __all__ = [
     "draw_risk",
     "draw_rocking_spectrum",
     "draw_sequence",
+    "draw_sheet",
     "draw_spectra",
     "draw_states",
     "draw_suite",

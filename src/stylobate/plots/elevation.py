@@ -58,7 +58,7 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     sheet = Sheet.around(axes, low, high, left=86.0, right=205.0, below=44.0, above=34.0)
     slope = _slope(column)
     axes.axline((0.0, 0.0), slope=math.tan(slope), color=BLACK, linewidth=1.4)
-    marked = {drum.drum for drum in column.as_found.drums if _words_of_found(drum)}
+    marked = {drum.drum for drum in column.as_found.drums if words_of_found(drum)}
     for i, shape in enumerate(outlines):
         red = i + 1 in marked
         axes.fill(*shape.T, facecolor="#f7e3df" if red else SAND, edgecolor=RED if red else BROWN, linewidth=0.9)
@@ -66,7 +66,7 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
         for shape in built:
             axes.fill(*shape.T, facecolor="none", edgecolor=GREY, linewidth=0.6, linestyle=(0, (3, 2)))
     _links(axes, sheet, column)
-    _heights(axes, sheet, column, low[0])
+    draw_heights(axes, sheet, column, low[0])
     _words_beside(axes, sheet, column, outlines, high[0])
     _width(axes, sheet, column.drums[0].bottom_width, _bottom(outlines[0]), -26.0, column.section)
     _width(axes, sheet, column.drums[-1].top_width, _top(outlines[-1]), 12.0, column.section)
@@ -106,9 +106,8 @@ class Sheet:
         least: float = 0.0,
     ) -> Sheet:
         """Limits with room for words on each side [points], in true proportion, ``least`` metres a point at least."""
-        figure = cast(Figure, cast(Figure, axes.figure).figure)  # the whole one, where axes stand in a part of it
-        place = axes.get_position()
-        wide, tall = figure.get_figwidth() * place.width * 72.0, figure.get_figheight() * place.height * 72.0
+        points = 72.0 / cast(Figure, axes.figure).dpi  # of a pixel; axes may stand in a part of a figure
+        wide, tall = axes.bbox.width * points, axes.bbox.height * points
         size = high - low
         metres = max(size[0] / max(wide - left - right, 40.0), size[1] / max(tall - below - above, 40.0), least)
         axes.set_aspect("equal")
@@ -123,7 +122,7 @@ class Sheet:
         return z + self.metres * points
 
 
-def _heights(axes: Axes, sheet: Sheet, column: Column, edge: float) -> None:
+def draw_heights(axes: Axes, sheet: Sheet, column: Column, edge: float) -> None:
     """Two chains of dimensions to the left: the drums', and that of all."""
     levels = [*column.joint_heights.tolist(), column.height]
     chain, whole = sheet.up(edge, -26.0), sheet.up(edge, -66.0)
@@ -176,7 +175,7 @@ def _words_beside(axes: Axes, sheet: Sheet, column: Column, outlines: list[np.nd
         else:
             wide = f"{drum.bottom_width:.3f} × {drum.depth:.3f} – {drum.top_width:.3f} × {drum.upper_depth:.3f}"
         height = level + 0.5 * drum.height
-        found = _words_of_found(column.as_found.of(i + 1))
+        found = words_of_found(column.as_found.of(i + 1))
         axes.text(far, height, wide, fontsize=WORDS, ha="left", va="bottom" if found and not tight else "center")
         if found:
             place = (sheet.up(far, 76.0), height) if tight else (far, height)
@@ -225,7 +224,7 @@ def _ends(shape: np.ndarray, at: np.ndarray) -> np.ndarray:
     return face[[int(face[:, 0].argmin()), int(face[:, 0].argmax())]]
 
 
-def _words_of_found(drum: FoundDrum) -> str:
+def words_of_found(drum: FoundDrum) -> str:
     """State as found of a drum, in words."""
     towards = lambda azimuth: f" to {azimuth:g}°" if azimuth else ""  # noqa: E731
     parts = []
@@ -235,7 +234,10 @@ def _words_of_found(drum: FoundDrum) -> str:
         parts.append(f"lean {drum.tilt:+g}°{towards(drum.tilt_azimuth)}")
     if drum.turn:
         parts.append(f"turned {drum.turn:+g}°")
-    parts += [f"chip {side} {1000.0 * width:.0f} mm" for side, width in zip(SIDES, drum.chips, strict=True) if width]
+    at = f" (right at {drum.chip_azimuth:g}°)" if drum.chip_azimuth else ""
+    parts += [
+        f"chip {side} {1000.0 * width:.0f} mm{at}" for side, width in zip(SIDES, drum.chips, strict=True) if width
+    ]
     return ", ".join(parts).replace("-", "−")
 
 

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure, SubFigure
 from ..column.block import FAR_AWAY
 from ..column.links.placed import strokes
 from ..column.shapes import hull
-from ..column.structure import Structure
+from ..column.structure import Body, Structure
 from ..column.turning import matrix_of
-from .elevation import NAMED, WORDS, Sheet, dimension
+from .elevation import NAMED, WORDS, Sheet, dimension, draw_heights
 from .solids import MARK, STONE, Solid, Surface, painted, painting_order, surface_of
 from .style import BLACK, BLUE, GREY, WIDTH, in_lines, page, styled
 from .view import ALONG_X, ALONG_Y, OBLIQUE, View
@@ -24,6 +24,9 @@ PLAN = View(-0.5 * math.pi, 0.5 * math.pi)
 
 #: Most and least height of the upper pictures [inch], and of the lower ones.
 TALL, LOW = (4.6, 1.8), (3.2, 1.6)
+
+#: Corners of a circle where it is measured, and room for two chains of dimensions [points].
+ROUND, CHAINS = 720, 84.0
 
 #: A ground farther below what stands than this is left out of a picture [m].
 BESIDE = 5.0
@@ -39,13 +42,30 @@ SEEN = (
 
 def solids_of(structure: Structure) -> tuple[list[Solid], list[str]]:
     """Parts of the bodies as they stand, as solids to be painted, and the names of their bodies; no ground."""
-    bodies = [one for one in structure.bodies if not (one.fixed and one.size > FAR_AWAY)]
-    named = [(body.name, body.fixed, part) for body in bodies for part in body.placed]
+    named = [(body.name, body.fixed, part) for body in _near(structure) for part in body.placed]
     solids = [
         Solid(_plain(surface_of(part.shape, fixed)), np.array(part.place), matrix_of(part.orientation))
         for _, fixed, part in named
     ]
     return solids, [name for name, *_ in named]
+
+
+def _near(structure: Structure) -> list[Body]:
+    """Bodies that are drawn: all but a ground without ends."""
+    return [one for one in structure.bodies if not (one.fixed and one.size > FAR_AWAY)]
+
+
+def _proportions(solids: list[Solid]) -> tuple[float, float, list[float]]:
+    """Extent along x and along y as drawn [m], and heights of the upper and the lower pictures [inch]."""
+    size = np.ptp(np.concatenate([solid.vertices for solid in solids]), axis=0)
+    across, up, deep = (max(float(one), 0.05 * float(size.max())) for one in (size[0], size[2], size[1]))
+    share = 0.62 * WIDTH / (across + deep)
+    return across, deep, [min(max(share * x + 1.0, least), most) for x, (most, least) in ((up, TALL), (deep, LOW))]
+
+
+def sheet_size(structure: Structure) -> tuple[float, float]:
+    """Width and height of :func:`draw_views` [inch]."""
+    return WIDTH, sum(_proportions(solids_of(structure)[0])[2])
 
 
 @styled
@@ -61,25 +81,29 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
         Where it is drawn; a new figure by default.
     """
     solids, names = solids_of(structure)
-    points = np.concatenate([solid.vertices for solid in solids])
-    size = np.ptp(points, axis=0)
-    across, up, deep = (max(float(one), 0.05 * float(size.max())) for one in (size[0], size[2], size[1]))
-    share = 0.62 * WIDTH / (across + deep)
-    heights = [min(max(share * one + 1.0, least), most) for one, (most, least) in ((up, TALL), (deep, LOW))]
+    across, deep, heights = _proportions(solids)
     figure = page(figure, (WIDTH, sum(heights)))
+    ends = np.concatenate([part.mesh(ROUND).vertices for body in _near(structure) for part in body.placed])
     ratio = min(max(across / deep, 0.6), 1.7)
     (front, side), (plan, oblique) = figure.subplots(2, 2, width_ratios=(ratio, 1.0), height_ratios=heights)
-    scale = max(_sheet(axes, solids, view, structure.ground).metres for axes, (view, _) in zip((front, side), SEEN))
+    stack = structure.stack
+    left = 46.0 if stack is None else CHAINS
+    sheets = [_sheet(axes, solids, view, structure.ground, left=left) for axes, (view, _) in zip((front, side), SEEN)]
+    scale = max(sheet.metres for sheet in sheets)
     for axes, (view, said) in zip((front, side, plan), SEEN):
         level, least = (None, 0.0) if view is PLAN else (structure.ground, scale)
-        sheet = _sheet(axes, solids, view, level, least)
+        sheet = _sheet(axes, solids, view, level, least, left if view is ALONG_X else 46.0)
         if level is not None:
             axes.axhline(level, color=BLACK, linewidth=1.2, zorder=0)
         _paint(axes, solids, view)
         _mark_links(axes, structure, view)
-        low, high = _box(solids, view, None)
-        for along in (0, 1):
-            dimension(axes, sheet, along, low, high)
+        flat = view.across(ends)
+        low, high = flat.min(axis=0), flat.max(axis=0)
+        dimension(axes, sheet, 0, low, high)
+        if stack is not None and view is ALONG_X:
+            draw_heights(axes, sheet, stack, float(low[0]))
+        else:
+            dimension(axes, sheet, 1, low, high)
         if len(set(names)) <= NAMED:
             _names(axes, sheet, solids, names, view)
         axes.set_title(said, fontsize=8.5, color=GREY)
@@ -107,9 +131,11 @@ def _box(solids: list[Solid], view: View, level: float | None) -> tuple[np.ndarr
     return low, high
 
 
-def _sheet(axes: Axes, solids: list[Solid], view: View, level: float | None, least: float = 0.0) -> Sheet:
+def _sheet(
+    axes: Axes, solids: list[Solid], view: View, level: float | None, least: float = 0.0, left: float = 46.0
+) -> Sheet:
     low, high = _box(solids, view, level)
-    return Sheet.around(axes, low, high, left=46.0, right=8.0, below=34.0, above=8.0, least=least)
+    return Sheet.around(axes, low, high, left=left, right=8.0, below=34.0, above=8.0, least=least)
 
 
 def _paint(axes: Axes, solids: list[Solid], view: View) -> None:

@@ -1,0 +1,232 @@
+"""Models converted: meshes, COMPAS JSON and surveys to column and assembly files, and these to all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+
+from ..atomic import replacing
+from ..column import Column
+from ..column.assembly_files import load_structure
+from ..column.block import FAR_AWAY
+from ..column.files import tables_of
+from ..column.shapes import Mesh
+from ..column.spatial.files import spatial_assembly
+from ..column.spatial.mesh_files import read_stones
+from ..column.spatial.mesh_formats import MESHES, MeshPart
+from ..column.spatial.tables import SpatialTable
+from ..column.structure import Structure
+from ..column.tables import made_of
+from ..column.toml import checked
+from ..errors import InputError, check_range, within
+from ..reading import shown
+from .compas_files import LAYOUTS, compas_json, read_compas
+from .export import refuse_existing
+from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
+from .recording import AROUND
+from .stones import assembly_tables, column_tables, distance_of, fit_all, near
+from .survey import survey_tables, survey_text
+
+#: Endings of what is written; of what is read besides column and assembly files.
+WRITTEN = (".toml", ".json", ".csv", ".obj", ".ply", ".stl", ".glb")
+READ = (*MESHES, ".json", ".csv")
+
+#: Largest distance of a mesh from what stands for it unless told otherwise [m].
+TOLERANCE = 0.001
+
+#: Kinds that stones of a mesh can become.
+KINDS = ("assembly", "column")
+
+
+class Reading:
+    """How a model of another tool is read.
+
+    Parameters
+    ----------
+    material : str, optional
+        Stone and joints by name; of a mesh needed.
+    kind : str
+        ``assembly`` or ``column``.
+    unit : str
+        Of a mesh.
+    tolerance : float
+        Largest distance of a mesh from what stands for it [m].
+    ground : float, None or False
+        Level of the ground [m]; None for the lowest point, False for none.
+    fixed : sequence of str
+        Names of stones that move with the ground.
+    """
+
+    def __init__(
+        self,
+        material: str | None = None,
+        kind: str = "assembly",
+        unit: str = "m",
+        tolerance: float = TOLERANCE,
+        ground: float | bool | None = None,
+        fixed: tuple[str, ...] = (),
+    ) -> None:
+        if kind not in KINDS:
+            raise InputError(f"`as` is {kind!r}; allowed are {', '.join(KINDS)}.", "as")
+        check_range("`tolerance`", tolerance, 0.0, 1.0, unit="m", field="tolerance")
+        if isinstance(ground, float):
+            check_range("level of the ground", ground, -FAR_AWAY, FAR_AWAY, unit="m", field="ground")
+        self.material, self.kind, self.unit = material, kind, unit
+        self.tolerance, self.ground, self.fixed = tolerance, ground, fixed
+
+
+def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tuple[Structure, list[str], list[Path]]:
+    """Read a model and write it to a file, of the kind that its ending tells.
+
+    Parameters
+    ----------
+    model : str
+        A preset, a file of a column or of an assembly, a mesh, COMPAS JSON or a survey (CSV).
+    path : Path
+        Nothing may be there.
+    reading : Reading
+    layout : str
+        Of COMPAS JSON that is written: ``dem`` or ``assembly``.
+
+    Returns
+    -------
+    structure : Structure
+    words : list of str
+        What became of each stone.
+    files : list of Path
+
+    Raises
+    ------
+    InputError
+        What cannot be, in one sentence; nothing is written then.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in WRITTEN:
+        raise InputError(f"a model cannot be written to {str(path)!r}; endings are {', '.join(WRITTEN)}.", "to")
+    if layout not in LAYOUTS:
+        raise InputError(f"`compas` is {layout!r}; allowed are {', '.join(LAYOUTS)}.", "compas")
+    refuse_existing(path)
+    foreign = Path(model).suffix.lower() in READ
+    structure, tables, words = read_model(Path(model), reading) if foreign else (load_structure(model), None, [])
+    if suffix == ".toml":
+        content = tomli_w.dumps(tables).encode() if tables is not None else _file_of(structure)
+    elif suffix == ".csv":
+        if not isinstance(structure, Column):
+            raise InputError(
+                f"a survey holds the drums of a column, and {structure.name!r} is {structure.described}.", "to"
+            )
+        content = survey_text(structure).encode()
+    elif suffix == ".json":
+        blocks = [(name, mesh, fixed, density) for name, mesh, fixed, density in surfaces_of(structure)]
+        content = compas_json(structure.name, blocks, layout).encode()
+    else:
+        named = [Named(name, mesh, FIXED if fixed else STONE) for name, mesh, fixed, _ in surfaces_of(structure)]
+        content = _glb(structure.name, named) if suffix == ".glb" else TEXTS[suffix](named).encode()
+    with replacing(path) as partial:
+        partial.write_bytes(content)
+    return structure, words, [path]
+
+
+def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any], list[str]]:
+    """A model of another tool: what stands, the content of its file, and what became of each stone.
+
+    Raises
+    ------
+    InputError
+    """
+    if path.suffix.lower() == ".csv":
+        tables = survey_tables(path, reading.material)
+        tables.setdefault("name", path.stem)
+        column = made_of(Column, tables, shown(path))
+        return column, tables, [f"{column.n} drums, {column.height:g} m high"]
+    if path.suffix.lower() == ".json":
+        name, blocks = read_compas(path)
+        parts = [(block.part, block.fixed, block.density) for block in blocks]
+    else:
+        name, parts = path.stem, [(part, False, None) for part in read_stones(path, reading.unit)]
+    if reading.material is None:
+        raise InputError(
+            f"{shown(path)} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
+        )
+    level, parts = _without_ground(parts)
+    names = [part.name for part, *_ in parts]
+    unknown = next((one for one in reading.fixed if one not in names), None)
+    if unknown is not None:
+        raise InputError(
+            f"`fixed` names {unknown!r}, which {shown(path)} does not hold; it holds {_some(names)}.", "fixed"
+        )
+    parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
+    with within(shown(path)):
+        stones = fit_all(parts, reading.tolerance)
+        words = [f"{one.name}: {one.words}" for one in stones]
+        if reading.kind == "column":
+            tables, said = column_tables(name, stones, reading.material, reading.tolerance)
+            column = made_of(Column, tables)
+            said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
+            return column, tables, words + said
+        if reading.ground is False:
+            ground = None
+        elif reading.ground is not None:
+            ground = float(reading.ground)
+        elif any(one.fixed for one in stones):
+            ground = None
+        else:
+            lowest = min(float(part.points[part.used, 2].min()) for part, *_ in parts)
+            ground = round(lowest if level is None else level, 7)
+        tables = assembly_tables(name, stones, reading.material, ground)
+        structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, path.parent)
+    words.append("no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m")
+    return structure, tables, words
+
+
+def _without_ground(
+    parts: Sequence[tuple[MeshPart, bool, float | None]],
+) -> tuple[float | None, list[tuple[MeshPart, bool, float | None]]]:
+    """Level of a part called ``ground`` [m], as exports have it, and the others."""
+    level = next((float(part.points[part.used, 2].max()) for part, *_ in parts if part.name == "ground"), None)
+    return level, [one for one in parts if one[0].name != "ground"]
+
+
+def _some(names: list[str]) -> str:
+    return ", ".join(map(repr, names[:6])) + (f" and {len(names) - 6} more" if len(names) > 6 else "")
+
+
+def surfaces_of(structure: Structure) -> list[tuple[str, Mesh, bool, float]]:
+    """Convex parts of the bodies of a structure where they stand: names, surfaces [m], whether fixed, densities [kg/m³]."""
+    found = []
+    densities = (
+        {f"drum {i}": drum.density for i, drum in enumerate(structure.stack.drums, 1)} if structure.stack else {}
+    )
+    for body in structure.bodies:
+        if body.fixed and body.size > FAR_AWAY:
+            continue
+        density = float(getattr(body, "density", densities.get(body.name, 0.0)))
+        parts = body.placed
+        for number, part in enumerate(parts, 1):
+            name = body.name if len(parts) == 1 else f"{body.name}, part {number}"
+            found.append((name, _clean(part.mesh(AROUND)), body.fixed, density))
+    return found
+
+
+def _clean(mesh: Mesh) -> Mesh:
+    """Only vertices that faces use."""
+    used = sorted({i for face in mesh.faces for i in face})
+    numbers = {old: new for new, old in enumerate(used)}
+    return Mesh(mesh.vertices[used], tuple(tuple(numbers[i] for i in face) for face in mesh.faces))
+
+
+def _glb(name: str, surfaces: list[Named]) -> bytes:
+    file = Glb(name)
+    for one in surfaces:
+        middle = one.mesh.vertices.mean(axis=0)
+        file.add(one._replace(mesh=Mesh(one.mesh.vertices - middle, one.mesh.faces)), middle.tolist())
+    return file.content()
+
+
+def _file_of(structure: Structure) -> bytes:
+    if not isinstance(structure, Column):
+        raise InputError(f"{structure.name!r} is an assembly file already; write another kind of file.", "to")
+    return tomli_w.dumps(tables_of(structure)).encode()

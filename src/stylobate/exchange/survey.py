@@ -1,0 +1,219 @@
+"""Surveys of columns drum by drum as a table (CSV), to column files and back without loss."""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+from typing import Any
+
+from ..column import Column
+from ..column.files import tables_of
+from ..errors import InputError, suggest
+from ..reading import SETTINGS, read_bytes, shown
+
+#: Columns that are lengths, and what they may be in [m].
+LENGTHS = (
+    *("height", "bottom_width", "top_width", "depth", "top_depth"),
+    *("offset", "chip_left", "chip_right", "chip_front", "chip_back"),
+)
+UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
+
+#: Columns that are angles [degrees].
+ANGLES = ("offset_azimuth", "tilt", "tilt_azimuth", "turn", "chip_azimuth")
+
+#: Columns of the joint under a drum, with their units.
+JOINT = {
+    "normal_stiffness": "n_m3",
+    "shear_stiffness": "n_m3",
+    "friction_angle": "deg",
+    "friction_coefficient": "",
+    "cohesion": "pa",
+    "ring_width": "m",
+}
+
+#: What is said of the whole column, in lines ``# key: value`` above the table.
+FACTS = ("name", "section", "material", "gravity", "base_tilt", "base_azimuth")
+
+_SIZES = ("height", "bottom_width", "top_width", "depth", "top_depth", "density")
+
+
+def survey_text(column: Column) -> str:
+    """A survey of a column: a row a drum from the base up, lengths in m, angles in degrees, numbers to the last digit.
+
+    Raises
+    ------
+    InputError
+        The column has links, which a survey does not hold.
+    """
+    if column.links:
+        raise InputError(
+            f"{column.name!r} has {len(column.links)} {'link' if len(column.links) == 1 else 'links'}, and a survey holds "
+            "drums and joints only; keep the column file."
+        )
+    found, table = column.as_found, tables_of(column)
+    facts = {"name": column.name, "section": column.drums[0].section, "material": column.material}
+    facts |= {"gravity": column.gravity, "base_tilt": found.base_tilt, "base_azimuth": found.base_azimuth}
+    overrides = {one["index"]: one for one in table.get("joint_override", ())}
+    rows = []
+    for i, drum in enumerate(table["drum"], 1):
+        joint = overrides.get(i, table["joint"])
+        state = {key: value for key, value in vars(found.of(i)).items() if key != "drum" and value != 0.0}
+        rows.append({"drum": i} | drum | state | {key: joint[key] for key in JOINT if key in joint})
+    names = ["drum", *(key for key in (*_SIZES, *LENGTHS, *ANGLES, *JOINT) if any(key in row for row in rows))]
+    names = list(dict.fromkeys(names))
+    text = io.StringIO()
+    for key, value in facts.items():
+        if value not in (None, 0.0):
+            text.write(f"# {key}: {' '.join(str(value).split())}\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([_header(name) for name in names])
+    writer.writerows([["" if name not in row else repr(row[name]) for name in names] for row in rows])
+    return text.getvalue()
+
+
+def _header(name: str) -> str:
+    unit = (
+        "kg_m3" if name == "density" else "m" if name in LENGTHS else "deg" if name in ANGLES else JOINT.get(name, "")
+    )
+    return f"{name}_{unit}" if unit else name
+
+
+def survey_tables(path: Path, stone: str | None = None) -> dict[str, Any]:
+    """Content of a column file of a survey.
+
+    Separated by commas, semicolons or tabs; decimal commas are read where commas do not separate. The first row names
+    the columns; lengths say their unit there (``height_mm``), which is m otherwise.
+
+    Parameters
+    ----------
+    path : Path
+    stone : str, optional
+        Name of a material; that of the survey if left out.
+
+    Raises
+    ------
+    InputError
+        What cannot be, in one sentence that names row and column.
+    """
+    name = shown(path)
+    try:
+        text = read_bytes(path, SETTINGS, "a survey is smaller").decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise InputError(f"{name} is not a text file in UTF-8; save the survey as CSV (UTF-8).") from None
+    facts, lines = _facts([line for line in text.splitlines() if line.strip()], name)
+    if len(lines) < 2:
+        raise InputError(f"{name} holds no row of a drum; give a row of names, and one for each drum from the base up.")
+    separator = max(";\t,", key=lines[0].count)
+    try:
+        head, *rows = [row for row in csv.reader(lines, delimiter=separator) if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        raise InputError(f"{name} is no table: {error}; save the survey as CSV.") from None
+    columns = [_column(cell, name) for cell in head]
+    known = [one for one, _ in columns]
+    double = next((one for one in known if known.count(one) > 1), None)
+    if double is not None:
+        raise InputError(f"{name} has two columns of {double!r}; keep one.")
+    missing = next((one for one in ("height", "bottom_width", "top_width") if one not in known), None)
+    if missing is not None:
+        raise InputError(f"{name} has no column {missing!r}; add it, such as {missing}_m.")
+    decimal = "," if separator != "," else "."
+    read = [_row(row, columns, number, decimal, name) for number, row in enumerate(rows, 1)]
+    stated = [row.pop("drum", None) for row in read]
+    if any(one is not None for one in stated) and stated != [float(i) for i in range(1, len(read) + 1)]:
+        raise InputError(
+            f"{name} numbers its drums otherwise than 1, 2, 3 … from the base up; put the rows in that order."
+        )
+    return _tables(facts, read, stone, name)
+
+
+def _tables(facts: dict[str, Any], rows: list[dict[str, float]], stone: str | None, name: str) -> dict[str, Any]:
+    table: dict[str, Any] = {key: facts[key] for key in ("name", "material", "gravity") if key in facts}
+    table["section"] = facts.get("section", "circular")
+    if stone is not None:
+        table["material"] = stone
+    if "material" not in table:
+        short = next((one for one in ("density", "normal_stiffness", "shear_stiffness") if one not in rows[0]), None)
+        if short is not None:
+            raise InputError(
+                f"{name} says nothing of its stone: it names no material and has no column {short!r}; name one, such as "
+                "`material='marble'`.",
+                "material",
+            )
+    table["drum"] = [{key: row[key] for key in _SIZES if key in row} for row in rows]
+    joints = [{key: row[key] for key in JOINT if key in row} for row in rows]
+    if joints[0] or "material" not in table:
+        table["joint"] = joints[0]
+    others = [{"index": i, **joint} for i, joint in enumerate(joints, 1) if joint != joints[0]]
+    if others:
+        table["joint_override"] = others
+    states = [{key: row[key] for key in (*LENGTHS[5:], *ANGLES) if key in row} for row in rows]
+    found: dict[str, Any] = {key: facts[key] for key in ("base_tilt", "base_azimuth") if key in facts}
+    drums = [{"index": i, **state} for i, state in enumerate(states, 1) if any(state.values())]
+    if drums:
+        found["drum"] = drums
+    return table | ({"as_found": found} if found else {})
+
+
+def _facts(lines: list[str], name: str) -> tuple[dict[str, Any], list[str]]:
+    """What lines that begin with ``#`` say of the whole column, and the other lines; spreadsheets put quotes around."""
+    facts: dict[str, Any] = {}
+    rest = []
+    for line in lines:
+        said = line.strip().strip('";,\t ')
+        if not said.startswith("#"):
+            rest.append(line)
+            continue
+        key, sign, value = said[1:].partition(":")
+        key, value = key.strip().lower(), value.strip()
+        if not sign:
+            continue
+        if key not in FACTS:
+            raise InputError(f"{name} says {key!r} of the column; {suggest(key, FACTS)}allowed are {', '.join(FACTS)}.")
+        facts[key] = _number(value, f"{key} of {name}", ".") if key in FACTS[3:] else value
+    return facts, rest
+
+
+def _column(cell: str, name: str) -> tuple[str, float]:
+    """What a column holds, and the factor of its unit."""
+    text = "_".join(
+        cell.strip().lower().replace("[", " ").replace("]", " ").replace("(", " ").replace(")", " ").split()
+    )
+    known = ("drum", "density", *LENGTHS, *ANGLES, *JOINT)
+    if text in known:
+        return text, 1.0
+    stem, _, unit = text.rpartition("_")
+    if stem in LENGTHS and unit in UNITS:
+        return stem, UNITS[unit]
+    if text == "density_kg_m3" or (stem in ANGLES and unit in ("deg", "degrees", "°")):
+        return "density" if text == "density_kg_m3" else stem, 1.0
+    own = next((key for key, unit in JOINT.items() if unit and text == f"{key}_{unit}"), None)
+    if own is not None:
+        return own, 1.0
+    raise InputError(
+        f"{name} has a column {cell.strip()!r}; {suggest(text, known)}known are {', '.join(known)}, lengths with _m, _cm or "
+        "_mm behind them."
+    )
+
+
+def _row(row: list[str], columns: list[tuple[str, float]], number: int, decimal: str, name: str) -> dict[str, float]:
+    if len(row) > len(columns) and any(cell.strip() for cell in row[len(columns) :]):
+        raise InputError(
+            f"row {number} of {name} has {len(row)} cells and the table {len(columns)} columns; mend the row."
+        )
+    found: dict[str, float] = {}
+    for cell, (key, factor) in zip(row, columns):
+        if cell.strip():
+            value = _number(cell.strip(), f"{key} in row {number} of {name}", decimal)
+            found[key] = value if factor == 1.0 else value * factor
+    missing = next((key for key in ("height", "bottom_width", "top_width") if key not in found), None)
+    if missing is not None:
+        raise InputError(f"row {number} of {name} has no {missing}; measure it, or leave the drum out.")
+    return found
+
+
+def _number(text: str, what: str, decimal: str) -> float:
+    try:
+        return float(text.replace(",", ".") if decimal == "," else text)
+    except ValueError:
+        raise InputError(f"{what} is {text!r}; give a number.") from None
