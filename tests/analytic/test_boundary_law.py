@@ -163,6 +163,23 @@ def test_no_jump_with_the_twist():
     assert bending(face, face, twist=0.1)[0] == pytest.approx(0.6152117 / 0.6826667 * flush, rel=1e-5)
 
 
+@pytest.mark.parametrize("twist", [0.0, 1e-9])
+def test_of_edges_that_lie_on_one_another_it_does_not_matter_which_is_inside(twist):
+    """One face is moved by 1e-9 of its size to either side: the pressure turned by an eighth of the tilt between both.
+
+    Half of such an edge presses along either normal. What is left is the way, over 1e-5 of the edge's length.
+    """
+    angle, depth, face, sums = 3e-5, 5e-5, rectangle(1.0, 0.8), []
+    rotation = turn(angle, 0.0, 0.0) @ turn(0.0, 0.0, twist)
+    for way in (-1.0, 1.0):
+        place = np.array([1e-9 * way, 1e-9 * way, -depth])
+        sums.append(sums_of(face, face, place, rotation))
+    z, n = np.array([0.0, 0.0, 1.0]), rotation[:, 2]
+    one, other = (some[PRESS] * z + some[LOWER + PRESS] * n for some in sums)
+    assert np.abs(one - other).max() < 1e-3 * angle * one[2]
+    assert one[2] == pytest.approx(3.6 * depth, rel=1e-6)
+
+
 def test_a_small_face_inside_a_large_one():
     """Its whole edge carries, whichever of both is below."""
     small, large = rectangle(0.6, 0.4), rectangle(3.0, 2.0)

@@ -53,6 +53,23 @@ def test_friction_is_told_where_it_acted():
     assert abs(change[1:].sum()) < 1e-3 * (start[1] - change[2])
 
 
+def test_what_friction_did_last_is_told_where_a_joint_opens():
+    """Of a block that rocks on a joint that never slides, and hops: half of the work of the last forces was never told.
+
+    3.6 % of what a block of 0.6 m sets free from 0.05 rad seemed to be gained.
+    """
+    kn, axes = 5e9, turn(0.0, 0.05, 0.0)
+    block = box((0.6, 0.5, 2.0), (0.0, 0.0, math.cos(0.05) + 0.3 * math.sin(0.05)), axes)
+    base = box((6.0, 6.0, 1.0), (0.0, 0.0, -0.5), fixed=True)
+    faces = square_face(3.0, 0.5), rectangle(0.6, 0.5, -1.0, up=False)
+    lane = Lane(base, block, kn=kn, mu=50.0, joints=[faces_joined(0, 1, *faces, kn, mu=50.0)])
+    lane.step = 0.4 * lane.stable_step()
+    lane.start(lane.step)
+    start = lane.energies()
+    lane.run(3.0)
+    assert abs((lane.energies() - start)[1:].sum()) < 0.006 * lane.body["m"][1, 0] * G * 0.3 * 0.05
+
+
 @pytest.mark.parametrize("last", [40.0, 50.0])
 def test_a_block_that_falls_over_its_edge_does_not_bounce_where_the_joint_hands_over(last):
     """Its tilt goes on as about a fixed edge, and what carries it stays within a third; it had more than doubled.

@@ -7,7 +7,7 @@ import math
 
 from ..jit import apart, kernel, law, long_law
 from ..run_codes import CHUNK
-from ..shared.links import held, look_at_hold, look_at_links, note_slack, pulled, some_leaves
+from ..shared.links import held, look_at_hold, look_at_links, note_slack, note_slip, pulled, some_leaves
 from .pose import cross, in_body, in_space
 
 
@@ -74,16 +74,10 @@ def across(k, b, f, u, v, l):
     )
     k.px[l] += px * on
     k.py[l] += py * on
-    k.gap[l] += wider
-    k.lost[l] += heat
-    k.peak[l] = max(k.peak[l], most)
     fa, fb = -px * force, -py * force
     k.fx[l] = fa
     k.fy[l] = fb
-    k.slip[l] = far
-    k.long[l] = lift - k.h[l]
-    k.on[l] = whole
-    k.out[l] = out
+    note_slip(k, l, wider, heat, most, far, lift - k.h[l], whole, out)
     fx, fy, fz = in_space(v, l, fa, fb, 0.0)
     put(f, l, fx, fy, fz, ax, ay, az, bx, by, bz)
 

@@ -7,7 +7,7 @@ import math
 
 from ..jit import apart, kernel, law
 from ..run_codes import CHUNK
-from ..shared.links import begun, clamped, held, look_at_hold, look_at_links, note_slack, pulled, some_leaves
+from ..shared.links import begun, clamped, held, look_at_hold, look_at_links, note_slack, note_slip, pulled, some_leaves
 from .point_joint import face
 
 
@@ -67,14 +67,8 @@ def across(body, load, link, bond, pair, n, m):
         )  # fmt: skip
         fs = -side * force
         k.px[l] += side * on
-        k.gap[l] += wider
-        k.lost[l] += heat
-        k.peak[l] = max(k.peak[l], most)
         k.fx[l] = fs
-        k.slip[l] = far
-        k.long[l] = long
-        k.on[l] = whole
-        k.out[l] = out
+        note_slip(k, l, wider, heat, most, far, long, whole, out)
         add(f, l, tc * fs, ts * fs, ax, az, bx, bz)
 
 

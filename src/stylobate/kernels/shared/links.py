@@ -75,6 +75,18 @@ def held(size, gap, yields, stiffness, lift, deepest, reach, whole, out, brittle
 
 
 @law
+def note_slip(k, l, wider, heat, most, far, lift, whole, out):
+    """Memory of a link that holds against slip, but for where it is free and its force, which have the directions of it."""
+    k.gap[l] += wider
+    k.lost[l] += heat
+    k.peak[l] = max(k.peak[l], most)
+    k.slip[l] = far
+    k.long[l] = lift
+    k.on[l] = whole
+    k.out[l] = out
+
+
+@law
 def clamped(k, b, l, length):
     """Force of a clamp along itself at a length, tension positive, and its memory: as in shear, in both senses."""
     long = length - k.h[l]

@@ -6,12 +6,12 @@ contact and one memory. Legend: ``records.py``.
 
 import math
 
-from ..dem3d.move import omega
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
+from .acting import act_at, add, mobility, motion_then
 from .friction import late, relax, rub
 from .nearest import parting
-from .overlap import DEEP_A, DEEP_B, MIDDLE, MOMENT, NORMAL, REF, SHADOW, SPREAD, VOLUME, overlap
+from .overlap import DEEP_A, DEEP_B, INNER, MIDDLE, MOMENT, NORMAL, REF, SHADOW, SPREAD, VOLUME, overlap
 from .records import DRUM, GROUND, LESS
 from .solids import draw, reach
 from .vectors import across, along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
@@ -31,6 +31,9 @@ ON_SIDE = 0.05
 
 #: The second of two shapes is taken so much smaller to see in which direction it lies, which is known to this angle [rad].
 SMALLER, AGREE = 0.92, 0.01
+
+#: A part of a contact beyond an inner face has at least this share of its area.
+LEAST = 1e-6
 
 #: Shapes that are nearer than this share of the smaller one's size have their direction found anew in each step.
 NEAR = 0.01
@@ -84,37 +87,6 @@ def spread_of(total, n, a, u, b, v):
 def axis(s, u):
     """Axis of a drum in space."""
     return outward(u, of(s.e))
-
-
-@long_law
-def mobility(u, r, n):
-    """Acceleration of the point of a body at r along n by a unit force along n there [1/kg]."""
-    if u.fixed != 0:
-        return 0.0
-    c = cross(r, n)
-    return u.im[0] + dot(c, omega(u, 0, c[0], c[1], c[2]))
-
-
-@long_law
-def velocity_then(u, r):
-    """Velocity of the point of a body at r from its centroid as the last force left it."""
-    w = cross(of(u.past), r)
-    return u.vx[0] + w[0], u.vy[0] + w[1], u.vz[0] + w[2]
-
-
-@long_law
-def motion_then(q, u, v):
-    """Velocity of the second body over the first one where the last force acted, and spin about its normal, after it."""
-    spin = dot(minus(of(v.past), of(u.past)), of(q.n))
-    return minus(velocity_then(v, of(q.rb)), velocity_then(u, of(q.ra))), spin
-
-
-@long_law
-def act_at(q, n, ru, rv):
-    """Note the normal, and where the force of a step acts on either body."""
-    put(q.n, n)
-    put(q.ra, ru)
-    put(q.rb, rv)
 
 
 @long_law
@@ -331,13 +303,44 @@ def returnable(fn, last, gain, before, depth, vn, ease, dt, held):
     return min(fn, allowed, most)
 
 
+@long_law
+def alone(p):
+    """Vector area, volume and work of the contact of two shapes, where no other shape has a part in it."""
+    put(p.s, of(p.total[NORMAL : NORMAL + 3]))
+    p.whole, p.held = p.total[VOLUME], p.en
+
+
 @kernel
-def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
-    """Force of the bed at t_n on two bodies that overlap; brings its memory from t_{n−1} to t_n."""
-    s = total[NORMAL], total[NORMAL + 1], total[NORMAL + 2]
-    area = length(s)
-    n = scaled(1.0 / area, s)
+def gather(pair, count, shape, p):
+    """Vector area, volume and work of the contact that a pair is a part of, with what lies beyond inner faces of a body.
+
+    The work that presses it belongs to its parts as their volumes do.
+    """
+    s, own = of(p.s), p.whole
+    for k in range(count):
+        q = pair[k]
+        same = shape[q.a].body == shape[p.a].body and shape[q.b].body == shape[p.b].body
+        if same and q.share > 0.0 and q.total[INNER] > 0.0 and (q.a != p.a or q.b != p.b):
+            s = along(s, 1.0, of(q.total[NORMAL : NORMAL + 3]))
+            p.whole += q.total[VOLUME]
+            p.held += q.en
+    if p.whole > own:
+        p.held *= own / p.whole
+        if dot(s, s) > 0.0:
+            put(p.s, s)
+
+
+@kernel
+def press(p, a, u, b, v, vertex, numbers, now, simplex):
+    """Force of the bed at t_n on two bodies that overlap, with k_n, k_s and tan φ; brings its memory from t_{n−1} to t_n."""
+    total = p.total
+    area = length(of(p.s))
+    n = scaled(1.0 / area, of(p.s))
+    mean_depth = p.whole / area
     volume = total[VOLUME]
+    p.en = p.held
+    if p.whole > volume:
+        area = max(dot(of(total[NORMAL : NORMAL + 3]), n), LEAST * area)
     c = along(of(total[REF : REF + 3]), 1.0 / volume, of(total[MOMENT : MOMENT + 3]))
     if a.kind == DRUM or b.kind == DRUM:
         face_contact(p, n, a, u, b, v, vertex, total, simplex)
@@ -349,11 +352,10 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     vn = dot(w, n)
     spin_u = dot((u.wx[0], u.wy[0], u.wz[0]), n)
     spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
-    kn *= share
-    ks *= share
+    kn, ks, mu = p.share * numbers[0], p.share * numbers[1], numbers[2]
     ease = mobility(u, ru, n) + mobility(v, rv, n)
     # no mean depth is more than that of the slab, but for what is rounded where hardly anything touches
-    depth = min(volume / area, -p.gap)
+    depth = min(mean_depth, -p.gap)
     # pressure  # Eq. (Q2)
     fn = kn * volume
     if now.last == 0.0:  # no work has pressed what overlaps at the start
@@ -378,12 +380,3 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     m = scaled(twist, n)
     add(v, rv, f, m)
     add(u, ru, scaled(-1.0, f), scaled(-1.0, m))
-
-
-@long_law
-def add(u, r, f, m):
-    """Add a force at r and a moment to what acts on a body."""
-    m = along(m, 1.0, cross(r, f))
-    for c in range(3):
-        u.f[c] += f[c]
-        u.mo[c] += m[c]

@@ -3,6 +3,8 @@
 The stiffness k_n A of a joint sits evenly on the edge of the overlap of its two faces. Pieces of the upper face's edge press
 on the plane of the lower face, pieces of the lower one's edge on the plane of the upper face. Depth is linear along a
 straight piece, and d + g cos φ along an arc, so that force, moments and energy are elementary. Disc on disc is the rim law.
+Where two edges lie on one another, only one of them is counted, whichever is inside by rounding; half of it presses along
+either normal, so that nothing hangs on which.
 
 All in the frame of the lower face: origin in its middle, x and y along it, z out of it. Legend::
 
@@ -10,7 +12,8 @@ All in the frame of the lower face: origin in its middle, x and y along it, z ou
     v w            β times the velocity of that middle and the angular velocity of the upper face as seen from the lower one:
                    depth is taken as depth plus β times its rate
     low up         corners of the lower and the upper face, counter-clockwise from above; none of a disc, of radius rl or ru
-    sums           of the pieces of the upper edge, then of those of the lower one: PRESS, integral of depth [m²];
+    sums           of the pieces of the upper edge, then of those of the lower one, of edges that lie on one another half
+                   and half in PRESS and FIRST: PRESS, integral of depth [m²];
                    FIRST 3, of depth times place [m³]; SECOND, of depth times place squared [m⁴]; SQUARE, of depth squared
                    [m³]; LENGTH, that touches [m]; then AREA twice that of the overlap [m²], and EDGE, its length [m]
 """
@@ -18,7 +21,7 @@ All in the frame of the lower face: origin in its middle, x and y along it, z ou
 import math
 
 from ..dem3d.rim import overlap, press_askew
-from ..jit import kernel, long_law
+from ..jit import kernel, law, long_law
 from .vectors import along, cross, dot, minus, of
 
 #: Places in ``sums``, those of the lower edge behind those of the upper one.
@@ -27,11 +30,26 @@ PRESS, FIRST, SECOND, SQUARE, LENGTH, LOWER, AREA, EDGE = 0, 1, 4, 5, 6, 7, 14, 
 #: Sines below this are none: faces that are parallel to rounding.
 PARALLEL = 1e-15
 
+#: Edges of both faces lie on one another where neither end of one is farther from the other than this share of it.
+FLUSH = 1e-5
+
+
+@law
+def flush(a, b, square):
+    """Share that the other face has in an edge, a half of one that lies on its own edge.
+
+    ``a`` and ``b`` are distances of the ends from that edge times its length, ``square`` is its length squared.
+    """
+    return max(0.5 - 0.5 * max(abs(a), abs(b)) / (FLUSH * square), 0.0)
+
 
 @long_law
 def within_polygon(p, q, corners, count):
-    """Shares of the way from p to q between which it is over a convex polygon, none if the second is not larger."""
-    first, last = 0.0, 1.0
+    """Shares of the way from p to q between which it is over a convex polygon, none if the second is not larger.
+
+    And the share that the polygon's edges have in it, see :func:`flush`.
+    """
+    first, last, shared = 0.0, 1.0, 0.0
     for k in range(count):
         m = k + 1 if k + 1 < count else 0
         ex = corners[m, 0] - corners[k, 0]
@@ -39,12 +57,14 @@ def within_polygon(p, q, corners, count):
         a = ex * (p[1] - corners[k, 1]) - ey * (p[0] - corners[k, 0])
         b = ex * (q[1] - corners[k, 1]) - ey * (q[0] - corners[k, 0])
         if a < 0.0 and b < 0.0:
-            return 1.0, 0.0
+            return 1.0, 0.0, 0.0
         if a < 0.0:
             first = max(first, a / (a - b))
         elif b < 0.0:
             last = min(last, a / (a - b))
-    return first, last
+        if max(abs(a), abs(b)) < FLUSH * (ex * ex + ey * ey):
+            shared = flush(a, b, ex * ex + ey * ey)
+    return first, last, shared
 
 
 @long_law
@@ -56,14 +76,17 @@ def within_disc(p, q, x, y, radius):
     b = ex * px + ey * py
     root = b * b - a * (px * px + py * py - radius * radius)
     if root <= 0.0 or a == 0.0:
-        return 1.0, 0.0
+        return 1.0, 0.0, 0.0
     root = math.sqrt(root)
-    return max((-b - root) / a, 0.0), min((root - b) / a, 1.0)
+    return max((-b - root) / a, 0.0), min((root - b) / a, 1.0), 0.0
 
 
 @kernel
-def add_segment(sums, at, p, q, d0, d1):
-    """Add a straight piece from p to q with the depths there; the overlap is to its left."""
+def add_segment(sums, at, p, q, d0, d1, shared):
+    """Add a straight piece from p to q with the depths there; the overlap is to its left.
+
+    ``shared`` of it counts as a piece of the other face's edge.
+    """
     w = minus(q, p)
     flat = math.sqrt(w[0] * w[0] + w[1] * w[1])
     sums[AREA] += p[0] * q[1] - p[1] * q[0]
@@ -80,9 +103,15 @@ def add_segment(sums, at, p, q, d0, d1):
         q = along(p, share, w)
         d1 = 0.0
     size = share * math.sqrt(dot(w, w))
-    sums[at + PRESS] += 0.5 * size * (d0 + d1)
+    own = (1.0 - shared) * size
+    sums[at + PRESS] += 0.5 * own * (d0 + d1)
     for c in range(3):
-        sums[at + FIRST + c] += size * ((2.0 * d0 + d1) * p[c] + (d0 + 2.0 * d1) * q[c]) / 6.0
+        sums[at + FIRST + c] += own * ((2.0 * d0 + d1) * p[c] + (d0 + 2.0 * d1) * q[c]) / 6.0
+    if shared > 0.0:
+        others, other = shared * size, LOWER - at
+        sums[other + PRESS] += 0.5 * others * (d0 + d1)
+        for c in range(3):
+            sums[other + FIRST + c] += others * ((2.0 * d0 + d1) * p[c] + (d0 + 2.0 * d1) * q[c]) / 6.0
     square = (3.0 * d0 + d1) * dot(p, p) + 2.0 * (d0 + d1) * dot(p, q) + (d0 + 3.0 * d1) * dot(q, q)
     sums[at + SECOND] += size * square / 12.0
     sums[at + SQUARE] += size * (d0 * d0 + d0 * d1 + d1 * d1) / 3.0
@@ -201,12 +230,12 @@ def boundary(n, c, v, w, low, many_low, rl, up, many_up, ru, arcs, sums):
     for k in range(many_up):
         p = of(up[k])
         q = of(up[k + 1 if k + 1 < many_up else 0])
-        a, b = within_polygon(p, q, low, many_low) if many_low > 0 else within_disc(p, q, 0.0, 0.0, rl)
+        a, b, shared = within_polygon(p, q, low, many_low) if many_low > 0 else within_disc(p, q, 0.0, 0.0, rl)
         if b > a:
             way = minus(q, p)
             q = along(p, b, way)
             p = along(p, a, way)
-            add_segment(sums, 0, p, q, -p[2] - rise(p, c, v, w)[2], -q[2] - rise(q, c, v, w)[2])
+            add_segment(sums, 0, p, q, -p[2] - rise(p, c, v, w)[2], -q[2] - rise(q, c, v, w)[2], shared)
     # the edge of the lower face under the upper one
     if many_low == 0:
         add_circle(sums, LOWER, nothing, h, t, rl, rl, at_l, along_l, side_l, up, many_up, arcs)
@@ -214,11 +243,11 @@ def boundary(n, c, v, w, low, many_low, rl, up, many_up, ru, arcs, sums):
         m = k + 1 if k + 1 < many_low else 0
         p = low[k, 0], low[k, 1], 0.0
         q = low[m, 0], low[m, 1], 0.0
-        a, b = within_polygon(p, q, up, many_up) if many_up > 0 else within_disc(p, q, c[0], c[1], ra)
+        a, b, shared = within_polygon(p, q, up, many_up) if many_up > 0 else within_disc(p, q, c[0], c[1], ra)
         if b > a:
             way = minus(q, p)
             q = along(p, b, way)
             p = along(p, a, way)
             d0 = dot(minus(minus(p, c), rise(p, c, v, w)), n)
             d1 = dot(minus(minus(q, c), rise(q, c, v, w)), n)
-            add_segment(sums, LOWER, p, q, d0, d1)
+            add_segment(sums, LOWER, p, q, d0, d1, shared)

@@ -10,7 +10,7 @@ import math
 
 from ..dem3d.rim import TINY, angle_of, angle_to, overlap, press_askew
 from ..jit import apart, kernel, law
-from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, PARALLEL, PRESS, SECOND, SQUARE
+from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, PARALLEL, PRESS, SECOND, SQUARE, flush
 
 #: Rows of ``disc``.
 CX, CY, FLAT, DEPTH, SLOPE, SIDE, DEEP_X, DEEP_Y, STEEP, HALF, COSINE, SINE = range(12)
@@ -54,7 +54,10 @@ def lower_depth(s, l, x, y):
 
 @law
 def add_piece(s, at, l, live, px, py, pz, qx, qy, qz, d, e):
-    """Add a straight piece from p to q with depths d and e there, where it is ``live``; the overlap is to its left."""
+    """Add a straight piece from p to q with depths d and e there, where it is ``live``; the overlap is to its left.
+
+    ``shared`` of it counts as a piece of the other face's edge.
+    """
     wx, wy, wz = qx - px, qy - py, qz - pz
     flat = math.sqrt(wx * wx + wy * wy)
     s.sums[AREA, l] += px * qy - qx * py if live else 0.0
@@ -75,11 +78,17 @@ def add_piece(s, at, l, live, px, py, pz, qx, qy, qz, d, e):
     both = first + last
     share = share if live & (both > 0.0) else 0.0
     size = share * math.sqrt(wx * wx + wy * wy + wz * wz)
-    s.sums[at + PRESS, l] += 0.5 * size * both
-    one, two, each = first + both, last + both, size * (1.0 / 6.0)
-    s.sums[at + FIRST, l] += each * (one * px + two * qx)
-    s.sums[at + FIRST + 1, l] += each * (one * py + two * qy)
-    s.sums[at + FIRST + 2, l] += each * (one * pz + two * qz)
+    own, others, other = (1.0 - s.shared[l]) * size, s.shared[l] * size, LOWER - at
+    s.sums[at + PRESS, l] += 0.5 * own * both
+    s.sums[other + PRESS, l] += 0.5 * others * both
+    one, two, each, rest = first + both, last + both, own * (1.0 / 6.0), others * (1.0 / 6.0)
+    x, y, z = one * px + two * qx, one * py + two * qy, one * pz + two * qz
+    s.sums[at + FIRST, l] += each * x
+    s.sums[at + FIRST + 1, l] += each * y
+    s.sums[at + FIRST + 2, l] += each * z
+    s.sums[other + FIRST, l] += rest * x
+    s.sums[other + FIRST + 1, l] += rest * y
+    s.sums[other + FIRST + 2, l] += rest * z
     square = (one + first) * (px * px + py * py + pz * pz) + 2.0 * both * (px * qx + py * qy + pz * qz)
     square += (two + last) * (qx * qx + qy * qy + qz * qz)
     s.sums[at + SECOND, l] += size * square * (1.0 / 12.0)
@@ -88,8 +97,11 @@ def add_piece(s, at, l, live, px, py, pz, qx, qy, qz, d, e):
 
 
 @law
-def cut_off(p, q, c, d, l, first, last):
-    """Shares of the way from p to q between which it is to the left of the line through c and d, of those given."""
+def cut_off(p, q, c, d, l, first, last, shared):
+    """Shares of the way from p to q between which it is to the left of the line through c and d, of those given.
+
+    And the share that an edge along this line has in it.
+    """
     ex, ey = d.x[l] - c.x[l], d.y[l] - c.y[l]
     a = ex * (p.y[l] - c.y[l]) - ey * (p.x[l] - c.x[l])
     b = ex * (q.y[l] - c.y[l]) - ey * (q.x[l] - c.x[l])
@@ -97,24 +109,24 @@ def cut_off(p, q, c, d, l, first, last):
     share = a / (a - b if out != off else 1.0)
     first = max(first, share) if out & (not off) else first
     last = min(last, share) if off & (not out) else last
-    return first, -1.0 if out & off else last
+    return first, -1.0 if out & off else last, max(shared, flush(a, b, ex * ex + ey * ey))
 
 
 @apart
 def cut_by_line(s, p, q, c, d):
     """Keep of the way from p to q what is to the left of the line through c and d."""
     for l in range(s.a.shape[0]):
-        s.a[l], s.b[l] = cut_off(p, q, c, d, l, s.a[l], s.b[l])
+        s.a[l], s.b[l], s.shared[l] = cut_off(p, q, c, d, l, s.a[l], s.b[l], s.shared[l])
 
 
 @apart
 def cut_by_four(s, p, q, c, d, e, f):
     """What of the way from p to q is over a face of four corners."""
     for l in range(s.a.shape[0]):
-        first, last = cut_off(p, q, c, d, l, 0.0, 1.0)
-        first, last = cut_off(p, q, d, e, l, first, last)
-        first, last = cut_off(p, q, e, f, l, first, last)
-        s.a[l], s.b[l] = cut_off(p, q, f, c, l, first, last)
+        first, last, shared = cut_off(p, q, c, d, l, 0.0, 1.0, 0.0)
+        first, last, shared = cut_off(p, q, d, e, l, first, last, shared)
+        first, last, shared = cut_off(p, q, e, f, l, first, last, shared)
+        s.a[l], s.b[l], s.shared[l] = cut_off(p, q, f, c, l, first, last, shared)
 
 
 @apart
@@ -145,7 +157,7 @@ def add_lower_piece(s, p, q):
 def leave_whole(s):
     """All of the next edge is over the other face."""
     for l in range(s.a.shape[0]):
-        s.a[l], s.b[l] = 0.0, 1.0
+        s.a[l], s.b[l], s.shared[l] = 0.0, 1.0, 0.0
 
 
 @law
@@ -287,6 +299,7 @@ def cut_by_disc(s, p, q):
         hit = (not begins) | (not ends) | (meets & (b > a))
         s.a[l] = a if hit else 1.0
         s.b[l] = b if hit else 0.0
+        s.shared[l] = 0.0
         enter, leave = hit & begins, hit & ends
         ex, ey = px + a * wx, py + a * wy
         x, y = px + b * wx, py + b * wy

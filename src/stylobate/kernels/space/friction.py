@@ -17,6 +17,13 @@ def late(before, after, now):
     return 0.25 * (now.earlier + now.last) * (before + after) - 0.5 * now.earlier * before
 
 
+@long_law
+def tell(q, past, past_spin, now):
+    """Count what the last force of friction has done since it was told, with the velocity and the spin after it."""
+    now.shear -= late(q.pf, dot(of(q.f), past) + q.t * past_spin, now)
+    now.visc -= late(q.pd, dot(of(q.d), past) + q.dt * past_spin, now)
+
+
 @kernel
 def rub(q, n, slip, rolling, spin, past, past_spin, kf, kt, limit, arm, push, velocity, now):
     """Friction at t_n; brings its memory from t_{n−1} to t_n.
@@ -43,8 +50,7 @@ def rub(q, n, slip, rolling, spin, past, past_spin, kf, kt, limit, arm, push, ve
     """
     dt = now.last
     f, turn = of(q.f), q.t
-    now.shear -= late(q.pf, dot(f, past) + turn * past_spin, now)
-    now.visc -= late(q.pd, dot(of(q.d), past) + q.dt * past_spin, now)
+    tell(q, past, past_spin, now)
     f, twist = sprung(f, turn, q.kf, q.kt, n, slip, rolling, spin, kf, kt, limit, arm, dt)
     g, more = slowed(f, twist, slip, spin, kf, kt, limit, arm, push, now.beta)
     q.pf = dot(f, slip) + twist * spin

@@ -5,9 +5,9 @@ import math
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
 from ..plane.loose import handover
-from .bed import act_at, add, mobility, motion_then
+from .acting import act_at, add, let_go, mobility, motion_then
 from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, PRESS, SECOND, SQUARE, boundary
-from .friction import relax, rub
+from .friction import rub
 from .vectors import along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
 
 #: Torsion over shear stiffness and ρ², limit of torsion over that of shear and ρ: a closed disc has K_s R²/2 and 2R/3.
@@ -71,9 +71,9 @@ def spin_over(u, v):
 
 
 @kernel
-def part(e):
+def part(e, u, v, now):
     """Nothing is left of the contact."""
-    relax(e)
+    let_go(e, u, v, now)
     put(e.gf, (0.0, 0.0, 0.0))
     put(e.gm, (0.0, 0.0, 0.0))
 
@@ -90,7 +90,7 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
         e.weight = 0.0
     if e.weight == 0.0:
         e.live = 0
-        part(e)
+        part(e, u, v, now)
         return
     share = e.weight
     e.en = share * stored
@@ -107,7 +107,7 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
         put(e.gm, twist_)
     if pressing == 0.0:
         stored = e.en
-        relax(e)
+        let_go(e, u, v, now)
         e.en = stored
         return
     n = scaled(1.0 / length(force), force)

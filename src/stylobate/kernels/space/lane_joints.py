@@ -161,7 +161,7 @@ def act(damped, e, u, v, s, o, l):
     f, twist = sprung(before, turn, e.kf[l], e.kt[l], n, slip, 0.5 * (spin_u + spin_v), spin, kf, kt, limit, arm, last)
     # nothing is remembered of a joint that is open
     keep = 1.0 if pressing > 0.0 else 0.0
-    half = 0.5 * last * keep
+    half = 0.5 * last
     f, twist = scaled(keep, f), keep * twist
     o.shear[l] -= half * (dot(before, past) + dot(f, slip) + (turn + twist) * spin)
     write(e.f, l, f)

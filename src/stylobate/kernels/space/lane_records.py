@@ -14,7 +14,7 @@ Legend; names not listed are those of ``records.py``, numbers of bodies and coun
                v w            β times velocity and angular velocity of the upper face as seen there
                m lift         depth along the lower edge is (x − c) · m − lift
                hx hy          horizontal direction in which the upper face rises least, sine of its tilt
-               a b            shares of an edge between which it is over the other face
+               a b shared     shares of an edge between which it is over the other face, and that the other's edge has in it
                disc[12]       of a round face: where it is, radius as seen from above, depth in its middle, and how the depth
                               changes along its rim, see ``edges.py``
                arc[9]         sums over the ends of its arcs
@@ -56,7 +56,7 @@ def types() -> dict[str, np.dtype]:
         "lane": np.dtype(fields("dt last beta work shear visc") + fields("g p", 3) + fields("loose", kind=np.int64)),
         "work": np.dtype(
             fields("i j z ml n p q c v w m force moment", 3)
-            + fields("lift hx hy sine a b en")
+            + fields("lift hx hy sine a b shared en")
             + fields("disc", OF_DISC)
             + fields("arc", OF_ARC)
             + fields("sums", OF_SUMS)

@@ -10,7 +10,7 @@ The frame of the run finds lane, ground, feed and watch where they are in the st
 import math
 
 from ..dem3d.look import straighten
-from ..dem3d.move import rotate_any, twice_kinetic
+from ..dem3d.move import twice_kinetic
 from ..dem3d.step import fill_ground
 from ..jit import apart, kernel, law, strict
 from ..run_codes import CHUNK, FAILED, RUNNING
@@ -18,6 +18,7 @@ from ..shared.frame import run_chunks
 from .edges import sum_up
 from .joints import NOTHING
 from .lane_joints import act_damped, act_elastic, keep_elastic, look_along, look_on, place_corner, row
+from .motion import carried_on
 from .nearest import parting
 from .records import GROUND
 from .solids import reach
@@ -67,15 +68,10 @@ def drift(u, o, g):
         vy = u.vy[l] + kick * (u.f[1, l] * im - g.a[1, l] - o.g[1, l])
         vz = u.vz[l] + kick * (u.f[2, l] * im - g.a[2, l] - o.g[2, l])
         lx, ly, lz = u.lx[l] + kick * u.mo[0, l], u.ly[l] + kick * u.mo[1, l], u.lz[l] + kick * u.mo[2, l]
-        u.vx[l], u.vy[l], u.vz[l] = vx, vy, vz
-        u.lx[l], u.ly[l], u.lz[l] = lx, ly, lz
-        u.x[l] += vx * dt
-        u.y[l] += vy * dt
-        u.z[l] += vz * dt
+        carried_on(u, l, (vx, vy, vz), (lx, ly, lz), dt)
         o.p[0, l] += m * vx
         o.p[1, l] += m * vy
         o.p[2, l] += m * vz
-        rotate_any(u, l, lx, ly, lz, dt)
 
 
 @apart

@@ -4,9 +4,20 @@ import math
 
 from ..dem3d.look import straighten
 from ..dem3d.move import omega, rotate_any, twice_kinetic
-from ..jit import kernel, strict
+from ..jit import kernel, law, strict
 from ..run_codes import FAILED
 from .vectors import along, dot, length, of, put, scaled
+
+
+@law
+def carried_on(u, l, v, momentum, dt):
+    """Drift of a body over a step with a velocity and an angular momentum."""
+    u.vx[l], u.vy[l], u.vz[l] = v
+    u.lx[l], u.ly[l], u.lz[l] = momentum
+    u.x[l] += v[0] * dt
+    u.y[l] += v[1] * dt
+    u.z[l] += v[2] * dt
+    rotate_any(u, l, momentum[0], momentum[1], momentum[2], dt)
 
 
 @kernel
@@ -39,13 +50,8 @@ def move(body, now, a, b, dt):
             m = along(m, -brake / max(length(l), 1e-30), l)
         v = along(v, kick, f)
         l = along(l, kick, m)
-        u.vx[0], u.vy[0], u.vz[0] = v
-        u.lx[0], u.ly[0], u.lz[0] = l
-        u.x[0] += v[0] * dt
-        u.y[0] += v[1] * dt
-        u.z[0] += v[2] * dt
         put(u.past, omega(u, 0, l[0], l[1], l[2]))
-        rotate_any(u, 0, l[0], l[1], l[2], dt)
+        carried_on(u, 0, v, l, dt)
         px += u.m[0] * v[0]
         py += u.m[0] * v[1]
         pz += u.m[0] * v[2]

@@ -11,6 +11,7 @@ Legend of ``total``, all about a point ``REF`` of the overlap::
     SHADOW, MIDDLE 3, SPREAD 6   area of A's part seen along n, its first and second moments (xx yy zz xy yz zx)
     REF 3
     DEEP_A 4, DEEP_B 4           of a drum: how deep the other surface reaches into its side [m], and from its axis where to
+    INNER                        how many of its faces lie on other shapes of their body
 """
 
 import math
@@ -20,7 +21,7 @@ from .records import DRUM
 from .vectors import along, cross, dot, minus, of, outward, place, put
 
 #: Places in ``total``.
-VOLUME, MOMENT, NORMAL, SHADOW, MIDDLE, SPREAD, REF, DEEP_A, DEEP_B = 0, 1, 4, 7, 8, 11, 17, 20, 24
+VOLUME, MOMENT, NORMAL, SHADOW, MIDDLE, SPREAD, REF, DEEP_A, DEEP_B, INNER = 0, 1, 4, 7, 8, 11, 17, 20, 24, 28
 
 
 @long_law
@@ -146,6 +147,7 @@ def add_surface(total, n, s, t, v, loop, corner, points, mine, some, planes, oth
         if count > 2:
             add_face(total, one, count, n, of_a, begun)
             begun = True
+            total[INNER] += l.inner
             if t.kind == DRUM:
                 at = DEEP_B if of_a else DEEP_A
                 look_inside(total[at : at + 4], t, v, one, count)

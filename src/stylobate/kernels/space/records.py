@@ -16,6 +16,7 @@ Legend::
                c[3] e[3]      of drums: middle of the lower face, and the axis, in the axes of the body [m], [-]
                h rb rt        height, radii of the lower and the upper face [m]
     loop[f]    first count    corners of face f, numbers of vertices of the shape, counter-clockwise seen from outside
+               inner          1: all of it lies on other shapes of its body
     pair[p]    a b            shapes whose bodies may touch, a < b;  joint  number of the joint of two of their faces, or −1
                n[3]           direction from a to b: normal of the contact, or an axis that parts them [-]
                ta[3] tb[3]    directions in which drums a and b turn a facet, from their axes; along n where they are 0
@@ -28,6 +29,9 @@ Legend::
                area           of the contact [m²], 0 where there is none
                ra[3] rb[3]    its middle at the last step from the centroid of either body [m]
                gap            how far apart the shapes are along n [m], where they do not touch
+               share          of the bed in what the shapes hold, 0 where they do not touch;  total[SUMS]  of their overlap
+               s[3] whole     vector area [m²] and volume [m³] of the contact that theirs is a part of;  held  its share of
+                              the work that has pressed that [J]
     joint[j]   a b            shapes of the lower and the upper face, a body each
                ml il jl       middle and two directions of the lower face in the axes of its body, il × jl out of it [m], [-]
                mu iu ju       the same of the upper face, iu × ju into its body
@@ -76,6 +80,9 @@ LESS = 1.0 - 1.0e-10
 #: Most vertices and faces of a shape, most corners of a clipped face.
 MOST_VERTICES, MOST_FACES, MOST_CORNERS = 256, 512, 1024
 
+#: Sums over the surface of an overlap, see ``overlap.py``.
+SUMS = 29
+
 
 def types() -> dict[str, np.dtype]:
     """Record types by name."""
@@ -95,9 +102,12 @@ def types() -> dict[str, np.dtype]:
             + counts("fixed")
         ),
         "shape": np.dtype(counts("body kind first count face faces") + fields("m c e", 3) + fields("r h rb rt")),
-        "loop": np.dtype(counts("first count")),
+        "loop": np.dtype(counts("first count inner")),
         "pair": np.dtype(
-            counts("a b joint side") + fields("n ta tb f d ra rb", 3) + fields("t dt kf kt fn en area gap pn pf pd")
+            counts("a b joint side")
+            + fields("n ta tb f d ra rb s", 3)
+            + fields("total", SUMS)
+            + fields("t dt kf kt fn en area gap share whole held pn pf pd")
         ),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
@@ -140,7 +150,3 @@ def workspace() -> tuple[np.ndarray, ...]:
 def workspace_of_joints() -> tuple[np.ndarray, ...]:
     """Arrays that one joint needs: corners of the upper face, arcs, and sums, see ``boundary.py``."""
     return np.zeros((MOST_VERTICES, 3)), np.zeros((MOST_VERTICES, 2)), np.zeros(16)
-
-
-#: Sums over the surface of an overlap, see ``overlap.py``.
-SUMS = 28

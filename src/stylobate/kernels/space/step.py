@@ -10,10 +10,12 @@ from ..dem3d.step import base_acceleration
 from ..jit import kernel, strict
 from ..run_codes import CHUNK, FAILED
 from ..shared.links import add_to_ledger
-from .bed import foresee, forget, press, touching
+from .acting import let_go
+from .bed import alone, foresee, forget, gather, press, touching
 from .joints import on_joint
 from .links import add_links, look_at_links
 from .motion import check, kinetic_and_gravitational, move
+from .overlap import INNER
 from .search import list_pairs
 from .vectors import of
 
@@ -36,6 +38,7 @@ def forces(state):
             body[i].f[c] = body[i].mo[c] = 0.0
     now.rate = 0.0
     total = work[10]
+    some = 0
     up, arcs, sums = places
     for j in range(joint.shape[0]):
         e = joint[j]
@@ -49,19 +52,31 @@ def forces(state):
         v = body[b.body]
         joined = p.joint >= 0 and joint[p.joint].live != 0
         share = 1.0 - joint[p.joint].weight if joined else 1.0
-        # what a joint has held and handed over strikes only when it has been apart
-        foreign = p.joint < 0 or (not joined and p.area == 0.0)
+        p.share = 0.0
         wide = 2.0 * min(u.r, v.r)
         if share > 0.0 and touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
-            numbers = law[min(a.body, b.body), max(a.body, b.body)]
-            press(p, a, u, b, v, vertex, numbers[0], numbers[1], numbers[2], share, now, total, simplex)
-            if now.touched < 0 and foreign:
+            p.share = share
+            some += 1
+            for m in range(total.shape[0]):
+                p.total[m] = total[m]
+            alone(p)
+            # what a joint has held and handed over strikes only when it has been apart
+            if now.touched < 0 and (p.joint < 0 or (not joined and p.area == 0.0)):
                 now.touched = feed[0].step[0]
         elif share > 0.0:
             if p.area > 0.0:
+                let_go(p, u, v, now)
                 forget(p)
-            stiffness = share * law[min(a.body, b.body), max(a.body, b.body), 0]
+            stiffness = share * law[a.body, b.body, 0]
             foresee(p, a, u, b, v, vertex, plane, loop, corner, wide, stiffness, now, work)
+    for k in range(now.pairs if some > 1 else 0):
+        if pair[k].share > 0.0 and pair[k].total[INNER] > 0.0:
+            gather(pair, now.pairs, shape, pair[k])
+    for k in range(now.pairs if some > 0 else 0):
+        p = pair[k]
+        if p.share > 0.0:
+            a, b = shape[p.a], shape[p.b]
+            press(p, a, body[a.body], b, body[b.body], vertex, law[a.body, b.body], now, simplex)
     add_links(body, ties, now.last)
 
 

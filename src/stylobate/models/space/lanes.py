@@ -19,6 +19,7 @@ from ..plane.assemblies import measures_of_assemblies
 from ..shared.lanes import aligned_zeros, copied, not_computed, run_alike
 from .assemblies import Begun, SpatialNumbers, chunks_of, ground_at, response_of, settled, unsettled
 from .loose import REST_TIME, REST_WAY, Loose
+from .packing import turned_over
 
 #: Cases for each thread from which on lanes are worth it: a block costs as much as two runs, however few are in it.
 FEWEST = 4
@@ -51,7 +52,10 @@ def kind(structure: Structure) -> Hashable:
         return 0 if face.edges.discs and not len(face.edges.sides) else len(face.corners)
 
     joints = tuple(
-        (joint.lower, joint.upper, joint.lower_part, joint.upper_part, corners(joint.below), corners(joint.above))
+        (
+            (joint.lower, joint.upper, joint.lower_part, joint.upper_part, turned_over(joint)),
+            (corners(joint.below), corners(joint.above)),
+        )
         for joint in structure.space_joints or ()
     )
     return parts, joints

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...column.joint import Joint
 from ...column.shapes import CircularFrustum, Placed
+from ...column.spatial.touching import SpaceJoint
 from ...column.structure import Structure
 from ...column.turning import matrix_of
 from .solids import Drum, Face, FacesJoined, HalfSpace, Solid
@@ -18,6 +19,9 @@ AROUND = 24
 
 #: Half the side of a face of the ground: no body that stands on it comes to its end [m].
 WIDE = 1e3
+
+#: Normals that rise less than this are level: either body of such a joint counts as the lower one.
+LEVEL = 1e-6
 
 #: Relative tilt from which faces that lay on one another are a bed like all others [rad].
 LAST_TILT = math.radians(50.0)
@@ -75,14 +79,18 @@ def joints_of(structure: Structure, solids: list[Solid], first: np.ndarray) -> l
     for joint in structure.space_joints or ():
         lower, upper = solids[joint.lower], solids[joint.upper]
         ground = isinstance(lower.parts[0], HalfSpace)
-        below = _level(joint, lower) if ground else _face(joint.below, lower)
+        sides = [
+            (int(first[joint.lower]) + joint.lower_part, _level(joint, lower) if ground else _face(joint.below, lower)),
+            (int(first[joint.upper]) + joint.upper_part, _face(joint.above, upper)),
+        ]
+        (low, below), (high, above) = sides[::-1] if turned_over(joint) else sides
         law = joint.law
         joints.append(
             FacesJoined(
-                int(first[joint.lower]) + joint.lower_part,
-                int(first[joint.upper]) + joint.upper_part,
+                low,
+                high,
                 below,
-                _face(joint.above, upper),
+                above,
                 law.normal_stiffness,
                 law.shear_stiffness,
                 law.tan_phi,
@@ -92,6 +100,11 @@ def joints_of(structure: Structure, solids: list[Solid], first: np.ndarray) -> l
             )
         )
     return joints
+
+
+def turned_over(joint: SpaceJoint) -> bool:
+    """Whether the second body of a joint is under the first one, however they are numbered."""
+    return bool(joint.frame[2, 2] < -LEVEL)
 
 
 def _face(face: Any, solid: Solid) -> Face:

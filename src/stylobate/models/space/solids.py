@@ -8,8 +8,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...column.shapes import Mesh
+from ...column.shapes import Mesh, cut
 from ...kernels.space.records import BLOCK, DRUM, FACETS, GROUND, LESS, MOST_FACES, MOST_VERTICES, types
+
+#: A face of a part is an inner one where others of its body cover it to this share of its area and of its size.
+COVERED = 1e-6
+
+#: Corners around the end of a drum where it is looked for what covers it.
+AROUND = 24
 
 #: Shares of the tilt at which faces have parted: from which on they hand over, and beyond which they part as soon as they
 #: open; so they do with less than this share of their overlap at the start.
@@ -151,7 +157,8 @@ def pack(solids: Sequence[Solid]) -> Packed:
             )
             for k, axis in enumerate("ijk"):
                 u[axis + name] = axes[c, k]
-        u["r"] = max(rows.add(i, part, turn) for part in solid.parts)
+        inner = inner_faces(solid.parts)
+        u["r"] = max(rows.add(i, part, turn, faces) for part, faces in zip(solid.parts, inner, strict=True))
     return Packed(body, *rows.arrays(kinds), turns)
 
 
@@ -163,10 +170,12 @@ class _Rows:
         self.vertices: list[np.ndarray] = []
         self.planes: list[np.ndarray] = []
         self.loops: list[tuple[int, ...]] = []
-        self.faces_of_drum = -1
+        self.inner: list[bool] = []
 
-    def add(self, body: int, part: Mesh | Drum | HalfSpace, turn: np.ndarray) -> float:
-        """Add a part of a body; returns the distance of its farthest point from the centroid [m]."""
+    def add(self, body: int, part: Mesh | Drum | HalfSpace, turn: np.ndarray, inner: Sequence[bool]) -> float:
+        """Add a part of a body, and which of its faces are inner ones; returns the distance of its farthest point from the
+        centroid [m]."""
+        self.inner += inner
         if isinstance(part, HalfSpace):
             self.shapes.append({"body": body, "kind": GROUND, "face": len(self.loops), "faces": 1, "r": 1e9})
             self.loops.append((0, 1, 2, 3))
@@ -205,13 +214,12 @@ class _Rows:
         return float(np.linalg.norm(vertices, axis=1).max())
 
     def _drum_faces(self) -> int:
-        """Where the faces of a prism are, which all drums share."""
-        if self.faces_of_drum < 0:
-            self.faces_of_drum, n = len(self.loops), FACETS
-            self.loops += [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
-            self.loops += [tuple(range(n - 1, -1, -1)), tuple(range(n, 2 * n))]
-            self.planes += [np.zeros(4)] * (n + 2)
-        return self.faces_of_drum
+        """Where the faces of the prism are that stands for a drum: facets, and both ends."""
+        first, n = len(self.loops), FACETS
+        self.loops += [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
+        self.loops += [tuple(range(n - 1, -1, -1)), tuple(range(n, 2 * n))]
+        self.planes += [np.zeros(4)] * (n + 2)
+        return first
 
     def arrays(self, kinds: dict[str, np.dtype]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Shapes, vertices, planes, loops, corners."""
@@ -219,11 +227,61 @@ class _Rows:
         for row, numbers in zip(shape, self.shapes, strict=True):
             for name, value in numbers.items():
                 row[name] = value
-        loop["count"] = [len(face) for face in self.loops]
+        loop["count"], loop["inner"] = [len(face) for face in self.loops], self.inner
         loop["first"] = np.cumsum([0, *loop["count"]])[:-1]
         vertices = np.concatenate(self.vertices) if self.vertices else np.zeros((1, 3))
         corners = np.array([k for face in self.loops for k in face], dtype=np.int64)
         return shape, np.ascontiguousarray(vertices), np.array(self.planes), loop, corners
+
+
+def inner_faces(parts: Sequence[Mesh | Drum | HalfSpace]) -> list[list[bool]]:
+    """Of every part of a body which of its faces are all covered by faces of other ones; of drums the two ends come last."""
+    ends = [_flat_faces(part) for part in parts]
+    found = []
+    for part, mine in zip(parts, ends, strict=True):
+        others = [face for one in ends if one is not mine for face in one]
+        before = FACETS if isinstance(part, Drum) else 0
+        found.append([False] * before + [_covered(face, others) for face in mine])
+    return found
+
+
+def _flat_faces(part: Mesh | Drum | HalfSpace) -> list[np.ndarray]:
+    """Corners of the plane faces of a part, counter-clockwise seen from outside [m], shape (k, 3) each."""
+    if isinstance(part, Mesh):
+        return [np.asarray(part.vertices)[list(face)] for face in part.faces]
+    if isinstance(part, HalfSpace):
+        return [np.zeros((3, 3))]
+    one = np.cross(part.axis, np.eye(3)[np.argmin(np.abs(part.axis))])
+    one /= np.linalg.norm(one)
+    angle = 2.0 * math.pi * np.arange(AROUND)[:, None] / AROUND
+    ring = np.cos(angle) * one + np.sin(angle) * np.cross(part.axis, one)
+    top = part.foot + part.height * part.axis
+    return [part.foot + part.bottom * ring[::-1], top + part.top * ring]
+
+
+def _covered(face: np.ndarray, others: Sequence[np.ndarray]) -> bool:
+    """Whether faces that look the other way, in the same plane, cover a face."""
+    plane, left = plane_of(face) if others else np.zeros(4), 0.0
+    area = _area(face)
+    near = COVERED * math.sqrt(area)
+    for other in others:
+        opposite = plane_of(other)
+        if opposite[:3] @ plane[:3] > COVERED - 1.0 or np.abs(other @ plane[:3] - plane[3]).max() > near:
+            continue
+        common = other
+        for p, q in zip(face, np.roll(face, -1, axis=0), strict=True):
+            outward = np.cross(q - p, plane[:3])
+            common = cut(common, outward, float(outward @ p)) if len(common) else common
+        left += _area(common)
+    return left > (1.0 - COVERED) * area > 0.0
+
+
+def _area(polygon: np.ndarray) -> float:
+    """Area of a plane polygon in space [m²]."""
+    if len(polygon) < 3:
+        return 0.0
+    p = polygon - polygon[0]
+    return 0.5 * float(np.linalg.norm(np.cross(p, np.roll(p, -1, axis=0)).sum(axis=0)))
 
 
 def pack_joints(joints: Sequence[FacesJoined], packed: Packed) -> tuple[np.ndarray, np.ndarray]:
