@@ -81,6 +81,15 @@ Settings = Annotated[
     list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Option of the model; may be repeated.")
 ]
 
+LossesName = Annotated[
+    str | None,
+    typer.Option(
+        "--losses",
+        metavar="none|stone",
+        help="What joints lose: as other options say, or as measured stone (dem2d, dem3d).",
+    ),
+]
+
 
 @dataclass(frozen=True)
 class Motions(Group):
@@ -247,8 +256,8 @@ def _in_plane(structure: Any, project: str | None) -> Any:
     return projected(structure.stack, azimuth)
 
 
-def the_model(name: str, settings: list[str] | None) -> Model:
-    """The model of that name with its options."""
+def the_model(name: str, settings: list[str] | None, losses: str | None = None) -> Model:
+    """The model of that name with its options, and with losses by name."""
     from ..models.registry import make_model
 
     values: dict[str, str] = {}
@@ -259,6 +268,10 @@ def the_model(name: str, settings: list[str] | None) -> Model:
         if key.strip() in values:
             raise InputError(f"--set {key.strip()} is given twice; give it once.", "set")
         values[key.strip()] = value.strip()
+    if losses is not None:
+        if "losses" in values:
+            raise InputError("losses are given twice, by --losses and by --set; give them once.", "losses")
+        values["losses"] = losses
     return make_model(name, values)
 
 

@@ -49,6 +49,7 @@ def run(
     ),
     output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
     settings: o.Settings = None,
+    losses: o.LossesName = None,
     project: o.Project = None,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
@@ -66,7 +67,7 @@ def run(
 
     asked = motions.request()
     stone = o.the_structure(column, project)
-    how = o.the_model(model, settings)
+    how = o.the_model(model, settings, losses)
     found = asked.expand(stone.frequency_parameter)
     options = {"output_interval": parse_time(output_interval), "until_end": until_end, "until_rest": until_rest}
     campaign, given = execution.campaign(following, population), population.replicates is not None

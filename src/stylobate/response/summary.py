@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,7 +20,28 @@ if TYPE_CHECKING:
 def summary_of(response: Recorded) -> dict:
     """Plain values. What has fallen has no residuals: they are None after a collapse, and peaks end with it."""
     run = {"wall_s": response.wall_time, "model": response.model, "version": response.provenance.get("version", "")}
+    run |= losses_of(response.provenance)
     return (_of_blocks(response) if response.measures.blocks is not None else _of_column(response)) | run
+
+
+def losses_of(provenance: Mapping[str, Any]) -> dict[str, Any]:
+    """Which losses acted: their name, ``given`` where parameters say it, and what they come to; None of models without."""
+    known = provenance.get("parameters", {})
+    if "losses" not in known:
+        return {"losses": None}
+    acting = {name: known.get(name) for name in LOSSES if known.get(name)}
+    acting |= {name: provenance[key] for name, key in LOSSES.items() if provenance.get(key)}
+    name = "given" if acting and known["losses"] == "none" else known["losses"]
+    return {"losses": name, "losses_acting": acting}
+
+
+#: Parameters by which a run loses energy besides friction, and where its provenance has what was chosen for them.
+LOSSES = {
+    "stiffness_damping": "stiffness_damping_s",
+    "rolling_resistance": "rolling_resistance",
+    "mass_damping": "",
+    "restitution": "",
+}
 
 
 def _of_column(response: Recorded) -> dict:

@@ -39,7 +39,13 @@ def sentence_of(response: Recorded) -> str:
 
 
 #: Damping of a run in space, by the names of the parameters, and the value with which there is none.
-UNDAMPED = {"stiffness_damping": 0.0, "mass_damping": 0.0, "restitution": 1.0, "rolling_resistance": 0.0}
+UNDAMPED = {
+    "losses": "none",
+    "stiffness_damping": 0.0,
+    "mass_damping": 0.0,
+    "restitution": 1.0,
+    "rolling_resistance": 0.0,
+}
 
 #: Tilt beyond which a column wobbles, as a share of its slenderness [-].
 WOBBLES = 0.02
@@ -48,7 +54,7 @@ WOBBLES = 0.02
 #: What stands before all that rests on wobbles without damping.
 UNDAMPED_WOBBLE = (
     "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many like it fall "
-    "with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it."
+    "with a stiffness damping of 1e-4 s, and of 1e-3 s, or with losses = stone, before relying on it."
 )
 
 #: What stands before all that rests on round columns in a plane; of several drums they leave it by themselves.
