@@ -152,7 +152,8 @@ class Population(Group):
     replicates: str | None = option("N", "How sure that is: so many columns like this one, by --scatter.")
     scatter: str | None = option(
         "NAME=SIZE,…",
-        "How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%.",
+        "How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%; in space also "
+        "stiffness_damping=80%,rolling_resistance=80%,law=50%.",
     )
     seed: str | None = option("N", "Of these columns; the same seed, the same ones.")
 
@@ -327,9 +328,12 @@ def _share(text: str, example: str) -> float:
 def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> Campaign:
     """What is asked for, with as many columns like this one as cost nothing where no number is ``given``."""
     from ..campaign.twins import the_twins
+    from ..column.scatter import usual_scatter
 
     number = asked.replicates if given else model.carries if model.carried(stone) else 0
-    made = dataclasses.replace(asked, replicates=number)
+    # unasked they ride along, and what rides along is of one law
+    scatter = asked.scatter if given or not number else asked.scatter or usual_scatter(stone.stack or stone)
+    made = dataclasses.replace(asked, replicates=number, scatter=scatter)
     try:
         if number:
             the_twins(stone, model, made)

@@ -278,11 +278,23 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
         facts |= population_facts(population)
     elif response.structure.scattered and response.measures.blocks is not None:
         facts["certainty"] = "one run, of exactly these stones; --replicates 15 runs assemblies like it as well"
-    doubt = (population.doubt if population is not None else "") or doubt_of(response)
+    doubt = doubt_of(response) if population is None else population.doubt_about(response)
     sentence = f"{sentence} {doubt}".rstrip()
     what |= quiet_facts(response)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
-    console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)
+    console.say(
+        sentence, {**what, **o.input_lines(motion), "model": computed, **losses_facts(response), **facts}, files
+    )
+
+
+def losses_facts(response: Response) -> dict[str, str]:
+    """What joints lost by name, in numbers."""
+    told = response.summary()
+    if told["losses"] in (None, "none", "given"):
+        return {}
+    acting, more = told["losses_acting"], response.provenance["steps_over_undamped"]
+    words = ", ".join(f"{name.replace('_', ' ')} {value:.2g}" for name, value in acting.items())
+    return {"losses": f"{told['losses']}: {words}; {more:.2g} times as many steps as undamped"}
 
 
 def quiet_facts(response: Response) -> dict[str, str]:

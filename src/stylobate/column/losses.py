@@ -32,7 +32,7 @@ class Losses:
     law: str | None = None
 
     def __post_init__(self) -> None:
-        check_range("stiffness_damping of losses", self.stiffness_damping, 0.0, 1.0, unit="s", open_low=True)
+        check_range("stiffness_damping of losses", self.stiffness_damping, 0.0, 1.0, unit="s")
         check_range("rolling_resistance of losses", self.rolling_resistance, 0.0, 1.0)
         if self.law is not None:
             check_choice("law of losses", self.law, LAWS)

@@ -139,8 +139,8 @@ class DistinctElement3D(LossyDrums):
     limits: ClassVar[tuple[str, ...]] = (
         "What an impact loses depends on the law of contact, on friction and on damping.",
         "Undamped (stiffness_damping = 0, the default) a column wobbles long, and near collapse the verdict hangs on how "
-        "long a contact of stone lasts, which is not known: take a population, and compare 1e-4 to 1e-3 s. With losses = stone "
-        "an impact leaves what Housner says.",
+        "long a contact of stone lasts, which is not known: take a population, and compare 1e-4 to 1e-3 s. With losses = "
+        "stone an impact leaves what Housner says.",
         "A drum of a column touches its neighbours and the base only. In an assembly any two bodies may touch: what is "
         "struck then hangs on how stiff a base is beside the contact, and a fall is one draw of many.",
         "Drums do not crack, chip or wear.",
@@ -154,6 +154,7 @@ class DistinctElement3D(LossyDrums):
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
     takes_links: ClassVar[frozenset[str]] = LossyDrums.takes_links | {"clamp"}
+    varies_law: ClassVar[bool] = True
 
     law: str = "rim"
     pivot_friction: float = 1.0

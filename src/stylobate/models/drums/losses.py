@@ -66,6 +66,10 @@ class LossyDrums(SteppedDrums):
         super().check(column, motion)
 
     def paced(self, column: Any) -> SteppedDrums:
+    def step_for(self, column: Any) -> float:
+        """As of all models that step drums, with what acts in a run of the column [s]."""
+        return super(LossyDrums, self.acting(column)).step_for(column)
+
         """As of all models that step drums; with the losses of the column, by name no more."""
         return super(LossyDrums, self.acting(column)).paced(column)
 
