@@ -268,7 +268,7 @@ def write(response: Response, motion: Motion, folder: Path, figures: bool = True
 
 def describe(response: Response, motion: Motion, files: list[Path], population: Population | None = None) -> None:
     """Print the verdict for people."""
-    from ..response.words import doubt_of
+    from ..response.words import doubt_of, opening_words
     from . import console
 
     found = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
@@ -280,6 +280,8 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
         facts["certainty"] = "one run, of exactly these stones; --replicates 15 runs assemblies like it as well"
     doubt = doubt_of(response) if population is None else population.doubt_about(response)
     sentence = f"{sentence} {doubt}".rstrip()
+    if opens := opening_words(response.provenance.get("opening")):
+        what["rocks at"] = opens
     what |= quiet_facts(response)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
     console.say(

@@ -31,6 +31,7 @@ from ..plane.laws import Types, point_law
 from ..plane.loose import Contacts
 from ..plane.packing import joint_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
+from ..shared.opening import Opening, opening
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
 
@@ -134,6 +135,11 @@ class DistinctElement2D(LossyDrums):
     def stable_step(self, column: Column) -> float:
         """Largest stable time step of the closed column [s]."""
         return _stable_step(column, self.acting(column))
+
+    def opening(self, column: Column) -> Opening | None:
+        """What rocks a column on two points; others have no closed form here."""
+        kn = joint_stiffnesses(column, self.block_modulus)[0]
+        return opening(column, kn, "corners") if self.points == 2 else None
 
     def run(self, column: Any, motion: Motion, options: RunOptions) -> Response:
         """One run with histories; a column that falls is followed to the ground if asked for, an assembly always."""

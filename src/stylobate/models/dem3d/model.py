@@ -26,6 +26,7 @@ from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
 from ..drums.losses import LossyDrums
 from ..drums.records import Packed
+from ..shared.opening import Opening, opening
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
@@ -153,8 +154,8 @@ class DistinctElement3D(LossyDrums):
     computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid, Glued)
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
-    takes_links: ClassVar[frozenset[str]] = LossyDrums.takes_links | {"clamp"}
     varies_law: ClassVar[bool] = True
+    takes_links: ClassVar[frozenset[str]] = LossyDrums.takes_links | {"clamp"}
 
     law: str = "rim"
     pivot_friction: float = 1.0
@@ -309,6 +310,13 @@ class DistinctElement3D(LossyDrums):
         check_step_resolves(self.time_step, motion)
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
+
+    def opening(self, column: Column) -> Opening | None:
+        """What rocks a column on the law of its joints; not a single body on vertices."""
+        if column.stack is None:
+            return None
+        kn = joint_stiffnesses(column, self.block_modulus)[0]
+        return opening(column, kn, self.acting(column).law if column.section == "circular" else "corners")
 
     def kind(self, column: Any) -> Kind:
         """Columns of one kind share blocks of lanes; specimens with as many rows."""

@@ -11,6 +11,7 @@ from ...column.materials import ROLLING
 from ...errors import InputError, check_choice
 from ...motion import Motion
 from ...response import Response
+from ..shared.opening import Opening
 from .impact import damping_of_stone
 from .stepped import SteppedDrums
 
@@ -65,16 +66,23 @@ class LossyDrums(SteppedDrums):
             )
         super().check(column, motion)
 
-    def paced(self, column: Any) -> SteppedDrums:
     def step_for(self, column: Any) -> float:
         """As of all models that step drums, with what acts in a run of the column [s]."""
         return super(LossyDrums, self.acting(column)).step_for(column)
 
+    def paced(self, column: Any) -> SteppedDrums:
         """As of all models that step drums; with the losses of the column, by name no more."""
         return super(LossyDrums, self.acting(column)).paced(column)
 
+    def opening(self, column: Any) -> Opening | None:
+        """What rocks a column statically, on soft joints and on rigid ones, where that has a closed form."""
+        raise NotImplementedError
+
     def told(self, column: Any, response: Response) -> Response:
-        """A response whose provenance says what acted by the name of the losses."""
+        """A response whose provenance says what opens the column, and what acted by the name of the losses."""
+        opens = self.opening(column)
+        if opens is not None:
+            response = replace(response, provenance=response.provenance | {"opening": opens._asdict()})
         if self.losses == "none":
             return response
         how = self.acting(column)
