@@ -38,7 +38,7 @@ def test_a_bed_is_the_disc_of_the_toes():
 
 @pytest.mark.parametrize(("law", "power"), [("rim", -2 / 5), ("bed", -2 / 7), ("corners", -1)])
 def test_stiff_joints_rock_as_rigid_ones(law, power):
-    """What is missing goes to nothing with that power of the stiffness: of a toe φ² against a lean φ⁻³ (rim) or φ⁻⁵ (bed) / k.
+    """What is missing goes to nothing with that power of the stiffness: a toe φ² against a lean φ⁻³ (rim), φ⁻⁵ (bed) / k.
 
     From 1e12 to 1e15 N/m³ to 2 % of the power; from springs of corners exactly. (Swings in space were found to go by −0.43.)
     """

@@ -12,6 +12,7 @@ from stylobate.analysis.unknown_law import share_under_another_law
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import the_twins
 from stylobate.campaign.unknown_laws import PER_LAW, usual_in_space
+from stylobate.report.certainty import certainty_section, certainty_sentence
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 SIZE = {"height": 2.0, "bottom_width": 0.5, "top_width": 0.5, "density": 2700.0}
@@ -136,6 +137,8 @@ def test_the_sentence_says_which_part_is_the_laws():
     assert told["certainty"]["laws"] == 2
     assert (told["collapse_interval_low"], told["collapse_interval_high"]) == both
     assert told["certainty"]["interval_of_columns"] == list(column)
+    assert "if the law of its joints were known)" in certainty_sentence(told)
+    assert certainty_section(told) is not None
 
 
 def test_the_run_itself_is_the_same_whatever_its_twins_lose():
