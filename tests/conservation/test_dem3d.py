@@ -11,7 +11,7 @@ from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.models.dem3d.restitution import TRIED, restitutions
+from stylobate.models.drums.impact import TRIED, restitutions
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 

@@ -15,17 +15,20 @@ from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import Twins, the_twins
+from ..campaign.unknown_laws import usual_in_space
 from ..column.structure import Structure
 from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
 from ..percent import percents
 from ..response import Response
+from ..response.recorded import Recorded
 from ..response.words import doubt_of, to_decide
 from ..simulate import run_options, simulate
 from . import verdicts as v
 from .debris import BodyOverTwins, bodies_over_twins, words_of_bodies
 from .difference import caveat
 from .directions import peak_of
+from .unknown_law import share_under_another_law
 
 if TYPE_CHECKING:
     import pandas
@@ -82,11 +85,32 @@ class Population:
         """Share of the twins that collapse, NaN without a verdict: :func:`stylobate.analysis.verdicts.share_collapsed`."""
         return float(v.share_collapsed(*self._counts))
 
-    @property
+    @cached_property
     def interval(self) -> tuple[float, float]:
         """Confidence limits of the probability of collapse; see :func:`stylobate.analysis.verdicts.collapse_interval`."""
+        low, high = self.interval_of_columns
+        if not self.drawn.groups:
+            return low, high
+        fell, open_, number = self._by_law
+        return (
+            min(low, share_under_another_law(fell, number, self.confidence)[0]),
+            max(high, share_under_another_law(fell + open_, number, self.confidence)[1]),
+        )
+
+    @cached_property
+    def interval_of_columns(self) -> tuple[float, float]:
+        """The same as if the law of their joints were known."""
         low, high = v.collapse_interval(*self._counts, self.confidence)
         return float(low), float(high)
+
+    @property
+    def _by_law(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Twins of each law that collapsed, that are undecided, and all that did not fail."""
+        group, said = np.array(self.drawn.groups), np.array(self.verdicts)
+        laws = range(int(group.max()) + 1)
+        counted = ((v.COLLAPSED,), (v.UNDECIDED,), (v.COLLAPSED, v.STANDS, v.UNDECIDED))
+        fell, open_, number = (np.array([np.isin(said[group == g], one).sum() for g in laws]) for one in counted)
+        return fell, open_, number
 
     @property
     def spread(self) -> dict[str, list[float] | None]:
@@ -136,7 +160,10 @@ class Population:
         if trials == 0:
             return f"None of {number} {self.like} like this could be computed."
         said = f"Collapses in {counts[v.COLLAPSED]} of {trials} {self.like} like this"
-        said += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)})"
+        said += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)}"
+        if self.drawn.groups:
+            said += f"; {percents(*self.interval_of_columns)} by the column alone, the rest by the law of its joints"
+        said += ")"
         if counts[v.UNDECIDED]:
             said += f"; {_not_fallen(counts)}{f': {self.to_decide}' if self.to_decide else ''}"
         said += f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else "."
@@ -196,6 +223,10 @@ class Population:
             f"({low:.3g} to {high:.3g} mm): with this one, from {min(low, here):.3g} to {max(high, here):.3g} mm."
         )
 
+    def doubt_about(self, response: Recorded) -> str:
+        """Why the verdict on the run itself may be another one, where its twins do not say so: those of other laws do."""
+        return self.doubt or ("" if self.drawn.groups else doubt_of(response))
+
     def summary(self, run: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """Under the names of the JSON object of ``stylobate run``; with what must be said of the run itself, if given."""
         low, high = self.interval
@@ -211,6 +242,8 @@ class Population:
                 "sentence": self.sentence,
                 **{one: counts[one] for one in v.MADE},
                 "confidence": self.confidence,
+                **({"interval": [low, high]} if self.drawn.groups else {}),
+                **({"interval_of_columns": list(self.interval_of_columns)} if self.drawn.groups else {}),
                 **self.drawn.facts,
                 "percentiles": [16, 50, 84],
                 **self.spread,
@@ -257,8 +290,7 @@ class Certainty:
     def sentence(self) -> str:
         """What happened, how sure that is, and why it may be otherwise in space."""
         beside = self.population.beside(self.response.summary())
-        doubt = self.population.doubt or doubt_of(self.response)
-        parts = (self.response.sentence, self.population.sentence, beside, doubt)
+        parts = (self.response.sentence, self.population.sentence, beside, self.population.doubt_about(self.response))
         return " ".join(part for part in parts if part)
 
     def summary(self) -> dict[str, Any]:
@@ -280,7 +312,8 @@ def chance_words(row: Mapping[str, Any]) -> str:
     number = fell + stood + open_
     if not number:
         return f"none of {failed} could be computed" if failed else ""
-    low, high = (float(one) for one in v.collapse_interval(fell, stood, open_, float(known.get("confidence") or 0.95)))
+    limits = known.get("interval") or v.collapse_interval(fell, stood, open_, float(known.get("confidence") or 0.95))
+    low, high = (float(one) for one in limits)
     said = f"{percents(fell / number, (fell + open_) / number)} of {number} ({percents(low, high)})"
     counts = [f"{count} {word}" for count, word in ((open_, "undecided"), (failed, "failed")) if count]
     return f"{said}; {', '.join(counts)}" if counts else said
@@ -359,9 +392,11 @@ def certainty(
         A number that is not allowed, or input that the model refuses.
     """
     began = time.perf_counter()
+    if campaign.scatter is None and model.varies_law and not model.is_plane(model.parameters()):
+        campaign = replace(campaign, scatter=usual_in_space(column.stack or column))
     drawn = the_twins(column, model, campaign)
     twins, tail = drawn.columns, campaign.tail
-    riding = () if until_end or until_rest else tuple(twins[: model.carried(column)])
+    riding = () if until_end or until_rest or drawn.groups else tuple(twins[: model.carried(column)])
     response = simulate(
         column, motion, model, tail=tail, output_interval=output_interval, until_end=until_end, until_rest=until_rest,
         twins=riding, quiet=quiet, progress=campaign.progress,

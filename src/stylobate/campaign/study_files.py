@@ -69,6 +69,9 @@ class ScatterTable(Table):
     width: float | None = None
     height: float | None = None
     offset: float | None = None
+    stiffness_damping: float | None = None
+    rolling_resistance: float | None = None
+    law: float | None = None
 
 
 class StudyFile(Table):
@@ -79,6 +82,7 @@ class StudyFile(Table):
     columns: list[str] | None = None
     model: str | None = None
     models: list[str] | None = None
+    losses: str | None = None
     set: dict[str, Any] | None = None
     tail: Any = 0.0
     whole: bool = False
@@ -126,7 +130,7 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     study = Study(
         [load_structure(folder / name if (folder / name).is_file() else name) for name in names],
         motions,
-        [make_model(model, settings) for model in models],
+        [make_model(model, settings | ({} if table.losses is None else {"losses": table.losses})) for model in models],
         levels,
         im,
         keep=table.keep,

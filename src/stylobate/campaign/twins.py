@@ -12,12 +12,14 @@ from ..column.twins import drawn_twins
 from ..errors import InputError, check_kind
 from ..models.base import Model
 from .campaign import MAX_TWINS, Campaign
+from .unknown_laws import OF_ROUND, PARTS, drawn_laws
 
 
 class Twins(NamedTuple):
     """Columns like one, or assemblies, that a model can take: scatter, seed, what of it is left out, what they are.
 
-    ``reduced`` is the number of assemblies whose offsets were halved or left out because their stones would have overlapped.
+    ``reduced`` is the number of assemblies whose offsets were halved or left out because their stones would have overlapped;
+    ``groups`` the law of the joints of each, where it varies.
     """
 
     columns: Sequence[Any]
@@ -26,6 +28,7 @@ class Twins(NamedTuple):
     left_out: tuple[str, ...]
     like: str = "columns"
     reduced: int | None = None
+    groups: tuple[int, ...] = ()
 
     @property
     def words(self) -> str:
@@ -43,6 +46,7 @@ class Twins(NamedTuple):
             "scatter": dataclasses.asdict(self.scatter),
             "left_out": list(self.left_out),
             "seed": self.seed,
+            **({"laws": len(set(self.groups))} if self.groups else {}),
             **({} if self.reduced is None else {"offsets_reduced": self.reduced}),
         }
 
@@ -77,7 +81,7 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
             f"{column.name!r} do not vary; leave it out, known are {', '.join(stands.scattered)}.",
             "scatter",
         )
-    left_out = tuple(name for name in asked.given if name in model.not_scattered)
+    left_out = tuple(name for name in asked.given if name in _not_taken(stands, model))
     size = dataclasses.replace(asked, **dict.fromkeys(left_out, 0.0))
     if alone and not size.given:  # as many runs of one column are no population
         why = f", as {model.name} does not take {' and '.join(left_out)}" if left_out else ""
@@ -85,6 +89,19 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
             f"nothing scatters{why}; give at least one coefficient of variation above 0, such as friction=10%."
         )
     space = not model.is_plane(model.parameters())
-    drawn = drawn_twins(stands, size, replicates, seed, space=space)
+    laws = drawn_laws(stands, model, size, replicates, seed) if any(getattr(size, name) for name in PARTS) else None
+    stiffness = None if laws is None else laws.stiffness
+    drawn = drawn_twins(stands, size, replicates, seed, space=space, stiffness=stiffness)
     reduced = None if stands.space_joints is None else sum(share < 1.0 for _, share in drawn)
-    return Twins([one for one, _ in drawn], size, seed, left_out, stands.like, reduced)
+    twins = [one for one, _ in drawn]
+    if laws is None:
+        return Twins(twins, size, seed, left_out, stands.like, reduced)
+    twins = [one.unwarned(losses=losses) for one, losses in zip(twins, laws.losses, strict=True)]
+    return Twins(twins, size, seed, left_out, stands.like, reduced, laws.groups)
+
+
+def _not_taken(stands: Structure, model: Model) -> tuple[str, ...]:
+    """Parts of a scatter that change nothing in runs of what stands."""
+    if model.is_plane(model.parameters()) or not model.varies_law:
+        return (*model.not_scattered, *PARTS)
+    return model.not_scattered if stands.section == "circular" else (*model.not_scattered, *OF_ROUND)

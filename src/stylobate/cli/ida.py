@@ -30,6 +30,7 @@ def ida(
     motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, "azimuths", "scale", "pga")],
     following: o.Following,
     settings: o.Settings = None,
+    losses: o.LossesName = None,
     project: o.Project = None,
     execution: o.Execution,
 ) -> None:
@@ -46,7 +47,7 @@ def ida(
     from . import console
 
     campaign = execution.campaign(following, population)
-    measure, stone, how = parse_measure(im), o.the_structure(column, project), o.the_model(model, settings)
+    measure, stone, how = parse_measure(im), o.the_structure(column, project), o.the_model(model, settings, losses)
     edp = ("peak_displacement_m" if stone.base_width is None else "peak_top_displacement_m") if edp is None else edp
     check_response(edp, stone, how)
     stripes = None if levels is None else parse_levels(levels, measure)

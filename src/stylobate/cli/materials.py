@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import TYPE_CHECKING
 
 from . import options as o
@@ -21,11 +22,12 @@ def materials(
 
     What is published on density, friction and stiffness, its range and its source.
     """
-    from ..column.materials import MATERIALS, material
+    from ..column.materials import LOST, MATERIALS, material
     from . import console
 
     chosen = [material(name) for name in which] if which else list(MATERIALS.values())
-    summary: dict = {"materials": [one.to_dict() for one in chosen], "files": []}
+    lost = {name: dataclasses.asdict(one) | {"cited": one.cited} for name, one in LOST.items()}
+    summary: dict = {"materials": [one.to_dict() for one in chosen], "losses": lost, "files": []}
     with execution.files("materials", "materials.json") as files:
         if files.wanted:
             files.json(summary, "materials.json")
@@ -34,7 +36,7 @@ def materials(
         return
     if which:
         for one in chosen:
-            console.say(one.name, {name.replace("_", " "): _in_full(q) for name, q in one.quantities.items()})
+            console.say(one.name, {name.replace("_", " "): _in_full(q) for name, q in (one.quantities | LOST).items()})
     else:
         import pandas
 

@@ -81,6 +81,15 @@ Settings = Annotated[
     list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Option of the model; may be repeated.")
 ]
 
+LossesName = Annotated[
+    str | None,
+    typer.Option(
+        "--losses",
+        metavar="none|stone",
+        help="What joints lose: as other options say, or as measured stone (dem2d, dem3d).",
+    ),
+]
+
 
 @dataclass(frozen=True)
 class Motions(Group):
@@ -143,7 +152,8 @@ class Population(Group):
     replicates: str | None = option("N", "How sure that is: so many columns like this one, by --scatter.")
     scatter: str | None = option(
         "NAME=SIZE,…",
-        "How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%.",
+        "How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%; in space also "
+        "stiffness_damping=80%,rolling_resistance=80%,law=50%.",
     )
     seed: str | None = option("N", "Of these columns; the same seed, the same ones.")
 
@@ -247,8 +257,8 @@ def _in_plane(structure: Any, project: str | None) -> Any:
     return projected(structure.stack, azimuth)
 
 
-def the_model(name: str, settings: list[str] | None) -> Model:
-    """The model of that name with its options."""
+def the_model(name: str, settings: list[str] | None, losses: str | None = None) -> Model:
+    """The model of that name with its options, and with losses by name."""
     from ..models.registry import make_model
 
     values: dict[str, str] = {}
@@ -259,6 +269,10 @@ def the_model(name: str, settings: list[str] | None) -> Model:
         if key.strip() in values:
             raise InputError(f"--set {key.strip()} is given twice; give it once.", "set")
         values[key.strip()] = value.strip()
+    if losses is not None:
+        if "losses" in values:
+            raise InputError("losses are given twice, by --losses and by --set; give them once.", "losses")
+        values["losses"] = losses
     return make_model(name, values)
 
 
@@ -314,9 +328,12 @@ def _share(text: str, example: str) -> float:
 def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> Campaign:
     """What is asked for, with as many columns like this one as cost nothing where no number is ``given``."""
     from ..campaign.twins import the_twins
+    from ..column.scatter import usual_scatter
 
     number = asked.replicates if given else model.carries if model.carried(stone) else 0
-    made = dataclasses.replace(asked, replicates=number)
+    # unasked they ride along, and what rides along is of one law
+    scatter = asked.scatter if given or not number else asked.scatter or usual_scatter(stone.stack or stone)
+    made = dataclasses.replace(asked, replicates=number, scatter=scatter)
     try:
         if number:
             the_twins(stone, model, made)

@@ -49,6 +49,7 @@ def run(
     ),
     output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
     settings: o.Settings = None,
+    losses: o.LossesName = None,
     project: o.Project = None,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
@@ -66,7 +67,7 @@ def run(
 
     asked = motions.request()
     stone = o.the_structure(column, project)
-    how = o.the_model(model, settings)
+    how = o.the_model(model, settings, losses)
     found = asked.expand(stone.frequency_parameter)
     options = {"output_interval": parse_time(output_interval), "until_end": until_end, "until_rest": until_rest}
     campaign, given = execution.campaign(following, population), population.replicates is not None
@@ -267,7 +268,7 @@ def write(response: Response, motion: Motion, folder: Path, figures: bool = True
 
 def describe(response: Response, motion: Motion, files: list[Path], population: Population | None = None) -> None:
     """Print the verdict for people."""
-    from ..response.words import doubt_of
+    from ..response.words import doubt_of, opening_words
     from . import console
 
     found = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
@@ -277,11 +278,25 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
         facts |= population_facts(population)
     elif response.structure.scattered and response.measures.blocks is not None:
         facts["certainty"] = "one run, of exactly these stones; --replicates 15 runs assemblies like it as well"
-    doubt = (population.doubt if population is not None else "") or doubt_of(response)
+    doubt = doubt_of(response) if population is None else population.doubt_about(response)
     sentence = f"{sentence} {doubt}".rstrip()
+    if opens := opening_words(response.provenance.get("opening")):
+        what["rocks at"] = opens
     what |= quiet_facts(response)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
-    console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)
+    console.say(
+        sentence, {**what, **o.input_lines(motion), "model": computed, **losses_facts(response), **facts}, files
+    )
+
+
+def losses_facts(response: Response) -> dict[str, str]:
+    """What joints lost by name, in numbers."""
+    told = response.summary()
+    if told["losses"] in (None, "none", "given"):
+        return {}
+    acting, more = told["losses_acting"], response.provenance["steps_over_undamped"]
+    words = ", ".join(f"{name.replace('_', ' ')} {value:.2g}" for name, value in acting.items())
+    return {"losses": f"{told['losses']}: {words}; {more:.2g} times as many steps as undamped"}
 
 
 def quiet_facts(response: Response) -> dict[str, str]:

@@ -55,6 +55,7 @@ def sequence(
     until_end: bool = o.option(None, "Go on after the collapse of a column (dem2d).", False),
     output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
     settings: o.Settings = None,
+    losses: o.LossesName = None,
     project: o.Project = None,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
@@ -70,7 +71,7 @@ def sequence(
 
     campaign, given = execution.campaign(following, population), population.replicates is not None
     stone = o.the_structure(column, project)
-    how = o.the_model(model, settings)
+    how = o.the_model(model, settings, losses)
     kinds = scaled(the_kinds(motions, stone), factors)
     pause, times = parse_time(rest, "rest"), o.whole_number("--repeat", repeat, 3)
     if until_fall is not None:

@@ -42,6 +42,7 @@ def states(
     motions: Annotated[o.Motions, o.But(*o.SEVERAL)],
     following: o.Following,
     settings: o.Settings = None,
+    losses: o.LossesName = None,
     project: o.Project = None,
     execution: o.Execution,
 ) -> None:
@@ -60,7 +61,7 @@ def states(
     if not (sources or motions.harmonic or motions.pulse or motions.synthetic):
         raise InputError("no record is given; name a folder of records, or files, before the options.", "records")
     named = the_states(as_built, as_found, strengthened)
-    how = o.the_model(model, settings)
+    how = o.the_model(model, settings, losses)
     campaign = execution.campaign(following, population)
     request = motions.request(motion=sources, separate=bool(sources))
     columns = {label: o.the_structure(text, project) for label, text in named.items()}

@@ -36,6 +36,7 @@ def suite(
     motions: Annotated[o.Motions, o.But(*o.FILES_NAMED)],
     following: o.Following,
     settings: o.Settings = None,
+    losses: o.LossesName = None,
     project: o.Project = None,
     population: o.Population,
     execution: o.Execution,
@@ -58,7 +59,7 @@ def suite(
     names = [stone.name for stone in stones]
     if len(set(names)) < len(names):
         raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.", "also")
-    how = o.the_model(model, settings)
+    how = o.the_model(model, settings, losses)
     records = motions.request(motion=sources, separate=True).expand()
     with execution.files("suite", "suite.csv", "suite.json", "suite", "directions") as files:
         with files.campaign(campaign) as asked:

@@ -27,6 +27,7 @@ from .links.in_column import ends_on_bodies, place_in_column
 from .links.link import Link
 from .links.loads import pulls_in_plane
 from .links.placed import PlacedLink
+from .losses import Losses
 from .materials import material
 from .plausible import shape_doubts, size_doubts
 from .shapes import Shape, shape_of
@@ -60,6 +61,8 @@ class Column(DrumStack):
         this one scatter. Densities and joints are those given above.
     links : sequence of Link
         Dowels, bars, ties, cores, layers and pads that strengthen it; the closed-form properties know nothing of them.
+    losses : Losses, optional
+        Losses and law of its joints in place of the model's, of columns that are drawn (:class:`Scatter`).
 
     Raises
     ------
@@ -78,7 +81,10 @@ class Column(DrumStack):
     counted: ClassVar[tuple[str, str]] = ("drum", "drums")
     joints_are: ClassVar[str] = "joint under the drum of that number"
     like: ClassVar[str] = "columns"
-    scattered: ClassVar[tuple[str, ...]] = ("friction", "joint_stiffness", "density", "width", "height", "offset")
+    scattered: ClassVar[tuple[str, ...]] = (
+        "friction", "joint_stiffness", "density", "width", "height", "offset",
+        "stiffness_damping", "rolling_resistance", "law",
+    )  # fmt: skip
 
     drums: tuple[Drum, ...]
     joints: tuple[Joint, ...]
@@ -87,6 +93,7 @@ class Column(DrumStack):
     as_found: AsFound = AS_BUILT
     material: str | None = None
     links: tuple[Link, ...] = ()
+    losses: Losses | None = None
 
     def __post_init__(self) -> None:
         self._check()
@@ -105,6 +112,7 @@ class Column(DrumStack):
         for name, kind in (("drums", Drum), ("joints", Joint), ("links", Link)):
             object.__setattr__(self, name, tuple(check_all(name, getattr(self, name), kind)))
         check_kind("as_found", self.as_found, AsFound)
+        check_kind("losses", self.losses, Losses, optional=True)
         check_kind("name", self.name, str)
         if not 1 <= len(self.drums) <= MAX_DRUMS:
             raise InputError(f"the column has {len(self.drums)} drums; allowed is 1 to {MAX_DRUMS}.")
@@ -369,6 +377,7 @@ class Column(DrumStack):
         plain = {name: value for name, value in given(self).items() if name not in ("as_found", "links")}
         plain |= {name: [given(one) for one in plain[name]] for name in ("drums", "joints")}
         plain |= {"as_found": self.as_found.to_dict()} if self.as_found else {}
+        plain |= {"losses": given(self.losses)} if self.losses else {}
         return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
 
     @cached_property

@@ -15,6 +15,7 @@ from .column import Column
 from .drum import Drum
 from .joint import Joint, given
 from .links import link_from_dict
+from .losses import Losses
 from .presets import PRESETS, preset
 
 
@@ -94,6 +95,7 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     )
     links = tuple(link_from_dict(fields) for fields in data.get("links", ()))
     who = {"name": data["name"], "gravity": data["gravity"], "material": data.get("material")}
+    who["losses"] = Losses(**data["losses"]) if "losses" in data else None
     return Column.of_fields(drums=drums, joints=joints, as_found=as_found, links=links, **who)
 
 

@@ -228,6 +228,30 @@ def _cohesion(state: str) -> Quantity | None:
     return Quantity(1.0e5, 1.0e5, 2.0e5, "Pa", "en1996", note + "; that of the weakest mortar is taken")
 
 
+#: Velocity restitution of an impact of a rocking block of stone over Housner's [-].
+IMPACT = Quantity(
+    1.0, 0.95, 1.05, "-", "elgawady2007",
+    "concrete on concrete 0.95 (aspect ratio 5) and 0.97 (3); other tests lie above 1 (Kalliontzis et al. 2016), "
+    "by how much is chosen here as 0.05: Housner's own value lies between, and joints here lose no more than that",
+)  # fmt: skip
+
+#: Resistance to rolling c of a round face of stone on its rim, see ``DistinctElement3D`` [-].
+ROLLING = Quantity(
+    0.003, 0.0005, 0.03, "-", "petrie2002",
+    "nobody is known to have measured it on stone: chosen here, between discs of polished metal, whose coin wobbles for ten "
+    "seconds and whose toy for a hundred (c = 3e-3 and 5e-4), and ten times as much",
+)  # fmt: skip
+
+#: Damping β of a contact of stone [s]: how long one lasts.
+CONTACT = Quantity(
+    3e-4, 1e-4, 1e-3, "s", "srinivasan2008",
+    "nobody is known to have measured it on drums: chosen here, as verdicts of round columns hang on it between these; "
+    "a can that seems to rock rolls round its rim if its contact is shorter than that takes",
+)  # fmt: skip
+
+#: What stone loses, whatever its kind, by name.
+LOST = {"impact_over_housner": IMPACT, "rolling_resistance": ROLLING, "stiffness_damping": CONTACT}
+
 #: All materials by name.
 MATERIALS = {
     f"{stone}, {state}": Material(

@@ -19,7 +19,8 @@ WITHIN = 2.5
 
 #: Largest coefficient of variation of each part.
 LARGEST = {
-    "friction": 0.5, "joint_stiffness": 0.5, "density": 0.2, "width": 0.1, "height": 0.1, "offset": 0.1
+    "friction": 0.5, "joint_stiffness": 2.0, "density": 0.2, "width": 0.1, "height": 0.1, "offset": 0.1,
+    "stiffness_damping": 2.0, "rolling_resistance": 2.0, "law": 1.0,
 }  # fmt: skip
 
 
@@ -30,6 +31,9 @@ class Scatter:
     Half of the variance of friction, joint stiffness and density is common to the whole column, because it is one stone and
     one hand; the other half, and all of width, height and offset, is each joint's or drum's own. The medians are those of
     the column given.
+
+    In space what nobody knows of the joints varies too, if it is asked for: twins in threes share a law, to which half of
+    the variance of β, c and joint stiffness is common; the other half is each twin's or joint's own.
 
     Of an assembly in space friction and stiffness are those of each stone's contacts with those before it, and an offset is
     that of each stone in plan, over the side of a square as large as its smallest joint; stones that touch otherwise than
@@ -48,6 +52,12 @@ class Scatter:
     offset : float
         Standard deviation (normal) of the place of each drum on the one below, relative to the joint's width [-]; along x
         for models in the plane, in any direction for those in space. Left out where a model takes columns as built only.
+    stiffness_damping : float
+        Of the damping β of the joints, about the model's; about that of a contact of stone where the model has none [-].
+    rolling_resistance : float
+        Of the resistance to rolling c of round faces, likewise [-].
+    law : float
+        Share of the laws by which round faces carry otherwise than in the model: on a bed, not on rims, or the reverse [-].
 
     Raises
     ------
@@ -61,6 +71,9 @@ class Scatter:
     width: float = 0.005
     height: float = 0.005
     offset: float = 0.003
+    stiffness_damping: float = 0.0
+    rolling_resistance: float = 0.0
+    law: float = 0.0
 
     def __post_init__(self) -> None:
         for name, high in LARGEST.items():
@@ -113,17 +126,27 @@ def factors_of(size: Scatter, common: np.ndarray, own: np.ndarray) -> tuple[np.n
     material = math.sqrt(0.5) * (common[:, None] + own[:3])
     factors = np.exp(
         np.vstack((material, own[3:5]))
-        * [[_spread(one)] for one in (size.friction, size.joint_stiffness, size.density, size.width, size.height)]
+        * [[spread_of(one)] for one in (size.friction, size.joint_stiffness, size.density, size.width, size.height)]
     )
     return (*factors, own[5:])
 
 
 def drawn_column(
-    column: Column, size: Scatter, stream: np.random.Generator, k: int, space: bool
+    column: Column,
+    size: Scatter,
+    stream: np.random.Generator,
+    k: int,
+    space: bool,
+    stiffness: float | None = None,
 ) -> tuple[Column, float]:
-    """Column number k that could as well stand there, and the share of its offsets that is left: all of them."""
+    """Column number k that could as well stand there, and the share of its offsets that is left: all of them.
+
+    ``stiffness`` is the draw of the stiffness that its joints have in common, where others share it.
+    """
     # The order of the draws is part of what a seed means.
     common, own = normal(stream, 3), normal(stream, (7, column.n))
+    if stiffness is not None:
+        common[1] = stiffness
     rough, stiff, dense, wide, high, (aside, across) = factors_of(size, common, own)
     varied = _rebuilt(column, wide, high, rough, stiff, dense, f"{column.name}, twin {k + 1}")
     if not size.offset:
@@ -190,6 +213,6 @@ def normal(stream: np.random.Generator, shape: int | tuple[int, int]) -> np.ndar
     return np.clip(stream.standard_normal(shape), -WITHIN, WITHIN)
 
 
-def _spread(variation: float) -> float:
+def spread_of(variation: float) -> float:
     """Standard deviation of the logarithm that belongs to a coefficient of variation."""
     return math.sqrt(math.log1p(variation * variation))

@@ -15,7 +15,7 @@ from .structure import Structure
 
 #: Makers of twin number k and the share of its offsets that is left, from what stands, a scatter and its stream, in space or
 #: not, by the kind of what stands.
-TWIN_OF: dict[str, Callable[[Any, Scatter, np.random.Generator, int, bool], tuple[Structure, float]]] = {
+TWIN_OF: dict[str, Callable[..., tuple[Structure, float]]] = {
     Column.kind: drawn_column,
     SpatialAssembly.kind: drawn_assembly,
 }
@@ -38,8 +38,18 @@ def twins_of(structure: Structure, scatter: Scatter, number: int, seed: int, *, 
 
 
 def drawn_twins(
-    structure: Structure, scatter: Scatter, number: int, seed: int, *, space: bool = False
+    structure: Structure,
+    scatter: Scatter,
+    number: int,
+    seed: int,
+    *,
+    space: bool = False,
+    stiffness: np.ndarray | None = None,
 ) -> list[tuple[Any, float]]:
-    """The same, each with the share of its offsets that is left: below 1 where its stones would have overlapped."""
-    streams = np.random.default_rng(seed).spawn(number)
-    return [TWIN_OF[structure.kind](structure, scatter, stream, k, space) for k, stream in enumerate(streams)]
+    """The same, each with the share of its offsets that is left: below 1 where its stones would have overlapped.
+
+    ``stiffness`` are draws of what the joints of each column have in common, where columns share them.
+    """
+    streams, make = np.random.default_rng(seed).spawn(number), TWIN_OF[structure.kind]
+    shared = [()] * number if stiffness is None else [(float(one),) for one in stiffness]
+    return [make(structure, scatter, stream, k, space, *shared[k]) for k, stream in enumerate(streams)]

@@ -109,7 +109,8 @@ class Model:
     ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
     everything lies still, ``takes_start`` whether it can start from a pose,
     ``computes`` the shapes of bodies that it knows; ``takes_rings`` whether joints may carry on rings; ``takes_links`` by
-    which laws links may act; ``carries`` how many columns alike it can take along in a single run at next to no cost.
+    which laws links may act; ``carries`` how many columns alike it can take along in a single run at next to no cost;
+    ``varies_law`` whether columns may have losses and laws of joints of their own.
     """
 
     wanted: ClassVar[str] = "a model, such as DistinctElement2D()"
@@ -126,6 +127,7 @@ class Model:
     takes_rings: ClassVar[bool] = False
     takes_links: ClassVar[frozenset[str]] = frozenset()
     carries: ClassVar[int] = 0
+    varies_law: ClassVar[bool] = False
 
     @property
     def not_scattered(self) -> tuple[str, ...]:

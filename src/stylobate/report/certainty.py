@@ -20,6 +20,9 @@ PARTS = {
         "width": "width of each drum",
         "height": "height of each drum",
         "offset": "place of each drum on the one below, over the width",
+        "stiffness_damping": "damping of the joints, half of it common to three",
+        "rolling_resistance": "resistance to rolling, half of it common to three",
+        "law": "laws by which round faces carry otherwise, their share",
     },
     "assemblies": {
         "friction": "friction of each stone's contacts",
@@ -64,6 +67,8 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
             f" ({share}): under this motion and in this model the probability of collapse is {percents(low, high)}, "
         )
         said += f"with {level} confidence"
+        if alone := known.get("interval_of_columns"):
+            said += f" ({percents(*alone)} if the law of its joints were known)"
     said += f". {open_} of them had not come to rest and are counted both ways." if open_ else "."
     if known.get("failed"):
         said += f" {known['failed']} more could not be computed."
@@ -97,10 +102,13 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
     if low is not None and high is not None:
         pairs.append(
             (
-                f"{percent(known.get('confidence', 0.95))} interval of it, from their number alone",
+                f"{percent(known.get('confidence', 0.95))} interval of it, from their number alone"
+                + (" and that of their laws" if "laws" in known else ""),
                 percents(low, high),
             )
         )
+    if alone := known.get("interval_of_columns"):
+        pairs.append((f"the same if the law of its joints were known; {known['laws']} laws", percents(*alone)))
     for key, words in (
         ("peak_top_displacement_m", f"peak displacement of the top, {PERCENTILES}"),
         ("residual_top_displacement_m", f"residual displacement of the top, {PERCENTILES}"),

@@ -18,7 +18,7 @@ from ..constants import g
 from ..outcome import Outcome
 from ..percent import percent
 from ..response import Response
-from ..response.words import doubt_of, each_doubt, to_decide
+from ..response.words import doubt_of, each_doubt, opening_words, to_decide
 from ..results import RunResult, SeveralRuns
 from . import numbers as n
 from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sentence
@@ -153,6 +153,8 @@ def _asked(r: Response) -> list[tuple[str, str]]:
     pairs = [("structure", r.structure.name), ("motion", str(p.get("motion", n.NONE)))]
     pairs.append(("model", f"{r.model}, step {r.time_step:.3g} s, {r.steps} steps"))
     pairs.append(("time computed", f"{float(r.time[-1]):.2f} s from the start of the motion"))
+    if opens := opening_words(p.get("opening")):
+        pairs.append(("largest static acceleration that it stands", opens))
     if (stepped := r.measures.stepped) is not None:
         pairs.append(("of which stepped", f"{stepped[2]:.2f} s, without the quiet in which the column lies at rest"))
     if p.get("until_rest"):

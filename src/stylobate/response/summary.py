@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..constants import g
 from .block_words import mechanism_of
 from .links import row_of
 from .words import doubt_of
@@ -19,7 +21,40 @@ if TYPE_CHECKING:
 def summary_of(response: Recorded) -> dict:
     """Plain values. What has fallen has no residuals: they are None after a collapse, and peaks end with it."""
     run = {"wall_s": response.wall_time, "model": response.model, "version": response.provenance.get("version", "")}
+    run |= losses_of(response.provenance) | opening_of(response.provenance)
     return (_of_blocks(response) if response.measures.blocks is not None else _of_column(response)) | run
+
+
+def losses_of(provenance: Mapping[str, Any]) -> dict[str, Any]:
+    """Which losses acted: their name, ``given`` where parameters say it, and what they come to; None of models without."""
+    known = provenance.get("parameters", {})
+    if "losses" not in known:
+        return {"losses": None}
+    acting = {name: known.get(name) for name in LOSSES if known.get(name)}
+    acting |= {name: provenance[key] for name, key in LOSSES.items() if provenance.get(key)}
+    name = "given" if acting and known["losses"] == "none" else known["losses"]
+    return {"losses": name, "losses_acting": acting}
+
+
+def opening_of(provenance: Mapping[str, Any]) -> dict[str, Any]:
+    """Static acceleration that rocks a column, on its joints and on rigid ones [g], and how far its toe reaches in [-]."""
+    opens = provenance.get("opening")
+    if opens is None:
+        return {}
+    return {
+        "opening_acceleration_g": opens["acceleration"] / g,
+        "opening_acceleration_rigid_g": opens["rigid"] / g,
+        "toe_over_width": opens["toe"],
+    }
+
+
+#: Parameters by which a run loses energy besides friction, and where its provenance has what was chosen for them.
+LOSSES = {
+    "stiffness_damping": "stiffness_damping_s",
+    "rolling_resistance": "rolling_resistance",
+    "mass_damping": "",
+    "restitution": "",
+}
 
 
 def _of_column(response: Recorded) -> dict:

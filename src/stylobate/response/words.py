@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from ..constants import g
 from ..outcome import Outcome
 from .block_words import sentence_of_blocks
 from .links import sentence_of as sentence_of_links
@@ -39,16 +40,37 @@ def sentence_of(response: Recorded) -> str:
 
 
 #: Damping of a run in space, by the names of the parameters, and the value with which there is none.
-UNDAMPED = {"stiffness_damping": 0.0, "mass_damping": 0.0, "restitution": 1.0, "rolling_resistance": 0.0}
+UNDAMPED = {
+    "losses": "none",
+    "stiffness_damping": 0.0,
+    "mass_damping": 0.0,
+    "restitution": 1.0,
+    "rolling_resistance": 0.0,
+}
 
 #: Tilt beyond which a column wobbles, as a share of its slenderness [-].
 WOBBLES = 0.02
 
 
+#: Share of a joint's width beyond which its toe is wider than that of any stiff joint of stone [-].
+WIDE_TOE = 0.05
+
+
+def opening_words(opens: Mapping[str, float] | None) -> str:
+    """What rocks a column statically, beside that on rigid joints, and whether its toe is wide; empty if unknown."""
+    if opens is None:
+        return ""
+    soft, rigid, toe = opens["acceleration"] / g, opens["rigid"] / g, opens["toe"]
+    words = f"{soft:.4g} g; on rigid joints {rigid:.4g} g"
+    if toe <= WIDE_TOE:
+        return words
+    return f"{words}. Its toe reaches {100.0 * toe:.2g} % of the width in: is normal_stiffness in N/m³?"
+
+
 #: What stands before all that rests on wobbles without damping.
 UNDAMPED_WOBBLE = (
     "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many like it fall "
-    "with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it."
+    "with a stiffness damping of 1e-4 s, and of 1e-3 s, or with losses = stone, before relying on it."
 )
 
 #: What stands before all that rests on round columns in a plane; of several drums they leave it by themselves.

@@ -22,8 +22,8 @@ from ..base import Case, RunOptions
 from ..drums.bodies import Topology, body_fields
 from ..drums.joints import contact_points, damping_rows, joint_stiffnesses
 from ..drums.links import link_stiffness, with_links
+from ..drums.losses import LossyDrums
 from ..drums.records import Packed
-from ..drums.stepped import SteppedDrums
 from ..plane.assemblies import expected_step, measures_of_assemblies, run_assembly
 from ..plane.columns import ColumnLanes
 from ..plane.found_start import found_start
@@ -31,6 +31,7 @@ from ..plane.laws import Types, point_law
 from ..plane.loose import Contacts
 from ..plane.packing import joint_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
+from ..shared.opening import Opening, opening
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
 
@@ -38,7 +39,7 @@ MAX_POINTS = 32
 
 
 @dataclass(frozen=True, kw_only=True)
-class DistinctElement2D(SteppedDrums):
+class DistinctElement2D(LossyDrums):
     """Rigid drums with contact points on every joint: penalty springs, no tension, Coulomb friction.
 
     Parameters
@@ -53,6 +54,9 @@ class DistinctElement2D(SteppedDrums):
         Time step as a share of the largest stable one.
     time_step : float, optional
         Time step [s], instead of ``step_factor``.
+    losses : {"none", "stone"}
+        What joints lose, by name: ``stone`` chooses β (and, for round faces in space, c), with a source and a spread;
+        ``none`` leaves it to the parameters below.
     stiffness_damping : float
         β: dashpots of β times each contact's stiffness, in parallel, while the contact is closed and does not slide [s].
     mass_damping : float
@@ -94,7 +98,7 @@ class DistinctElement2D(SteppedDrums):
     takes_as_found: ClassVar[bool] = True
     follows_to_rest: ClassVar[bool] = True
     takes_start: ClassVar[bool] = True
-    takes_links: ClassVar[frozenset[str]] = SteppedDrums.takes_links | {"clamp"}
+    takes_links: ClassVar[frozenset[str]] = LossyDrums.takes_links | {"clamp"}
 
     points: int = 2
     block_modulus: float | None = None
@@ -126,11 +130,16 @@ class DistinctElement2D(SteppedDrums):
 
     def pack(self, column: Column) -> Packed:
         """A column as the engine wants it, settled if asked for."""
-        return _pack(column, self)
+        return _pack(column, self.acting(column))
 
     def stable_step(self, column: Column) -> float:
         """Largest stable time step of the closed column [s]."""
-        return _stable_step(column, self)
+        return _stable_step(column, self.acting(column))
+
+    def opening(self, column: Column) -> Opening | None:
+        """What rocks a column on two points; others have no closed form here."""
+        kn = joint_stiffnesses(column, self.block_modulus)[0]
+        return opening(column, kn, "corners") if self.points == 2 else None
 
     def run(self, column: Any, motion: Motion, options: RunOptions) -> Response:
         """One run with histories; a column that falls is followed to the ground if asked for, an assembly always."""
@@ -143,8 +152,9 @@ class DistinctElement2D(SteppedDrums):
         if options.until_end or options.until_rest:
             from ..plane.collapse import follow
 
-            return follow(column, motion, self.followed(column, options), self.contacts, options)
-        return super().run(column, motion, options)
+            how = self.acting(column)
+            return self.told(column, follow(column, motion, how.followed(column, options), how.contacts, options))
+        return self.told(column, super().run(column, motion, options))
 
     @property
     def contacts(self) -> Contacts:

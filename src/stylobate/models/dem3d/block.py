@@ -131,6 +131,10 @@ class SpaceBlock(LaneRuns):
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
+    def lean(self) -> np.ndarray:
+        """Rotation of the lowest body of each lane, held in its plane, towards +x [rad]."""
+        return np.arcsin(np.clip(self.records.body["kx"][1], -1.0, 1.0))
+
     def stand(self, lane: int, case: Case) -> None:
         """Note how a column stands in a lane, and how its base moves."""
         for kept, one in zip(self.stood, (self.records.places(lane), self.records.axes(lane)), strict=True):

@@ -21,10 +21,12 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, RunOptions
 from ..drums.bodies import Topology
+from ..drums.impact import damping_for
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
+from ..drums.losses import LossyDrums
 from ..drums.records import Packed
-from ..drums.stepped import SteppedDrums
+from ..shared.opening import Opening, opening
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
@@ -35,7 +37,6 @@ from .block import SpaceBlock, Stack
 from .found_start import found_start
 from .links import link_fields
 from .packing import chipped, drum_fields, joint_fields, lane_fields, pack_column
-from .restitution import damping_for
 from .specimen import FreeBody, pack_specimen, rows_for, top_frequency
 from .stability import highest_frequency
 from .verdict import numbers_for
@@ -66,15 +67,22 @@ class Kind(NamedTuple):
     section : str
     rows : int
         Of the records of joints.
+    law : str
+        Of round faces.
+    damped, rolls : bool
+        Whether there are dashpots, and resistance to rolling.
     """
 
     topology: Topology
     section: str
     rows: int
+    law: str
+    damped: bool
+    rolls: bool
 
 
 @dataclass(frozen=True, kw_only=True)
-class DistinctElement3D(SteppedDrums):
+class DistinctElement3D(LossyDrums):
     """Rigid drums in space: no-tension joints that carry on the rims or corners of their overlap, Coulomb friction.
 
     Parameters
@@ -97,6 +105,9 @@ class DistinctElement3D(SteppedDrums):
         Time step as a share of the largest stable one.
     time_step : float, optional
         Time step [s], instead of ``step_factor``.
+    losses : {"none", "stone"}
+        What joints lose, by name: ``stone`` chooses β (and, for round faces in space, c), with a source and a spread;
+        ``none`` leaves it to the parameters below.
     stiffness_damping : float
         β: the depth of contact is taken as depth + β × its rate, so that no contact ever pulls; β times the stiffness in
         shear and torsion [s].
@@ -129,7 +140,8 @@ class DistinctElement3D(SteppedDrums):
     limits: ClassVar[tuple[str, ...]] = (
         "What an impact loses depends on the law of contact, on friction and on damping.",
         "Undamped (stiffness_damping = 0, the default) a column wobbles long, and near collapse the verdict hangs on how "
-        "long a contact of stone lasts, which is not known: take a population, and compare 1e-4 to 1e-3 s.",
+        "long a contact of stone lasts, which is not known: take a population, and compare 1e-4 to 1e-3 s. With losses = "
+        "stone an impact leaves what Housner says.",
         "A drum of a column touches its neighbours and the base only. In an assembly any two bodies may touch: what is "
         "struck then hangs on how stiff a base is beside the contact, and a fall is one draw of many.",
         "Drums do not crack, chip or wear.",
@@ -142,7 +154,8 @@ class DistinctElement3D(SteppedDrums):
     computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid, Glued)
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
-    takes_links: ClassVar[frozenset[str]] = SteppedDrums.takes_links | {"clamp"}
+    varies_law: ClassVar[bool] = True
+    takes_links: ClassVar[frozenset[str]] = LossyDrums.takes_links | {"clamp"}
 
     law: str = "rim"
     pivot_friction: float = 1.0
@@ -181,7 +194,7 @@ class DistinctElement3D(SteppedDrums):
         """One run with histories, of an assembly down to the ground; says what damping a restitution has led to."""
         if column.space_joints is not None:
             return self.run_in_space(column, motion, options)
-        response = super().run(column, motion, options)
+        response = self.told(column, super().run(column, motion, options))
         if self.restitution is None:
             return response
         undamped = replace(self, restitution=None, time_step=None).stable_step(column)
@@ -298,36 +311,43 @@ class DistinctElement3D(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
+    def opening(self, column: Column) -> Opening | None:
+        """What rocks a column on the law of its joints; not a single body on vertices."""
+        if column.stack is None:
+            return None
+        kn = joint_stiffnesses(column, self.block_modulus)[0]
+        return opening(column, kn, self.acting(column).law if column.section == "circular" else "corners")
+
     def kind(self, column: Any) -> Kind:
         """Columns of one kind share blocks of lanes; specimens with as many rows."""
         if column.stack is None:
-            return Kind(ALONE, SPECIMEN, rows_for(column))
+            return Kind(ALONE, SPECIMEN, rows_for(column), self.law, True, self.rolling_resistance > 0.0)
         section = RING if column.on_rings else CHIPPED if chipped(column) else column.section
-        return Kind(Topology.of(column), section, column.n)
+        how = self.acting(column)
+        return Kind(Topology.of(column), section, column.n, how.law, how.damped, how.rolling_resistance > 0.0)
 
     def kernel(self) -> Any:
         """Module of kernels."""
         return importlib.import_module("...kernels.dem3d.step", __package__)
 
-    def record_types(self, section: str, linked: bool = False) -> dict[str, np.dtype]:
-        """Record types of the kernel's arrays, for bodies of a section, with links or without."""
-        damped = self.damped or section == SPECIMEN
-        return types(FACES.get(section, self.law), damped, self.rolling_resistance > 0.0, linked)
+    def record_types(self, kind: Kind, linked: bool = False) -> dict[str, np.dtype]:
+        """Record types of the kernel's arrays, for bodies of a kind, with links or without."""
+        return types(FACES.get(kind.section, kind.law), kind.damped, kind.rolls, linked)
 
     def pack(self, column: Any) -> Packed:
         """A column or a specimen as the kernel wants it."""
-        return _pack_specimen(column, self) if column.stack is None else _pack(column, self)
+        return _pack_specimen(column, self) if column.stack is None else _pack(column, self.acting(column))
 
     def records(self, kind: Kind) -> Records:
         """Empty records of the kernel for what is of a kind."""
-        types = self.record_types(kind.section, bool(kind.topology.links))
+        types = self.record_types(kind, bool(kind.topology.links))
         return Records(self.kernel(), types, kind.topology, kind.rows)
 
     def stable_step(self, column: Any) -> float:
         """Largest stable time step of the closed column [s]."""
         if column.stack is None:
             return stable_step(top_frequency(column), self.stiffness_damping)
-        return _stable_step(column, self)
+        return _stable_step(column, self.acting(column))
 
     def block_for(self, kind: Kind, options: RunOptions) -> SpaceBlock:
         """A block of lanes for what is of a kind."""
@@ -357,9 +377,7 @@ def _pack(column: Column, model: DistinctElement3D) -> Packed:
     lane = lane_fields(column, damping_rows(model.damped, model.damping(column), model.mass_damping), *options)
     kind = model.kind(column)
     if column.as_found or column.pretensioned:
-        found, friction = found_start(
-            column, model.kernel(), model.record_types(kind.section), (drums, joints, lane), closure
-        )
+        found, friction = found_start(column, model.kernel(), model.record_types(kind), (drums, joints, lane), closure)
         drums, joints = drums | found, joints | friction
     links, top = link_fields(column, drums), Stack(planar=model.planar).top
     numbers = pack_column(model.records(kind), column, (drums, joints, lane), links, top)

@@ -52,6 +52,10 @@ class ColumnLanes(LaneRuns):
         self.slip = np.zeros((self.lanes, topology.stack))
         self.stood = np.zeros((self.lanes, 2, topology.stack))
 
+    def lean(self) -> np.ndarray:
+        """Rotation of the lowest body of each lane, towards +x [rad]."""
+        return -self.records.body["th"][1]
+
     # -- how a run begins ----------------------------------------------------------------------------------------
 
     def stand(self, lane: int, case: Case) -> None:

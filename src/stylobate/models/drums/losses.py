@@ -1,0 +1,106 @@
+"""Models of columns whose losses have a name: what acts in a run of one column."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, Self
+
+from ...column.losses import NAMED
+from ...column.materials import ROLLING
+from ...errors import InputError, check_choice
+from ...motion import Motion
+from ...response import Response
+from ..shared.opening import Opening
+from .impact import damping_of_stone
+from .stepped import SteppedDrums
+
+
+@dataclass(frozen=True, kw_only=True)
+class LossyDrums(SteppedDrums):
+    """Base of the models that take losses by name.
+
+    Parameters
+    ----------
+    losses : {"none", "stone"}
+        ``stone`` chooses β so that an impact of the column as one body leaves what one of stone does, and a resistance to
+        rolling of round faces in space; ``none`` leaves both to the other parameters, by default none.
+    """
+
+    losses: str = "none"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_choice("losses", self.losses, NAMED)
+        chosen = (*self._chosen, *(("restitution",) if "y" in self.axes else ()))
+        given = next((name for name in chosen if self.losses != "none" and getattr(self, name)), None)
+        if given is not None:
+            raise InputError(
+                f"losses = {self.losses!r} and {given} = {getattr(self, given):g} are both given, and the one chooses the "
+                "other; give one of the two.",
+                "losses",
+            )
+
+    @property
+    def _chosen(self) -> tuple[str, ...]:
+        """Parameters that losses by name choose."""
+        return tuple(name for name in ("stiffness_damping", "rolling_resistance") if hasattr(self, name))
+
+    @property
+    def damped(self) -> bool:
+        """Whether any damping acts during the run."""
+        return super().damped or self.losses != "none"
+
+    def acting(self, column: Any) -> Self:
+        """The model with what acts in a run of a column in place of the name of its losses."""
+        own = None if column.stack is None else column.stack.losses
+        return self if self.losses == "none" and own is None else _acting(column, self)
+
+    def check(self, column: Any, motion: Motion) -> None:
+        """As of all models that step drums; losses by name are for columns."""
+        if self.losses != "none" and column.stack is None:
+            raise InputError(
+                f"losses = {self.losses!r} is for columns, and {column.name!r} is {column.described}; leave it out, and "
+                "give stiffness_damping.",
+                "losses",
+            )
+        super().check(column, motion)
+
+    def step_for(self, column: Any) -> float:
+        """As of all models that step drums, with what acts in a run of the column [s]."""
+        return super(LossyDrums, self.acting(column)).step_for(column)
+
+    def paced(self, column: Any) -> SteppedDrums:
+        """As of all models that step drums; with the losses of the column, by name no more."""
+        return super(LossyDrums, self.acting(column)).paced(column)
+
+    def opening(self, column: Any) -> Opening | None:
+        """What rocks a column statically, on soft joints and on rigid ones, where that has a closed form."""
+        raise NotImplementedError
+
+    def told(self, column: Any, response: Response) -> Response:
+        """A response whose provenance says what opens the column, and what acted by the name of the losses."""
+        opens = self.opening(column)
+        if opens is not None:
+            response = replace(response, provenance=response.provenance | {"opening": opens._asdict()})
+        if self.losses == "none":
+            return response
+        how = self.acting(column)
+        chosen = {name: getattr(how, name.removesuffix("_s")) for name in ("stiffness_damping_s", *self._chosen[1:])}
+        chosen["steps_over_undamped"] = replace(self, losses="none").stable_step(column) / how.stable_step(column)
+        return replace(response, provenance=response.provenance | chosen)
+
+
+@lru_cache(maxsize=4096)
+def _acting(column: Any, model: Any) -> Any:
+    changes: dict[str, Any] = {"losses": "none"}
+    round_ = column.section == "circular" and "rolling_resistance" in model._chosen
+    own = column.losses
+    if own is not None and "y" in model.axes:
+        changes |= {"stiffness_damping": own.stiffness_damping, "restitution": None, "time_step": None}
+        changes |= {"rolling_resistance": own.rolling_resistance, "law": own.law or model.law} if round_ else {}
+    elif model.losses == "stone":
+        free = replace(model, losses="none")
+        changes["stiffness_damping"] = damping_of_stone(column, free)
+        changes |= {"rolling_resistance": ROLLING.value} if round_ else {}
+    return replace(model, **changes)

@@ -1,0 +1,68 @@
+"""Static acceleration that rocks a column on soft joints: closed forms, their limits, and what a run tells."""
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.models.shared.opening import PRESSED, on_beds, on_rims, opening
+from stylobate.models.shared.toes import disc_on_bed
+
+SIZE = {"height": 4.0, "bottom_width": 1.0, "top_width": 1.0, "density": 2700.0, "drums": 1}
+
+
+def column(kn: float = 5e10, section: str = "circular") -> st.Column:
+    return st.Column.tapered(
+        **SIZE, joint=st.Joint(kn, 0.5 * kn, friction_coefficient=0.7), section=section, name="column"
+    )
+
+
+def opens(kn: float, law: str):
+    return opening(column(kn, "rectangular" if law == "corners" else "circular"), np.array([kn]), law)
+
+
+def test_a_rim_is_the_sum_of_its_points():
+    """Depth R θ (cos φ − cos φ₀) on k_n R/2 per length, summed over 20,000 points of the rim: to 1e-5."""
+    force, lever = on_rims()
+    angle = (np.arange(20_000) + 0.5) * np.pi / 20_000
+    for i in (100, 400, 799):
+        depth = np.maximum(np.cos(angle) - np.cos(PRESSED[i]), 0.0)
+        assert force[i] == pytest.approx(depth.mean() * np.pi, rel=1e-5)
+        assert lever[i] == pytest.approx((depth * np.cos(angle)).sum() / depth.sum(), rel=1e-5)
+
+
+def test_a_bed_is_the_disc_of_the_toes():
+    for i in (100, 400, 799):
+        whole, _ = disc_on_bed(1.0, 1.0, -float(np.cos(PRESSED[i])), 1.0)
+        assert on_beds()[0][i] == pytest.approx(whole, rel=1e-9)
+
+
+@pytest.mark.parametrize(("law", "power"), [("rim", -2 / 5), ("bed", -2 / 7), ("corners", -1)])
+def test_stiff_joints_rock_as_rigid_ones(law, power):
+    """What is missing goes to nothing with that power of the stiffness: a toe φ² against a lean φ⁻³ (rim), φ⁻⁵ (bed) / k.
+
+    From 1e12 to 1e15 N/m³ to 2 % of the power; from springs of corners exactly. (Swings in space were found to go by −0.43.)
+    """
+    missing = [1.0 - one.acceleration / one.rigid for one in (opens(kn, law) for kn in (1e12, 1e15))]
+    assert np.log10(missing[1] / missing[0]) / 3.0 == pytest.approx(power, rel=0.02)
+    assert opens(5e10, law).rigid == pytest.approx(column().gravity / 4.0, rel=1e-12)
+
+
+def test_a_rim_rocks_where_it_was_found_to():
+    """Ramped accelerations in space lifted this column 1.5 % early (page of other codes); a bed reaches in twice as far."""
+    rim, bed = opens(5e10, "rim"), opens(5e10, "bed")
+    assert rim.acceleration / rim.rigid == pytest.approx(0.985, abs=0.002)
+    assert bed.acceleration < rim.acceleration
+    assert bed.toe > 2.0 * rim.toe
+
+
+def test_a_run_says_it_and_doubts_wide_toes():
+    shaking = st.harmonic(1.0, 0.1 * st.g, 0.2)
+    told = st.simulate(column(), shaking, st.DistinctElement3D()).summary()
+    assert told["opening_acceleration_rigid_g"] == pytest.approx(0.25 * column().gravity / st.g)
+    assert told["opening_acceleration_g"] == pytest.approx(0.985 * told["opening_acceleration_rigid_g"], rel=0.002)
+    assert told["toe_over_width"] < 0.05
+    soft = st.simulate(column(1e9), shaking, st.DistinctElement3D())
+    assert soft.summary()["toe_over_width"] > 0.05
+    from stylobate.response.words import opening_words
+
+    assert "of the width in: is normal_stiffness in N/m³?" in opening_words(soft.provenance["opening"])

@@ -1,0 +1,151 @@
+"""Twins whose joints' law varies: how laws are drawn, what the interval holds then, and how often it holds the truth."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.analysis import verdicts as v
+from stylobate.analysis.certainty import Population, certainty
+from stylobate.analysis.unknown_law import share_under_another_law
+from stylobate.campaign.campaign import Campaign
+from stylobate.campaign.twins import the_twins
+from stylobate.campaign.unknown_laws import PER_LAW, usual_in_space
+from stylobate.report.certainty import certainty_section, certainty_sentence
+
+JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
+SIZE = {"height": 2.0, "bottom_width": 0.5, "top_width": 0.5, "density": 2700.0}
+ROUND = st.Column.tapered(**SIZE, drums=1, joint=JOINT, section="circular", name="round")
+SQUARE = st.Column.tapered(**SIZE, depth=0.5, drums=1, joint=JOINT, name="square")
+SPACE = st.DistinctElement3D()
+
+
+def drawn(number: int, column=ROUND, model=SPACE, seed: int = 0, **sizes):
+    scatter = dataclasses.replace(usual_in_space(column), **sizes)
+    return the_twins(column, model, Campaign(replicates=number, scatter=scatter, seed=seed))
+
+
+def test_half_of_the_variance_is_common_to_the_twins_of_a_law():
+    """ln β has the standard deviation of a coefficient of variation of 0.8, √ln 1.64 = 0.703, and half of its variance
+    between laws: correlation 0.5 of twins of one law. 600 laws: standard errors 0.015 and 0.04, less where spread evenly.
+    """
+    beta = np.array([twin.losses.stiffness_damping for twin in drawn(3 * 600).columns])
+    logs = np.log(beta).reshape(-1, PER_LAW)
+    assert np.exp(np.median(logs)) == pytest.approx(3e-4, rel=0.05)
+    assert logs.std() == pytest.approx(0.703, abs=0.04)
+    assert np.corrcoef(logs[:, 0], logs[:, 1])[0, 1] == pytest.approx(0.5, abs=0.1)
+
+
+def test_half_of_the_laws_carry_otherwise_and_twins_of_one_law_alike():
+    found = drawn(120)
+    laws = np.array([twin.losses.law for twin in found.columns]).reshape(-1, PER_LAW)
+    assert np.all(laws == laws[:, :1])
+    assert np.mean(laws[:, 0] == "bed") == pytest.approx(0.5, abs=0.08)  # evenly spread: no more than some of 40 off
+    assert len(set(found.groups)) == 40
+
+
+def test_more_twins_are_the_same_ones_and_more():
+    few, many = drawn(10), drawn(40)
+    assert tuple(many.columns[:10]) == tuple(few.columns)
+
+
+def test_other_parts_stay_as_they_were():
+    """Of one seed, sizes, density and friction are those drawn without laws; the common part of stiffness is the law's."""
+    with_laws = drawn(6, joint_stiffness=0.2).columns
+    without = drawn(6, joint_stiffness=0.2, stiffness_damping=0.0, rolling_resistance=0.0, law=0.0).columns
+    for one, other in zip(with_laws, without, strict=True):
+        assert one.drums == other.drums
+        assert [joint.tan_phi for joint in one.joints] == [joint.tan_phi for joint in other.joints]
+        assert one.joints != other.joints
+        assert other.losses is None
+
+
+def test_square_columns_have_no_law_of_round_faces_and_planes_none_at_all():
+    assert usual_in_space(SQUARE).given.keys() & {"law", "rolling_resistance"} == set()
+    twins = drawn(3, SQUARE, law=0.5)
+    assert twins.left_out == ("law",)
+    plane = drawn(3, SQUARE, st.DistinctElement2D())
+    assert set(plane.left_out) == {"stiffness_damping"}
+    assert plane.groups == ()
+    assert plane.columns[0].losses is None
+
+
+def test_the_limits_are_those_of_a_new_law_by_weighted_draws():
+    """Draws of (m, r) as before counting, weighted by what was counted, and a new p for each: quantiles to 0.02."""
+    from scipy.stats import betabinom
+
+    fell, number = np.array([3, 0, 1, 0, 2]), np.full(5, 3)
+    stream = np.random.default_rng(0)
+    m, r = stream.random(400_000), stream.beta(1.0, 4.0, 400_000)
+    a, b = m * (1.0 - r) / r, (1.0 - m) * (1.0 - r) / r
+    weight = np.exp(sum(betabinom.logpmf(k, n, a, b) for k, n in zip(fell, number, strict=True)))
+    p = stream.beta(a, b)
+    order = np.argsort(p)
+    share = np.cumsum(weight[order]) / weight.sum()
+    expected = [float(p[order][np.searchsorted(share, one)]) for one in (0.025, 0.975)]
+    assert share_under_another_law(fell, number) == pytest.approx(expected, abs=0.02)
+
+
+def test_laws_that_agree_leave_little_doubt_and_laws_that_differ_much():
+    """Thirty laws of thirty columns of which half fall: within 0.15 of it. Laws of which all or none fall: everything."""
+    low, high = share_under_another_law([15] * 30, [30] * 30)
+    assert 0.35 < low < 0.5 < high < 0.65
+    low, high = share_under_another_law([3, 0] * 5, [3] * 10)
+    assert low < 0.02
+    assert high > 0.98
+
+
+def test_the_interval_holds_the_share_of_another_law_where_that_of_the_columns_does_not():
+    """200 cases of ten laws of three columns; shares of laws from beta distributions of correlation 0.05 to 0.5 and mean 0.1
+    to 0.9, the truth an eleventh. At least 0.9 are held; Wilson's interval of 30 columns holds fewer than 0.7.
+    """
+    stream, held = np.random.default_rng(3), np.zeros(2)
+    for _ in range(200):
+        r, m = stream.uniform(0.05, 0.5), stream.uniform(0.1, 0.9)
+        p = stream.beta(m * (1.0 - r) / r, (1.0 - m) * (1.0 - r) / r, 11)
+        fell = stream.binomial(3, p[:10])
+        limits = share_under_another_law(fell, [3] * 10), v.wilson_interval(fell.sum(), 30)
+        held += [float(low) <= p[10] <= float(high) for low, high in limits]
+    assert held[0] >= 180
+    assert held[1] < 140
+
+
+def test_the_sentence_says_which_part_is_the_laws():
+    twins = drawn(6)
+    peak = {
+        "peak_top_displacement_m": 0.1,
+        "residual_top_displacement_m": 0.0,
+        "peak_rotation_rad": 0.1,
+        "residual_joint_slip_m": 0.0,
+    }
+    rows = [
+        {
+            **peak,
+            "outcome": "collapsed" if fell else "rocked",
+            "collapsed": fell,
+            "decided": True,
+            "collapse_time_s": 1.0,
+        }
+        for fell in (True, True, True, False, False, False)
+    ]
+    found = Population(twins, tuple(rows))
+    column, both = found.interval_of_columns, found.interval
+    assert both[0] < column[0] < column[1] < both[1]
+    assert "by the column alone, the rest by the law of its joints" in found.sentence
+    told = found.summary()
+    assert told["certainty"]["laws"] == 2
+    assert (told["collapse_interval_low"], told["collapse_interval_high"]) == both
+    assert told["certainty"]["interval_of_columns"] == list(column)
+    assert "if the law of its joints were known)" in certainty_sentence(told)
+    assert certainty_section(told) is not None
+
+
+def test_the_run_itself_is_the_same_whatever_its_twins_lose():
+    """No twin of another law rides along, so that the column's run keeps its bits."""
+    shaking = st.harmonic(2.0, 0.4 * st.g, 1.0)
+    alone = st.simulate(ROUND, shaking, SPACE)
+    found = certainty(ROUND, shaking, SPACE, replicates=4)
+    assert np.array_equal(alone.histories.top, found.response.histories.top)
+    assert found.population.drawn.groups == (0, 0, 0, 1)
+    assert found.population.counts[v.FAILED] == 0
