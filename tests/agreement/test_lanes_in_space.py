@@ -51,7 +51,6 @@ def shaking(size, azimuth=0.3, duration=0.4):
 def batch(cases, monkeypatch, model=None, **options):
     """Measures, and how many of the cases went on alone."""
     alone, collect = [], lanes.IntactLanes.collect
-    monkeypatch.setattr(lanes, "FEWEST", 1)
 
     def counted(self, lane):
         found = collect(self, lane)
@@ -173,6 +172,8 @@ def test_a_lane_does_not_hang_on_its_neighbours(monkeypatch):
     again = batch(cases[::-1], monkeypatch)[0][::-1]
     assert together[:-1] == again
     assert batch(cases[3:4], monkeypatch)[0] == together[3:4]
+    threads = dict(run_checked(cases, st.DistinctElement3D(), RunOptions(), 3))
+    assert [threads[i] for i in range(len(cases))] == together[:-1]
 
 
 def test_a_joint_that_opens_far_over_is_told_alone(monkeypatch):

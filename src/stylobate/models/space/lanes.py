@@ -20,9 +20,6 @@ from ..shared.lanes import GoesOn, aligned_zeros, copied, run_alike
 from .assemblies import Begun, SpatialNumbers, chunks_of, go_on, response_of, run_in_space, settled, unsettled
 from .loose import REST_TIME, REST_WAY, Loose
 
-#: Cases for each thread from which on lanes are worth it: a block costs as much as two runs, however few are in it.
-FEWEST = 4
-
 #: Structures that are kept as they have settled, in each thread.
 KEPT = 8
 
@@ -58,9 +55,12 @@ def kind(structure: Structure) -> Hashable:
 def measures_in_space(
     run: Callable[..., Response], cases: Sequence[Case], numbers: SpatialNumbers, options: RunOptions, threads: int
 ) -> Iterator[tuple[int, Measures]]:
-    """(index of the case, measures) of runs of assemblies in space as they finish: in lanes as long as they are intact, and
-    one by one, by ``run``, what lanes do not take."""
-    if options.until_rest or options.start is not None or len(cases) < FEWEST * threads:
+    """(index of the case, measures) of runs of assemblies in space as they finish: in lanes as long as they are intact.
+
+    Runs until rest are made one by one, by ``run``. However few there are, others ride: what a run comes to does not hang on
+    how many are left of a batch that was stopped, nor on the number of threads.
+    """
+    if options.until_rest or options.start is not None:
         yield from measures_of_assemblies(run, cases, options, threads)
         return
 
