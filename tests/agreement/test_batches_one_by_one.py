@@ -12,7 +12,7 @@ import pytest
 import stylobate as st
 from stylobate.errors import OutOfRangeWarning
 from stylobate.models.base import Case
-from stylobate.models.shared.lanes import LONGEST_CALL, WINDOW, run_alike, run_lanes
+from stylobate.models.shared.lanes import LONGEST_CALL, MOST_ALONE, WINDOW, run_alike, run_lanes
 from stylobate.simulate import simulate_iter
 
 JOINT = st.Joint(5e9, 2.5e9, friction_angle=35.0)
@@ -68,6 +68,34 @@ def test_cases_are_asked_for_as_lanes_become_free():
     assert next(stream)[0] >= 0
     stream.close()
     assert threading.active_count() < 10
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_what_lanes_hand_over_goes_on_alone(threads):
+    """Two of three runs are handed over: each is a result once, what cannot be computed too, and few wait at a time."""
+    waiting, counted = set(), []
+
+    class Handing(Block):
+        def collect(self, lane):
+            number = self.loaded.pop(lane)
+            if number % 3 == 0:
+                return number
+            waiting.add(number)
+            counted.append(len(waiting))
+            return lambda: alone(number)
+
+    def alone(number):
+        waiting.remove(number)
+        if number == 7:
+            raise st.InputError("this one is odd.")
+        return number
+
+    found = dict(run_lanes(Handing, range(1000), threads))
+    assert found.pop(7).reason == "this one is odd"
+    assert found == {number: number for number in range(1000) if number != 7}
+    # each thread may add those of its lanes before it looks
+    assert max(counted) <= MOST_ALONE + threads * Block.lanes
+    assert not waiting
 
 
 def test_memory_is_flat_however_many_cases_there_are():

@@ -154,6 +154,7 @@ def act(damped, e, u, v, s, o, l):
     spin_u = dot((u.wx[l], u.wy[l], u.wz[l]), n)
     spin_v = dot((v.wx[l], v.wy[l], v.wz[l]), n)
     past = minus(at_point(v, l, row(e.rb, l)), at_point(u, l, row(e.ra, l)))
+    write(e.n, l, n)
     write(e.ra, l, at)
     write(e.rb, l, rv)
     kf, slip, spin, before, turn = e.ks[l] * closed, along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]

@@ -1,7 +1,8 @@
 """The step of assemblies in space in lanes, as long as nothing of them may come loose: joints alone, and the motion.
 
 The law of a joint is that of ``joints.py``. Where it is no longer all that happens, because a joint is about to hand over or
-two bodies that no joint holds might touch, the lane has failed: its run is made anew by the engine that finds contacts.
+two bodies that no joint holds might touch, the lane has failed: the engine that finds contacts goes on with its run from the
+last state that was kept.
 
 State, a tuple in this order: body, joint, corner, spot, between, lane, ground, feed, watch, work; see ``lane_records.py``.
 The frame of the run finds lane, ground, feed and watch where they are in the state of every engine.
@@ -12,6 +13,7 @@ import math
 from ..dem3d.look import straighten
 from ..dem3d.move import twice_kinetic
 from ..dem3d.step import fill_ground
+from ..ground import BEFORE, sample
 from ..jit import apart, kernel, law, strict
 from ..run_codes import CHUNK, FAILED, RUNNING
 from ..shared.frame import run_chunks
@@ -168,23 +170,34 @@ def held_by(e, l):
 
 
 @strict
-def energies(state, base, out):
-    """Ledger of all lanes at t_n: input, kinetic, gravitational, elastic, friction, viscous [J], shape (6, lanes).
+def base_now(f, l):
+    """Acceleration of the base of a lane at t_n [m/s²]."""
+    place, last, factor = f.step[l] * f.ratio[l], f.last[l], f.factor[l]
+    x = factor * sample(f.x[l], last, place, BEFORE) if f.x[l] != 0 else 0.0
+    y = factor * sample(f.y[l], last, place, BEFORE) if f.y[l] != 0 else 0.0
+    z = factor * sample(f.z[l], last, place, BEFORE) if f.z[l] != 0 else 0.0
+    return x, y, z
 
-    The middle three are absolute. The memory of the state is brought there; ``base`` is the acceleration of the base, shape
-    (3, lanes).
+
+@strict
+def energies(state, which, out):
+    """Ledger at t_n: input, kinetic, gravitational, elastic, friction, viscous [J], of those lanes, shape (6, lanes).
+
+    The middle three are absolute. The memory of the state is brought there.
     """
     forces(state)
-    body, joint, _, _, _, lane, _, _, _, _ = state
+    body, joint, _, _, _, lane, _, feed, _, _ = state
     o = lane[0]
     for l in range(o.dt.shape[0]):
+        if not which[l]:
+            continue
         elastic = held = kinetic = height = 0.0
         for q in range(joint.shape[0]):
             elastic += joint[q].en[l]
             held += held_by(joint[q], l)
         half = 0.5 * o.last[l]
         g = o.g[0, l], o.g[1, l], o.g[2, l]
-        push = along((base[0, l], base[1, l], base[2, l]), 1.0, g)
+        push = along(base_now(feed[0], l), 1.0, g)
         for i in range(body.shape[0]):
             u = body[i]
             if u.fixed != 0:

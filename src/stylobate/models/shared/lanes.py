@@ -12,6 +12,7 @@ import operator
 import queue
 import threading
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from functools import partial
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -40,13 +41,21 @@ class LaneBlock(Protocol):
         """Whether the lane's run has ended."""
         ...
 
-    def collect(self, lane: int) -> Measures:
-        """Measures of a lane whose run has ended; the lane is free afterwards."""
+    def collect(self, lane: int) -> Measures | GoesOn:
+        """Measures of a lane whose run has ended, or what makes them alone; the lane is free afterwards."""
         ...
 
 
+#: Goes on alone with a run that a lane has handed over, to its end, on any thread; it holds all that it needs.
+GoesOn = Callable[[], Measures]
+
+
 class WatchedBlock(LaneBlock, Protocol):
-    """A block that tells of all lanes at a time whether their runs go on."""
+    """A block that tells of all lanes at a time whether their runs go on, and hands none of them over."""
+
+    def collect(self, lane: int) -> Measures:
+        """Measures of a lane whose run has ended; the lane is free afterwards."""
+        ...
 
     def running(self) -> np.ndarray:
         """Which lanes' runs go on, shape (lanes,)."""
@@ -100,6 +109,9 @@ def in_rows(records: np.ndarray, lanes: int) -> np.ndarray:
 #: Cases that are looked at together, to put those next to each other that share blocks, and results that may wait.
 WINDOW = 4096
 
+#: Runs that lanes have handed over which may wait while lanes go on: they hold their states.
+MOST_ALONE = 4
+
 Key = TypeVar("Key", bound=Hashable)
 
 
@@ -145,6 +157,8 @@ def run_lanes(
 ) -> Iterator[tuple[int, Measures]]:
     """Run all cases; yields (index, measures) as they finish. Closing the iterator stops the threads.
 
+    What lanes hand over goes on alone: on a thread that has no lanes left, or, once some wait, before its lanes go on.
+
     Parameters
     ----------
     make_block : callable
@@ -156,6 +170,8 @@ def run_lanes(
     todo: Iterator[tuple[int, Case]] = iter(cases if numbered else enumerate(cases))
     take = threading.Lock()
     results: queue.SimpleQueue = queue.SimpleQueue()
+    alone: queue.SimpleQueue[tuple[int, GoesOn]] = queue.SimpleQueue()
+    riding: set[int] = set()  # cases in lanes, of all threads
     stop = threading.Event()
 
     def next_case() -> tuple[int, Case] | None:
@@ -172,6 +188,17 @@ def run_lanes(
                 results.put((one[0], not_computed(error)))
         return None
 
+    def end(index: int, collect: Callable[[], Measures | GoesOn]) -> None:
+        """Give the measures of a run, or let it wait for whoever goes on with it."""
+        try:
+            found = collect()
+        except NOT_COMPUTED as error:
+            found = not_computed(error)
+        if callable(found):
+            alone.put((index, found))
+        else:
+            results.put((index, found))
+
     def work() -> None:
         try:
             block = make_block()
@@ -185,15 +212,20 @@ def run_lanes(
                         if index is None:
                             break
                         running[lane] = index
-                if not running:
-                    break
+                        riding.add(index)
+                if alone.qsize() >= MOST_ALONE or not running:
+                    others = bool(riding)  # asked before the queue: what they hand over is in it by then
+                    try:
+                        end(*alone.get(timeout=0.0 if not others else 0.01))
+                    except queue.Empty:
+                        if not running and not others:
+                            break
+                    continue
                 block.advance()
                 for lane in [lane for lane in running if block.is_over(lane)]:
-                    try:
-                        results.put((running[lane], block.collect(lane)))
-                    except NOT_COMPUTED as error:
-                        results.put((running[lane], not_computed(error)))
-                    del running[lane]
+                    index = running.pop(lane)
+                    end(index, partial(block.collect, lane))
+                    riding.discard(index)
             results.put(None)
         except BaseException as error:  # handed to the caller's thread, which raises it
             results.put(error)

@@ -99,13 +99,36 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
         The assembly is not in equilibrium as drawn.
     """
     engine = unsettled(structure, numbers)
-    chunks, every = chunks_of(structure, motion, engine, options)
+    chunks_of(structure, motion, engine, options)
     made = settled(structure, engine)
     if made.balanced is False:
         said = f"{structure.name!r} is not in equilibrium as drawn; it moves from the start."
         warnings.warn(said, OutOfRangeWarning, stacklevel=4)
+    return go_on(structure, motion, numbers, options, made, [])
+
+
+def go_on(
+    structure: Structure,
+    motion: Motion,
+    numbers: SpatialNumbers,
+    options: RunOptions,
+    made: Begun,
+    states: list[dict[str, Any]],
+) -> Response:
+    """Go on with a run from where its engine is to where it ends.
+
+    Parameters
+    ----------
+    structure, motion, numbers, options
+        As of :func:`run_in_space`.
+    made : Begun
+        How it began, with the engine as it is now.
+    states : list of dict
+        What was recorded so far, the last one now; empty at the start. Of what the first one holds a history is kept.
+    """
+    engine = made.engine
     engine.shake(motion)
-    states, still = _follow(structure, engine, motion, chunks, every, options)
+    states, still = _follow(structure, engine, motion, states or [_state(engine, motion)], options)
     stack: dict[str, Any] = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
     failure = ""
     if engine.failed:
@@ -247,11 +270,12 @@ def _imbalance_before_falls(
 
 
 def _follow(
-    structure: Structure, engine: Loose, motion: Motion, chunks: int, every: int, options: RunOptions
+    structure: Structure, engine: Loose, motion: Motion, states: list[dict[str, Any]], options: RunOptions
 ) -> tuple[list[dict[str, Any]], bool]:
-    """Go on to where the run ends; the states on the way, and whether all lies still after the motion."""
+    """Go on to where the run ends; the states until there, and whether all lies still after the motion."""
+    chunks, every = chunks_of(structure, motion, engine, options)
     duration = motion.duration + options.tail
-    states, still, over = [_state(engine, motion)], False, False
+    still, over = False, False
     while not engine.failed:
         left = chunks - engine.steps // CHUNK
         still, over = engine.at_rest(), left <= 0

@@ -1,44 +1,39 @@
-"""Assemblies in space in lanes, as long as nothing of them comes loose; the others are run one by one."""
+"""Assemblies in space in lanes, as long as nothing of them comes loose; from there on their runs go on one by one."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...column.structure import Structure
-from ...errors import InputError
 from ...kernels.run_codes import CHUNK, FAILED, FREE, LANES, RUNNING
 from ...kernels.space.lane_records import types
 from ...kernels.space.records import GROUND
 from ...response import Measures, Response
+from ...response.space_measures import fallen
 from ..base import Case, RunOptions
 from ..plane.assemblies import measures_of_assemblies
-from ..shared.lanes import aligned_zeros, copied, not_computed, run_alike
-from .assemblies import Begun, SpatialNumbers, chunks_of, ground_at, response_of, settled, unsettled
+from ..shared.lanes import GoesOn, aligned_zeros, copied, run_alike
+from .assemblies import Begun, SpatialNumbers, chunks_of, go_on, response_of, run_in_space, settled, unsettled
 from .loose import REST_TIME, REST_WAY, Loose
 from .packing import turned_over
-
-#: Cases for each thread from which on lanes are worth it: a block costs as much as two runs, however few are in it.
-FEWEST = 4
 
 #: Structures that are kept as they have settled, in each thread.
 KEPT = 8
 
-#: Stands for the measures of a run that has to be made alone.
-LOOSE = not_computed(InputError("not in lanes"))
-
 #: Fields of a place and of axes, the first of a body's record.
 POSE = ("x", "y", "z", "ix", "iy", "iz", "jx", "jy", "jz", "kx", "ky", "kz")
 
-#: Numbers of a lane that the engine's bodies and joints have too.
+#: Numbers of a lane that the engine's bodies and joints, and ``now``, have too: they go there and back.
 OF_BODY = (*POSE, "vx", "vy", "vz", "lx", "ly", "lz", "wx", "wy", "wz", "m", "im", "ia", "ic", "ib")
 OF_JOINT = (
-    "ml", "il", "jl", "mu", "iu", "ju", "f", "d", "gf", "gm", "ra", "rb",
+    "ml", "il", "jl", "mu", "iu", "ju", "f", "d", "gf", "gm", "n", "ra", "rb",
     "rl", "ru", "kn", "ks", "tan", "co", "width", "from_c", "apart_c", "apart", "t", "dt", "kf", "kt", "en",
 )  # fmt: skip
+OF_NOW = ("last", "beta", "work", "shear", "visc", "g")
 
 
 def kind(structure: Structure) -> Hashable:
@@ -64,49 +59,92 @@ def kind(structure: Structure) -> Hashable:
 def measures_in_space(
     run: Callable[..., Response], cases: Sequence[Case], numbers: SpatialNumbers, options: RunOptions, threads: int
 ) -> Iterator[tuple[int, Measures]]:
-    """(index of the case, measures) of runs of assemblies in space as they finish: in lanes what stays intact, then one by
-    one, by ``run``, what does not."""
-    if options.until_rest or options.start is not None or len(cases) < FEWEST * threads:
+    """(index of the case, measures) of runs of assemblies in space as they finish: in lanes as long as they are intact.
+
+    Runs until rest are made one by one, by ``run``. However few there are, others ride: what a run comes to does not hang on
+    how many are left of a batch that was stopped, nor on the number of threads.
+    """
+    if options.until_rest or options.start is not None:
         yield from measures_of_assemblies(run, cases, options, threads)
         return
-    left: list[tuple[int, Case]] = []
-    under_way: dict[int, Case] = {}
-
-    def counted() -> Iterator[Case]:
-        for index, case in enumerate(cases):
-            under_way[index] = case
-            yield case
 
     def block_of(key: Hashable) -> IntactLanes:
         return IntactLanes(numbers, options, none=key is None)
 
-    for index, measures in run_alike(lambda case: kind(case.column), block_of, counted(), threads):
-        case = under_way.pop(index)
-        if measures is LOOSE:
-            left.append((index, case))
-        else:
-            yield index, measures
-    for k, measures in measures_of_assemblies(run, [case for _, case in left], options, threads):
-        yield left[k][0], measures
+    yield from run_alike(lambda case: kind(case.column), block_of, cases, threads)
+
+
+def of_lanes(records: np.ndarray) -> np.ndarray:
+    """Fields of records that have a value for each lane, as rows that change with them, shape (records, fields, lanes)."""
+    kinds: Any = records.dtype.fields
+    fields = [(at, kind.itemsize) for kind, at, *_ in kinds.values() if kind.shape[-1:] == (LANES,)]
+    first, end = min(at for at, _ in fields), max(at + size for at, size in fields)
+    whole = records.view(np.float64).reshape(len(records), -1)
+    return whole[:, first // 8 : end // 8].reshape(len(records), -1, LANES)
 
 
 class Recorded:
-    """States of a lane's run so far: times [s], places [m], axes and ledgers [J]."""
+    """States of a lane's run so far: times [s], places and principal axes of its bodies, ledgers [J].
 
-    def __init__(self, count: int, bodies: int) -> None:
-        self.count = 0
-        self.time, self.energy = np.empty(count), np.empty((count, 6))
-        self.position, self.axes = np.empty((count, bodies, 3)), np.empty((count, bodies, 3, 3))
+    ``turn`` is that of :class:`Packed`.
+    """
 
-    def add(self, time: float, position: np.ndarray, axes: np.ndarray, energy: np.ndarray) -> None:
+    def __init__(self, count: int, bodies: int, turn: np.ndarray) -> None:
+        self.count, self.turn = 0, turn
+        self.time, self.energy, self.pose = np.empty(count), np.empty((count, 6)), np.empty((count, bodies, len(POSE)))
+
+    def add(self, time: float, pose: np.ndarray, energy: np.ndarray) -> None:
         """Keep a state."""
         k = self.count
-        self.time[k], self.position[k], self.axes[k], self.energy[k] = time, position, axes, energy
+        self.time[k], self.pose[k], self.energy[k] = time, pose, energy
         self.count += 1
 
     def stack(self) -> dict[str, np.ndarray]:
-        """All states."""
-        return {name: getattr(self, name)[: self.count] for name in ("time", "position", "axes", "energy")}
+        """All states: times [s], places [m], axes in which the bodies were given, ledgers [J]."""
+        k = self.count
+        axes = self.pose[:k, :, 3:].reshape(k, -1, 3, 3).swapaxes(2, 3) @ self.turn.transpose(0, 2, 1)
+        return {"time": self.time[:k], "position": self.pose[:k, :, :3], "axes": axes, "energy": self.energy[:k]}
+
+
+class HandedOver(NamedTuple):
+    """A run as a lane has kept it last, from where the engine of what is loose goes on with it.
+
+    Parameters
+    ----------
+    case : Case
+    numbers : SpatialNumbers
+    options : RunOptions
+    made : Begun
+        How it began; its engine is that of all lanes with this structure.
+    states : Recorded
+    records : tuple of three dicts of str to array
+        Fields of its bodies, its joints and what is of the lane, without lanes.
+    step : int
+        Steps done.
+    stood_at, stood_since : array, float
+        As of :class:`Loose`.
+    """
+
+    case: Case
+    numbers: SpatialNumbers
+    options: RunOptions
+    made: Begun
+    states: Recorded
+    records: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, np.ndarray]]
+    step: int
+    stood_at: np.ndarray
+    stood_since: float
+
+    def measures(self) -> Measures:
+        """Go on to the end of the run."""
+        structure, motion = self.case
+        engine = unsettled(structure, self.numbers)
+        engine.take_over(*self.records, self.step)
+        engine.stood_at, engine.stood_since = self.stood_at, self.stood_since
+        stack = self.states.stack()
+        states = [dict(zip(stack, one, strict=True)) for one in zip(*stack.values(), strict=True)]
+        made = self.made._replace(engine=engine)
+        return go_on(structure, motion, self.numbers, self.options, made, states).measures
 
 
 class IntactLanes:
@@ -117,7 +155,7 @@ class IntactLanes:
     numbers : SpatialNumbers
     options : RunOptions
     none : bool
-        It takes none: each of its cases is for others to run.
+        It takes none: each of its cases is run alone.
     """
 
     def __init__(self, numbers: SpatialNumbers, options: RunOptions, *, none: bool = False) -> None:
@@ -129,7 +167,7 @@ class IntactLanes:
         self.state: tuple[Any, ...] = ()
         self.cases: list[Case | None] = [None] * self.lanes
         self.ways: list[Begun | None] = [None] * self.lanes
-        self.states: list[Recorded] = [Recorded(0, 0)] * self.lanes
+        self.states: list[Recorded | None] = [None] * self.lanes
         self.every, self.chunks = np.ones(self.lanes, dtype=int), np.zeros(self.lanes, dtype=int)
         self.status = np.full(self.lanes, FREE)
 
@@ -153,7 +191,7 @@ class IntactLanes:
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane that is free."""
-        self.cases[lane], self.status[lane] = case, FAILED
+        self.cases[lane], self.states[lane], self.status[lane] = case, None, FAILED
         if self.none:
             return
         made, gap = self.begun(case.column)
@@ -164,10 +202,9 @@ class IntactLanes:
             self.state = self._records(made.engine)
         self._put(lane, made, gap, case, chunks)
         self.ways[lane], self.every[lane], self.chunks[lane] = made, every, chunks
-        self.states[lane] = Recorded(chunks // every + 2, len(made.engine.body))
+        self.states[lane] = Recorded(chunks // every + 2, len(made.engine.body), made.engine.packed.turn)
         self.status[lane] = RUNNING
-        self.stood_at[..., lane], self.stood_since[lane] = np.inf, 0.0
-        self._record([lane])
+        self._record(np.array([lane]))
 
     def _records(self, engine: Loose) -> tuple[Any, ...]:
         """Records for bodies and joints as an engine has them."""
@@ -188,7 +225,12 @@ class IntactLanes:
         self.joint["level"] = shape["kind"][joined["a"]] == GROUND
         self.between["lower"], self.between["upper"] = self.pairs
         self.watch["status"], self.watch["when"] = FREE, -1
-        self.stood_at, self.stood_since = np.full((n, 12, self.lanes), np.inf), np.zeros(self.lanes)
+        self.free, self.smallest, self.dt = engine.free, np.zeros(self.lanes), np.zeros(self.lanes)
+        self.turn, self.arm = np.zeros((n, 3, 3, self.lanes)), np.zeros((n, 1, 1, self.lanes))
+        self.stood_at, self.stood_since = np.full((n, 4, 3, self.lanes), np.inf), np.zeros(self.lanes)
+        changing = self.body, self.joint, self.lane
+        self.kept = tuple(aligned_zeros(len(one), one.dtype) for one in changing)
+        self.rows = [(of_lanes(one), of_lanes(kept)) for one, kept in zip(changing, self.kept, strict=True)]
         return state
 
     def _put(self, lane: int, made: Begun, gap: np.ndarray, case: Case, chunks: int) -> None:
@@ -198,16 +240,18 @@ class IntactLanes:
             self.body[name][:, lane] = engine.body[name][:, 0]
         for name in OF_JOINT:
             self.joint[name][..., lane] = engine.joint[name]
+        for name in OF_NOW:
+            self.lane[name][0, ..., lane] = now[name][0]
         self.body["r"][:, lane] = np.where(engine.free, engine.body["r"], 0.0)
         for k, name in enumerate(POSE):
             self.body["o"][:, k, lane] = engine.body[name][:, 0]
         self.corner["x"][:, lane], self.corner["y"][:, lane] = engine.state[9].T
         self.between["gap"][:, lane] = gap[tuple(self.pairs)]
-        for name, value in (
-            ("dt", engine.dt), ("last", now["last"][0]), ("beta", now["beta"][0]), ("work", now["work"][0]),
-            ("shear", now["shear"][0]), ("visc", now["visc"][0]), ("g", now["g"][0]), ("p", 0.0), ("loose", 0),
-        ):  # fmt: skip
+        for name, value in (("dt", engine.dt), ("p", 0.0), ("loose", 0)):
             self.lane[name][0, ..., lane] = value
+        self.turn[..., lane], self.arm[..., 0, 0, lane] = engine.packed.turn, engine.body["r"]
+        self.dt[lane], self.smallest[lane] = engine.dt, engine.smallest
+        self.stood_at[..., lane], self.stood_since[lane] = np.inf, 0.0
         feed, motion = self.feed[0], case.motion
         for name, samples in (("x", motion.samples), ("y", motion.y_samples), ("z", motion.z_samples)):
             feed[name][lane] = 0 if samples is None else samples.ctypes.data
@@ -229,64 +273,70 @@ class IntactLanes:
             self.kernel.advance(self.state, int((due - done).min()))
             self.status[going] = np.where(self.watch["status"][0, going] == FAILED, FAILED, RUNNING)
             after = self._done()[going]
-            self._record(going[(after == due) & (self.status[going] == RUNNING)].tolist())
+            self._record(going[(after == due) & (self.status[going] == RUNNING)])
             if (self.status[going] == FAILED).any() or (after >= self.chunks[going]).any():
                 return
 
     def _done(self) -> np.ndarray:
         return self.feed["step"][0] // CHUNK if self.state else np.zeros(self.lanes, dtype=int)
 
-    def _record(self, lanes: Sequence[int]) -> None:
-        """Keep the present states of some lanes."""
-        if not lanes:
+    def _record(self, lanes: np.ndarray) -> None:
+        """Keep the present states of some lanes: for measures, and whole, for whoever may have to go on with the run."""
+        if not len(lanes):
             return
-        n, out, base = len(self.body), np.empty((6, self.lanes)), np.zeros((3, self.lanes))
-        times = self.feed["step"][0] * self.lane["dt"][0]
-        for lane in lanes:
-            made, case = self.ways[lane], self.cases[lane]
-            assert made is not None
-            assert case is not None
-            times[lane] = self.feed["step"][0, lane] * made.engine.dt
-            base[:, lane] = ground_at(case.motion, times[lane])
+        which, out = np.zeros(self.lanes, dtype=bool), np.empty((6, self.lanes))
+        which[lanes] = True
+        for one, kept in self.rows:
+            np.copyto(kept, one, where=which)
         changed = {0, 1, 5}  # bodies, joints, and what is of lanes
         state = tuple(copied(one) if k in changed else one for k, one in enumerate(self.state))
-        self.kernel.energies(state, base, out)
-        pose = self.body.view(np.float64).reshape(n, -1)[:, : len(POSE) * self.lanes].reshape(n, len(POSE), self.lanes)
+        self.kernel.energies(state, which, out)
+        pose = self.rows[0][0][:, : len(POSE)]
+        times = self.feed["step"][0] * self.dt
         for lane in lanes:
-            made = self.ways[lane]
-            assert made is not None
-            engine, own = made.engine, pose[:, :, lane]
-            place = own[:, :3].copy()
-            axes = own[:, 3:].reshape(n, 3, 3).swapaxes(1, 2) @ engine.packed.turn.transpose(0, 2, 1)
-            self.states[lane].add(times[lane], place, axes, out[:, lane])
-            self._look_for_rest(lane, engine, place, axes, times[lane])
+            states = self.states[lane]
+            assert states is not None
+            states.add(times[lane], pose[..., lane], out[:, lane])
+        self._look_for_rest(which, pose, times)
 
-    def _look_for_rest(self, lane: int, engine: Loose, place: np.ndarray, axes: np.ndarray, time: float) -> None:
+    def _look_for_rest(self, which: np.ndarray, pose: np.ndarray, times: np.ndarray) -> None:
         """As :meth:`Loose.at_rest` looks for it, of bodies none of which falls for ever."""
-        here = np.concatenate((place, axes.reshape(-1, 9) * engine.body["r"][:, None]), axis=1)
-        if np.abs(here - self.stood_at[..., lane])[engine.free].max() > REST_WAY * engine.smallest:
-            self.stood_at[..., lane], self.stood_since[lane] = here, time
+        here = pose.reshape(len(pose), 4, 3, self.lanes).copy()
+        here[:, 1:] = np.einsum("nacl,nbal->ncbl", here[:, 1:], self.turn) * self.arm
+        moved = np.abs(here - self.stood_at)[self.free].max(axis=(0, 1, 2)) > REST_WAY * self.smallest
+        np.copyto(self.stood_at, here, where=moved & which)
+        np.copyto(self.stood_since, times, where=moved & which)
 
     # -- how it ends -----------------------------------------------------------------------------------------------
 
     def is_over(self, lane: int) -> bool:
-        """Whether a lane's run has ended, or has to be made alone."""
+        """Whether a lane's run has ended, or has to go on alone."""
         return bool(self.status[lane] == FAILED or self._done()[lane] >= self.chunks[lane])
 
-    def collect(self, lane: int) -> Measures:
-        """Measures of a lane whose run has ended, or :data:`LOOSE`; the lane is free afterwards."""
-        case, made, intact = self.cases[lane], self.ways[lane], self.status[lane] == RUNNING
-        self.status[lane] = FREE
-        if self.state:
-            self.watch["status"][0, lane] = FREE
-            self.lane["dt"][0, lane] = 0.0
-        if not intact:
-            return LOOSE
+    def collect(self, lane: int) -> Measures | GoesOn:
+        """Measures of a lane whose run has ended, or what goes on with it alone; the lane is free afterwards."""
+        case, made, states, intact = self.cases[lane], self.ways[lane], self.states[lane], self.status[lane] == RUNNING
         assert case is not None
+        self.status[lane] = FREE
+        if states is None:
+            return lambda: run_in_space(*case, self.numbers, self.options).measures
         assert made is not None
-        stack = self.states[lane].stack()
+        self.watch["status"][0, lane] = FREE
+        self.lane["dt"][0, lane] = 0.0
+        stack = states.stack()
         still = bool(stack["time"][-1] - self.stood_since[lane] > REST_TIME)
-        if self.options.until_decided and not still:
-            return LOOSE
-        response = response_of(case.column, case.motion, self.numbers, made, stack, still=still)
-        return LOOSE if response.measures.collapsed else response.measures
+        poses = (stack[name][k] for k in (0, -1) for name in ("position", "axes"))
+        waits = self.options.until_decided and not still and not fallen(case.column, *poses).any()
+        if intact and not waits:
+            return response_of(case.column, case.motion, self.numbers, made, stack, still=still).measures
+        return self._handed_over(lane, case, made, states).measures
+
+    def _handed_over(self, lane: int, case: Case, made: Begun, states: Recorded) -> HandedOver:
+        """A lane's run as it was kept last."""
+        body, joint, now = (
+            {name: kept[name][..., lane].copy() for name in names}
+            for names, kept in zip((OF_BODY, OF_JOINT, OF_NOW), self.kept, strict=True)
+        )
+        step = round(float(states.time[states.count - 1]) / made.engine.dt)
+        stood = self.stood_at[..., lane].reshape(-1, len(POSE)), float(self.stood_since[lane])
+        return HandedOver(case, self.numbers, self.options, made, states, (body, joint, now), step, *stood)

@@ -13,6 +13,7 @@ from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.space.records import GROUND, types, workspace, workspace_of_joints
 from ...motion import Motion
 from ..drums.links import with_links
+from ..shared.lanes import copied
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.stable_step import highest_frequency, stable_step
 from .links import stiffness_of, ties_of
@@ -100,6 +101,7 @@ class Loose:
         self.pair, spare = np.zeros(most, kinds["pair"]), np.zeros(most, kinds["pair"])
         self.joint, edge = pack_joints(joints, packed)
         self.body, self.law = packed.body, np.ascontiguousarray(law)
+        self.numbers = self.body.view(np.float64).reshape(len(self.body), -1)
         self.links, self.ties = links, ties_of(links, packed.turn)
         self.state: tuple[Any, ...] = (
             packed.body, packed.shape, packed.vertex, packed.plane, packed.loop, packed.corner, self.pair, spare,
@@ -127,6 +129,16 @@ class Loose:
             link["ft"][:, 0] = [one.pretension for one in self.links]
             link["gap"][:, 0] = link["back"][:, 0] = [one.clearance for one in self.links]
             self.bonds.begin(self.body, tuple(self.ties))
+
+    def take_over(
+        self, body: dict[str, np.ndarray], joint: dict[str, np.ndarray], now: dict[str, np.ndarray], steps: int
+    ) -> None:
+        """Go on from where the same bodies have come to after so many steps, by fields of their records, without touches."""
+        for records, numbers in ((self.body, body), (self.joint, joint), (self.now, now)):
+            for name, values in numbers.items():
+                records[name] = values.reshape(records[name].shape)
+        self.body["past"], self.now["earlier"], self.feed["step"] = self.vectors("w"), self.now["last"], steps
+        self.kernel.list_all(self.state)
 
     def shake(self, motion: Motion) -> None:
         """Let the base move with a motion, which is kept."""
@@ -233,11 +245,17 @@ class Loose:
     @property
     def places(self) -> np.ndarray:
         """Centroids of all bodies [m], shape (N, 3)."""
-        return np.stack([self.body[c][:, 0] for c in "xyz"], axis=-1)
+        return self._of_all("x").copy()
 
     def vectors(self, name: str) -> np.ndarray:
         """A vector of all bodies in the axes of space by the name of its fields, such as ``v`` or ``w``, shape (N, 3)."""
-        return np.stack([self.body[name + c][:, 0] for c in "xyz"], axis=-1)
+        return self._of_all(name + "x").copy()
+
+    def _of_all(self, first: str, count: int = 3) -> np.ndarray:
+        """Some fields of all bodies, from the first one on, as numbers that change with them."""
+        fields: Any = self.body.dtype.fields
+        at = fields[first][1] // self.numbers.itemsize
+        return self.numbers[:, at : at + count]
 
     @property
     def struck_at(self) -> float | None:
@@ -248,14 +266,14 @@ class Loose:
     @property
     def axes_of_all(self) -> np.ndarray:
         """Axes in which the bodies were given, as columns, shape (N, 3, 3)."""
-        principal = np.stack([np.stack([self.body[a + c][:, 0] for c in "xyz"], axis=-1) for a in "ijk"], axis=-1)
+        principal = self._of_all("ix", 9).reshape(-1, 3, 3).swapaxes(1, 2)
         return principal @ self.packed.turn.transpose(0, 2, 1)
 
     def _with_forces(self) -> tuple[Any, ...]:
         """A copy of what the forces at the present positions change, with these."""
         copies = {0, 6, 8, 11}  # bodies, pairs, joints, now
-        *state, ties = (one.copy() if k in copies else one for k, one in enumerate(self.state))
-        state = *state, tuple(one.copy() for one in ties)
+        *state, ties = (copied(one) if k in copies else one for k, one in enumerate(self.state))
+        state = *state, tuple(copied(one) for one in ties)
         self.kernel.forces(state)
         return state
 
@@ -279,20 +297,20 @@ class Loose:
     @property
     def _poses(self) -> np.ndarray:
         """Centroids, and axes times the reach of their bodies [m], shape (N, 12)."""
-        return np.concatenate((self.places, self.axes_of_all.reshape(-1, 9) * self.body["r"][:, None]), axis=1)
+        return np.concatenate((self._of_all("x"), self.axes_of_all.reshape(-1, 9) * self.body["r"][:, None]), axis=1)
 
     def at_rest(self) -> bool:
         """Whether nothing has moved for ``REST_TIME``, but what falls for ever; to be asked again and again."""
         here = self._poses
         way = np.abs(here - self.stood_at).max(axis=1)[self.free]
-        there = ~(self.places[self.free, 2] < self.lowest_level)
+        there = ~(here[self.free, 2] < self.lowest_level)
         if way[there].max(initial=0.0) > REST_WAY * self.smallest:
             self.stood_at, self.stood_since = here, self.time
         return self.time - self.stood_since > REST_TIME
 
     def quieten(self) -> None:
         """Damp what moves slowly, so that it comes to rest; what falls loses a twentieth of its acceleration at most."""
-        speed, turning = (np.linalg.norm([self.body[name + c][:, 0] for c in "xyz"], axis=0) for name in ("v", "w"))
+        speed, turning = (np.linalg.norm(self._of_all(name + "x"), axis=1) for name in ("v", "w"))
         self.body["local"] = np.where(speed + self.body["r"] * turning < SLOW, QUIETENED, 0.0)
 
     # -- the start -------------------------------------------------------------------------------------------------
