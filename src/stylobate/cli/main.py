@@ -26,6 +26,7 @@ from . import (
     draw,
     fragility,
     ida,
+    infer,
     limit,
     materials,
     motion,
@@ -81,7 +82,7 @@ def _passing_on() -> Iterator[None]:
 
 
 for _room in (
-    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, motion,
+    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer, motion,
     spectrum, columns, draw, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]

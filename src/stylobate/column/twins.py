@@ -41,5 +41,10 @@ def drawn_twins(
     structure: Structure, scatter: Scatter, number: int, seed: int, *, space: bool = False
 ) -> list[tuple[Any, float]]:
     """The same, each with the share of its offsets that is left: below 1 where its stones would have overlapped."""
-    streams = np.random.default_rng(seed).spawn(number)
-    return [TWIN_OF[structure.kind](structure, scatter, stream, k, space) for k, stream in enumerate(streams)]
+    return [drawn_twin(structure, scatter, k, seed, space=space) for k in range(number)]
+
+
+def drawn_twin(structure: Structure, scatter: Scatter, k: int, seed: int, *, space: bool = False) -> tuple[Any, float]:
+    """Twin k of a seed alone, as :func:`drawn_twins` gives it: where there are many, each is made when it is asked for."""
+    stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(k,)))
+    return TWIN_OF[structure.kind](structure, scatter, stream, k, space)
