@@ -217,7 +217,7 @@ def angles_of(directions: np.ndarray, turn: float) -> np.ndarray:
     return np.arctan2(directions[..., 1], directions[..., 0]) * turn / (2.0 * np.pi) % turn
 
 
-def apart(angles: np.ndarray, middle: float, turn: float) -> np.ndarray:
+def apart(angles: np.ndarray | float, middle: float, turn: float) -> np.ndarray:
     """How far directions are from one of them, the shorter way round [degrees]."""
     return (np.asarray(angles) - middle + 0.5 * turn) % turn - 0.5 * turn
 

@@ -77,7 +77,7 @@ class Answers:
     """
 
     def __init__(self, table: Simulations, facts: Sequence[Fact], seed: int) -> None:
-        self.table, self.facts = table, tuple(facts)
+        self.table, self.facts, self.seed = table, tuple(facts), seed
         self.scores = {name: abc.Scores(table.parameters[name]) for name in TOLD if name != "azimuth_deg"}
         directions = abc.vectors(table.parameters["azimuth_deg"], table.prior.turn)
         self.targets = np.column_stack([*(one.scores for one in self.scores.values()), directions])
@@ -173,19 +173,20 @@ class Answers:
         fallen = sum(fact.kind == "state" and fact.value[0] == 1.0 for fact in self.facts)
         standing = sum(fact.kind == "state" for fact in self.facts) - fallen
         none = FALLS_OTHERWISE**fallen * (1.0 - FALLS_OTHERWISE) ** standing
-        told = [fact for fact in self.facts if fact.kind not in EVENTS]
+        told = [fact for fact in self.facts if fact.kind in ("offset", "twist")]  # a fall has any direction either way
         if not told:
             return share, none, False
-        stream = np.random.default_rng([0, 2])
-        made = [_undisturbed(fact, stream) for fact in told]
-        found = features(
-            told, [np.vstack((self.values[one][which], [one.value], more)) for one, more in zip(told, made)]
-        )
-        draws, points = abc.summaries(found[: len(which)], self.targets[which], found[len(which) :])
-        reach = np.sort(np.linalg.norm(draws - points[0], axis=1))[max(20, int(NEAR * len(which))) - 1]
-        near = float(np.mean(np.linalg.norm(points[1:] - points[0], axis=1) <= reach))
-        at_most = near == 0.0
-        return share * max(20, int(NEAR * len(which))) / len(which), none * max(near, 1.0 / NONE_MADE), at_most
+        stream = np.random.default_rng([self.seed, 2])
+        made = [fact.sd * stream.standard_normal((NONE_MADE, len(fact.value))) for fact in told]
+        values = [
+            np.vstack(([fact.value], self.values[fact][which], one)) for fact, one in zip(told, made, strict=True)
+        ]
+        found = features(told, values, sizes=True)
+        away = np.linalg.norm((found[1:] - found[0]) / (found[1 : len(which) + 1].std(axis=0) + 1e-12), axis=1)
+        near = max(FEWEST // 5, int(NEAR * len(which)))
+        reach = np.sort(away[: len(which)])[near - 1]
+        beside = float(np.mean(away[len(which) :] <= reach))
+        return share * near / len(which), none * max(beside, 1.0 / NONE_MADE), beside == 0.0
 
     def by_likelihood(self) -> Posterior:
         """PGV by a synthetic likelihood, over the draws that match all events."""
@@ -198,13 +199,6 @@ class Answers:
         scores = self.scores["pgv_m_s"]
         low, middle, high = scores.value(abc.quantiles(scores.scores[which], weights)).tolist()
         return Posterior(middle, low, high, abc.spread(scores.scores[which], weights))
-
-
-def _undisturbed(fact: Fact, stream: np.random.Generator) -> np.ndarray:
-    """What would be measured where nothing has moved; of a fall without an earthquake any direction."""
-    if fact.kind == "fell towards":
-        return stream.uniform(0.0, 360.0, (NONE_MADE, 1))
-    return fact.sd * stream.standard_normal((NONE_MADE, len(fact.value)))
 
 
 def words_of(name: str, one: Posterior) -> str:

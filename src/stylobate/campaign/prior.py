@@ -27,7 +27,17 @@ RANGES = {
 LOGARITHMIC = ("pgv", "pga", "period", "scale")
 
 #: Names of the uniform numbers of a draw, in their order, which is part of what a seed means.
-DRAWN = ("size", "period", "azimuth", "ellipticity", "cycles", "phase", "law", "stiffness_damping", "record")
+DRAWN: tuple[str, ...] = (
+    "size",
+    "period",
+    "azimuth",
+    "ellipticity",
+    "cycles",
+    "phase",
+    "law",
+    "stiffness_damping",
+    "record",
+)
 
 #: Laws of contact of round faces, and damping of joints [s], where nothing else is said: nobody has measured them.
 LAWS, LOSSES = ("rim", "bed"), (1e-4, 3e-4, 1e-3)
@@ -200,7 +210,7 @@ class Draws:
             found |= {"pgv_m_s": pgv, "pga_g": pgv * unit}
         found |= {"law": self.one_of("law", prior.law).astype(float)}
         damping = np.array(prior.stiffness_damping)
-        return found | {"stiffness_damping_s": damping[self.one_of("stiffness_damping", damping)]}
+        return found | {"stiffness_damping_s": damping[self.one_of("stiffness_damping", prior.stiffness_damping)]}
 
     def motion(self, k: int) -> Motion:
         """The motion of draw k."""
