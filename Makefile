@@ -1,4 +1,4 @@
-# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | peers | thresholds | references | populations | docs | lock | clean
+# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
@@ -18,7 +18,7 @@ endif
 # What is imported is compiled when it is first imported, and kept: a tenth of what is installed.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench peers thresholds references populations docs lock clean
+.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
 
 install: $(STAMP)
 	@:
@@ -99,6 +99,9 @@ references: install
 # Many scenes in space at once: turned and renumbered, tumbles, collapses; NAMES="tumbling" for some of them.
 populations: install
 	@PYTHONPATH=tests $(BIN)/python -m validation.in_space.populations $(NAMES)
+
+ruins: install
+	@PYTHONPATH=tests $(BIN)/python -m validation.ruins.figures demo/ruins
 
 docs: $(DOCS_STAMP)
 	@echo "Running the examples and the validation cases, then writing the pages (two minutes)"

@@ -9,6 +9,7 @@ from .analysis.evidence import evidence as evidence
 from .analysis.fragility import fragility as fragility
 from .analysis.hazard import read_hazard as read_hazard
 from .analysis.ida import ida as ida
+from .analysis.infer import infer as infer
 from .analysis.limit import limit_analysis as limit_analysis
 from .analysis.limit_directions import limit_directions as limit_directions
 from .analysis.pushover import pushover as pushover
@@ -23,6 +24,10 @@ from .analysis.studies import run_study as run_study
 from .analysis.suite import suite_table as suite_table
 from .campaign.campaign import Campaign as Campaign
 from .campaign.cases import Study as Study
+from .campaign.prior import Prior as Prior
+from .campaign.ruin import Observed as Observed
+from .campaign.ruin import Ruin as Ruin
+from .campaign.ruin_files import read_ruin as read_ruin
 from .column import AsFound as AsFound
 from .column import Column as Column
 from .column import Drum as Drum

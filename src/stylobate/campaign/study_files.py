@@ -144,7 +144,7 @@ def _motions(table: MotionsTable, folder: Path) -> tuple[Sequence[Motion], dict[
 
     def expanded(patterns: Sequence[str]) -> Suite:
         return MotionRequest(
-            files=tuple(_listed(patterns, folder)),
+            files=tuple(listed(patterns, folder)),
             separate=True,
             unit=table.unit,
             component=_component(table.components),
@@ -203,7 +203,16 @@ def _of_grid(path: str | Path) -> Study:
     return Study([grid.column], motions, [grid.model], campaign=Campaign(tail=grid.tail))
 
 
-def _listed(patterns: Sequence[str], folder: Path) -> list[str | Path]:
+def listed(patterns: Sequence[str], folder: Path, table: str = "[motions]", file: str = "study") -> list[str | Path]:
+    """Files of records as a file names them: paths and patterns from its folder, and samples.
+
+    Parameters
+    ----------
+    patterns : sequence of str
+    folder : Path
+    table, file : str
+        What messages call the table, and the file that it stands in.
+    """
     found: list[str | Path] = []
     for pattern in patterns:
         if pattern.startswith(PREFIX):
@@ -213,13 +222,13 @@ def _listed(patterns: Sequence[str], folder: Path) -> list[str | Path]:
             matches: list[Path] = sorted(folder.glob(pattern)) if not Path(pattern).is_absolute() else [Path(pattern)]
             if not matches:
                 raise InputError(
-                    f"no file matches {pattern!r} in [motions]; paths start from the folder of the study file."
+                    f"no file matches {pattern!r} in {table}; paths start from the folder of the {file} file."
                 )
             found += matches
         else:
             found.append(folder / pattern)
     if not found:
-        raise InputError("the study names no record; give files = [...] in [motions].")
+        raise InputError(f"the {file} names no record; give some in {table}.")
     return found
 
 

@@ -28,6 +28,7 @@ from . import (
     export,
     fragility,
     ida,
+    infer,
     limit,
     materials,
     motion,
@@ -83,7 +84,7 @@ def _passing_on() -> Iterator[None]:
 
 
 for _room in (
-    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, motion,
+    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer, motion,
     spectrum, columns, draw, convert, materials, animate, export, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]

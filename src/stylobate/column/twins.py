@@ -50,6 +50,16 @@ def drawn_twins(
 
     ``stiffness`` are draws of what the joints of each column have in common, where columns share them.
     """
-    streams, make = np.random.default_rng(seed).spawn(number), TWIN_OF[structure.kind]
     shared = [()] * number if stiffness is None else [(float(one),) for one in stiffness]
-    return [make(structure, scatter, stream, k, space, *shared[k]) for k, stream in enumerate(streams)]
+    return [drawn_twin(structure, scatter, k, seed, *shared[k], space=space) for k in range(number)]
+
+
+def drawn_twin(
+    structure: Structure, scatter: Scatter, k: int, seed: int, *shared: float, space: bool = False
+) -> tuple[Any, float]:
+    """Twin k of a seed alone, as :func:`drawn_twins` gives it: where there are many, each is made when it is asked for.
+
+    ``shared`` is the draw of what its joints have in common, where columns share it.
+    """
+    stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(k,)))
+    return TWIN_OF[structure.kind](structure, scatter, stream, k, space, *shared)

@@ -11,6 +11,7 @@ from .filmstrip import draw_filmstrip
 from .fragility import draw_fragility
 from .histories import draw_comparison, draw_histories
 from .ida import draw_efficiency, draw_ida
+from .inference import draw_matches, draw_observations, draw_posterior
 from .joint_plans import draw_sheet
 from .joints import draw_joints
 from .limit_directions import draw_limit_directions
@@ -48,9 +49,12 @@ __all__ = [
     "draw_ida",
     "draw_joints",
     "draw_limit_directions",
+    "draw_matches",
     "draw_mechanism",
     "draw_motion",
+    "draw_observations",
     "draw_orbit",
+    "draw_posterior",
     "draw_probability",
     "draw_pushover",
     "draw_record_verdicts",

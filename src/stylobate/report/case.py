@@ -35,6 +35,7 @@ TITLES = {
     "fragility": "fragility",
     "risk": "risk",
     "survival": "survival",
+    "infer": "what shaking it was",
     "study": "study",
 }
 

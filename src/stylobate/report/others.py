@@ -24,6 +24,7 @@ from ..results.kinds import Grid
 from . import numbers as n
 from .certainty import OF_TWINS
 from .critical import critical_result
+from .inference import inference_result
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import kept
 from .record import (
@@ -88,6 +89,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
         parts.append(sources_section(cite_run(result.data.provenance)))
     else:
         keys += [key for motion in (asked.motions if asked is not None else ()) for key in motion.get("references", ())]
+        keys += ["beaumont2002", "fearnhead2012", "wood2010", "mavroeidis2003"] if result.kind is Kind.INFER else []
         keys += ["baraldi"] if result.kind in (Kind.PUSHOVER, Kind.LIMIT) else []
         parts.append(sources_section(cite(keys)))
     return parts
@@ -280,6 +282,7 @@ _TELL: dict[Kind, Callable[[Any], tuple[tuple[str, str], list[Item]]]] = {
     Kind.FRAGILITY: fragility_result,
     Kind.RISK: risk_result,
     Kind.SURVIVAL: survival_result,
+    Kind.INFER: inference_result,
     Kind.COMPARE: _compare,
     Kind.STUDY: _study,
 }

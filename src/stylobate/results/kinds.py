@@ -38,6 +38,7 @@ class Kind(Enum):
     FRAGILITY = "fragility"
     RISK = "risk"
     SURVIVAL = "survival"
+    INFER = "infer"
     STUDY = "study"
 
 

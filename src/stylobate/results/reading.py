@@ -42,6 +42,7 @@ KEYS = {
     Kind.FRAGILITY: ("median", "beta", "im", "state", "sentence"),
     Kind.RISK: ("annual_rate", "return_period_y"),
     Kind.SURVIVAL: ("hazards",),
+    Kind.INFER: ("posterior", "accepted", "bayes_factor_no_earthquake"),
 }
 
 #: Tables beside an object.
@@ -51,6 +52,7 @@ TABLES = {
     Kind.SUITE: ("suite",),
     Kind.IDA: ("capacities", "fractiles", "measures"),
     Kind.RISK: ("risk",),
+    Kind.INFER: ("draws", "observations"),
 }
 
 #: Further files by kind, a picture by its name without an ending, besides the one that is called after the kind.
@@ -60,6 +62,7 @@ FURTHER = {
     Kind.LIMIT: ("directions",),
     Kind.IDA: ("measures",),
     Kind.RUNS: ("directions",),
+    Kind.INFER: ("observations", "matches"),
     Kind.STATES: ("links.csv",),
 }
 
@@ -217,6 +220,7 @@ _READERS: dict[str, Callable[[Path], Result]] = {
     "fragility.json": _read_numbers(Kind.FRAGILITY),
     "risk.json": _read_numbers(Kind.RISK),
     "survival.json": _read_numbers(Kind.SURVIVAL),
+    "infer.json": _read_numbers(Kind.INFER),
 }
 
 

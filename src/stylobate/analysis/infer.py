@@ -1,0 +1,252 @@
+"""What shaking was it? A posterior of past shaking from what stands, has fallen and is out of place."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Unpack
+
+import numpy as np
+
+from ..campaign.campaign import USUAL, Campaign, Computing, campaigning
+from ..campaign.ruin import Fact, Ruin
+from ..campaign.ruin_files import read_ruin
+from ..campaign.simulations import TAIL, simulations_of
+from ..errors import InputError, check_kind
+from . import abc
+from .answers import CALLED, FEWEST, TOLD, Answers, Posterior, listed, words_of
+from .ruin_check import Checked, checks_of
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True, eq=False)
+class Inference:
+    """The answer: what shaking it was, as far as shapes tell.
+
+    Parameters
+    ----------
+    ruin : Ruin
+    answers : Answers
+        Of the table's draws that could be computed.
+    failed : int
+        Draws that could not.
+    wall_time : float
+        [s]
+    """
+
+    ruin: Ruin
+    answers: Answers
+    failed: int = 0
+    wall_time: float = field(default=0.0)
+
+    @cached_property
+    def taken(self) -> abc.Accepted:
+        """Accepted draws."""
+        return self.answers.to(self.answers.facts)
+
+    @cached_property
+    def posterior(self) -> dict[str, Posterior]:
+        """PGV, PGA, period and azimuth."""
+        return self.answers.posterior(self.taken)
+
+    @property
+    def informative(self) -> bool:
+        """Whether the shapes tell the PGV."""
+        return self.posterior["pgv_m_s"].informative
+
+    @cached_property
+    def bayes_factor(self) -> tuple[float, bool]:
+        """How many times more probable what is seen is under the prior than without any earthquake; whether at least."""
+        one, none, at_least = self.answers.shares()
+        return one / none, at_least
+
+    @cached_property
+    def told(self) -> list[dict[str, Any]]:
+        """What each fact tells: what is left of the prior's spread of ln PGV with it alone, and without it."""
+        rows = []
+        for fact in self.answers.facts:
+            alone = self.answers.spread_of_pgv(self.answers.alone(fact))
+            without = self.answers.spread_of_pgv(self.answers.without(fact))
+            rows.append({"observation": fact.label, "spread_alone": alone, "spread_without": without})
+        return rows
+
+    @cached_property
+    def checks(self) -> list[Checked]:
+        """Whether each thing seen is inside what all else predicts."""
+        return checks_of(self.answers, FEWEST)
+
+    @property
+    def odd(self) -> list[Checked]:
+        """Things seen that all else does not predict."""
+        return [one for one in self.checks if one.odd]
+
+    @cached_property
+    def records(self) -> list[dict[str, Any]]:
+        """Named records by their probability, each with its Bayes factor against all the others together."""
+        records = self.ruin.prior.records
+        if not records:
+            return []
+        number, before = self.answers.table.parameters["record"].astype(int), 1.0 / len(records)
+        rows = []
+        for k, one in enumerate(records):
+            share = float(self.taken.weights[number[self.taken.which] == k].sum())
+            odds = share / (1.0 - share) * (1.0 - before) / before if share < 1.0 and before < 1.0 else None
+            rows.append({"record": one.name, "probability": share, "bayes_factor_against_others": odds})
+        return sorted(rows, key=lambda row: -row["probability"])
+
+    @property
+    def sentence(self) -> str:
+        """The answer, in a few sentences."""
+        pgv, said = self.posterior["pgv_m_s"], []
+        if pgv.informative:
+            said.append(f"The peak ground velocity was {words_of('pgv_m_s', pgv)} (90 %).")
+        told = [name for name, one in self.posterior.items() if one.informative and name != "pgv_m_s"]
+        said += [
+            f"{CALLED[name].capitalize() if name != 'pga_g' else 'PGA'} {words_of(name, self.posterior[name])}."
+            for name in told
+        ]
+        untold = [CALLED[name] for name, one in self.posterior.items() if not one.informative]
+        if untold:
+            said.append(f"The shapes do not tell {listed(untold)}: what they leave is the prior.")
+        factor, at_least = self.bayes_factor
+        if self.answers.facts:
+            least = "at least " * at_least
+            if factor >= 1.0:
+                said.append(
+                    f"What is seen is {least}{factor:.3g} times as probable with such an earthquake as with none."
+                )
+            else:
+                said.append(
+                    f"What is seen is {1.0 / factor:.3g} times as probable without any such earthquake as with one."
+                )
+        for one in self.odd:
+            said.append(f"{one.sentence}")
+        return " ".join(said)
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per parameter."""
+        import pandas
+
+        return pandas.DataFrame(
+            [{"parameter": CALLED[name], "unit": TOLD[name], **one.summary()} for name, one in self.posterior.items()]
+        )
+
+    @property
+    def draws(self) -> pandas.DataFrame:
+        """The accepted draws, the nearest first, with their weights."""
+        order = np.argsort(self.taken.distance, kind="stable")
+        some = self.answers.table.table.iloc[self.taken.which[order]]
+        return some.assign(weight=self.taken.weights[order], distance=self.taken.distance[order])
+
+    def summary(self) -> dict[str, Any]:
+        """The JSON object of ``stylobate infer``."""
+        factor, at_least = self.bayes_factor
+        cross = self.answers.by_likelihood()
+        return {
+            "sentence": self.sentence,
+            "posterior": {name: one.summary() for name, one in self.posterior.items()},
+            "informative": self.informative,
+            "bayes_factor_no_earthquake": factor,
+            "bayes_factor_is_at_least": at_least,
+            "simulations": len(self.answers.table),
+            "failed": self.failed,
+            "matching": len(self.answers.matching(self.answers.facts)),
+            "accepted": len(self.taken.which),
+            "effective": self.taken.effective,
+            "observations": self.told,
+            "checks": [one.summary() for one in self.checks],
+            "consistent": not self.odd,
+            "records": self.records,
+            "by_likelihood": {"pgv_m_s": cross.summary()},
+            "prior": self.ruin.prior.facts() | {"records": [one.name for one in self.ruin.prior.records]},
+            "columns": [one.name for one in self.ruin.structures],
+            "model": self.ruin.model.name,
+            "seed": self.ruin.seed,
+            "wall_s": self.wall_time,
+        }
+
+
+@campaigning(Computing, tail=TAIL)
+def infer(
+    ruin: Ruin | str | Path,
+    *,
+    out: str | Path | None = None,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Computing],
+) -> Inference:
+    """Infer what shaking left a ruin as it is: approximate Bayesian computation over one table of simulations.
+
+    Parameters
+    ----------
+    ruin : Ruin or path
+        Or the file that describes one.
+    out : path, optional
+        Folder that keeps the table (``simulations.npz``) and the finished runs: the next question to the same table takes
+        seconds, and more ``simulations`` add to it.
+    campaign : Campaign, optional
+
+    Returns
+    -------
+    Inference
+
+    Raises
+    ------
+    InputError
+        The ruin cannot be used; no draw of the prior leaves what is seen, or fewer than a hundred do.
+
+    References
+    ----------
+    Beaumont, Zhang and Balding (2002); Fearnhead and Prangle (2012).
+    """
+    began = time.perf_counter()
+    if not isinstance(ruin, Ruin):
+        ruin = read_ruin(check_kind("ruin", ruin, (str, Path)))
+    options = {"folder": out, "campaign": campaign}
+    table = simulations_of(ruin.simulated, ruin.prior, ruin.model, ruin.simulations, ruin.seed, **options)
+    sound = table.some(np.flatnonzero(table.sound))
+    answers = Answers(sound, ruin.facts, ruin.seed)
+    _refuse_few(answers)
+    return Inference(ruin, answers, len(table) - len(sound), time.perf_counter() - began)
+
+
+def _refuse_few(answers: Answers) -> None:
+    """Refuse what no draw, or too few of them, have left."""
+    which, count = answers.matching(answers.facts), len(answers.table)
+    if len(which) >= FEWEST:
+        return
+    if not len(which):
+        events = list(answers.matched)
+        rarest = min(events, key=lambda fact: int(answers.matched[fact].sum()))
+        share = int(answers.matched[rarest].sum())
+        never = f"none of them leaves {rarest.label!r}" if not share else (
+            f"the rarest of what is seen is {rarest.label!r}, which {share} of them leave"
+        )  # fmt: skip
+        agree = np.sum([answers.matched[fact] for fact in events], axis=0)
+        nearest = [_draw_words(answers, int(k), events) for k in np.argsort(-agree, kind="stable")[:3]]
+        raise InputError(
+            f"none of {count} simulations leaves all that is seen: {never}; the nearest are {'; '.join(nearest)}; widen the "
+            "prior, or raise `simulations`.",
+            "prior",
+        )
+    pgv = answers.posterior(answers.to(answers.facts))["pgv_m_s"]
+    wanted = int(np.ceil(1.2 * FEWEST * count / len(which) / 100.0) * 100)
+    raise InputError(
+        f"{len(which)} of {count} simulations leave what is seen, and {FEWEST} are needed: from these the PGV would be "
+        f"{words_of('pgv_m_s', pgv)} (90 %); raise `simulations` to about {wanted}, or leave out what is hardly ever left.",
+        "simulations",
+        value=count,
+    )
+
+
+def _draw_words(answers: Answers, k: int, events: Sequence[Fact]) -> str:
+    """A draw, and the events that it leaves otherwise."""
+    parameters = answers.table.parameters
+    other = [fact.label for fact in events if not answers.matched[fact][k]]
+    of = f"{parameters['pgv_m_s'][k]:.2g} m/s with {parameters['period_s'][k]:.2g} s"
+    return f"{of} (all but {listed([repr(one) for one in other])})"

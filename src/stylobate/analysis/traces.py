@@ -1,0 +1,104 @@
+"""What is seen of a ruin, and what every draw would have left in its place: events that match or not, and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations_with_replacement
+
+import numpy as np
+
+from ..campaign.ruin import Fact
+from ..campaign.simulations import FELL, STANDS, Simulations
+from .abc import vectors
+
+#: Kinds of facts that a draw matches or does not.
+EVENTS = ("state", "no slip above")
+
+#: Least scale of an offset and of a twist: smaller ones are alike [m], [degrees].
+LEAST_OFFSET, LEAST_TWIST = 1e-3, 0.1
+
+
+def matches(fact: Fact, table: Simulations) -> np.ndarray:
+    """Draws that leave an event as it is seen, shape (draws,)."""
+    left = table.left[fact.structure]
+    if fact.kind == "state":
+        return left.verdict == (FELL if fact.value[0] else STANDS)
+    return (left.verdict == STANDS) & (left.largest <= fact.value[0])
+
+
+def left_by(fact: Fact, table: Simulations, stream: np.random.Generator) -> np.ndarray:
+    """What every draw leaves in the place of a number that is seen, measured as badly as that one, shape (draws, values)."""
+    left = table.left[fact.structure]
+    if fact.kind == "fell towards":
+        exact = left.towards[:, None]
+    else:
+        exact = left.slip[:, fact.joint] if fact.kind == "offset" else left.twist[:, fact.joint, None]
+    return exact + fact.sd * stream.standard_normal(exact.shape)
+
+
+def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool = False) -> np.ndarray:
+    """Features of numbers that are seen, from which a regression expects parameters, shape (draws, features).
+
+    Lengths on a scale that is linear below what can be measured and logarithmic above it, of each joint and of the whole
+    structure, with products of those of structures; directions as axes and as senses.
+
+    Parameters
+    ----------
+    facts : sequence of Fact
+        That are no events.
+    values : sequence of array
+        Of each fact, shape (draws, values).
+    sizes : bool
+        How much has moved in each structure alone, not which joints and whereto.
+    """
+    levels: list[np.ndarray] = []
+    found: list[np.ndarray] = []
+    for structure in dict.fromkeys(fact.structure for fact in facts):
+        own = [(fact, one) for fact, one in zip(facts, values, strict=True) if fact.structure == structure]
+        for kind, of in (("offset", _of_offsets), ("twist", _of_twists), ("fell towards", _of_falls)):
+            some = [(fact, one) for fact, one in own if fact.kind == kind]
+            if some:
+                overall, each = of(some)
+                levels += overall
+                found += each
+    products = [one * other for one, other in combinations_with_replacement(levels, 2)]
+    columns = levels if sizes else [*levels, *found, *products]
+    return np.column_stack(columns) if columns else np.zeros((len(values[0]) if values else 0, 0))
+
+
+_Told = tuple[list[np.ndarray], list[np.ndarray]]
+
+
+def _of_offsets(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
+    each = np.stack([one for _, one in some], axis=1)  # (draws, joints, 2)
+    scale = np.array([max(fact.sd, LEAST_OFFSET) for fact, _ in some])
+    x, y = np.moveaxis(each, -1, 0)
+    length, square = np.hypot(x, y), x * x + y * y
+    overall = [np.arcsinh(length.max(axis=1) / scale.max())]
+    if len(some) > 1:
+        overall.append(np.arcsinh(np.sqrt(square.mean(axis=1)) / scale.max()))
+    bottom = square.sum(axis=1) + np.sum(scale**2)
+    axis = [(x * x - y * y).sum(axis=1) / bottom, (2.0 * x * y).sum(axis=1) / bottom]
+    long = length.sum(axis=1) + scale.sum()
+    found = [*axis, x.sum(axis=1) / long, y.sum(axis=1) / long]
+    if len(some) > 1:
+        found += [np.arcsinh(length / scale)[:, j] for j in range(len(some))]
+        found += [one[:, j] for one in _unit(x, y, scale) for j in range(len(some))]
+    return overall, found
+
+
+def _unit(x: np.ndarray, y: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Axes of offsets, twice their angle, short where an offset cannot be told from none."""
+    bottom = x * x + y * y + scale**2
+    return (x * x - y * y) / bottom, 2.0 * x * y / bottom
+
+
+def _of_twists(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
+    scale = np.array([max(fact.sd, LEAST_TWIST) for fact, _ in some])
+    sizes = np.arcsinh(np.abs(np.concatenate([one for _, one in some], axis=1)) / scale)
+    return [sizes.max(axis=1)], list(sizes.T) if len(some) > 1 else []
+
+
+def _of_falls(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
+    ((_, angle),) = some
+    return [], [*vectors(angle[:, 0], 180.0).T, *vectors(angle[:, 0], 360.0).T]

@@ -1,0 +1,256 @@
+"""A ruin: what stands there as it was built, what is seen of it now, and what shaking it may have been."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..column.structure import Structure
+from ..errors import InputError, check_all, check_choice, check_kind, check_range, check_whole, suggest
+from ..models.base import Model
+from .prior import MOST, Prior
+
+#: What may have become of a column; of the last two nothing follows for this earthquake.
+STATES = ("stands", "fell", "fell before", "unknown")
+
+#: Standard deviation of the azimuth of a fall where none is given [degrees].
+TOWARDS_SD = 15.0
+
+#: Draws of the prior where no number is given.
+USUAL_COUNT = 2000
+
+#: Offsets may exceed the largest that there shall be by so many of their standard deviations.
+BEYOND = 3.0
+
+
+@dataclass(frozen=True)
+class Observed:
+    """What is seen of one column or assembly.
+
+    Parameters
+    ----------
+    column : str
+        Its name.
+    state : {"stands", "fell", "fell before", "unknown"}
+        ``fell before`` another earthquake or by another cause: nothing follows for this one.
+    fell_towards : float, optional
+        Azimuth of the fall, from x towards y [degrees].
+    towards_sd : float, optional
+        Its standard deviation [degrees], 15 by default.
+    offsets : sequence of (joint, x, y, sd)
+        Offset vectors of joints along x and y, and the standard deviation of each component [m]; joints by their number, 1
+        at the base.
+    twists : sequence of (joint, angle, sd)
+        Twists of joints, from x towards y [degrees].
+    no_slip_above : float, optional
+        No joint is out of place by more than this [m].
+
+    Raises
+    ------
+    InputError
+        A number that is not allowed, or observations that contradict one another.
+    """
+
+    column: str
+    state: str = "unknown"
+    fell_towards: float | None = None
+    towards_sd: float | None = None
+    offsets: Sequence[tuple[int, float, float, float]] = ()
+    twists: Sequence[tuple[int, float, float]] = ()
+    no_slip_above: float | None = None
+
+    def __post_init__(self) -> None:
+        check_choice("`state`", self.state, STATES, field="state")
+        stands = bool(self.offsets) or bool(self.twists) or self.no_slip_above is not None
+        if stands and self.state != "stands":
+            raise InputError(
+                f"state is {self.state!r}, and a slip or a twist is given: what fell has none; leave them out, or give "
+                "state = 'stands'.",
+                "offsets" if self.offsets else "twists" if self.twists else "no_slip_above",
+            )
+        if self.state != "fell" and (self.fell_towards is not None or self.towards_sd is not None):
+            raise InputError(
+                f"state is {self.state!r}, and fell_towards is given; leave it out, or give state = 'fell'.",
+                "fell_towards",
+            )
+        if self.towards_sd is not None and self.fell_towards is None:
+            raise InputError("`towards_sd` is given without `fell_towards`; give both.", "towards_sd")
+        if self.fell_towards is not None:
+            check_range("`fell_towards`", self.fell_towards, -360.0, 360.0, unit="degrees")
+            sd = TOWARDS_SD if self.towards_sd is None else self.towards_sd
+            object.__setattr__(
+                self, "towards_sd", check_range("`towards_sd`", sd, 0.0, 90.0, unit="degrees", open_low=True)
+            )
+        if self.no_slip_above is not None:
+            check_range("`no_slip_above`", self.no_slip_above, 0.0, 100.0, unit="m", open_low=True)
+        for name, numbers in (("offsets", 4), ("twists", 3)):
+            rows = tuple(tuple(one) for one in getattr(self, name))
+            for row in rows:
+                self._check_row(name, row, numbers)
+            joints = [row[0] for row in rows]
+            if twice := next((joint for joint in joints if joints.count(joint) > 1), None):
+                raise InputError(f"joint {twice} is given twice in `{name}`; give each joint once.", name)
+            object.__setattr__(self, name, rows)
+        for joint, x, y, sd in self.offsets if self.no_slip_above is not None else ():
+            if math.hypot(x, y) > self.no_slip_above + BEYOND * sd:  # type: ignore[operator]
+                raise InputError(
+                    f"joint {joint} is {1e3 * math.hypot(x, y):.3g} mm out of place, and no_slip_above is "
+                    f"{1e3 * self.no_slip_above:.3g} mm; one of the two is wrong.",  # type: ignore[operator]
+                    "no_slip_above",
+                )
+
+    @staticmethod
+    def _check_row(name: str, row: tuple, numbers: int) -> None:
+        example = "[2, 0.031, -0.012, 0.003]" if numbers == 4 else "[2, 4.0, 1.0]"
+        if len(row) != numbers:
+            said = "joint, x, y and sd" if numbers == 4 else "joint, angle and sd"
+            raise InputError(f"a row of `{name}` is {list(row)}; allowed are {said}, such as {example}.", name)
+        check_whole(f"joint of a row of `{name}`", row[0], 1, remedy="1 is at the base", field=name)
+        limit, unit = (100.0, "m") if numbers == 4 else (360.0, "degrees")
+        for one in row[1:-1]:
+            check_range(f"a number of `{name}`", one, -limit, limit, unit=unit, field=name)
+        check_range(f"sd of a row of `{name}`", row[-1], 0.0, limit, unit=unit, open_low=True, field=name)
+
+
+@dataclass(frozen=True)
+class Fact:
+    """One thing that is seen.
+
+    Parameters
+    ----------
+    structure : int
+        Number of what it is seen of, among those that are simulated.
+    kind : {"state", "no slip above", "fell towards", "offset", "twist"}
+    label : str
+        In words.
+    value : tuple of float
+        Of a state 1 for fell, 0 for stands.
+    sd : float
+        Standard deviation of each value; 0 of what is told apart without one.
+    joint : int
+        From 0.
+    """
+
+    structure: int
+    kind: str
+    label: str
+    value: tuple[float, ...]
+    sd: float = 0.0
+    joint: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Ruin:
+    """Structures of one site, what is seen of them, and what may have shaken them.
+
+    Parameters
+    ----------
+    structures : sequence of Column or SpatialAssembly
+        As they were built.
+    observed : sequence of Observed
+    prior : Prior
+    simulations : int
+        Draws of the prior.
+    seed : int
+    model : Model
+        In space.
+
+    Raises
+    ------
+    InputError
+        A column or a joint that is not there, one that is seen twice, a slip beyond a drum.
+    """
+
+    structures: Sequence[Structure]
+    observed: Sequence[Observed]
+    prior: Prior
+    simulations: int = USUAL_COUNT
+    seed: int = 0
+    model: Model = field(default_factory=lambda: _usual_model())
+
+    def __post_init__(self) -> None:
+        structures = tuple(check_all("structures", self.structures, Structure))
+        observed = tuple(check_all("observed", self.observed, Observed))
+        check_kind("prior", self.prior, Prior)
+        check_kind("model", self.model, Model)
+        check_whole("`simulations`", self.simulations, 1, MOST)
+        check_whole("`seed`", self.seed, 0, 2**31)
+        names = [one.name for one in structures]
+        if not names:
+            raise InputError("the ruin names no column; give at least one in `columns`.", "columns")
+        if twice := next((name for name in names if names.count(name) > 1), None):
+            raise InputError(f"two columns are called {twice!r}; give each a name of its own.", "columns")
+        seen = [one.column for one in observed]
+        if twice := next((name for name in seen if seen.count(name) > 1), None):
+            raise InputError(
+                f"{twice!r} is observed twice; put all that is seen of it into one [[observed]].", "column"
+            )
+        for one in observed:
+            if one.column not in names:
+                raise InputError(
+                    f"{one.column!r} is observed, and is no column of the ruin; {suggest(one.column, names)}known are "
+                    f"{', '.join(names)}.",
+                    "column",
+                )
+            self._check_joints(one, structures[names.index(one.column)])
+        object.__setattr__(self, "structures", structures)
+        object.__setattr__(self, "observed", observed)
+
+    @staticmethod
+    def _check_joints(one: Observed, structure: Structure) -> None:
+        count = len(structure.face_pairs)
+        for name, row in [("offsets", row) for row in one.offsets] + [("twists", row) for row in one.twists]:
+            if row[0] > count:
+                raise InputError(
+                    f"{name} name joint {row[0]}, and {one.column!r} has {count} joint{'s' * (count > 1)}, counted "
+                    "from the base.",
+                    name,
+                )
+        column = structure.stack
+        for joint, x, y, _ in one.offsets if column is not None else ():
+            width = float(column.joint_widths[joint - 1])  # type: ignore[union-attr]
+            if math.hypot(x, y) >= width:
+                raise InputError(
+                    f"joint {joint} of {one.column!r} is {math.hypot(x, y):.3g} m out of place, and {width:.3g} m wide: its "
+                    "drum would have fallen; offsets are in metres.",
+                    "offsets",
+                )
+
+    @property
+    def told(self) -> list[Observed]:
+        """Those of which something is seen that follows from this earthquake."""
+        return [one for one in self.observed if one.state in ("stands", "fell")]
+
+    @property
+    def simulated(self) -> list[Structure]:
+        """Structures of which something is seen."""
+        by_name = {one.name: one for one in self.structures}
+        return [by_name[one.column] for one in self.told]
+
+    @property
+    def facts(self) -> list[Fact]:
+        """All that is seen, one by one."""
+        found: list[Fact] = []
+        for i, one in enumerate(self.told):
+            fell, name = one.state == "fell", one.column
+            found.append(Fact(i, "state", f"{name} {one.state}", (float(fell),)))
+            if one.no_slip_above is not None:
+                bound = one.no_slip_above
+                found.append(Fact(i, "no slip above", f"{name}: no slip above {1e3 * bound:.3g} mm", (bound,)))
+            if one.fell_towards is not None:
+                label = f"{name} fell towards {one.fell_towards:g}°"
+                found.append(Fact(i, "fell towards", label, (one.fell_towards,), one.towards_sd or TOWARDS_SD))
+            for joint, x, y, sd in one.offsets:
+                label = f"{name}: offset of joint {joint}, {1e3 * math.hypot(x, y):.3g} mm"
+                found.append(Fact(i, "offset", label, (x, y), sd, joint - 1))
+            for joint, angle, sd in one.twists:
+                found.append(Fact(i, "twist", f"{name}: twist of joint {joint}, {angle:.3g}°", (angle,), sd, joint - 1))
+        return found
+
+
+def _usual_model() -> Any:
+    from ..models.registry import make_model
+
+    return make_model("dem3d", {})

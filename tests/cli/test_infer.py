@@ -1,0 +1,126 @@
+"""``stylobate infer``: a ruin file in, a posterior out; what is no ruin is refused in a sentence."""
+
+import json
+
+import pytest
+
+from stylobate.cli.main import call
+
+COLUMN = """
+name = "{name}"
+section = "circular"
+density = 2600.0
+[tapered]
+height = {height}
+bottom_width = 0.8
+top_width = 0.7
+drums = 2
+[joint]
+normal_stiffness = 2e8
+shear_stiffness = 2e8
+friction_coefficient = 0.67
+"""
+
+RUIN = """
+columns = ["low.toml", "high.toml"]
+simulations = 300
+seed = 1
+{more}
+[[observed]]
+column = "low.toml"
+state = "stands"
+{low}
+[[observed]]
+column = "high"
+state = "{high}"
+{fell}
+[prior]
+pgv = {pgv}
+period = [0.4, "1.5s"]
+law = ["rim"]
+stiffness_damping = [1e-4]
+"""
+
+
+@pytest.fixture
+def ruin(tmp_path):
+    def written(low="", high="stands", fell="", pgv="[0.1, 2.0]", more=""):
+        for name, height in (("low", 3.0), ("high", 6.0)):
+            (tmp_path / f"{name}.toml").write_text(COLUMN.format(name=name, height=height))
+        file = tmp_path / "ruin.toml"
+        file.write_text(RUIN.format(low=low, high=high, fell=fell, pgv=pgv, more=more))
+        return file
+
+    return written
+
+
+def test_answer_and_its_files(ruin, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert call(["infer", str(ruin(low="offsets = [[1, 0.002, 0.001, 0.003]]")), "--out", str(out), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert set(told["posterior"]) == {"pgv_m_s", "pga_g", "period_s", "azimuth_deg"}
+    for one in told["posterior"].values():
+        assert one["low"] <= one["median"] <= one["high"]
+    assert told["simulations"] + told["failed"] == 300
+    assert 100 <= told["accepted"] <= told["matching"]
+    assert told["informative"] is True
+    assert (
+        told["posterior"]["pgv_m_s"]["high"] < 1.9
+    )  # what stands with 2 mm was not shaken by the largest of the prior
+    for name in (
+        "infer.json",
+        "infer.png",
+        "matches.png",
+        "observations.csv",
+        "draws.csv",
+        "simulations.npz",
+        "runs.sqlite",
+    ):
+        assert (out / name).is_file(), name
+    # another question to the same table: no run is made
+    before = (out / "runs.sqlite").stat().st_mtime_ns
+    assert call(["infer", str(ruin(low="no_slip_above = 0.02")), "--out", str(out), "--no-pictures"]) == 0
+    assert "peak ground velocity" in capsys.readouterr().out
+    assert (out / "runs.sqlite").stat().st_mtime_ns == before
+    assert call(["report", str(out), "--out", str(tmp_path / "report.html")]) == 0
+
+
+def test_nothing_seen_leaves_the_prior(ruin, capsys):
+    file = ruin(high="unknown")
+    file.write_text(file.read_text().replace('state = "stands"', 'state = "fell before"'))
+    assert call(["infer", str(file), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["informative"] is False
+    assert told["accepted"] == told["simulations"] == 300
+    assert "do not tell PGV" in told["sentence"]
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"high": "fell", "fell": "offsets = [[1, 0.01, 0.0, 0.002]]"}, "what fell has none"),
+        ({"fell": "fell_towards = 30"}, "leave it out, or give state"),
+        ({"low": "offsets = [[3, 0.01, 0.0, 0.002]]"}, "'low' has 2 joints"),
+        ({"low": "offsets = [[1, 0.01, 0.0]]"}, "joint, x, y and sd"),
+        ({"low": "offsets = [[1, 0.01, 0.0, 0.0]]"}, "allowed is \\(0"),
+        ({"low": "offsets = [[1, 20, 3, 1]]"}, "offsets are in metres"),
+        ({"low": "offsets = [[1, 0.05, 0.0, 0.001]]\nno_slip_above = 0.01"}, "one of the two is wrong"),
+        ({"low": "twist = [[1, 2.0, 1.0]]"}, "unknown key 'twist'"),
+        ({"high": "leans"}, "allowed are stands, fell"),
+        ({"more": 'model = "dem2d"'}, "ruins have directions"),
+        ({"more": "set = {law = 'bed'}"}, "is drawn with the motions"),
+        (
+            {"high": "fell", "pgv": "[0.01, 0.02]"},
+            "none of 300 simulations leaves all that is seen.*'high fell'.*nearest are",
+        ),
+        ({"low": "no_slip_above = 0.000001", "pgv": "[0.3, 2.0]"}, "are needed: from these the PGV would be"),
+    ],
+)
+def test_what_is_no_ruin_is_refused(ruin, tmp_path, capsys, fields, said):
+    import re
+
+    out = tmp_path / "out"
+    assert call(["infer", str(ruin(**fields)), "--out", str(out)]) == 2
+    told = capsys.readouterr().err
+    assert re.search(said, told), told
+    assert not (out / "infer.json").exists()

@@ -1,0 +1,217 @@
+"""Is the posterior of past shaking right? Ruins that are made, inferred without their draw; renewed by ``make ruins``."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from scipy.stats import chi2
+
+import stylobate as st
+from stylobate.analysis import abc
+from stylobate.analysis.answers import FEWEST, TOLD, Answers
+from stylobate.analysis.infer import infer
+from stylobate.analysis.ruin_check import checks_of
+from stylobate.campaign.campaign import Campaign
+from stylobate.campaign.prior import Prior
+from stylobate.campaign.ruin import Fact, Observed, Ruin
+from stylobate.campaign.simulations import FELL, TAIL, Simulations, simulations_of
+
+#: Where the figures are kept.
+KEPT = Path(__file__).with_name("figures.json")
+
+#: Draws of the table and of that with the prior of the figures by a forest; ruins that are made.
+DRAWS, FOREST_DRAWS, RUINS, MORE = 4000, 1600, 200, 1000
+
+#: Errors of a survey: offsets [m], azimuths of falls [degrees].
+OFFSET_SD, TOWARDS_SD = 0.003, 15.0
+
+
+def three_columns() -> list[st.Column]:
+    """Round columns of 5 m, 6 m and 3.5 m, of three to five drums."""
+    joint = st.Joint(normal_stiffness=5e9, shear_stiffness=5e9, friction_coefficient=0.67)
+    sizes = {"A": (5.0, 0.80, 0.68, 4), "B": (6.0, 0.90, 0.76, 5), "C": (3.5, 0.60, 0.52, 3)}
+    return [
+        st.Column.tapered(
+            height=height, bottom_width=low, top_width=high, drums=drums, section="circular", density=2600.0, joint=joint,
+            name=name,
+        )
+        for name, (height, low, high, drums) in sizes.items()
+    ]  # fmt: skip
+
+
+#: What shaking may have been: all that is not known is drawn; and as the forest had it, one law without losses.
+USUAL = Prior(pgv=(0.1, 1.5), period=(0.3, 1.6))
+OF_FOREST = Prior(
+    pga=(0.15, 0.8), period=(0.3, 1.6), law=("rim",), stiffness_damping=(0.0,),
+    scatter=st.Scatter(0.11, 0.2, 0.02, 0.005, 0.005, 0.0),
+)  # fmt: skip
+
+
+def table_of(prior: Prior, count: int, folder: str | Path | None = None, columns=None) -> Simulations:
+    """Table of the columns under a prior."""
+    columns = three_columns() if columns is None else columns
+    campaign = Campaign(tail=TAIL)
+    return simulations_of(columns, prior, st.DistinctElement3D(), count, 1, folder=folder, campaign=campaign)
+
+
+def seen_of(
+    table: Simulations, k: int, stream: np.random.Generator, sd: float = OFFSET_SD, falls: bool = True
+) -> list[Fact]:
+    """What a survey sees of draw k: states, azimuths of falls, offsets of all joints; states alone with an infinite sd."""
+    facts = []
+    for i, left in enumerate(table.left):
+        fell = left.verdict[k] == FELL
+        facts.append(Fact(i, "state", f"{left.name} {'fell' if fell else 'stands'}", (float(fell),)))
+        if fell and falls:
+            towards = left.towards[k] + TOWARDS_SD * stream.standard_normal()
+            facts.append(Fact(i, "fell towards", f"{left.name} fell towards {towards:.0f}", (towards,), TOWARDS_SD))
+        for j in range(left.slip.shape[1]) if not fell and np.isfinite(sd) else ():
+            x, y = left.slip[k, j] + sd * stream.standard_normal(2)
+            facts.append(Fact(i, "offset", f"{left.name}: joint {j + 1}", (x, y), sd, j))
+    return facts
+
+
+def calibration(ruins: Simulations, numbers: np.ndarray, table: Simulations, inside: bool, **seen) -> dict:
+    """Ranks of what was drawn in its posterior, and how often intervals hold it.
+
+    Parameters
+    ----------
+    ruins, numbers
+        Draws of which ruins are made.
+    table : Simulations
+        From which they are inferred; where ``inside``, these draws are among its own and left out, twenty together.
+    """
+    stream, few, wide = np.random.default_rng(11), 0, {name: [] for name in TOLD}
+    ranks, around, off = ({name: [] for name in TOLD} for _ in range(3))
+    for block in np.array_split(numbers, max(1, len(numbers) // 20)):
+        kept = np.ones(len(table), bool)
+        if inside:
+            kept[block] = False
+        rest = table.some(np.flatnonzero(kept & table.sound))
+        for k in block.tolist():
+            if not ruins.sound[k]:
+                continue
+            answers = Answers(rest, seen_of(ruins, k, stream, **seen), 3)
+            if len(answers.matching(answers.facts)) < FEWEST:
+                few += 1
+                continue
+            taken = answers.to(answers.facts)
+            for column, (name, scores) in enumerate(answers.scores.items()):
+                true = float(np.interp(ruins.parameters[name][k], scores.values, scores.levels))
+                rank = float(taken.weights[taken.targets[:, column] < true].sum())
+                ranks[name].append(rank)
+                around[name].append(rank)
+                wide[name].append(abc.spread(taken.targets[:, column], taken.weights))
+                off[name].append(true - float(np.average(taken.targets[:, column], weights=taken.weights)))
+            angles, turn = answers.azimuths(taken), rest.prior.turn
+            true, middle = float(ruins.parameters["azimuth_deg"][k]), abc.middle_direction(angles, taken.weights, turn)
+            away = float(abc.apart(true, middle, turn))
+            ranks["azimuth_deg"].append(float(taken.weights[angles < true].sum()))
+            around["azimuth_deg"].append(float(taken.weights[abc.apart(angles, middle, turn) < away].sum()))
+            level = turn / np.sqrt(12.0)
+            wide["azimuth_deg"].append(abc.spread_around(angles, taken.weights, turn) / level)
+            off["azimuth_deg"].append(away / level)
+    found: dict = {"ruins": len(ranks["pgv_m_s"]), "too_few_matched": few}
+    for name in TOLD:
+        rank, beside = np.array(ranks[name]), np.array(around[name])
+        counts = np.bincount(np.minimum((10 * rank).astype(int), 9), minlength=10)
+        even = len(rank) / 10.0
+        found[name] = {
+            "p_ranks": float(chi2.sf(((counts - even) ** 2 / even).sum(), 9)), "counts": counts.tolist(),
+            "cover_50": float(np.mean(np.abs(beside - 0.5) < 0.25)), "cover_90": float(np.mean(np.abs(beside - 0.5) < 0.45)),
+            "spread_over_prior": float(np.sqrt(np.mean(np.square(wide[name])))),
+            "error_over_prior": float(np.sqrt(np.mean(np.square(off[name])))),
+        }  # fmt: skip
+    return found
+
+
+def other_law(table: Simulations, count: int) -> dict:
+    """Ruins that one law of contact has made, inferred with the other alone."""
+    found = {}
+    for law, name in enumerate(table.prior.law):
+        own = table.parameters["law"] == law
+        made = np.flatnonzero(own & table.sound)[:count]
+        told = calibration(table, made, table.some(np.flatnonzero(~own)), False)
+        found[f"made with {name}"] = {one: told[one]["cover_90"] for one in TOLD} | {"ruins": told["ruins"]}
+    return found
+
+
+def moved_by_hand(table: Simulations, count: int = 20) -> dict:
+    """How many ruins without an earthquake are flagged: a column taken down, a drum pushed out; and of shaken ones."""
+    stream, found = np.random.default_rng(5), {"taken_down": 0, "pushed_out": 0}
+    sound = table.some(np.flatnonzero(table.sound))
+    for number in range(count):
+        moved = number % len(sound.left)
+        for what in found:
+            facts = []
+            for i, left in enumerate(sound.left):
+                down = what == "taken_down" and i == moved
+                facts.append(Fact(i, "state", f"{left.name} {'fell' if down else 'stands'}", (float(down),)))
+                joint = int(stream.integers(left.slip.shape[1]))
+                for j in range(left.slip.shape[1]) if not down else ():
+                    x, y = OFFSET_SD * stream.standard_normal(2)
+                    if what == "pushed_out" and i == moved and j == joint:
+                        angle, far = stream.uniform(0.0, 2.0 * np.pi), stream.uniform(0.1, 0.25)
+                        x, y = x + far * np.cos(angle), y + far * np.sin(angle)
+                    facts.append(Fact(i, "offset", f"{left.name}: joint {j + 1}", (x, y), OFFSET_SD, j))
+            found[what] += flagged(sound, facts)
+    alarms = [flagged(sound, seen_of(sound, k, stream)) for k in range(200)]
+    return found | {"of": count, "false_alarms": int(np.sum(alarms)), "of_shaken": len(alarms)}
+
+
+def flagged(table: Simulations, facts: list[Fact]) -> bool:
+    """Whether a ruin is told not to be one of shaking alone: something odd, or nothing in the table that looks like it."""
+    answers = Answers(table, facts, 3)
+    return not len(answers.matching(facts)) or any(one.odd for one in checks_of(answers, FEWEST))
+
+
+def quickness(folder: Path) -> dict:
+    """Times of an inference of ten thousand draws: the table, by its processor time, and a second question to it."""
+    seen = [
+        Observed("A", "stands", no_slip_above=0.05),
+        Observed("B", "stands"),
+        Observed("C", "fell", fell_towards=40.0),
+    ]
+    before, began = time.process_time(), time.perf_counter()
+    infer(Ruin(three_columns(), seen, USUAL, 10_000, 1), out=folder).summary()
+    first, wall = time.process_time() - before, time.perf_counter() - began
+    other = [Observed("A", "stands", offsets=[(1, 0.01, 0.0, 0.002)]), *seen[1:]]
+    before, began = time.process_time(), time.perf_counter()
+    infer(Ruin(three_columns(), other, USUAL, 10_000, 1), out=folder).summary()
+    return {
+        "draws": 10_000, "first_processor_s": first, "first_wall_s": wall,
+        "second_processor_s": time.process_time() - before,
+        "second_wall_s": time.perf_counter() - began,
+    }  # fmt: skip
+
+
+def renewed(folder: Path) -> dict:
+    """All figures, with tables kept in a folder."""
+    for name in ("usual", "forest", "long"):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    table, forest = table_of(USUAL, DRAWS, folder / "usual"), table_of(OF_FOREST, FOREST_DRAWS, folder / "forest")
+    numbers = np.random.default_rng(2).permutation(DRAWS)
+    tried = np.random.default_rng(2).permutation(FOREST_DRAWS)[:400]
+    return {
+        "calibration": calibration(table, numbers[:RUINS], table, True),
+        "calibration_of_more": calibration(table, numbers[:MORE], table, True),
+        "other_law": other_law(table, 300),
+        "moved_by_hand": moved_by_hand(table),
+        "states_alone": calibration(forest, tried, forest, True, sd=np.inf, falls=False),
+        "states_and_slips": calibration(forest, tried, forest, True, sd=0.001, falls=False),
+        "quickness": quickness(folder / "long"),
+    }
+
+
+def stored() -> dict:
+    """Figures as they were last computed."""
+    return json.loads(KEPT.read_text())
+
+
+if __name__ == "__main__":
+    place = Path(sys.argv[1] if len(sys.argv) > 1 else "demo/ruins")
+    KEPT.write_text(json.dumps(renewed(place), indent=1, sort_keys=True) + "\n")

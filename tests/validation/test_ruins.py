@@ -1,0 +1,41 @@
+"""Posteriors of past shaking over ruins that were made, as they are kept (``make ruins``): calibrated, and wary of hands."""
+
+import pytest
+from validation.ruins.figures import TOLD, stored
+
+KEPT = stored()
+
+
+@pytest.mark.parametrize("name", TOLD)
+@pytest.mark.parametrize("which", ["calibration", "calibration_of_more"])
+def test_ranks_are_even_and_intervals_hold_what_they_say(which, name):
+    # Intervals hold 50 and 90 % within 3 %, and three standard errors of so many ruins besides.
+    told, ruins = KEPT[which][name], KEPT[which]["ruins"]
+    assert ruins + KEPT[which]["too_few_matched"] in (200, 1000)
+    assert told["p_ranks"] > 0.01
+    for share in (0.5, 0.9):
+        assert told[f"cover_{100 * share:.0f}"] == pytest.approx(
+            share, abs=0.03 + 3.0 * (share * (1 - share) / ruins) ** 0.5
+        )
+
+
+def test_ruins_of_another_law_of_contact_are_held():
+    # Asked for: a 90 % interval holds at least 80 % where the law of contact is the wrong one.
+    for told in KEPT["other_law"].values():
+        assert all(told[name] >= 0.8 for name in TOLD)
+
+
+def test_what_hands_have_moved_stands_out():
+    told = KEPT["moved_by_hand"]
+    assert min(told["taken_down"], told["pushed_out"]) >= 18  # of 20, as asked for
+    assert (
+        told["false_alarms"] <= 0.15 * told["of_shaken"]
+    )  # 5 % over states and 5 % over the rest, and three standard errors
+
+
+def test_slips_tell_more_than_states():
+    # A forest on 1,600 runs of other columns left 0.62 of the spread by states, 0.37 with slips without errors; a forest on
+    # the same runs as here 0.67 and, with errors of 1 mm, 0.46. Ours is to be within a tenth of the latter.
+    states, slips = (KEPT[name]["pgv_m_s"]["error_over_prior"] for name in ("states_alone", "states_and_slips"))
+    assert states < 0.74
+    assert slips < 0.56
