@@ -67,4 +67,4 @@ def judged(holds: bool, otherwise: Mapping[str, bool] | None = None) -> Verdict:
     named = "; ".join(met) if len(met) <= NAMED else "; ".join(met[:NAMED]) + " and others"
     if len(met) + len(other) > NAMED:
         return Verdict(PARTLY, f"{len(met)} of {len(met) + len(other)}, {named}")
-    return Verdict(PARTLY, named + (f"; not {', '.join(other)}" if other else ""))
+    return Verdict(PARTLY, "; ".join((named, *(f"not {one}" for one in other))))
