@@ -56,5 +56,5 @@ def test_many_runs_go_on_until_their_verdicts_are_certain(kind):
     again = st.simulate(portal, motion, model, until_decided=True)
     assert again.decided
     assert again.time[-1] > alone.time[-1]
-    assert table["peak_rotation_rad"][1] == again.peak_rotation
+    assert table["peak_rotation_rad"][1] == pytest.approx(again.peak_rotation, rel=1e-9)  # lanes add in another order
     assert table["steps"][1] == again.measures.steps

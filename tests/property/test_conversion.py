@@ -116,7 +116,7 @@ def test_a_drum_is_fitted_to_a_scan(tmp_path):
     write(tmp_path / "a.obj", {"drum": mesh})
     with pytest.raises(st.InputError, match=r"'drum' is not convex: .* and a drum does not fit it by [12]\.\d+ mm"):
         read_model(tmp_path / "a.obj", MARBLE)
-    _, tables, words = read_model(tmp_path / "a.obj", Reading("marble", tolerance=0.003, kind="column"))
+    _, tables, words = read_model(tmp_path / "a.obj", Reading("marble", tolerance=0.003, becomes="column"))
     (row,) = tables["drum"]
     assert (row["bottom_width"], row["top_width"], row["height"]) == pytest.approx((1.0, 0.9, 0.7), abs=0.002)
     (found,) = tables["as_found"]["drum"]
@@ -132,7 +132,7 @@ def test_a_column_as_found_comes_back_from_its_mesh(tmp_path):
     column = st.Column.of_drums(drums, st.Joint(1e9, 1e9), name="found").replace(as_found=found)
     write_column(column, tmp_path / "a.toml")
     convert(str(tmp_path / "a.toml"), tmp_path / "a.obj", Reading())
-    again, _, words = read_model(tmp_path / "a.obj", Reading("marble", kind="column"))
+    again, _, words = read_model(tmp_path / "a.obj", Reading("marble", becomes="column"))
     one, other = (space_geometry(each) for each in (column, again))
     assert other.centroid == pytest.approx(one.centroid, abs=1e-6)
     second, third = again.as_found.of(2), again.as_found.of(3)
@@ -163,7 +163,7 @@ def test_boxes_and_prisms_are_no_drums(tmp_path):
     structure, *_ = read_model(tmp_path / "a.obj", MARBLE)
     assert [len(stone.shape.vertices) for stone in structure.stones] == [8, 16]
     with pytest.raises(st.InputError, match="part 'box' is no round drum; a column is made of such"):
-        read_model(tmp_path / "a.obj", Reading("marble", kind="column"))
+        read_model(tmp_path / "a.obj", Reading("marble", becomes="column"))
 
 
 @pytest.mark.parametrize("name", ["model", "assembly"])

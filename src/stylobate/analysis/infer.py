@@ -231,14 +231,14 @@ def _refuse_few(answers: Answers) -> None:
         nearest = [_draw_words(answers, int(k), events) for k in np.argsort(-agree, kind="stable")[:3]]
         raise InputError(
             f"none of {count} simulations leaves all that is seen: {never}; the nearest are {'; '.join(nearest)}; widen the "
-            "prior, or raise `simulations`.",
+            "prior, or raise simulations.",
             "prior",
         )
     pgv = answers.posterior(answers.to(answers.facts))["pgv_m_s"]
     wanted = int(np.ceil(1.2 * FEWEST * count / len(which) / 100.0) * 100)
     raise InputError(
         f"{len(which)} of {count} simulations leave what is seen, and {FEWEST} are needed: from these the PGV would be "
-        f"{words_of('pgv_m_s', pgv)} (90 %); raise `simulations` to about {wanted}, or leave out what is hardly ever left.",
+        f"{words_of('pgv_m_s', pgv)} (90 %); raise simulations to about {wanted}, or leave out what is hardly ever left.",
         "simulations",
         value=count,
     )

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
-from ..column.assembly import Assembly
 from ..column.found_in_space import SpaceGeometry, base_axes, inside_overlap, space_geometry, space_load, upward
-from ..column.spatial.prisms import as_prisms
+from ..column.spatial.prisms import in_space
 from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError, check_kind
@@ -71,14 +70,14 @@ def limit_directions(structure: Structure, azimuths: Sequence[float] | None = No
     column = check_kind("structure", structure, Structure).stack
     if azimuths is None and column is not None and column.as_found and column.as_found.in_plane:
         return LimitByDirection(tuple(_in_plane(column, one, loads) for one in (0.0, 180.0)), "xz")
-    if isinstance(structure, Assembly):
-        azimuths = (0.0, 180.0) if azimuths is None else azimuths
-        structure = as_prisms(structure)
+    stands = in_space(structure)
+    if azimuths is None and stands is not structure:
+        azimuths = (0.0, 180.0)
     asked = ALL_ROUND if azimuths is None else tuple(float(azimuth) for azimuth in azimuths)
     if not asked or not np.isfinite(asked).all():
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
     if column is None:
-        known = AssemblyProgramme(structure)
+        known = AssemblyProgramme(stands)
         return LimitByDirection(tuple(known.solve(one) for one in asked), "xyz")
     if not column.links:
         return LimitByDirection(tuple(limit_in_space(column, one) for one in asked), "xyz")

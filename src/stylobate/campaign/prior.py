@@ -137,9 +137,9 @@ class Prior:
             if isinstance(values, str) or not len(values) or len(set(values)) < len(values):
                 raise InputError(f"`{name}` is {as_typed(values)}; allowed is a list of different values.", name)
         for one in self.law:
-            check_choice("one of `law`", one, LAWS, field="law")
+            check_choice("one of law", one, LAWS, field="law")
         for one in self.stiffness_damping:
-            check_range("one of `stiffness_damping`", one, 0.0, 1.0, unit="s", field="stiffness_damping")
+            check_range("one of stiffness_damping", one, 0.0, 1.0, unit="s", field="stiffness_damping")
         object.__setattr__(self, "records", records)
         object.__setattr__(self, "law", tuple(self.law))
         object.__setattr__(self, "stiffness_damping", tuple(map(float, self.stiffness_damping)))
@@ -157,7 +157,7 @@ class Prior:
 
     def draws(self, count: int, seed: int) -> Draws:
         """The first draws of a seed; draw k is the same for any ``count`` above k."""
-        check_whole("`simulations`", count, 1, MOST)
+        check_whole("simulations", count, 1, MOST)
         return Draws(self, np.array([np.random.default_rng([seed, k]).random(len(DRAWN)) for k in range(count)]), seed)
 
 

@@ -76,15 +76,15 @@ class Observed:
                 "fell_towards",
             )
         if self.towards_sd is not None and self.fell_towards is None:
-            raise InputError("`towards_sd` is given without `fell_towards`; give both.", "towards_sd")
+            raise InputError("towards_sd is given without fell_towards; give both.", "towards_sd")
         if self.fell_towards is not None:
-            check_range("`fell_towards`", self.fell_towards, -360.0, 360.0, unit="degrees")
+            check_range("fell_towards", self.fell_towards, -360.0, 360.0, unit="degrees")
             sd = TOWARDS_SD if self.towards_sd is None else self.towards_sd
             object.__setattr__(
-                self, "towards_sd", check_range("`towards_sd`", sd, 0.0, 90.0, unit="degrees", open_low=True)
+                self, "towards_sd", check_range("towards_sd", sd, 0.0, 90.0, unit="degrees", open_low=True)
             )
         if self.no_slip_above is not None:
-            check_range("`no_slip_above`", self.no_slip_above, 0.0, 100.0, unit="m", open_low=True)
+            check_range("no_slip_above", self.no_slip_above, 0.0, 100.0, unit="m", open_low=True)
         for name, numbers in (("offsets", 4), ("twists", 3)):
             rows = tuple(tuple(one) for one in getattr(self, name))
             for row in rows:
@@ -175,11 +175,11 @@ class Ruin:
         observed = tuple(check_all("observed", self.observed, Observed))
         check_kind("prior", self.prior, Prior)
         check_kind("model", self.model, Model)
-        check_whole("`simulations`", self.simulations, 1, MOST)
+        check_whole("simulations", self.simulations, 1, MOST)
         check_whole("`seed`", self.seed, 0, 2**31)
         names = [one.name for one in structures]
         if not names:
-            raise InputError("the ruin names no column; give at least one in `columns`.", "columns")
+            raise InputError("the ruin names no column; give at least one in columns.", "columns")
         if twice := next((name for name in names if names.count(name) > 1), None):
             raise InputError(f"two columns are called {twice!r}; give each a name of its own.", "columns")
         seen = [one.column for one in observed]

@@ -20,7 +20,7 @@ RuinName = Annotated[
 def infer(
     ruin: RuinName,
     *,
-    tail: str = o.option("TIME", "Go on for this long after each motion.", "3s"),
+    tail: str = o.option("TIME", "Go on for this long after the motion, such as 5s.", "3s"),
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
     execution: o.Execution,
 ) -> None:

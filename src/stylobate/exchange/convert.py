@@ -48,7 +48,7 @@ class Reading:
     ----------
     material : str, optional
         Stone and joints by name; of a mesh needed.
-    kind : str
+    becomes : str
         ``assembly`` or ``column``.
     unit : str
         Of a mesh.
@@ -63,18 +63,18 @@ class Reading:
     def __init__(
         self,
         material: str | None = None,
-        kind: str = "assembly",
+        becomes: str = "assembly",
         unit: str = "m",
         tolerance: float = TOLERANCE,
         ground: float | bool | None = None,
         fixed: tuple[str, ...] = (),
     ) -> None:
-        if kind not in KINDS:
-            raise InputError(f"`as` is {kind!r}; allowed are {', '.join(KINDS)}.", "as")
+        if becomes not in KINDS:
+            raise InputError(f"`as` is {becomes!r}; allowed are {', '.join(KINDS)}.", "as")
         check_range("`tolerance`", tolerance, 0.0, 1.0, unit="m", field="tolerance")
         if isinstance(ground, float):
             check_range("level of the ground", ground, -FAR_AWAY, FAR_AWAY, unit="m", field="ground")
-        self.material, self.kind, self.unit = material, kind, unit
+        self.material, self.becomes, self.unit = material, becomes, unit
         self.tolerance, self.ground, self.fixed = tolerance, ground, fixed
 
 
@@ -114,11 +114,12 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
     if suffix == ".toml":
         content = tomli_w.dumps(tables).encode() if tables is not None else _file_of(structure)
     elif suffix == ".csv":
-        if not isinstance(structure, Column):
+        column = structure.stack
+        if column is None:
             raise InputError(
                 f"a survey holds the drums of a column, and {structure.name!r} is {structure.described}.", "to"
             )
-        content = survey_text(structure).encode()
+        content = survey_text(column).encode()
     elif suffix == ".json":
         blocks = [(name, mesh, fixed, density) for name, mesh, fixed, density in surfaces_of(structure)]
         content = compas_json(structure.name, blocks, layout).encode()
@@ -162,7 +163,7 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
     with within(shown(path)):
         stones = fit_all(parts, reading.tolerance)
         words = [f"{one.name}: {one.words}" for one in stones]
-        if reading.kind == "column":
+        if reading.becomes == "column":
             tables, said = column_tables(name, stones, reading.material, reading.tolerance)
             column = made_of(Column, tables)
             said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
@@ -227,6 +228,7 @@ def _glb(name: str, surfaces: list[Named]) -> bytes:
 
 
 def _file_of(structure: Structure) -> bytes:
-    if not isinstance(structure, Column):
+    column = structure.stack
+    if column is None:
         raise InputError(f"{structure.name!r} is an assembly file already; write another kind of file.", "to")
-    return tomli_w.dumps(tables_of(structure)).encode()
+    return tomli_w.dumps(tables_of(column)).encode()

@@ -121,7 +121,7 @@ def _size(circular: bool, width: float, depth: float) -> str:
 
 
 @styled
-def draw_sheet(structure: Structure, title: str | None = None) -> Figure:
+def draw_sheet(structure: Structure, title: str | None = None, figure: Any = None) -> Figure:
     """What stands, before the motion: :func:`draw_views`, and under it the plan of every joint, x to the right.
 
     The face above is sand, that below a dashed line; what is as found is red, links are blue.
@@ -131,6 +131,8 @@ def draw_sheet(structure: Structure, title: str | None = None) -> Figure:
     structure : Column, Assembly, SpatialAssembly or Specimen
     title : str, optional
         None by default.
+    figure : Figure or SubFigure, optional
+        Draw in it; a new one of the size that it needs by default.
     """
     plans = joint_plans(structure)
     shown = plans[:MOST]
@@ -138,8 +140,8 @@ def draw_sheet(structure: Structure, title: str | None = None) -> Figure:
     beside, row = FEW if len(shown) <= 12 else MANY
     rows = -(-len(shown) // beside)
     if not rows:
-        return draw_views(structure, title)
-    figure = Figure(figsize=(wide, high + row * rows + 0.3))
+        return draw_views(structure, title, figure=figure)
+    figure = Figure(figsize=(wide, high + row * rows + 0.3)) if figure is None else figure
     parts: Any = figure.subfigures(2, 1, height_ratios=(high, row * rows + 0.3))
     above, below = parts
     draw_views(structure, title, figure=above)

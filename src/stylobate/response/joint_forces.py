@@ -59,8 +59,8 @@ def joint_forces(response: Recorded) -> JointForces:
     InputError
         It is no run of a column in the plane, or has fewer than three states at equal intervals.
     """
-    h, column = response.histories, response.structure
-    if not isinstance(column, Column) or not isinstance(h.poses, PlanePoses):
+    h, column = response.histories, response.structure.stack
+    if column is None or not isinstance(h.poses, PlanePoses):
         raise InputError("forces of joints are known for columns in the plane; take dem2d, rigid-block or rigid-beam.")
     step = float(h.time[1] - h.time[0]) if len(h.time) > 1 else 0.0
     even = (np.abs(np.diff(h.time) - step) < 1e-6 * step) & ~(h.time[1:] > response.measures.collapse_time)

@@ -9,8 +9,14 @@ import numpy as np
 from ...errors import InputError
 from ..assembly import Assembly
 from ..block import Block
+from ..structure import Structure
 from .assembly import SpatialAssembly
 from .stone import Stone
+
+
+def in_space(structure: Structure) -> Structure:
+    """What stands in space: an assembly of the plane as prisms, anything else itself."""
+    return as_prisms(structure) if isinstance(structure, Assembly) else structure
 
 
 def as_prisms(assembly: Assembly, depth: float | None = None) -> SpatialAssembly:
