@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.certainty import Population, batch
+from stylobate.analysis.certainty import batch
+from stylobate.analysis.population import Population
 from stylobate.campaign.twins import Twins, the_twins
 from stylobate.column.twins import twins_of
 from stylobate.models.base import Case, RunOptions

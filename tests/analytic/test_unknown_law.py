@@ -7,7 +7,8 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis import verdicts as v
-from stylobate.analysis.certainty import Population, certainty
+from stylobate.analysis.certainty import certainty
+from stylobate.analysis.population import Population
 from stylobate.analysis.unknown_law import share_under_another_law
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import the_twins

@@ -4,6 +4,8 @@ import json
 
 import pytest
 
+import stylobate as st
+from stylobate.campaign.ruin_files import read_ruin
 from stylobate.cli.main import call
 
 COLUMN = """
@@ -83,6 +85,26 @@ def test_answer_and_its_files(ruin, tmp_path, capsys):
     assert "peak ground velocity" in capsys.readouterr().out
     assert (out / "runs.sqlite").stat().st_mtime_ns == before
     assert call(["report", str(out), "--out", str(tmp_path / "report.html")]) == 0
+
+
+@pytest.mark.parametrize(
+    ("given", "varies"), [("friction = 0.1\noffset = 0.01", {"friction": 0.1, "offset": 0.01}), ("", {})]
+)
+def test_a_scatter_of_the_prior_is_all_that_varies_of_the_columns(ruin, given, varies):
+    file = ruin()
+    file.write_text(file.read_text() + f"[prior.scatter]\n{given}\n")
+    with pytest.warns(st.OutOfRangeWarning, match="sinks"):  # of the soft joints of these columns
+        prior = read_ruin(file).prior
+    assert prior.scatter.given == varies
+
+
+def test_laws_are_drawn_by_the_prior_and_not_by_its_scatter(ruin, capsys):
+    file = ruin()
+    file.write_text(file.read_text() + "[prior.scatter]\nlaw = 0.5\n")
+    assert call(["infer", str(file)]) == 2
+    assert "unknown key 'law' in [prior.scatter]" in capsys.readouterr().err
+    with pytest.raises(st.InputError, match="varies law, which a prior draws itself"):
+        st.Prior(pgv=(0.1, 1.0), period=(0.4, 1.5), scatter=st.Scatter(law=0.5))
 
 
 def test_nothing_seen_leaves_the_prior(ruin, capsys):

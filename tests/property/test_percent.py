@@ -9,7 +9,7 @@ import pytest
 
 import stylobate
 from stylobate.analysis import verdicts as v
-from stylobate.analysis.certainty import Population, chance_words
+from stylobate.analysis.population import Population, chance_words
 from stylobate.analysis.side_by_side import shares
 from stylobate.campaign.twins import Twins
 from stylobate.column.scatter import Scatter

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import verdicts as v
-from .certainty import CHANCE, chance_words
+from .population import CHANCE, chance_words
 
 #: Most stretches of amplitudes that are named.
 MOST = 4

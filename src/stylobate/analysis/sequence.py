@@ -22,7 +22,8 @@ from ..response import Response
 from ..response.events import Event, events_of
 from ..simulate import simulate
 from . import verdicts as v
-from .certainty import Population, batch, certainty
+from .certainty import batch, certainty
+from .population import Population
 
 if TYPE_CHECKING:
     import pandas

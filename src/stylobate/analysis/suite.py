@@ -20,9 +20,9 @@ from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
 from ..motion.orientation import record_of
-from .certainty import Population
 from .difference import caveat
 from .directions import direction_of
+from .population import Population
 from .side_by_side import Share, codes_of, shares
 from .verdicts import NOT_RUN, verdict
 

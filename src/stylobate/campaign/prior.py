@@ -10,12 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from ..column.losses import LAWS
 from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError, as_typed, check_all, check_choice, check_range, check_whole
 from ..models.base import Model
 from ..motion import Motion, integrate
 from ..motion.elliptical import elliptical_pulse
+from .unknown_laws import PARTS
 
 #: Quantities of a synthetic motion: least and most that is allowed, and the unit.
 RANGES = {
@@ -39,8 +41,8 @@ DRAWN: tuple[str, ...] = (
     "record",
 )
 
-#: Laws of contact of round faces, and damping of joints [s], where nothing else is said: nobody has measured them.
-LAWS, LOSSES = ("rim", "bed"), (1e-4, 3e-4, 1e-3)
+#: Damping of joints where nothing else is said [s]: nobody has measured it.
+LOSSES = (1e-4, 3e-4, 1e-3)
 
 #: Most draws.
 MOST = 1_000_000
@@ -136,6 +138,13 @@ class Prior:
         for name, values in (("law", self.law), ("stiffness_damping", self.stiffness_damping)):
             if isinstance(values, str) or not len(values) or len(set(values)) < len(values):
                 raise InputError(f"`{name}` is {as_typed(values)}; allowed is a list of different values.", name)
+        drawn = [name for name in PARTS if self.scatter is not None and getattr(self.scatter, name)]
+        if drawn:
+            raise InputError(
+                f"the scatter of the prior varies {' and '.join(drawn)}, which a prior draws itself; give law and "
+                "stiffness_damping of the prior, and leave them out of its scatter.",
+                "scatter",
+            )
         for one in self.law:
             check_choice("one of law", one, LAWS, field="law")
         for one in self.stiffness_damping:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..column.assembly_files import load_structure
+from ..column.losses import LAWS
 from ..column.presets import PRESETS
 from ..column.scatter import LARGEST, Scatter
 from ..column.structure import Structure
@@ -18,9 +19,12 @@ from ..motion import Motion
 from ..motion.request import MotionRequest
 from ..motion.specs import parse_acceleration, parse_angle, parse_time, parse_velocity
 from ..reading import shown
-from .prior import LAWS, LOSSES, Prior
+from .prior import LOSSES, Prior
 from .ruin import USUAL_COUNT, Observed, Ruin
-from .study_files import listed
+from .study_files import ColumnScatterTable, listed
+
+#: Columns that are as surveyed: of a ``[prior.scatter]`` that names nothing.
+AS_SURVEYED = Scatter(**dict.fromkeys(LARGEST, 0.0))
 
 
 class ObservedTable(Table):
@@ -49,18 +53,7 @@ class PriorTable(Table):
     scale: list[float] | None = None
     law: list[str] | None = None
     stiffness_damping: list[Any] | None = None
-    scatter: ScatterOfRuin | None = None
-
-
-class ScatterOfRuin(Table):
-    """``[prior.scatter]``: how columns may differ from what was surveyed."""
-
-    friction: float | None = None
-    joint_stiffness: float | None = None
-    density: float | None = None
-    width: float | None = None
-    height: float | None = None
-    offset: float | None = None
+    scatter: ColumnScatterTable | None = None
 
 
 class RuinFile(Table):
@@ -73,9 +66,6 @@ class RuinFile(Table):
     seed: int = 0
     model: str = "dem3d"
     set: dict[str, Any] | None = None
-
-
-PriorTable.model_rebuild()
 
 
 def read_ruin(path: str | Path) -> Ruin:
@@ -131,10 +121,7 @@ def _prior(table: PriorTable, folder: Path) -> Prior:
         fields[name] = None if fields[name] is None else tuple(fields[name])
     damping = table.stiffness_damping
     losses = LOSSES if damping is None else [_number("stiffness_damping", one, parse_time) for one in damping]
-    scatter = None
-    if table.scatter is not None:
-        sizes = {name: getattr(table.scatter, name) for name in LARGEST if getattr(table.scatter, name) is not None}
-        scatter = Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes))
+    scatter = None if table.scatter is None else table.scatter.scatter or AS_SURVEYED
     if table.unit is not None and not table.records:
         raise InputError("`unit` is for records, and none are given; leave it out.", "unit")
     records = _records(table, folder) if table.records is not None else ()

@@ -58,17 +58,28 @@ class ScaleTable(Table):
     levels: Any
 
 
-class ScatterTable(Table):
-    """``[scatter]``: realisations of each column and how they differ."""
+class ColumnScatterTable(Table):
+    """How stones and joints may differ from what was surveyed: shares."""
 
-    realisations: int
-    seed: int = 0
     friction: float | None = None
     joint_stiffness: float | None = None
     density: float | None = None
     width: float | None = None
     height: float | None = None
     offset: float | None = None
+
+    @property
+    def scatter(self) -> Scatter | None:
+        """All that is given, and nothing else varies; None where nothing is given."""
+        sizes = {name: value for name in LARGEST if (value := getattr(self, name, None)) is not None}
+        return Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes)) if sizes else None
+
+
+class ScatterTable(ColumnScatterTable):
+    """``[scatter]``: realisations of each column and how they differ."""
+
+    realisations: int
+    seed: int = 0
     stiffness_damping: float | None = None
     rolling_resistance: float | None = None
     law: float | None = None
@@ -280,9 +291,7 @@ def _drawn(table: ScatterTable) -> dict[str, Any]:
     """Fields of a campaign of a study's twins."""
     number = check_whole("realisations in [scatter]", table.realisations, 1)
     seed = check_whole("seed in [scatter]", table.seed, 0)
-    sizes = {name: getattr(table, name) for name in LARGEST if getattr(table, name) is not None}
-    scatter = Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes)) if sizes else None
-    return {"replicates": number, "scatter": scatter, "seed": seed}
+    return {"replicates": number, "scatter": table.scatter, "seed": seed}
 
 
 def _seconds(value: Any) -> float:

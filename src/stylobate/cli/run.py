@@ -14,7 +14,7 @@ from ..outcome import Outcome
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.certainty import Population
+    from ..analysis.population import Population
     from ..campaign.campaign import Campaign, Progress
     from ..column.structure import Structure
     from ..models.base import Model

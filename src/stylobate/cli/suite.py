@@ -46,8 +46,8 @@ def suite(
     A table of outcomes and of measures of the records; with --out, a figure of the peak response against one of them. With
     --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
-    from ..analysis.certainty import CHANCE, chance_words
     from ..analysis.directions import compass_of_shares, harm_words, worst
+    from ..analysis.population import CHANCE, chance_words
     from ..analysis.suite import check_measure, suite_shares, suite_table
     from ..errors import InputError
     from ..models.shared.quiet import share_of

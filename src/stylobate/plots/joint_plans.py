@@ -17,7 +17,7 @@ from ..column.shapes import cut
 from ..column.structure import Structure
 from ..constants import DEGREE
 from .elevation import words_of_found
-from .style import BLUE, BROWN, GREY, RED, SAND, styled
+from .style import BLUE, BROWN, GREY, RED, SAND, page, styled
 from .views import draw_views, sheet_size
 
 #: Joints beside one another and height of a row of them [inch], of few and of many, and most joints that are drawn.
@@ -121,7 +121,7 @@ def _size(circular: bool, width: float, depth: float) -> str:
 
 
 @styled
-def draw_sheet(structure: Structure, title: str | None = None, figure: Any = None) -> Figure:
+def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
     """What stands, before the motion: :func:`draw_views`, and under it the plan of every joint, x to the right.
 
     The face above is sand, that below a dashed line; what is as found is red, links are blue.
@@ -141,7 +141,7 @@ def draw_sheet(structure: Structure, title: str | None = None, figure: Any = Non
     rows = -(-len(shown) // beside)
     if not rows:
         return draw_views(structure, title, figure=figure)
-    figure = Figure(figsize=(wide, high + row * rows + 0.3)) if figure is None else figure
+    figure = page(figure, (wide, high + row * rows + 0.3))
     parts: Any = figure.subfigures(2, 1, height_ratios=(high, row * rows + 0.3))
     above, below = parts
     draw_views(structure, title, figure=above)

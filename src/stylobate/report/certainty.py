@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..analysis.certainty import set_against
 from ..analysis.debris import OVER_ALL, only_as_seen
+from ..analysis.population import set_against
 from ..percent import percent, percents
 from . import numbers as n
 from .page import Facts, Item, Rows, Section

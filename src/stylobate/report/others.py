@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..analysis.certainty import CHANCE, chance_words
 from ..analysis.ida_curves import median_of
+from ..analysis.population import CHANCE, chance_words
 from ..analysis.probability import CollapseProbability
 from ..analysis.side_by_side import codes_of, shares
 from ..analysis.studies import StudyResult

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from .. import plots
-from ..analysis.certainty import CHANCE, chance_words
 from ..analysis.directions import harm
+from ..analysis.population import CHANCE, chance_words
 from ..analysis.side_by_side import codes_of, shares
 from ..analysis.verdicts import verdict
 from ..bibliography import cite_run
