@@ -13,6 +13,7 @@ from .analysis.infer import infer as infer
 from .analysis.limit import limit_analysis as limit_analysis
 from .analysis.limit_directions import limit_directions as limit_directions
 from .analysis.pushover import pushover as pushover
+from .analysis.record_selection import select_records as select_records
 from .analysis.replicates import collapse_probability as collapse_probability
 from .analysis.risk import risk as risk
 from .analysis.risk import survival as survival
@@ -22,6 +23,7 @@ from .analysis.sequence import sequence as sequence
 from .analysis.states import compare_states as compare_states
 from .analysis.studies import run_study as run_study
 from .analysis.suite import suite_table as suite_table
+from .analysis.target_spectra import target_spectrum as target_spectrum
 from .campaign.campaign import Campaign as Campaign
 from .campaign.cases import Study as Study
 from .campaign.prior import Prior as Prior

@@ -67,8 +67,8 @@ def test_the_command_tells_every_coefficient_with_its_source(capsys):
 @pytest.mark.parametrize(
     ("check", "words"),
     [
-        ("ntc", "there is no check by 'ntc'; did you mean ntc2018"),
-        ("ec8,soil=B", "a check by ec8 needs ag"),
+        ("ntc", "code 'ntc' is not known here; did you mean ntc2018"),
+        ("ec8,soil=B", "ec8 needs ag"),
         ("ec8,ag=0.2g,soil=F", "ground_type is 'F'; allowed are A"),
         ("ec8,ag=0.2g,ground=B", "'ground=B' says nothing"),
         ("ntc2018,ag=0.2g,F0=2.0,Tc*=0.3s", "F0 is 2; allowed is [2.2"),

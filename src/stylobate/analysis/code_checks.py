@@ -5,11 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import InputError, as_typed, check_choice, suggest
+from ..errors import InputError
 from ..models.rigid_block.block_stack import BlockStack
-from ..motion.specs import parse_acceleration, parse_time
 from .capacity_spectrum import SECANT, USABLE, CapacityCheck, capacity_spectrum_check
-from .code_spectra import Coefficient, EurocodeSpectrum, NtcSpectrum
+from .code_spectra import (
+    Coefficient,
+    EurocodeSpectrum,
+    NtcSpectrum,
+    SecondEurocodeSpectrum,
+    parse_code,
+    spectrum_of_code,
+)
 from .pushover import PushoverResult
 
 #: Confidence factors by how well a structure is known, and where they stand.
@@ -21,15 +27,8 @@ KNOWLEDGE = {
 #: q of a mechanism that is checked by its acceleration alone.
 BEHAVIOUR = 2.0
 
-#: Notation, by code: names, and how they are written in an example.
-_KEYS = {
-    "ec8": ("ag", "soil", "type", "knowledge"),
-    "ntc2018": ("ag", "F0", "Tc*", "soil", "topography", "knowledge"),
-}
-_EXAMPLES = {
-    "ec8": "ec8,ag=0.25g,soil=B,type=1,knowledge=KL2",
-    "ntc2018": "ntc2018,ag=0.25g,F0=2.4,Tc*=0.35s,soil=B,topography=T1,knowledge=LC2",
-}
+#: What is typed of a check beside the spectrum: an example of it.
+_LEVELS = {"ec8": "knowledge=KL2", "ntc2018": "knowledge=LC2"}
 
 
 @dataclass(frozen=True)
@@ -119,34 +118,14 @@ class CodeSite:
         InputError
             A code or a name that is not known, a value that is missing or not allowed.
         """
-        code, *parts = (part.strip() for part in text.split(","))
-        if code not in _KEYS:
-            raise InputError(f"there is no check by {code!r}; {suggest(code, _KEYS)}codes are {', '.join(_KEYS)}.")
-        given: dict[str, str] = {}
-        for part in parts:
-            key, sign, value = (one.strip() for one in part.partition("="))
-            if not sign or key not in _KEYS[code]:
-                raise InputError(f"{part!r} says nothing to a check by {code}; write it as {_EXAMPLES[code]}.")
-            given[key] = value
-        needed = ("ag",) if code == "ec8" else ("ag", "F0", "Tc*")
-        missing = next((key for key in needed if key not in given), None)
-        if missing is not None:
-            raise InputError(f"a check by {code} needs {missing}; write it as {_EXAMPLES[code]}.")
+        code, given = parse_code(text, {code: {"knowledge": example} for code, example in _LEVELS.items()})
         levels = KNOWLEDGE[code][0]
-        level = given.get("knowledge", next(iter(levels)))
+        level = given.pop("knowledge", next(iter(levels)))
         if level not in levels:
             raise InputError(f"knowledge is {level!r}; allowed by {code} are {', '.join(levels)}.")
-        ag, soil = parse_acceleration(given["ag"]), given.get("soil", "A")
-        if code == "ec8":
-            kind = given.get("type", "1")
-            check_choice("type of the spectrum", kind, ("1", "2"), field="type")
-            return cls(code, EurocodeSpectrum(ag, soil, kind=int(kind)), level)
-        try:
-            amplification = float(given["F0"])
-        except ValueError:
-            raise InputError(f"F0 is {as_typed(given['F0'])}; allowed is a number from 2.2.") from None
-        corner = parse_time(given["Tc*"])
-        return cls(code, NtcSpectrum(ag, amplification, corner, soil, given.get("topography", "T1")), level)
+        spectrum = spectrum_of_code(code, given)
+        assert not isinstance(spectrum, SecondEurocodeSpectrum)  # which no check is known by here
+        return cls(code, spectrum, level)
 
 
 def code_check(stack: BlockStack, path: PushoverResult, site: CodeSite) -> CodeCheck:

@@ -1,13 +1,15 @@
-"""Elastic spectra of codes: EN 1998-1:2004, types 1 and 2, and NTC 2018, with the tables of their soils."""
+"""Elastic spectra of codes: EN 1998-1 of both generations and NTC 2018, with the tables of their soils, and as typed."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..constants import g
-from ..errors import check_choice, check_range
+from ..errors import InputError, as_typed, check_choice, check_range, suggest
+from ..motion.specs import parse_acceleration, parse_number, parse_time
 
 
 class Coefficient(NamedTuple):
@@ -199,3 +201,137 @@ class NtcSpectrum:
     def __call__(self, period: float) -> float:
         """S_De(T) [m]."""
         return self.acceleration(period) * (period / (2.0 * math.pi)) ** 2
+
+
+@dataclass(frozen=True)
+class SecondEurocodeSpectrum:
+    """Elastic spectrum of the second generation of EN 1998-1-1, by its draft of 2019 (prEN 1998-1-1:2019, 5.2.2.2).
+
+    Parameters
+    ----------
+    plateau, at_one_second : float
+        S_α,RP and S_β,RP, spectral accelerations on site category A at the plateau and at 1 s [m/s²].
+    plateau_factor, one_second_factor : float
+        F_α and F_β with that of topography in them [-]: the draft's tables of them were changed on the way to the standard,
+        so that they are yours to give.
+
+    Notes
+    -----
+    With 5 % damping. T_A = 0.02 s, χ = 4, F_A = 2.5, T_β = 1 s.
+    """
+
+    plateau: float
+    at_one_second: float
+    plateau_factor: float = 1.0
+    one_second_factor: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name, value in (("S_alpha", self.plateau), ("S_beta", self.at_one_second)):
+            check_range(name, value, 0.0, 100.0, unit="m/s²", open_low=True)
+        for name, value in (("F_alpha", self.plateau_factor), ("F_beta", self.one_second_factor)):
+            check_range(name, value, 0.5, 10.0)
+        if not 0.05 < self.corners[1] < 1.0:
+            raise InputError(
+                f"S_beta over S_alpha on the site makes T_C {self.corners[1]:.3g} s; allowed is 0.05 to 1 s, beyond it the "
+                "code wants a study of the site: check both values.",
+                "S_beta",
+            )
+
+    @property
+    def corners(self) -> tuple[float, float, float]:
+        """T_B, T_C and T_D [s]."""
+        tc = self.at_one_second * self.one_second_factor / (self.plateau * self.plateau_factor)
+        return min(max(tc / 4.0, 0.05), 0.1), tc, max(2.0, 1.0 + self.at_one_second)
+
+    @property
+    def coefficients(self) -> tuple[Coefficient, ...]:
+        """Values taken from the code."""
+        draft = "prEN 1998-1-1:2019, 5.2.2.2"
+        return tuple(
+            Coefficient(name, value, draft) for name, value in zip(("T_B [s]", "T_C [s]", "T_D [s]"), self.corners)
+        )
+
+    def acceleration(self, period: float) -> float:
+        """S_e(T) [m/s²].
+
+        Raises
+        ------
+        InputError
+            A period outside 0 to 4 s.
+        """
+        t = check_range("period", period, 0.0, LONGEST, unit="s")
+        top, (tb, tc, td) = self.plateau * self.plateau_factor, self.corners
+        if t <= tb:
+            return top * (1.0 + 1.5 * max(t - 0.02, 0.0) / (tb - 0.02)) / 2.5
+        return top * min(1.0, tc / t, tc * td / t**2)
+
+
+#: Codes as typed: examples of what must be given to each, and of what may be.
+CODES: dict[str, tuple[dict[str, str], dict[str, str]]] = {
+    "ec8": ({"ag": "ag=0.25g"}, {"soil": "soil=B", "type": "type=1"}),
+    "ec8-2": (
+        {"S_alpha": "S_alpha=0.6g", "S_beta": "S_beta=0.2g"},
+        {"F_alpha": "F_alpha=1.3", "F_beta": "F_beta=1.8"},
+    ),
+    "ntc2018": (
+        {"ag": "ag=0.25g", "F0": "F0=2.4", "Tc*": "Tc*=0.35s"},
+        {"soil": "soil=B", "topography": "topography=T1"},
+    ),
+}
+
+
+def parse_code(text: str, more: Mapping[str, Mapping[str, str]] | None = None) -> tuple[str, dict[str, str]]:
+    """A code and what is typed of it, such as ``ec8,ag=0.25g,soil=B,type=1``.
+
+    Parameters
+    ----------
+    text : str
+    more : dict of str to dict, optional
+        Codes that are known here, each with further names and their examples; all codes with no more by default.
+
+    Returns
+    -------
+    (str, dict of str to str)
+
+    Raises
+    ------
+    InputError
+        A code or a name that is not known, a value that is missing.
+    """
+    further = {code: {} for code in CODES} if more is None else more
+    code, *parts = (part.strip() for part in text.split(","))
+    if code not in further:
+        raise InputError(f"code {code!r} is not known here; {suggest(code, further)}codes are {', '.join(further)}.")
+    needed, known = CODES[code][0], CODES[code][0] | CODES[code][1] | dict(further[code])
+    example = ",".join((code, *known.values()))
+    given: dict[str, str] = {}
+    for part in parts:
+        key, sign, value = (one.strip() for one in part.partition("="))
+        if not sign or key not in known:
+            raise InputError(f"{part!r} says nothing to {code}; write it as {example}.")
+        if key in given:
+            raise InputError(f"{key} is given twice to {code}; write it as {example}.")
+        given[key] = value
+    missing = next((name for name in needed if name not in given), None)
+    if missing is not None:
+        raise InputError(f"{code} needs {missing}; write it as {example}.")
+    return code, given
+
+
+def spectrum_of_code(code: str, given: Mapping[str, str]) -> EurocodeSpectrum | SecondEurocodeSpectrum | NtcSpectrum:
+    """The spectrum of a code from what :func:`parse_code` returns."""
+    if code == "ec8-2":
+        factors = (parse_number(name, given.get(name, "1")) for name in ("F_alpha", "F_beta"))
+        return SecondEurocodeSpectrum(
+            *(parse_acceleration(given[name], name) for name in ("S_alpha", "S_beta")), *factors
+        )
+    ag, soil = parse_acceleration(given["ag"]), given.get("soil", "A")
+    if code == "ec8":
+        kind = given.get("type", "1")
+        check_choice("type of the spectrum", kind, ("1", "2"), field="type")
+        return EurocodeSpectrum(ag, soil, kind=int(kind))
+    try:
+        amplification = float(given["F0"])
+    except ValueError:
+        raise InputError(f"F0 is {as_typed(given['F0'])}; allowed is a number from 2.2.") from None
+    return NtcSpectrum(ag, amplification, parse_time(given["Tc*"]), soil, given.get("topography", "T1"))

@@ -29,6 +29,7 @@ from . import verdicts as v
 from .difference import caveat
 from .hunt import next_levels
 from .ida_curves import Ida
+from .record_facts import ABOUT
 
 if TYPE_CHECKING:
     import pandas
@@ -41,9 +42,6 @@ GENTLE = 0.1 * g
 
 #: Runs of a record.
 RUNS = 14
-
-#: What may be known about a record.
-ABOUT = ("magnitude", "distance_km")
 
 
 @dataclass

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import math
-import re
 from pathlib import Path
 from typing import Annotated
 
-from ..errors import InputError
 from . import options as o
-
-_MAGNITUDE = re.compile(r"\bM[wWlLsS]?\s?(\d\.\d)\b")
 
 
 def ida(
@@ -41,6 +36,7 @@ def ida(
     from ..analysis.efficiency import which_tells_most
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response, median_of
+    from ..analysis.record_facts import facts_of_records
     from ..motion.intensity_specs import parse_levels, parse_measure
     from ..motion.orientation import record_of
     from ..response.words import to_decide
@@ -52,7 +48,9 @@ def ida(
     check_response(edp, stone, how)
     stripes = None if levels is None else parse_levels(levels, measure)
     records = motions.request(motion=sources, separate=True).expand()
-    known = the_facts(about, sources, [name for motion in records.motions for name in (motion.name, record_of(motion))])
+    known = facts_of_records(
+        about, sources, [name for motion in records.motions for name in (motion.name, record_of(motion))]
+    )
     names = "runs.csv", "capacities.csv", "fractiles.csv", "measures.csv", "ida.json", "ida", "measures"
     with execution.files("ida", *names) as files:
         with files.campaign(campaign) as asked:
@@ -110,27 +108,3 @@ def ida(
 
 def _count(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
-
-
-def the_facts(about: Path | None, sources: list[Path], names: list[str]) -> dict[str, dict[str, float]]:
-    """Magnitude and distance by record: of a file, or of a manifest beside the records."""
-    import pandas
-
-    from ..analysis import tables
-    from ..analysis.ida import ABOUT
-
-    facts: dict[str, dict[str, float]] = {}
-    for folder in (source for source in sources if about is None and (source / "manifest.csv").is_file()):
-        table = pandas.read_csv(folder / "manifest.csv", dtype=str).fillna("")
-        for row in table.to_dict("records"):
-            told = _MAGNITUDE.search(" ".join(str(one) for one in row.values()))
-            if told and row.get("file") in names:
-                facts[str(row["file"])] = {"magnitude": float(told[1])}
-    if about is not None:
-        table = tables.read(about, 10_000_000, "record", "the columns record, and magnitude or distance_km")
-        known = [one for one in ABOUT if one in table.columns]
-        if not known:
-            raise InputError(f"{about} needs the columns record, and magnitude or distance_km.", "about")
-        for name, *values in zip(table.texts("record"), *(table.numbers(one, math.nan) for one in known), strict=True):
-            facts[name] = dict(zip(known, values, strict=True))
-    return facts

@@ -33,6 +33,7 @@ from . import (
     materials,
     motion,
     pushover,
+    records,
     report,
     risk,
     run,
@@ -85,7 +86,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer, motion,
-    spectrum, columns, draw, convert, materials, animate, export, report, serve, cite
+    records, spectrum, columns, draw, convert, materials, animate, export, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))

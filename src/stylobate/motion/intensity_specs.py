@@ -14,6 +14,7 @@ from ..constants import g
 from ..errors import InputError, suggest
 from .intensity import arias_intensity, cumulative_absolute_velocity, rocking_measures, significant_duration
 from .motion import Motion
+from .pulse_match import pulse_match
 from .ranges import values_of as _values
 from .specs import ACCELERATION_UNITS, parse_time
 from .spectra import pseudo_acceleration
@@ -73,6 +74,10 @@ KINDS: dict[str, Kind] = {
     "arias": Kind("Arias intensity", "m/s", 2, lambda m, *_: arias_intensity(m)),
     "d5_95": Kind("significant duration 5–95 %", "s", 0, lambda m, *_: significant_duration(m)),
     "d5_75": Kind("significant duration 5–75 %", "s", 0, lambda m, *_: significant_duration(m, 0.05, 0.75)),
+    "pulse_period": Kind("period of the strongest pulse", "s", 0, lambda m, *_: pulse_match(m).period),
+    "pulse_share": Kind(
+        "share of the strongest pulse in the energy", "-", 0, lambda m, *_: pulse_match(m).energy_share
+    ),
     "pga_over_g_tan_alpha": Kind("PGA/(g tan α)", "-", 1, _rocking("pga_over_g_tan_alpha"), True),
     "pgv_p_over_g_tan_alpha": Kind("p PGV/(g tan α)", "-", 1, _rocking("pgv_p_over_g_tan_alpha"), True),
     "omega_g_over_p": Kind("ω_g/p", "-", 0, _rocking("omega_g_over_p"), True),
@@ -277,6 +282,21 @@ LEVEL_UNITS: dict[str, dict[str, float]] = {
 _LEVEL = re.compile(r"\s*([0-9.]+(?:[eE][+-]?\d+)?)\s*(\S*)\s*")
 
 
+def parse_level(text: str, measure: IntensityMeasure) -> float:
+    """A level of a measure as typed, ``0.3m/s``, in the measure's unit; positive.
+
+    Raises
+    ------
+    InputError
+        It has not the unit of the measure, or is not positive.
+    """
+    found, units = _LEVEL.fullmatch(text), LEVEL_UNITS[measure.unit]
+    if found is None or found[2].lower() not in units or not float(found[1]) > 0.0:
+        example = {"g": "0.3g", "m/s": "0.2m/s", "s": "1s", "-": "1.5"}[measure.unit]
+        raise InputError(f"level {text.strip()!r} of {measure.name} cannot be read; write it such as {example}.")
+    return float(found[1]) * units[found[2].lower()]
+
+
 def parse_levels(texts: str | Sequence[str], measure: IntensityMeasure) -> np.ndarray:
     """Levels of a measure as typed: ``0.1m/s:1.0m/s:10`` (first, last, number), ``0.1m/s,0.2m/s``, or a list of such.
 
@@ -287,11 +307,7 @@ def parse_levels(texts: str | Sequence[str], measure: IntensityMeasure) -> np.nd
     """
 
     def one(text: str) -> float:
-        found, units = _LEVEL.fullmatch(text), LEVEL_UNITS[measure.unit]
-        if found is None or found[2].lower() not in units or not float(found[1]) > 0.0:
-            example = {"g": "0.3g", "m/s": "0.2m/s", "s": "1s", "-": "1.5"}[measure.unit]
-            raise InputError(f"level {text.strip()!r} of {measure.name} cannot be read; write it such as {example}.")
-        return float(found[1]) * units[found[2].lower()]
+        return parse_level(text, measure)
 
     parts = [texts] if isinstance(texts, str) else list(texts)
     return np.unique(np.concatenate([_values("levels", text, one, "0.1m/s:1.0m/s:10") for text in parts]))

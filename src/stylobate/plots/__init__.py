@@ -19,6 +19,7 @@ from .motion import draw_motion
 from .orbit import draw_orbit
 from .probability import draw_probability
 from .pushover import draw_mechanism, draw_pushover
+from .record_selection import draw_record_selection
 from .record_verdicts import draw_record_verdicts
 from .residuals import draw_residuals
 from .risk import draw_risk, draw_survival
@@ -57,6 +58,7 @@ __all__ = [
     "draw_posterior",
     "draw_probability",
     "draw_pushover",
+    "draw_record_selection",
     "draw_record_verdicts",
     "draw_residuals",
     "draw_risk",

@@ -1,0 +1,392 @@
+"""Records for a code: chosen and scaled so that their mean spectrum follows a target."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas
+
+from ..constants import g
+from ..errors import InputError, check_choice, check_range
+from ..motion import Motion
+from ..motion.drift import cure_of
+from ..motion.intensity import displacement_drift
+from ..motion.intensity_specs import IntensityMeasure
+from ..motion.spectra import pseudo_acceleration, rotated_pga, rotated_spectrum
+from .target_spectra import TargetSpectrum
+
+#: The one number for two horizontal components at a period by which records are compared.
+HORIZONTAL = ("geomean", "larger", "rotd50", "rotd100", "x")
+
+#: Periods at which spectra are compared, evenly spaced in their logarithm.
+POINTS = 100
+
+#: Fewest records of EN 1998-1 and NTC 2018, and fewest of which the mean of the responses may be taken.
+FEWEST, FOR_MEANS = 3, 7
+
+#: Weight of the records' own misfits beside that of their mean, where sets are compared.
+OWN_MISFIT = 0.2
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Range of a measure that a record must have, as recorded; ``magnitude`` and ``distance_km`` are told of it.
+
+    Parameters
+    ----------
+    measure : IntensityMeasure or str
+    low, high : float
+        In the unit of the measure.
+    """
+
+    measure: IntensityMeasure | str
+    low: float
+    high: float
+
+    @property
+    def name(self) -> str:
+        """As it is typed."""
+        return self.measure if isinstance(self.measure, str) else self.measure.name
+
+    def refusal(self, motion: Motion, about: Mapping[str, float]) -> str | None:
+        """Why a record is not wanted, in a sentence; None where it is."""
+        if isinstance(self.measure, str):
+            value = about.get(self.measure, np.nan)
+            if not np.isfinite(value):
+                return f"its {self.measure} is not told, and {self.low:g} to {self.high:g} is asked for"
+        else:
+            value = self.measure.of(motion)
+        inside = self.low <= value <= self.high
+        return None if inside else f"its {self.name} is {value:.3g}, and {self.low:g} to {self.high:g} is asked for"
+
+
+@dataclass(frozen=True, eq=False)
+class RecordSelection:
+    """Result of :func:`select_records`.
+
+    Parameters
+    ----------
+    target : TargetSpectrum
+    periods : array
+        [s], shape (P,).
+    wanted : array
+        Target at these periods [m/s²], shape (P,).
+    motions : tuple of Motion
+        Chosen ones, scaled; shape (K,).
+    spectra : array
+        Of these, by the one number for both components [m/s²], shape (K, P).
+    table : pandas.DataFrame
+        A row for each.
+    least, most : float
+        Bounds of the mean over the target [-]; infinite where there is none above.
+    pga_over_target : float, optional
+        Mean of their peak accelerations over the target's at a period of 0, where its code wants it [-].
+    refused : dict of str to str
+        Records that were not considered, with the reason.
+    """
+
+    target: TargetSpectrum
+    periods: np.ndarray
+    wanted: np.ndarray
+    motions: tuple[Motion, ...]
+    spectra: np.ndarray
+    table: pandas.DataFrame
+    least: float
+    most: float
+    pga_over_target: float | None
+    refused: dict[str, str]
+
+    @property
+    def mean(self) -> np.ndarray:
+        """Mean spectrum [m/s²], shape (P,)."""
+        return self.spectra.mean(axis=0)
+
+    @property
+    def ratio(self) -> np.ndarray:
+        """Mean over the target [-], shape (P,)."""
+        return self.mean / self.wanted
+
+    @property
+    def meets(self) -> bool:
+        """Whether the mean keeps to its bounds over all periods, and to the target at a period of 0 where that is asked."""
+        slack = 1e-9  # the common factor brings the mean onto its bound, to the last bit or one below
+        above = self.pga_over_target is None or self.pga_over_target >= 1.0 - slack
+        return bool(above and self.ratio.min() >= self.least - slack and self.ratio.max() <= self.most + slack)
+
+    @property
+    def sentence(self) -> str:
+        """What the set does, in two or three sentences."""
+        low, high = self.ratio.min(), self.ratio.max()
+        bounds = f"at least {self.least:g}" + (f", at most {self.most:g}" if np.isfinite(self.most) else "")
+        said = (
+            f"The mean of {len(self.motions)} records is {low:.2f} to {high:.2f} times the target between "
+            f"{self.periods[0]:g} and {self.periods[-1]:g} s ({bounds} is asked for)"
+        )
+        if self.pga_over_target is not None:
+            said += f", and {self.pga_over_target:.2f} times it at a period of 0 (at least 1)"
+        said += (
+            ": the set meets it."
+            if self.meets
+            else (": the set does not meet it; widen --factors, shorten --periods, or give more records.")
+        )
+        if len(self.motions) < FOR_MEANS:
+            said += f" With fewer than {FOR_MEANS} records codes take the largest response, not the mean."
+        return said
+
+    def summary(self) -> dict[str, Any]:
+        """Plain values for JSON."""
+        return {
+            "target": self.target.name,
+            "target_words": self.target.words,
+            "meets": self.meets,
+            "sentence": self.sentence,
+            "least_ratio": float(self.ratio.min()),
+            "largest_ratio": float(self.ratio.max()),
+            "pga_over_target": self.pga_over_target,
+            "bounds": [self.least, self.most if np.isfinite(self.most) else None],
+            "period_s": self.periods.tolist(),
+            "target_g": (self.wanted / g).tolist(),
+            "mean_g": (self.mean / g).tolist(),
+            "records": self.table.astype(object).where(self.table.notna(), None).to_dict("records"),
+            "refused": self.refused,
+        }
+
+
+def select_records(
+    motions: Sequence[Motion],
+    target: TargetSpectrum,
+    count: int = FOR_MEANS,
+    *,
+    periods: tuple[float, float] = (0.2, 3.0),
+    horizontal: str = "geomean",
+    factors: tuple[float, float] = (0.5, 2.0),
+    least: float = 0.9,
+    per_event: int | None = None,
+    wanted: Sequence[Wanted] = (),
+    about: Mapping[str, Mapping[str, float]] | None = None,
+) -> RecordSelection:
+    """Choose and scale records so that their mean spectrum follows a target.
+
+    Parameters
+    ----------
+    motions : sequence of Motion
+    target : TargetSpectrum
+    count : int
+        Records that are chosen.
+    periods : (float, float)
+        Between which spectra are compared [s]. A rocking column has no period of its own: it answers to long ones.
+    horizontal : {"geomean", "larger", "rotd50", "rotd100", "x"}
+        The one number for two components at a period; records with one component are compared by that.
+    factors : (float, float)
+        Between which a record may be multiplied, all its components by the same [-].
+    least : float
+        Least mean over the target at any of the periods [-]: 0.9 of EN 1998-1:2004, 3.2.3.1.2(4), and of NTC 2018, 3.2.3.6.
+    per_event : int, optional
+        Most records of one event, by the name in their headers; without a limit by default.
+    wanted : sequence of Wanted
+        Ranges that a record must keep to, as recorded.
+    about : dict of str to dict, optional
+        ``magnitude`` and ``distance_km`` by the names of records.
+
+    Returns
+    -------
+    RecordSelection
+
+    Raises
+    ------
+    InputError
+        Fewer records can be used than are asked for, or a parameter out of its range.
+
+    Notes
+    -----
+    Each record is first multiplied so that it follows the target best (least squares of logarithms), within the limits. Sets
+    are then grown record by record, and records exchanged for others as long as the misfit of the mean, with a fifth of
+    the records' own, becomes less. At last all are multiplied by the one factor that lifts the mean onto its lower bound
+    where it lies below, as far as the limits allow.
+    """
+    check_range("count", count, 1, 1000)
+    check_choice("horizontal", horizontal, HORIZONTAL)
+    low, high = periods
+    check_range("first period", low, 0.01, 10.0, unit="s")
+    check_range("last period", high, low, 10.0, unit="s", open_low=True)
+    check_range("smallest factor", factors[0], 0.01, 1.0)
+    check_range("largest factor", factors[1], 1.0, 100.0)
+    check_range("least mean over the target", least, 0.1, 2.0)
+    t = np.geomspace(low, high, POINTS)
+    aim = target.at(t)
+    known = about or {}
+    kept: list[Motion] = []
+    spectra: list[np.ndarray] = []
+    sizes: list[float] = []
+    refused: dict[str, str] = {}
+    for motion in motions:
+        reason, spectrum, size = _considered(motion, t, aim, horizontal, factors, wanted, known.get(motion.name, {}))
+        if reason is None:
+            kept.append(motion)
+            spectra.append(spectrum)
+            sizes.append(size)
+        else:
+            refused[motion.name] = reason
+    if len(kept) < count:
+        first = (
+            f" The first reason: {next(iter(refused.items()))[0]}: {next(iter(refused.values()))}." if refused else ""
+        )
+        raise InputError(
+            f"{len(kept)} of {len(motions)} records can be used, and {count} are asked for; ask for fewer, or give more."
+            f"{first}",
+            "count",
+        )
+    scaled = np.array(sizes)[:, None] * np.array(spectra)
+    events = [str(motion.metadata.get("event") or motion.name) for motion in kept]
+    chosen = _best(np.log(scaled / aim), scaled / aim, count, events, per_event)
+    zero = target.acceleration(0.0) if target.from_zero else None
+    peaks = np.array([_peak(kept[k], horizontal) for k in chosen])
+    own = np.array([sizes[k] for k in chosen])
+    size = _lifted(own, np.array([spectra[k] for k in chosen]), peaks, aim, zero, least, factors[1])
+    found = tuple(_scaled(kept[k], float(x)) for k, x in zip(chosen, size, strict=True))
+    rows = size[:, None] * np.array([spectra[k] for k in chosen])
+    table = pandas.DataFrame(
+        [
+            _row(kept[k], float(x), row / aim, horizontal, known.get(kept[k].name, {}))
+            for k, x, row in zip(chosen, size, rows, strict=True)
+        ]
+    )
+    ratio = None if zero is None else float((size * peaks).mean() / zero)
+    most = np.inf if target.most is None else target.most
+    return RecordSelection(target, t, aim, found, rows, table, least, most, ratio, refused)
+
+
+def _considered(
+    motion: Motion,
+    periods: np.ndarray,
+    aim: np.ndarray,
+    horizontal: str,
+    factors: tuple[float, float],
+    wanted: Sequence[Wanted],
+    about: Mapping[str, float],
+) -> tuple[str | None, np.ndarray, float]:
+    """Why a record is left out, or None; its spectrum [m/s²], and the factor that makes it follow the target."""
+    reason = next((told for one in wanted if (told := one.refusal(motion, about)) is not None), None)
+    if reason is not None:
+        return reason, aim, 1.0
+    spectrum = _spectrum(motion, periods, horizontal)
+    if not (spectrum > 0.0).all():
+        return "it has nothing along a component", aim, 1.0
+    best = float(np.exp(np.log(aim / spectrum).mean()))
+    if not factors[0] <= best <= factors[1]:
+        return (
+            f"it would have to be multiplied by {best:.3g}, and {factors[0]:g} to {factors[1]:g} is allowed",
+            aim,
+            1.0,
+        )
+    return None, spectrum, best
+
+
+def _spectrum(motion: Motion, periods: np.ndarray, horizontal: str) -> np.ndarray:
+    x = pseudo_acceleration(motion, periods)
+    if motion.lateral is None or horizontal == "x":
+        return x
+    if horizontal.startswith("rotd"):
+        share = 50.0 if horizontal == "rotd50" else 100.0
+        return rotated_spectrum(motion, (share,), periods)[share]
+    y = pseudo_acceleration(motion, periods, component="y")
+    return np.sqrt(x * y) if horizontal == "geomean" else np.maximum(x, y)
+
+
+def _peak(motion: Motion, horizontal: str) -> float:
+    if motion.lateral is None or horizontal == "x":
+        return motion.pga
+    if horizontal.startswith("rotd"):
+        share = 50.0 if horizontal == "rotd50" else 100.0
+        return rotated_pga(motion, (share,))[share]
+    across = float(np.abs(motion.lateral).max())
+    return float(np.sqrt(motion.pga * across)) if horizontal == "geomean" else max(motion.pga, across)
+
+
+def _best(logs: np.ndarray, ratios: np.ndarray, count: int, events: list[str], per_event: int | None) -> list[int]:
+    """Indices of the set of least misfit that exchanges of single records lead to."""
+    own = np.sqrt((logs**2).mean(axis=1))
+
+    def allowed(chosen: list[int], k: int) -> bool:
+        return k not in chosen and (per_event is None or sum(events[one] == events[k] for one in chosen) < per_event)
+
+    def misfit(chosen: list[int]) -> float:
+        mean = ratios[chosen].mean(axis=0)
+        level = np.exp(np.log(mean).mean())  # one factor brings the whole set up or down
+        return float(np.sqrt(((mean / level - 1.0) ** 2).mean()) + OWN_MISFIT * own[chosen].mean())
+
+    chosen: list[int] = []
+    for _ in range(count):
+        open_ = [k for k in range(len(own)) if allowed(chosen, k)]
+        if not open_:
+            raise InputError(
+                f"{len(chosen)} records can be chosen with at most {per_event} of one event, and {count} are asked for; "
+                "allow more of one event, or ask for fewer.",
+                "per_event",
+            )
+        chosen.append(min(open_, key=lambda k: misfit([*chosen, k])))
+    while True:
+        tried = [
+            (misfit([*rest, k]), place, k)
+            for place in range(count)
+            for rest in [chosen[:place] + chosen[place + 1 :]]
+            for k in range(len(own))
+            if allowed(rest, k) and k != chosen[place]
+        ]
+        better = min(tried, default=(np.inf, 0, 0))
+        if not better[0] < misfit(chosen) - 1e-12:
+            return sorted(chosen)
+        chosen[better[1]] = better[2]
+
+
+def _lifted(
+    own: np.ndarray,
+    spectra: np.ndarray,
+    peaks: np.ndarray,
+    aim: np.ndarray,
+    zero: float | None,
+    least: float,
+    largest: float,
+) -> np.ndarray:
+    """Factors of the records when all are multiplied by one that lifts their mean onto its bounds, as the limit allows."""
+    size = own
+    for _ in range(50):
+        short = (least * aim / (size[:, None] * spectra).mean(axis=0)).max()
+        if zero is not None:
+            short = max(short, zero / (size * peaks).mean())
+        if short <= 1.0 or (size >= largest).all():
+            return size
+        size = np.minimum(size * short, largest)
+    return size
+
+
+def _scaled(motion: Motion, factor: float) -> Motion:
+    said = f"multiplied by {factor:.6g}: scaled to a target spectrum"
+    return motion.scaled(factor).replace(processing=(*motion.processing, said))
+
+
+def _row(
+    motion: Motion, factor: float, ratio: np.ndarray, horizontal: str, about: Mapping[str, float]
+) -> dict[str, Any]:
+    axes = motion.components if "file" in motion.metadata else ()
+    worst, drift = max(
+        ((axis, displacement_drift(motion, axis)) for axis in axes), key=lambda one: abs(one[1]), default=("x", 0.0)
+    )
+    return {
+        "record": motion.name,
+        "factor": factor,
+        "compared_by": "x" if motion.lateral is None else horizontal,
+        "misfit": float(np.sqrt((np.log(ratio) ** 2).mean())),
+        "least_ratio": float(ratio.min()),
+        "largest_ratio": float(ratio.max()),
+        "pga_g": factor * motion.pga / g,
+        "pgv_m_s": factor * motion.pgv,
+        "event": motion.metadata.get("event"),
+        "magnitude": about.get("magnitude"),
+        "distance_km": about.get("distance_km"),
+        "drift_m": drift,
+        "cure": cure_of(motion.components[worst], motion.dt) if drift else None,
+    }

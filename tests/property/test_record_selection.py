@@ -1,0 +1,92 @@
+"""Chosen records: factors, bounds and limits that hold for whatever is chosen, and the choice beside all that there are."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.analysis.record_selection import OWN_MISFIT, Wanted, select_records
+from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.specs import parse_synthetic
+from stylobate.motion.spectra import pseudo_acceleration
+
+
+@pytest.fixture(scope="module")
+def motions():
+    return [
+        parse_synthetic(f"greece,{m}Mw,{r}km,seed={k}").replace(name=f"record {k}")
+        for k, (m, r) in enumerate(
+            [(6.0, 10), (6.5, 20), (6.8, 15), (7.0, 30), (6.2, 8), (6.6, 12), (7.0, 20), (6.4, 25)]
+        )
+    ]
+
+
+def _table(tmp_path, motion, times):
+    t = np.geomspace(0.05, 5.0, 400)
+    values = times * pseudo_acceleration(motion, t)
+    file = tmp_path / "target.csv"
+    file.write_text("period_s,sa_m_s2\n" + "\n".join(f"{a:.17g},{b:.17g}" for a, b in zip(t, values)) + "\n")
+    return st.target_spectrum(str(file))
+
+
+def test_a_record_that_is_the_target(tmp_path, motions):
+    """Its own spectrum 1.5 times: multiplied by 1.5, over all periods within what lies between rows of the table."""
+    found = select_records(motions, _table(tmp_path, motions[2], 1.5), 1)
+    assert found.table["record"].tolist() == ["record 2"]
+    assert found.table["factor"][0] == pytest.approx(1.5, rel=2e-3)
+    assert found.ratio == pytest.approx(np.ones_like(found.ratio), rel=0.03)
+    assert found.meets
+    assert np.array_equal(found.motions[0].samples, motions[2].samples)
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_exchanges_reach_the_best_of_all_sets(tmp_path, motions, count):
+    """The misfit of the chosen set is at most 5 % above that of the best of all sets."""
+    target = st.target_spectrum("ec8,ag=0.2g,soil=B")
+    wide = {"factors": (0.1, 10.0), "least": 0.1}
+    each = [select_records([one], target, 1, **wide) for one in motions]
+    own = np.array([one.spectra[0] * one.table["factor"][0] ** 0 for one in each])
+    best = own / np.exp(np.log(own / each[0].wanted).mean(axis=1))[:, None] / each[0].wanted
+
+    def misfit(chosen):
+        mean = best[list(chosen)].mean(axis=0)
+        level = np.exp(np.log(mean).mean())
+        alone = np.sqrt((np.log(best[list(chosen)]) ** 2).mean(axis=1)).mean()
+        return np.sqrt(((mean / level - 1.0) ** 2).mean()) + OWN_MISFIT * alone
+
+    names = [one.name for one in motions]
+    found = select_records(motions, target, count, **wide).table["record"]
+    least = min(map(misfit, combinations(range(len(motions)), count)))
+    assert misfit([names.index(name) for name in found]) <= 1.05 * least
+
+
+def test_bounds_and_limits_hold(motions):
+    target = st.target_spectrum("ec8,ag=0.2g,soil=B")
+    found = select_records(motions, target, 4, factors=(0.2, 6.0))
+    assert found.meets
+    assert found.ratio.min() >= 0.9 - 1e-9
+    assert found.pga_over_target >= 1.0 - 1e-9
+    assert ((found.table["factor"] >= 0.2) & (found.table["factor"] <= 6.0)).all()
+    for motion, row in zip(found.motions, found.spectra, strict=True):
+        assert pseudo_acceleration(motion, found.periods) == pytest.approx(row)
+    short = select_records(motions, target, 4, factors=(0.2, 6.0), least=1.9)
+    assert (short.table["factor"] <= 6.0).all()
+    assert ("does not meet" in short.sentence) == (not short.meets)
+
+
+def test_ranges_and_events(motions):
+    target = st.target_spectrum("ec8,ag=0.2g,soil=B")
+    told = [one.replace(metadata={**one.metadata, "event": "A" if k < 5 else f"{k}"}) for k, one in enumerate(motions)]
+    found = select_records(told, target, 4, factors=(0.01, 100.0), per_event=1)
+    assert (found.table["event"] == "A").sum() <= 1
+    with pytest.raises(st.InputError, match="4 records can be chosen with at most 1 of one event"):
+        select_records(told, target, 5, factors=(0.01, 100.0), per_event=1)
+    about = {one.name: {"magnitude": 6.0 + 0.1 * k} for k, one in enumerate(motions)}
+    wanted = [Wanted("magnitude", 6.25, 6.75), Wanted(parse_measure("pgv"), 0.0, 10.0)]
+    found = select_records(motions, target, 3, factors=(0.01, 100.0), wanted=wanted, about=about)
+    assert set(found.refused) == {"record 0", "record 1", "record 2"}
+    with pytest.raises(st.InputError, match="0 of 8 records can be used, and 3 are asked for"):
+        select_records(motions, target, 3, wanted=[Wanted("distance_km", 0.0, 10.0)])
