@@ -16,6 +16,7 @@ from ..campaign.unknown_laws import usual_in_space
 from ..column.structure import Structure
 from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
+from ..notebook import Shown
 from ..response import Response
 from ..response.words import to_decide
 from ..simulate import run_options, simulate
@@ -24,7 +25,7 @@ from .population import Population
 
 
 @dataclass(frozen=True, eq=False)
-class Certainty:
+class Certainty(Shown):
     """One run, and how sure its verdict is.
 
     Parameters

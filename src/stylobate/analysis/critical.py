@@ -27,6 +27,7 @@ from ..errors import InputError, check_kind, check_range
 from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
+from ..notebook import Shown
 from ..response.rows import Rows
 from . import verdicts as v
 from .capacity import Capacity, bounds, of_levels
@@ -45,7 +46,7 @@ CLOSE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class CriticalAmplitude:
+class CriticalAmplitude(Shown):
     """Outcomes over a grid of amplitudes.
 
     Parameters

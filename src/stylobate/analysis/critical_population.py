@@ -9,6 +9,7 @@ import numpy as np
 
 from ..campaign.twins import Twins
 from ..constants import g
+from ..notebook import Shown
 from ..response.rows import Rows
 from . import verdicts as v
 from .capacity import SHARES, Capacity, bounds, of_levels, quantiles
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class CriticalPopulation:
+class CriticalPopulation(Shown):
     """Verdicts on twins over a grid of amplitudes.
 
     Parameters

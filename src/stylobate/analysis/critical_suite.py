@@ -16,6 +16,7 @@ from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.orientation import record_of
+from ..notebook import Shown
 from . import verdicts as v
 from .critical import CriticalAmplitude, Shaken, amplitude_grid, sweep
 from .critical_words import sentence_of_suite
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class CriticalSuite:
+class CriticalSuite(Shown):
     """Outcomes of many records over one grid of amplitudes.
 
     Parameters

@@ -19,6 +19,7 @@ from ..campaign.runs import Request, Runs, Stopped
 from ..column import Column
 from ..constants import g
 from ..models.base import Model
+from ..notebook import Shown
 from ..outcome import Outcome
 from ..response.rows import Rows
 from ..version import __version__
@@ -46,7 +47,7 @@ _GRIDS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Domain:
+class Domain(Shown):
     """Verdicts over frequency and amplitude.
 
     Parameters

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from ..errors import InputError, check_choice, check_kind
+from ..notebook import Shown
 from . import likelihood_region, lognormal
 from .evidence import Evidence, intervals
 from .evidence import evidence as evidence_of
@@ -33,7 +34,7 @@ CLOSE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Fragility:
+class Fragility(Shown):
     """A lognormal fragility with what is known about it.
 
     Parameters

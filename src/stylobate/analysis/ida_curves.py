@@ -14,6 +14,7 @@ from ..column.structure import Structure
 from ..errors import InputError
 from ..models.base import Model
 from ..motion.intensity_specs import IntensityMeasure
+from ..notebook import Shown
 from ..response.measures import blank_row
 from . import verdicts as v
 from .capacity import SHARES, Capacity, bounds, of_levels, quantiles
@@ -87,7 +88,7 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class Ida:
+class Ida(Shown):
     """An incremental dynamic analysis.
 
     Parameters

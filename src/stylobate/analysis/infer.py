@@ -16,6 +16,7 @@ from ..campaign.ruin import Fact, Ruin
 from ..campaign.ruin_files import read_ruin
 from ..campaign.simulations import TAIL, simulations_of
 from ..errors import InputError, check_kind
+from ..notebook import Shown
 from . import abc
 from .answers import CALLED, FEWEST, TOLD, Answers, Posterior, listed, words_of
 from .ruin_check import Checked, checks_of
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Inference:
+class Inference(Shown):
     """The answer: what shaking it was, as far as shapes tell.
 
     Parameters

@@ -16,6 +16,7 @@ from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError
 from ..motion.scatter import MotionScatter
+from ..notebook import Shown
 from ..version import __version__
 from . import verdicts as v
 from .domain import cell_edges, grid_coordinates
@@ -30,7 +31,7 @@ KINDS = (SAFE, UNCERTAIN, UNSAFE, UNKNOWN)
 
 
 @dataclass(frozen=True, eq=False)
-class CollapseProbability:
+class CollapseProbability(Shown):
     """Verdicts of all columns alike in all cells.
 
     Parameters

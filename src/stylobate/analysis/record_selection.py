@@ -16,6 +16,7 @@ from ..motion.drift import cure_of
 from ..motion.intensity import displacement_drift
 from ..motion.intensity_specs import IntensityMeasure
 from ..motion.spectra import pseudo_acceleration, rotated_pga, rotated_spectrum
+from ..notebook import Shown
 from .target_spectra import TargetSpectrum
 
 #: The one number for two horizontal components at a period by which records are compared.
@@ -24,8 +25,8 @@ HORIZONTAL = ("geomean", "larger", "rotd50", "rotd100", "x")
 #: Periods at which spectra are compared, evenly spaced in their logarithm.
 POINTS = 100
 
-#: Fewest records of EN 1998-1 and NTC 2018, and fewest of which the mean of the responses may be taken.
-FEWEST, FOR_MEANS = 3, 7
+#: Fewest records of which EN 1998-1 and NTC 2018 take the mean of the responses.
+FOR_MEANS = 7
 
 #: Weight of the records' own misfits beside that of their mean, where sets are compared.
 OWN_MISFIT = 0.2
@@ -64,7 +65,7 @@ class Wanted:
 
 
 @dataclass(frozen=True, eq=False)
-class RecordSelection:
+class RecordSelection(Shown):
     """Result of :func:`select_records`.
 
     Parameters
@@ -114,15 +115,17 @@ class RecordSelection:
         """Whether the mean keeps to its bounds over all periods, and to the target at a period of 0 where that is asked."""
         slack = 1e-9  # the common factor brings the mean onto its bound, to the last bit or one below
         above = self.pga_over_target is None or self.pga_over_target >= 1.0 - slack
+        above = above and len(self.motions) >= self.target.fewest
         return bool(above and self.ratio.min() >= self.least - slack and self.ratio.max() <= self.most + slack)
 
     @property
     def sentence(self) -> str:
         """What the set does, in two or three sentences."""
         low, high = self.ratio.min(), self.ratio.max()
+        count = f"{len(self.motions)} record{'s' if len(self.motions) > 1 else ''}"
         bounds = f"at least {self.least:g}" + (f", at most {self.most:g}" if np.isfinite(self.most) else "")
         said = (
-            f"The mean of {len(self.motions)} records is {low:.2f} to {high:.2f} times the target between "
+            f"The mean of {count} is {low:.2f} to {high:.2f} times the target between "
             f"{self.periods[0]:g} and {self.periods[-1]:g} s ({bounds} is asked for)"
         )
         if self.pga_over_target is not None:
@@ -132,7 +135,9 @@ class RecordSelection:
             if self.meets
             else (": the set does not meet it; widen --factors, shorten --periods, or give more records.")
         )
-        if len(self.motions) < FOR_MEANS:
+        if len(self.motions) < self.target.fewest:
+            said += f" The code wants {self.target.fewest} records at least."
+        elif len(self.motions) < FOR_MEANS:
             said += f" With fewer than {FOR_MEANS} records codes take the largest response, not the mean."
         return said
 

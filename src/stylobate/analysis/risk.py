@@ -13,6 +13,7 @@ from scipy.special import ndtr
 
 from ..errors import InputError, check_all, check_kind, check_range
 from ..motion.intensity_specs import ENDS, parse_measure
+from ..notebook import Shown
 from ..percent import percent
 from .fragility import Fragility
 from .hazard import Hazard
@@ -32,7 +33,7 @@ PARTS = 10
 
 
 @dataclass(frozen=True, eq=False)
-class Risk:
+class Risk(Shown):
     """Mean annual rate of a state.
 
     Parameters
@@ -145,7 +146,7 @@ class Risk:
 
 
 @dataclass(frozen=True, eq=False)
-class Survival:
+class Survival(Shown):
     """Evidence of the age of a column that still stands on hazard curves.
 
     Parameters

@@ -18,6 +18,7 @@ from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.sequence import REST, Span, in_sequence, number_at, spans_of
+from ..notebook import Shown
 from ..response import Response
 from ..response.events import Event, events_of
 from ..simulate import simulate
@@ -122,7 +123,7 @@ class Count:
 
 
 @dataclass(frozen=True, eq=False)
-class SequenceResult:
+class SequenceResult(Shown):
     """A structure under earthquakes one after another.
 
     Parameters
@@ -277,7 +278,7 @@ def _alike(motions: Sequence[Motion], model: Model) -> Sequence[Motion]:
 
 
 @dataclass(frozen=True, eq=False)
-class UntilFall:
+class UntilFall(Shown):
     """How many earthquakes of a kind, one after another, a structure stands.
 
     Parameters

@@ -18,6 +18,7 @@ from ..errors import InputError, check_kind
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
+from ..notebook import Shown
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
 from .difference import Difference, caveat, doubt, reference
@@ -38,7 +39,7 @@ FEWEST_STATES = 2
 
 
 @dataclass(frozen=True, eq=False)
-class StateComparison:
+class StateComparison(Shown):
     """Several states of a column, or of an assembly, under the same motions.
 
     Parameters

@@ -19,6 +19,7 @@ from ..campaign.plan import Plan
 from ..campaign.runs import Runs, Stopped, its_turn
 from ..errors import InputError, check_kind
 from ..models.shared.quiet import share_of
+from ..notebook import Shown
 from ..response import Response
 from ..response.rows import Rows
 from ..simulate import simulate
@@ -34,7 +35,7 @@ TABLES = (".parquet", ".csv")
 
 
 @dataclass(frozen=True, eq=False)
-class StudyResult:
+class StudyResult(Shown):
     """A study as far as it has been run.
 
     Parameters

@@ -22,6 +22,9 @@ CORRELATED = (0.01, 10.0)
 #: each allows over the target [-].
 FROM_ZERO, EXCESS = ("ec8",), {"ntc2018": 1.3}
 
+#: Fewest records of EN 1998-1 (3.2.3.1.2) and NTC 2018.
+FEWEST = 3
+
 _MOST = 1_000_000
 _CONDITIONAL = re.compile(r"cms:(?P<file>.+),\s*T=(?P<period>[^,]+),\s*sa=(?P<level>[^,]+)")
 
@@ -44,6 +47,8 @@ class TargetSpectrum:
         Its code also wants the mean of the peak ground accelerations.
     most : float, optional
         Largest mean over the target that its code allows [-].
+    fewest : int
+        Records that its code wants at least.
     """
 
     name: str
@@ -53,6 +58,7 @@ class TargetSpectrum:
     acceleration: Callable[[float], float]
     from_zero: bool = False
     most: float | None = None
+    fewest: int = 1
 
     def at(self, periods: np.ndarray) -> np.ndarray:
         """Spectral accelerations [m/s²] at periods [s], both of shape (P,).
@@ -91,7 +97,7 @@ def target_spectrum(text: str) -> TargetSpectrum:
     code, given = parse_code(text)
     spectrum = spectrum_of_code(code, given)
     most = EXCESS.get(code)
-    return TargetSpectrum(text, _CODE[code], 0.0, LONGEST, spectrum.acceleration, code in FROM_ZERO, most)
+    return TargetSpectrum(text, _CODE[code], 0.0, LONGEST, spectrum.acceleration, code in FROM_ZERO, most, FEWEST)
 
 
 _CODE = dict(zip(CODES, ("EN 1998-1:2004, 3.2.2.2", "prEN 1998-1-1:2019, 5.2.2.2", "NTC 2018, 3.2.3.2"), strict=True))

@@ -31,7 +31,7 @@ FLATTEST = math.radians(5.0)
 OVERLAPPING = 1e-7
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Assembly(Structure):
     """Blocks, the law of their contacts, and the ground.
 

@@ -39,7 +39,7 @@ MAX_DRUMS = 200
 GRAVITIES = (1e-2, 100.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Column(DrumStack):
     """Drums from the bottom up, and the joint under each of them.
 

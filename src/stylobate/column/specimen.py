@@ -27,7 +27,7 @@ IN_PLANE = 1e-7
 MOST_VERTICES = 5000
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Specimen(Structure):
     """A rigid convex body at rest on the base: a boulder, a statue's block, a test specimen.
 

@@ -16,6 +16,8 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
+from .. import notebook
+from ..constants import g
 from ..errors import InputError
 from .as_found import AS_BUILT, AsFound
 from .faces import FacePair
@@ -143,6 +145,10 @@ def _turn(angle: float) -> np.ndarray:
     return np.array([[c, s], [-s, c]])
 
 
+def _number(count: int, of: tuple[str, str]) -> str:
+    return f"{count} {of[count != 1]}"
+
+
 class Structure:
     """Base of what stands. A kind gives its bodies and links, and what of the following it has.
 
@@ -234,6 +240,28 @@ class Structure:
     def described(self) -> str:
         """Name in a sentence, such as ``an assembly``."""
         return f"{'an' if self.kind[0] in 'aeiou' else 'a'} {self.kind}"
+
+    def describe(self) -> str:
+        """What it is, in a sentence or two: bodies, size and mass."""
+        moving = [body for body in self.bodies if not body.fixed]
+        corners = np.concatenate([body.corners for body in moving])
+        height, mass = float(corners[:, 1].max()) - (self.ground or 0.0), sum(body.mass for body in moving)
+        links = f" with {_number(len(self.placed_links), ('link', 'links'))}" if self.placed_links else ""
+        found = ", as found" if self.as_found else ""
+        said = f"{self.name}: {self.described} of {_number(len(moving), self.counted)}{links}{found}, "
+        said += f"{height:.4g} m high, {mass / 1e3:.4g} t."
+        if self.slenderness is not None and self.frequency_parameter is not None:
+            said += f" Slenderness {self.slenderness:.3f} rad, p = {self.frequency_parameter:.3f} rad/s."
+        if self.uplift_acceleration is not None:
+            said += f" A steady {self.uplift_acceleration / g:.3f} g opens the first joint."
+        return said
+
+    def __repr__(self) -> str:
+        return f"<{self.describe()}>"
+
+    def _repr_html_(self) -> str:
+        shapes = [(body.corners, False) for body in self.bodies if not body.fixed]
+        return notebook.page(self.name, self.describe(), {}, notebook.silhouettes([shapes], [""]))
 
     # -- what it measures; None where it has no such thing -------------------------------------------------------------
 

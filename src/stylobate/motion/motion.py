@@ -11,6 +11,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from .. import notebook
 from ..constants import g
 from ..errors import InputError, check_range
 
@@ -225,6 +226,12 @@ class Motion:
 
     def __repr__(self) -> str:
         return f"<Motion {self.describe()}>"
+
+    def _repr_html_(self) -> str:
+        pictures = [notebook.history(values / g, f"a{axis} [g]") for axis, values in self.components.items()]
+        facts = {f"peak along {axis} [g]": float(np.abs(values).max()) / g for axis, values in self.components.items()}
+        facts |= {"PGV [m/s]": self.pgv, "step [s]": self.dt, "steps": self.steps}
+        return notebook.page(self.name, self.describe(), facts, "".join(pictures))
 
     def describe(self) -> str:
         """One line for people."""

@@ -32,7 +32,7 @@ MOST, INTACT, LOOSE = 600, 0.02, 0.2
 OVERLAPPING = 1e-6
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SpatialAssembly(Structure):
     """Bodies in space, the law of their contacts, and the ground.
 
