@@ -1,4 +1,4 @@
-"""What a notebook shows: values told as elsewhere, nothing that runs, nothing from the network, names that cannot break out."""
+"""What a notebook shows: values told as elsewhere, nothing that runs, nothing from the network, names that stay texts."""
 
 from __future__ import annotations
 
