@@ -27,16 +27,18 @@ PORTAL = st.Assembly(
 )
 
 
-def batch(motions, **options):
-    found = dict(simulate_iter([Case(PORTAL, motion) for motion in motions], MODEL, threads=1, **options))
+def batch(motions, model=MODEL, **options):
+    found = dict(simulate_iter([Case(PORTAL, motion) for motion in motions], model, threads=1, **options))
     return [found[i] for i in range(len(motions))]
 
 
-def test_without_histories_a_run_has_the_same_measures():
+@pytest.mark.parametrize("losses", ["none", "stone"])
+def test_without_histories_a_run_has_the_same_measures(losses):
     # Neither falls: the batch leaves out the ledger between start and end, and nothing else.
+    model = st.DistinctElement2D(losses=losses)
     motions = [st.harmonic(1.0, size * st.g, 2.0) for size in (0.05, 0.25)]
-    for one, motion in zip(batch(motions), motions, strict=True):
-        alone = simulate_assembly(PORTAL, motion, MODEL).measures
+    for one, motion in zip(batch(motions, model), motions, strict=True):
+        alone = simulate_assembly(PORTAL, motion, model).measures
         assert not alone.collapsed
         assert one == alone
 

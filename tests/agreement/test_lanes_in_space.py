@@ -88,6 +88,17 @@ def test_what_stays_intact(structure, beta, monkeypatch):
         alike(one, st.simulate(structure, motion, model).measures)
 
 
+def test_losses_by_name_are_those_of_each_structure(monkeypatch):
+    """Two portals of other columns in one block of lanes: each has the damping that it has alone."""
+    model, cases = st.DistinctElement3D(losses="stone"), [Case(portal(wide), shaking(0.2)) for wide in (0.8, 0.7)]
+    found, alone = batch(cases, monkeypatch, model)
+    assert alone == 0
+    damping = [model.spatial_numbers(case.column).stiffness_damping for case in cases]
+    assert damping[0] > 1.1 * damping[1] > 1e-5
+    for one, case in zip(found, cases, strict=True):
+        alike(one, st.simulate(*case, model).measures)
+
+
 def alike(one, other):
     """Whether two runs agree as long as no impacts have made rounding grow."""
     for name in PEAKS:

@@ -54,6 +54,24 @@ def test_compare_leaves_the_quiet_of_a_record_out_as_run_does(capsys, folder):
     assert whole["steps"] > compared["steps"]
 
 
+def test_losses_go_with_the_model_wherever_one_is_computed():
+    """A command that computes with a model, or with several, has ``--losses``; ``cite`` computes nothing."""
+    names = {
+        name: {flag for one in command.params for flag in one.opts} for name, command in commands().commands.items()
+    }
+    computing = {name for name, flags in names.items() if flags & {"--model", "--models"}} - {"cite"}
+    assert {"run", "domain", "compare", "suite", "critical", "ida", "states", "sequence"} <= computing
+    assert [name for name in sorted(computing) if "--losses" not in names[name]] == []
+
+
+def test_losses_are_for_the_models_that_know_them(capsys, folder):
+    words = "compare", folder / "column.toml", "--motion", folder / "record.csv", "--losses", "stone"
+    runs = answer(capsys, *words, "--models", "rigid-block,dem2d,dem2d:losses=none")["runs"]
+    assert [run["losses"] for run in runs] == [None, "stone", "none"]
+    assert call([*map(str, words), "--models", "rigid-beam,rigid-block"]) == 2
+    assert "none of the models rigid-beam, rigid-block knows them" in capsys.readouterr().err
+
+
 def test_states_step_all_of_a_record_where_asked(capsys, folder):
     (folder / "again.toml").write_text(COLUMN)
     states = "--as-built", folder / "column.toml", "--with", folder / "again.toml"

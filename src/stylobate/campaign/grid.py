@@ -15,7 +15,7 @@ from ..column.structure import Structure
 from ..column.toml import Table, parse_toml, read_table
 from ..errors import InputError, as_typed, check_kind, check_range, within
 from ..models.base import Case, Cases, Model
-from ..models.registry import make_model
+from ..models.registry import make_models
 from ..motion import harmonic
 from ..motion.ranges import amplitude_range, frequency_range
 from ..motion.specs import parse_acceleration, parse_frequency
@@ -37,6 +37,7 @@ class GridTable(Table):
     amplitudes: Any
     duration: float = 10.0
     tail: float = 0.0
+    losses: str | None = None
     set: dict[str, Any] | None = None
 
 
@@ -113,7 +114,7 @@ def read_grid(path: str | Path) -> HarmonicGrid:
     with within(shown(path)):
         return HarmonicGrid(
             column=load_column(beside if beside.is_file() else table.column),
-            model=make_model(table.model, settings),
+            model=make_models([(table.model, settings)], table.losses)[0],
             frequencies=_values("frequencies", table.frequencies, frequency_range, parse_frequency, unit="Hz"),
             amplitudes=_values("amplitudes", table.amplitudes, amplitude_range, parse_acceleration, unit=None),
             duration=check_range("duration", table.duration, 0.0, 1e4, unit="s", open_low=True),

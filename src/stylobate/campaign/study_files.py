@@ -14,7 +14,7 @@ from ..column.scatter import LARGEST, Scatter
 from ..column.toml import Table, parse_toml, read_table
 from ..constants import g
 from ..errors import InputError, as_typed, check_whole, within
-from ..models.registry import make_model
+from ..models.registry import make_models
 from ..motion import Motion, Suite, harmonic
 from ..motion.intensity_specs import IntensityMeasure, parse_measure
 from ..motion.ranges import azimuth_range
@@ -141,7 +141,7 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     study = Study(
         [load_structure(folder / name if (folder / name).is_file() else name) for name in names],
         motions,
-        [make_model(model, settings | ({} if table.losses is None else {"losses": table.losses})) for model in models],
+        make_models([(model, settings) for model in models], table.losses),
         levels,
         im,
         keep=table.keep,

@@ -10,7 +10,6 @@ from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..models.base import Model
     from .files import Files
 
 
@@ -30,6 +29,7 @@ def compare(
     settings: list[str] | None = o.option(
         "MODEL.NAME=VALUE", "Option of one of the models; may be repeated.", flag="--set"
     ),
+    losses: o.LossesName = None,
     project: o.Project = None,
     execution: o.Execution,
 ) -> None:
@@ -50,7 +50,7 @@ def compare(
     campaign = execution.campaign(following)
     over_domain = frequencies is not None or amplitudes is not None
     stone: Any = (o.the_column if over_domain else o.the_structure)(column, project)
-    chosen = [_chosen(name, names, settings) for name in names]
+    chosen = o.the_models([_chosen(name, names, settings) for name in names], losses)
     result: dict[str, Any] = {"models": names, "doubt": caveat([stone], *chosen)}
     facts: dict[str, str] = {}
     what: dict[str, Any] = {"structures": [stone], "models": chosen, "labels": names, "tail_s": campaign.tail}
@@ -106,10 +106,10 @@ def compare(
     console.print_files(files)
 
 
-def _chosen(label: str, labels: list[str], settings: list[str] | None) -> Model:
+def _chosen(label: str, labels: list[str], settings: list[str] | None) -> tuple[str, list[str]]:
     """The model that a label names, with its options: those behind colons, and those of --set."""
     name, *own = label.split(":")
-    return o.the_model(name, [*own, *_settings_of(label, labels, settings)])
+    return name, [*own, *_settings_of(label, labels, settings)]
 
 
 def _stem(label: str) -> str:

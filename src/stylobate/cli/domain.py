@@ -29,6 +29,7 @@ def domain(
     ),
     half_step: bool = o.option(None, "Run it again with half of the time step and count what differs.", False),
     settings: o.Settings = None,
+    losses: o.LossesName = None,
     project: o.Project = None,
     execution: o.Execution,
 ) -> None:
@@ -44,7 +45,7 @@ def domain(
     from ..campaign.runs import Stopped
     from . import console
 
-    study = _study(what, model, frequencies, amplitudes, duration, tail, settings, project)
+    study = _study(what, model, frequencies, amplitudes, duration, tail, settings, losses, project)
     grid: tuple[Any, ...] = study.column, study.model, study.frequencies, study.amplitudes, study.duration
     campaign = execution.campaign(population, tail=study.tail)
     likely = population.replicates is not None
@@ -163,6 +164,7 @@ def _study(
     duration: str | None,
     tail: str | None,
     settings: list[str] | None,
+    losses: str | None,
     project: str | None,
 ) -> HarmonicGrid:
     from ..campaign.grid import HarmonicGrid, is_grid, read_grid
@@ -176,6 +178,7 @@ def _study(
         "--duration": duration,
         "--tail": tail,
         "--set": settings,
+        "--losses": losses,
         "--project": project,
     }
     if Path(what).is_file() and is_grid(what):
@@ -188,7 +191,7 @@ def _study(
     column = o.the_column(what, project)
     return HarmonicGrid(
         column,
-        o.the_model(model or "dem2d", settings),
+        o.the_model(model or "dem2d", settings, losses),
         frequency_range(_needed("--frequencies", frequencies, "0.33:4:24")),
         amplitude_range(_needed("--amplitudes", amplitudes, "0.05g:0.6g:32")),
         parse_time(duration or "10s"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
@@ -259,21 +259,30 @@ def _in_plane(structure: Any, project: str | None) -> Any:
 
 def the_model(name: str, settings: list[str] | None, losses: str | None = None) -> Model:
     """The model of that name with its options, and with losses by name."""
-    from ..models.registry import make_model
+    return the_models([(name, settings)], losses)[0]
 
+
+def the_models(named: Sequence[tuple[str, list[str] | None]], losses: str | None = None) -> list[Model]:
+    """Models by name with their options, and with losses by name for those that know them; see :func:`make_models`."""
+    from ..models.registry import make_models
+
+    values = [(name, _settings(settings or [])) for name, settings in named]
+    if losses is not None and all("losses" in own for _, own in values):
+        raise InputError("losses are given twice, by --losses and by --set; give them once.", "losses")
+    return make_models(values, losses)
+
+
+def _settings(given: list[str]) -> dict[str, str]:
+    """Options of a model as typed after ``--set``."""
     values: dict[str, str] = {}
-    for text in settings or []:
+    for text in given:
         key, sign, value = text.partition("=")
         if not sign or not key.strip():
             raise InputError(f"--set is {text!r}; write it as name=value, e.g. --set points=3.", "set")
         if key.strip() in values:
             raise InputError(f"--set {key.strip()} is given twice; give it once.", "set")
         values[key.strip()] = value.strip()
-    if losses is not None:
-        if "losses" in values:
-            raise InputError("losses are given twice, by --losses and by --set; give them once.", "losses")
-        values["losses"] = losses
-    return make_model(name, values)
+    return values
 
 
 def input_facts(motion: Motion) -> dict[str, Any]:

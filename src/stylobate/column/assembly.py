@@ -20,7 +20,7 @@ from .joint import Joint, given
 from .links.in_assembly import in_numbers, place_between
 from .links.link import Link
 from .links.placed import PlacedLink
-from .structure import Structure
+from .structure import Bed, Structure
 
 MAX_BLOCKS = 400
 
@@ -157,6 +157,20 @@ class Assembly(Structure):
         area = min(block.depth for block in (lower, upper) if not block.fixed)
         sides = joint.lower_face, joint.upper_face
         return FacePair(joint.lower, joint.upper, below, above, joint.law, area, 1.0, sides)
+
+    @property
+    def beds(self) -> tuple[Bed, ...]:
+        """The joints as where and how they carry."""
+        return tuple(self._bed(*one) for one in zip(self.joints, self.face_pairs, strict=True))
+
+    def _bed(self, joint: FaceJoint, pair: FacePair) -> Bed:
+        right, left = self.bodies[joint.lower].side(joint.lower_face)
+        way = (right - left) / np.hypot(*(right - left))
+        above = [float((end - left) @ way) for end in self.bodies[joint.upper].side(joint.upper_face)]
+        ends = np.array([max(0.0, min(above)), min(float((right - left) @ way), max(above))])
+        over = left + ends[:, None] * way
+        area = float(np.ptp(ends)) * pair.area / pair.width
+        return Bed(pair.lower, pair.upper, float(way[0]), over[:, :1], float(over[:, 1].mean()), area, pair.law)
 
     @property
     def surfaces(self) -> tuple[Joint, ...]:

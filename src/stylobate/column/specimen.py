@@ -15,7 +15,7 @@ from ..errors import InputError, check_range
 from .block import ground_block
 from .joint import Joint, given
 from .shapes import ConvexSolid
-from .structure import Body, Standing, Structure
+from .structure import Bed, Body, Standing, Structure
 
 #: Farthest that a body is turned to lie on a face that carries it [degrees].
 FARTHEST_TURN = 10.0
@@ -104,6 +104,14 @@ class Specimen(Structure):
         inertia, pose = float((turn @ self.inertia @ turn.T)[1, 1]), (np.array([0.0, 0.0, height]), turn)
         shape = ConvexSolid(self.vertices)
         return ground_block(0.0), Standing(self.name, shape, self.mass, inertia, (0.0, height), in_space=pose)
+
+    @property
+    def beds(self) -> tuple[Bed, ...]:
+        """Its footprint, so stiff that a box with corners on it has vertices like these."""
+        rest, count = self.resting, len(self.resting.footprint)
+        plan = (self.vertices[rest.footprint] @ rest.rotation.T)[:, :2]
+        stiffness = {name: 4.0 / count * getattr(self.joint, name) for name in ("normal_stiffness", "shear_stiffness")}
+        return (Bed(0, 1, 1.0, plan, 0.0, rest.area, self.joint.changed(**stiffness)),)
 
     @cached_property
     def resting(self) -> Resting:

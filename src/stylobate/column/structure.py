@@ -12,7 +12,7 @@ import math
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
@@ -140,6 +140,36 @@ class Standing(Outlined):
         return self.polygon @ _turn(self.lean) + np.array(self.place)
 
 
+class Bed(NamedTuple):
+    """Faces that lie on one another.
+
+    Parameters
+    ----------
+    lower, upper : int
+        Bodies by number.
+    rise : float
+        Upward component of the unit normal from the one into the other [-].
+    corners : array
+        In plan; of a plane along it [m], shape (k, 1 or 2).
+    level : float
+        Height of the faces [m].
+    area : float
+        [m²]
+    law : Joint
+    round : bool
+        Whether a circle bounds it.
+    """
+
+    lower: int
+    upper: int
+    rise: float
+    corners: np.ndarray
+    level: float
+    area: float
+    law: Joint
+    round: bool = False
+
+
 def _turn(angle: float) -> np.ndarray:
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, s], [-s, c]])
@@ -190,6 +220,11 @@ class Structure:
     @cached_property
     def face_pairs(self) -> tuple[FacePair, ...]:
         """The joints between its bodies, in their order."""
+        return ()
+
+    @property
+    def beds(self) -> tuple[Bed, ...]:
+        """The same as where and how they carry, of what is no stack; of those of bodies in space and on vertices too."""
         return ()
 
     @property

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import fields
 
 from ..errors import InputError, suggest
 from .base import Model
@@ -36,3 +37,24 @@ def model_class(name: str) -> type[Model]:
 def make_model(name: str, settings: Mapping[str, str] | None = None) -> Model:
     """A model of that name with parameters given as texts, e.g. ``make_model("dem2d", {"points": "3"})``."""
     return model_class(name).from_settings(settings or {})
+
+
+def make_models(named: Sequence[tuple[str, Mapping[str, str]]], losses: str | None = None) -> list[Model]:
+    """Models side by side, each by its name and its settings, with losses by name for those that know them.
+
+    A model whose settings name losses keeps these.
+
+    Raises
+    ------
+    InputError
+        None of the models knows losses by name, and they are given.
+    """
+    knows = [any(field.name == "losses" for field in fields(model_class(name))) for name, _ in named]
+    if losses is not None and not any(knows):
+        raise InputError(
+            f"losses are {losses!r}, and none of the models {', '.join(name for name, _ in named)} knows them; leave them "
+            "out, or take dem2d or dem3d.",
+            "losses",
+        )
+    more = {} if losses is None else {"losses": losses}
+    return [make_model(name, {**(more if known else {}), **settings}) for (name, settings), known in zip(named, knows)]

@@ -47,8 +47,8 @@ def stiffer(structure: st.SpatialAssembly, stiffness: float, friction: float = 0
 def stands(structure: st.SpatialAssembly, azimuth: float, share: float) -> bool:
     """Whether bodies stand a push in proportion to their mass [g]: damped while it comes, then a while without."""
     model = DistinctElement3D()
-    engine = engine_of(structure, model.spatial_numbers, 1.0)
-    engine.start(step_for(engine, structure, model.spatial_numbers))
+    engine = engine_of(structure, model.spatial_numbers(structure), 1.0)
+    engine.start(step_for(engine, structure, model.spatial_numbers(structure)))
     first = engine.places
     angle = np.radians(azimuth)
     engine.body["local"] = DAMPING

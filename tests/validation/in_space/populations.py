@@ -113,10 +113,11 @@ def turning() -> Iterator[dict[str, Any]]:
 
 def tumbling() -> Iterator[dict[str, Any]]:
     """Of every tumble of ten bodies what its ledger misses, how deep contacts were, and what free flight lost."""
-    numbers = st.DistinctElement3D().spatial_numbers
+    model = st.DistinctElement3D()
     for number in range(TUMBLES):
         joint = LAWS[number % len(LAWS)]
         assembly = st.SpatialAssembly(tuple(tumble(number)), joint, name="tumble", settle=False)
+        numbers = model.spatial_numbers(assembly)
         engine = engine_of(assembly, numbers, 0.3)
         engine.start(step_for(engine, assembly, numbers))
         start, flown = engine.energies(), 0.0

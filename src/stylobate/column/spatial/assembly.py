@@ -20,7 +20,7 @@ from ..links.in_assembly import in_numbers
 from ..links.link import Link
 from ..links.placed import PlacedLink
 from ..shapes import Glued
-from ..structure import Body, Structure
+from ..structure import Bed, Body, Structure
 from .links import place_in_space
 from .stone import Stone
 from .touching import TOUCHING, Overlap, Solid, SpaceJoint, overlap_of, overlaps, separation
@@ -144,6 +144,17 @@ class SpatialAssembly(Structure):
     def space_joints(self) -> tuple[SpaceJoint, ...]:
         """Faces that lie on one another, bodies by their numbers in :attr:`bodies`."""
         return self._contacts[0]
+
+    @property
+    def beds(self) -> tuple[Bed, ...]:
+        """The joints as where and how they carry."""
+        found = []
+        for joint in self.space_joints:
+            corners = joint.origin + joint.corners @ joint.frame[:, :2].T
+            level, rise = float(joint.origin[2]), float(joint.frame[2, 2])
+            whole = joint.round and not len(joint.edges.sides) and len(joint.edges.discs) == 1
+            found.append(Bed(joint.lower, joint.upper, rise, corners[:, :2], level, joint.area, joint.law, whole))
+        return tuple(found)
 
     @property
     def touching(self) -> tuple[tuple[int, int], ...]:

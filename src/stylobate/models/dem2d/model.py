@@ -148,13 +148,14 @@ class DistinctElement2D(LossyDrums):
                 raise InputError(
                     f"a start from a pose is for columns, and {column.name!r} is {column.described}; leave start out."
                 )
-            return self.run_assembly(column, motion, replace(options, until_end=True))
+            return self.told(column, motion, self.run_assembly(column, motion, replace(options, until_end=True)))
         if options.until_end or options.until_rest:
             from ..plane.collapse import follow
 
             how = self.acting(column)
-            return self.told(column, follow(column, motion, how.followed(column, options), how.contacts, options))
-        return self.told(column, super().run(column, motion, options))
+            response = follow(column, motion, how.followed(column, options), how.contacts, options)
+            return self.told(column, motion, response)
+        return self.told(column, motion, super().run(column, motion, options))
 
     @property
     def contacts(self) -> Contacts:
@@ -184,13 +185,13 @@ class DistinctElement2D(LossyDrums):
         InputError
             The stone is given a modulus, the step asked for is unstable, or the assembly cannot settle.
         """
-        return run_assembly(assembly, motion, self.contacts_of_blocks(), options, recorded=recorded)
+        return run_assembly(assembly, motion, self.acting(assembly).contacts_of_blocks(), options, recorded=recorded)
 
     def expected_step(self, column: Structure, motion: Motion) -> tuple[float, float]:
         """Time step and its cost [s]; of an assembly as long as it stands."""
         if column.stack is not None:
             return super().expected_step(column.stack, motion)
-        return expected_step(column.must_be("assembly"), motion, self.contacts_of_blocks())
+        return expected_step(column.must_be("assembly"), motion, self.acting(column).contacts_of_blocks())
 
     def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
         """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""

@@ -66,6 +66,10 @@ class Stack:
         d = records.body[-1]
         return np.array([d[c][lane] + d["ht"][lane] * d["k" + c][lane] for c in "xy"])
 
+    def leaning(self, records: Records) -> np.ndarray:
+        """Component towards +x of the axis of the lowest drum of each lane [-]."""
+        return records.body["kx"][1]
+
     def foot(self, records: Records, lane: int, structure: Column) -> np.ndarray:
         """Place of the middle of the lowest face [m], shape (3,)."""
         return records.places(lane)[0] + records.axes(lane)[0] @ records.vectors(lane, "fx fy fz")[0]
@@ -133,7 +137,7 @@ class SpaceBlock(LaneRuns):
 
     def lean(self) -> np.ndarray:
         """Rotation of the lowest body of each lane, held in its plane, towards +x [rad]."""
-        return np.arcsin(np.clip(self.records.body["kx"][1], -1.0, 1.0))
+        return np.arcsin(np.clip(self.bodies.leaning(self.records), -1.0, 1.0))
 
     def stand(self, lane: int, case: Case) -> None:
         """Note how a column stands in a lane, and how its base moves."""

@@ -21,7 +21,7 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, RunOptions
 from ..drums.bodies import Topology
-from ..drums.impact import damping_for
+from ..drums.impact import Rocking, damping_for
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
 from ..drums.losses import LossyDrums
@@ -32,12 +32,13 @@ from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
 from ..space.assemblies import SpatialNumbers, expected_step, run_in_space
 from ..space.lanes import measures_in_space
+from ..space.rocking import rocking_stone
 from .arrays import Records
 from .block import SpaceBlock, Stack
 from .found_start import found_start
 from .links import link_fields
 from .packing import chipped, drum_fields, joint_fields, lane_fields, pack_column
-from .specimen import FreeBody, pack_specimen, rows_for, top_frequency
+from .specimen import FreeBody, RockingSpecimen, pack_specimen, rows_for, top_frequency
 from .stability import highest_frequency
 from .verdict import numbers_for
 
@@ -193,8 +194,8 @@ class DistinctElement3D(LossyDrums):
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories, of an assembly down to the ground; says what damping a restitution has led to."""
         if column.space_joints is not None:
-            return self.run_in_space(column, motion, options)
-        response = self.told(column, super().run(column, motion, options))
+            return self.told(column, motion, self.run_in_space(column, motion, options))
+        response = self.told(column, motion, super().run(column, motion, options))
         if self.restitution is None:
             return response
         undamped = replace(self, restitution=None, time_step=None).stable_step(column)
@@ -220,7 +221,7 @@ class DistinctElement3D(LossyDrums):
                 f"a start from a pose is for columns, and {structure.name!r} is {structure.described}; give its bodies "
                 "orientations and velocities, and leave start out."
             )
-        return run_in_space(structure, motion, self.spatial_numbers, options)
+        return run_in_space(structure, motion, self.spatial_numbers(structure), options)
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs in lanes, assemblies as long as nothing of them comes loose; never of columns too in one batch."""
@@ -232,12 +233,18 @@ class DistinctElement3D(LossyDrums):
         """Time step and its cost [s]; of an assembly as long as it stands."""
         if column.space_joints is None:
             return super().expected_step(column, motion)
-        return expected_step(column, self.spatial_numbers)
+        return expected_step(column, self.spatial_numbers(column))
 
-    @property
-    def spatial_numbers(self) -> SpatialNumbers:
-        """What assemblies in space are computed with."""
-        return SpatialNumbers(self.name, self.stiffness_damping, self.step_factor, self.time_step, self.restitution)
+    def spatial_numbers(self, structure: Structure) -> SpatialNumbers:
+        """What an assembly in space is computed with."""
+        damping = self.acting(structure).stiffness_damping
+        return SpatialNumbers(self.name, damping, self.step_factor, self.time_step, self.restitution)
+
+    def rocking(self, structure: Any) -> Rocking:
+        """How single bodies of a structure rock in the engine that computes it."""
+        if structure.space_joints is not None:
+            return rocking_stone
+        return super().rocking(structure) if structure.stack is not None else RockingSpecimen(structure.restitution)
 
     def _check_assembly(self, structure: Structure, motion: Motion) -> None:
         del motion
@@ -336,7 +343,7 @@ class DistinctElement3D(LossyDrums):
 
     def pack(self, column: Any) -> Packed:
         """A column or a specimen as the kernel wants it."""
-        return _pack_specimen(column, self) if column.stack is None else _pack(column, self.acting(column))
+        return (_pack_specimen if column.stack is None else _pack)(column, self.acting(column))
 
     def records(self, kind: Kind) -> Records:
         """Empty records of the kernel for what is of a kind."""
@@ -346,7 +353,7 @@ class DistinctElement3D(LossyDrums):
     def stable_step(self, column: Any) -> float:
         """Largest stable time step of the closed column [s]."""
         if column.stack is None:
-            return stable_step(top_frequency(column), self.stiffness_damping)
+            return stable_step(top_frequency(column), self.acting(column).stiffness_damping)
         return _stable_step(column, self.acting(column))
 
     def block_for(self, kind: Kind, options: RunOptions) -> SpaceBlock:

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
+from ...column import Column
 from ...column.specimen import Specimen
 from ...errors import InputError
 from ...response import Collapse
 from ...response.poses import rotation_matrices
+from ..base import RunOptions
+from ..drums.impact import in_lanes, undamped
 from ..drums.joints import damping_rows
 from ..drums.records import UNSEEN, Packed
 from ..shared.stable_step import highest_frequency
@@ -208,6 +214,11 @@ class FreeBody:
         axes, up = records.axes(lane)[0], records.vectors(lane, "nx ny nz")[0]
         return records.places(lane)[0] - structure.resting.height * axes @ up
 
+    def leaning(self, records: Records) -> np.ndarray:
+        """Component towards +x of what is upward at rest, in each lane [-]."""
+        body = records.body
+        return np.sum([body[axis + "x"][1] * body["n" + c][1] for axis, c in zip("ijk", "xyz", strict=True)], axis=0)
+
     def top(self, records: Records, lane: int) -> np.ndarray:
         """Place in plan of the point that is as high as the highest vertex, above the centroid at rest [m], shape (2,)."""
         axes, up = records.axes(lane)[0], records.vectors(lane, "nx ny nz")[0]
@@ -225,6 +236,33 @@ class FreeBody:
     def lost(self, collapse: Collapse, structure: Specimen) -> str:
         """Fallen bodies, in words."""
         return f"toppled, its tilt is beyond {math.degrees(TOPPLED):.0f}°"
+
+
+@dataclass(frozen=True)
+class RockingSpecimen:
+    """How single bodies rock on vertices that give back a share: see :data:`stylobate.models.drums.impact.Rocking`.
+
+    Parameters
+    ----------
+    restitution : float
+        Of a vertex [-].
+    """
+
+    restitution: float
+
+    def __call__(self, body: Column, model: Any, tilt: float) -> Iterator[np.ndarray]:
+        """Leans of a box of the same sides, released at rest on one of its edges."""
+        drum, c, s = body.drums[0], math.cos(tilt), math.sin(tilt)
+        half = 0.5 * np.array([drum.bottom_width, drum.depth, drum.height])
+        corners = half * np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
+        inertia = drum.mass / 3.0 * (half @ half - half**2)
+        fields = {"joint": body.joint_laws[0], "restitution": self.restitution, "gravity": body.gravity}
+        box = Specimen(drum.mass, inertia, corners, body.name, **fields)
+        x, _, z = half
+        place = x - x * c + z * s, 0.0, x * s + z * c
+        start = Toss(place, (math.cos(0.5 * tilt), 0.0, math.sin(0.5 * tilt), 0.0))
+        twin = replace(model, **undamped())
+        return in_lanes(twin.block_for(twin.kind(box), RunOptions(start=start, until_end=True)), box)
 
 
 @lru_cache(maxsize=256)

@@ -1,21 +1,24 @@
-"""Stiffness damping by what an impact is to leave: from free rocking of the column as one body, in its own plane.
+"""Stiffness damping by what an impact is to leave: from free rocking of single bodies, each in its own plane.
 
 A block that rocks from one edge to the other lands on Kelvin–Voigt contacts of k_n A and β k_n A. Its weight does next to
 nothing while that lasts, so that what it keeps hangs on β √(k_n A/m), its shape, its friction and k_s/k_n alone, not on how
-fast it lands: one curve for a column, which ends at the plastic impact of rigid bodies (Housner) as β grows.
+fast it lands: one curve for a body, which ends at the plastic impact of rigid bodies (Housner) as β grows.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from ...column import Column, Drum
+from ...column import Column
 from ...column.materials import IMPACT
+from ...column.one_body import one_body, rocking_bodies
+from ...column.structure import Structure
 from ...errors import InputError
 from ...kernels.dem3d.records import BETA  # the row of a lane's damping, in the plane too
 from ...motion import Motion
@@ -35,43 +38,51 @@ CLOSE = 0.008
 #: Least damping of joints that are damped [s]: where springs alone lose more than is asked for, that does nothing.
 LEAST = 1e-12
 
+#: How an engine lets a body rock: (the body as one drum, model, tilt at the release [rad]) to its leans towards +x as time
+#: goes on, one for each damping of ``TRIED`` [rad].
+Rocking = Callable[[Column, Any, float], Iterator[np.ndarray]]
 
-def one_body(column: Column) -> Column:
-    """The column as a single drum of its outline and mass on the joint with the base."""
-    first, last = column.drums[0], column.drums[-1]
-    ends = first.depth, None if column.section == "circular" else last.upper_depth
-    drum = Drum(column.height, first.bottom_width, last.top_width, first.density, column.section, *ends)
-    drum = dataclasses.replace(drum, density=first.density * column.mass / drum.mass)
-    who = {"name": f"{column.name} as one body", "gravity": column.gravity}
-    return Column.of_fields(drums=(drum,), joints=column.joint_laws[:1], **who)
+
+def rocking_column(body: Column, model: Any, tilt: float) -> Iterator[np.ndarray]:
+    """Leans of a column of one drum in the lanes of a model of columns."""
+    alone = {"planar": True} if "y" in model.axes else {"start": "static"}
+    twin = dataclasses.replace(model, **undamped(), **alone)
+    return in_lanes(twin.block_for(twin.kind(body), RunOptions(start=Start(tilt), until_end=True)), body)
+
+
+def undamped() -> dict[str, Any]:
+    """Parameters of a model whose lanes may have any damping that is tried."""
+    return {"stiffness_damping": float(TRIED[-1]), "mass_damping": 0.0, "time_step": None}
+
+
+def in_lanes(block: Any, what: Structure) -> Iterator[np.ndarray]:
+    """Leans of what rocks in the lanes of a block, released by its options."""
+    for lane, beta in enumerate(TRIED):
+        block.load(lane, Case(what, longest(what)))
+        block.lane["damp"][0, BETA, lane] = beta
+    while not block.is_over(0):
+        block.advance(1)
+        yield block.lean()[: len(TRIED)]
+
+
+def longest(what: Structure) -> Motion:
+    """No motion, for as long as it may take to rock there and back."""
+    return Motion(10.0 / what.frequency_parameter, np.zeros(2))
 
 
 @lru_cache(maxsize=1024)
-def restitutions(column: Column, model: Any) -> np.ndarray:
+def restitutions(column: Column, model: Any, rocking: Rocking = rocking_column) -> np.ndarray:
     """Velocity restitution of the first impact at each damping of ``TRIED``; the model has no restitution of its own."""
     body = one_body(column)
-    alone = {"planar": True} if "y" in model.axes else {"start": "static"}
-    damping = {"stiffness_damping": float(TRIED[-1]), "mass_damping": 0.0}
-    twin = dataclasses.replace(model, **damping, **alone, time_step=None)
     tilt = RELEASE * body.slenderness
-    block = twin.block_for(twin.kind(body), RunOptions(start=Start(tilt), until_end=True))
-    duration = 10.0 / body.frequency_parameter
-    for lane, beta in enumerate(TRIED):
-        block.load(lane, Case(body, Motion(duration, np.zeros(2))))
-        block.lane["damp"][0, BETA, lane] = beta
-    lean = []
-    while not block.is_over(0):
-        block.advance(1)
-        lean.append(block.lean()[: len(TRIED)])
-    other = np.array(lean)
-    found = np.empty(len(TRIED))
-    for lane in range(len(TRIED)):
-        crossed = int(np.argmax(other[:, lane] < 0.0))
-        back = other[crossed:, lane]
-        until = int(np.argmax(back > 0.0)) or len(back)
-        peak = -float(back[:until].min())
-        found[lane] = math.sqrt(_energy(peak, body.slenderness) / _energy(tilt, body.slenderness))
-    return found
+    lowest, over = np.zeros(len(TRIED)), np.zeros(len(TRIED), dtype=bool)
+    for lean in rocking(body, model, tilt):
+        over |= (lean > 0.0) & (lowest < 0.0)
+        lowest = np.where(over, lowest, np.minimum(lowest, lean))
+        if over.all():
+            break
+    energies = [_energy(-one, body.slenderness) / _energy(tilt, body.slenderness) for one in lowest.tolist()]
+    return np.sqrt(energies)
 
 
 def _energy(tilt: float, slenderness: float) -> float:
@@ -96,12 +107,15 @@ def damping_for(column: Column, model: Any, restitution: float) -> float:
     return float(np.interp(-restitution, -found, TRIED))
 
 
-def damping_of_stone(column: Column, model: Any) -> float:
-    """β at which an impact of the column leaves what stone does, ``IMPACT`` times Housner's restitution [s].
+def damping_of_stone(structure: Structure, model: Any, rocking: Rocking) -> float:
+    """β at which impacts leave what those of stone do, ``IMPACT`` times Housner's restitution [s].
 
-    It is the least that comes within ``CLOSE``. Where joints lose as much without any damping there is next to none; where
-    they give back more at the largest that is tried, it is that one.
+    It is the least at which every body that rocks on the ground with all that it carries comes within ``CLOSE``. Where
+    joints lose as much without any damping there is next to none; where they give back more at the largest tried, that one.
     """
-    found = np.minimum.accumulate(restitutions(column, model))
-    wanted = (1.0 + CLOSE) * IMPACT.value * one_body(column).restitution
-    return max(LEAST, float(np.interp(-wanted, -found, TRIED)))
+    chosen = [LEAST]
+    for body in rocking_bodies(structure):
+        found = np.minimum.accumulate(restitutions(body, model, rocking))
+        wanted = (1.0 + CLOSE) * IMPACT.value * one_body(body).restitution
+        chosen.append(float(np.interp(-wanted, -found, TRIED)))
+    return max(chosen)

@@ -12,7 +12,7 @@ from ...errors import InputError, check_choice
 from ...motion import Motion
 from ...response import Response
 from ..shared.opening import Opening
-from .impact import damping_of_stone
+from .impact import Rocking, damping_of_stone, rocking_column
 from .stepped import SteppedDrums
 
 
@@ -23,8 +23,9 @@ class LossyDrums(SteppedDrums):
     Parameters
     ----------
     losses : {"none", "stone"}
-        ``stone`` chooses β so that an impact of the column as one body leaves what one of stone does, and a resistance to
-        rolling of round faces in space; ``none`` leaves both to the other parameters, by default none.
+        ``stone`` chooses β so that impacts of a column as one body, and of what else stands on the ground with all that it
+        carries, leave what those of stone do, and a resistance to rolling of round columns in space; ``none`` leaves both
+        to the other parameters, by default none.
     """
 
     losses: str = "none"
@@ -56,15 +57,10 @@ class LossyDrums(SteppedDrums):
         own = None if column.stack is None else column.stack.losses
         return self if self.losses == "none" and own is None else _acting(column, self)
 
-    def check(self, column: Any, motion: Motion) -> None:
-        """As of all models that step drums; losses by name are for columns."""
-        if self.losses != "none" and column.stack is None:
-            raise InputError(
-                f"losses = {self.losses!r} is for columns, and {column.name!r} is {column.described}; leave it out, and "
-                "give stiffness_damping.",
-                "losses",
-            )
-        super().check(column, motion)
+    def rocking(self, structure: Any) -> Rocking:
+        """How single bodies of a structure rock in the engine that computes it."""
+        del structure
+        return rocking_column
 
     def step_for(self, column: Any) -> float:
         """As of all models that step drums, with what acts in a run of the column [s]."""
@@ -78,29 +74,29 @@ class LossyDrums(SteppedDrums):
         """What rocks a column statically, on soft joints and on rigid ones, where that has a closed form."""
         raise NotImplementedError
 
-    def told(self, column: Any, response: Response) -> Response:
+    def told(self, structure: Any, motion: Motion, response: Response) -> Response:
         """A response whose provenance says what opens the column, and what acted by the name of the losses."""
-        opens = self.opening(column)
+        opens = None if structure.stack is None else self.opening(structure)
         if opens is not None:
             response = replace(response, provenance=response.provenance | {"opening": opens._asdict()})
         if self.losses == "none":
             return response
-        how = self.acting(column)
+        how, free = self.acting(structure), replace(self, losses="none")
         chosen = {name: getattr(how, name.removesuffix("_s")) for name in ("stiffness_damping_s", *self._chosen[1:])}
-        chosen["steps_over_undamped"] = replace(self, losses="none").stable_step(column) / how.stable_step(column)
-        return replace(response, provenance=response.provenance | chosen)
+        steps = [one.expected_step(structure, motion)[0] for one in (free, how)]
+        return replace(response, provenance=response.provenance | chosen | {"steps_over_undamped": steps[0] / steps[1]})
 
 
 @lru_cache(maxsize=4096)
 def _acting(column: Any, model: Any) -> Any:
     changes: dict[str, Any] = {"losses": "none"}
     round_ = column.section == "circular" and "rolling_resistance" in model._chosen
-    own = column.losses
+    own = None if column.stack is None else column.stack.losses
     if own is not None and "y" in model.axes:
         changes |= {"stiffness_damping": own.stiffness_damping, "restitution": None, "time_step": None}
         changes |= {"rolling_resistance": own.rolling_resistance, "law": own.law or model.law} if round_ else {}
     elif model.losses == "stone":
         free = replace(model, losses="none")
-        changes["stiffness_damping"] = damping_of_stone(column, free)
+        changes["stiffness_damping"] = damping_of_stone(column, free, model.rocking(column))
         changes |= {"rolling_resistance": ROLLING.value} if round_ else {}
     return replace(model, **changes)

@@ -21,6 +21,9 @@ from .assemblies import Begun, SpatialNumbers, chunks_of, go_on, response_of, ru
 from .loose import REST_TIME, REST_WAY, Loose
 from .packing import turned_over
 
+#: Gives what a structure is computed with.
+Numbers = Callable[[Structure], SpatialNumbers]
+
 #: Structures that are kept as they have settled, in each thread.
 KEPT = 8
 
@@ -57,7 +60,7 @@ def kind(structure: Structure) -> Hashable:
 
 
 def measures_in_space(
-    run: Callable[..., Response], cases: Sequence[Case], numbers: SpatialNumbers, options: RunOptions, threads: int
+    run: Callable[..., Response], cases: Sequence[Case], numbers: Numbers, options: RunOptions, threads: int
 ) -> Iterator[tuple[int, Measures]]:
     """(index of the case, measures) of runs of assemblies in space as they finish: in lanes as long as they are intact.
 
@@ -152,13 +155,13 @@ class IntactLanes:
 
     Parameters
     ----------
-    numbers : SpatialNumbers
+    numbers : Numbers
     options : RunOptions
     none : bool
         It takes none: each of its cases is run alone.
     """
 
-    def __init__(self, numbers: SpatialNumbers, options: RunOptions, *, none: bool = False) -> None:
+    def __init__(self, numbers: Numbers, options: RunOptions, *, none: bool = False) -> None:
         from ...kernels.space import lanes as kernel
 
         self.kernel, self.numbers, self.options, self.none = kernel, numbers, options, none
@@ -173,7 +176,7 @@ class IntactLanes:
 
     def _begun(self, structure: Structure) -> tuple[Begun, np.ndarray | None]:
         """A structure as it has settled, and the gaps between its bodies; None if something is loose from the start."""
-        engine = unsettled(structure, self.numbers)
+        engine = unsettled(structure, self.numbers(structure))
         if self._gaps(engine).min() <= 0.0:
             return Begun(engine, np.zeros(6), None), None
         made, gap = settled(structure, engine), self._gaps(engine)
@@ -319,7 +322,7 @@ class IntactLanes:
         assert case is not None
         self.status[lane] = FREE
         if states is None:
-            return lambda: run_in_space(*case, self.numbers, self.options).measures
+            return lambda: run_in_space(*case, self.numbers(case.column), self.options).measures
         assert made is not None
         self.watch["status"][0, lane] = FREE
         self.lane["dt"][0, lane] = 0.0
@@ -328,7 +331,7 @@ class IntactLanes:
         poses = (stack[name][k] for k in (0, -1) for name in ("position", "axes"))
         waits = self.options.until_decided and not still and not fallen(case.column, *poses).any()
         if intact and not waits:
-            return response_of(case.column, case.motion, self.numbers, made, stack, still=still).measures
+            return response_of(*case, self.numbers(case.column), made, stack, still=still).measures
         return self._handed_over(lane, case, made, states).measures
 
     def _handed_over(self, lane: int, case: Case, made: Begun, states: Recorded) -> HandedOver:
@@ -339,4 +342,4 @@ class IntactLanes:
         )
         step = round(float(states.time[states.count - 1]) / made.engine.dt)
         stood = self.stood_at[..., lane].reshape(-1, len(POSE)), float(self.stood_since[lane])
-        return HandedOver(case, self.numbers, self.options, made, states, (body, joint, now), step, *stood)
+        return HandedOver(case, self.numbers(case.column), self.options, made, states, (body, joint, now), step, *stood)
