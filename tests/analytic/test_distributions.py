@@ -45,8 +45,9 @@ def test_a_few_tests_say_nothing_of_medians():
 @pytest.mark.processor
 @pytest.mark.parametrize("score", ["share", "median", "distribution"])
 def test_what_is_alike_is_never_far_apart_and_what_is_not_is_found(score):
-    """200 sets of 60 tests with 5 realisations, all of one distribution: 2.5 % of the intervals may lie on one side
-    of the truth, and 13 of 200 is three standard deviations more; against twice the size most are told apart."""
+    """200 sets of 60 tests with 5 realisations, all of one distribution: 2.5 % of the intervals may lie on one side of
+    the truth, and 13 of 200 is three standard deviations more. Of 40 against twice the size two in three at least are
+    told apart, 26 less three standard deviations of 3 and a little."""
     rng = np.random.default_rng(5)
     tolerance = {"share": 0.05, "median": 1.05, "distribution": 0.05}[score]
 
@@ -60,4 +61,4 @@ def test_what_is_alike_is_never_far_apart_and_what_is_not_is_found(score):
             found = d.compared(score, drawn(60, 1.0).astype(float), low, low)
             said[size].append(d.verdict(score, found, tolerance))
     assert said[1.0].count("outside") <= 13
-    assert said[2.0].count("outside") >= 20 or score == "share"
+    assert said[2.0].count("outside") >= 15
