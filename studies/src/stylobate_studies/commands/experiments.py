@@ -141,7 +141,8 @@ def _say(results: Results) -> None:
         console.print_table(pandas.DataFrame(rows), digits=3)
         for one in summary["granite"].get("calibration", ()):
             print(
-                f"calibrated on {one['calibrated_on']}: friction {one['friction']:g}, restitution {one['restitution']:g}; "
+                f"calibrated on {one['calibrated_on']}: friction {one['friction']:g}, restitution {one['restitution']:g}, "
+                f"edges worn to {1e3 * one['edges_m']:g} mm; "
                 f"right on {one.get('tested_on', 'no other')}: {one.get('accuracy', float('nan')):.3f}"
             )
     if "cube" in summary:
