@@ -57,6 +57,23 @@ def test_joints_too_soft_for_the_weight_are_bad_input(tmp_path, capsys):
     assert not out.exists()
 
 
+def test_another_drum_than_the_top_is_led(tmp_path, capsys):
+    led = ["pushover", "paper-12-drums", "--at", "6", "--to", "0.2", "--json"]
+    assert call([*led, "--out", str(tmp_path)]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["led_drum"] == 6
+    assert found["curve"]["displacement_m"][-1] == pytest.approx(0.2)
+    assert (tmp_path / "pushover.csv").read_text().startswith("step,drum_6_displacement_m,")
+    assert call(["pushover", "paper-12-drums", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["collapse_multiplier_g"] == pytest.approx(found["collapse_multiplier_g"])
+    for odd, words in (
+        (["--at", "13"], "from 1 to 12"),
+        (["--at", "6", "--check", "ec8,ag=0.25g,soil=B,type=1"], "--at"),
+    ):
+        assert call(["pushover", "paper-12-drums", *odd]) == 2
+        assert words in capsys.readouterr().err
+
+
 def test_a_path_that_ends_too_early_is_called_that(tmp_path, capsys):
     early = ["pushover", "paper-12-drums", "--to", "0.0001"]
     assert call([*early, "--json"]) == 0

@@ -38,7 +38,13 @@ class EquilibriumPath:
     """The state of a pushover analysis while it runs."""
 
     def __init__(
-        self, stack: BlockStack, dead: np.ndarray, live: np.ndarray, strength: np.ndarray, geometric: bool
+        self,
+        stack: BlockStack,
+        dead: np.ndarray,
+        live: np.ndarray,
+        strength: np.ndarray,
+        geometric: bool,
+        at: int | None = None,
     ) -> None:
         self.stack, self.dead, self.live, self.geometric = stack, dead, live, geometric
         self.geometry = joint_geometry(stack, strength)
@@ -49,7 +55,8 @@ class EquilibriumPath:
         self.position, self.multiplier = np.zeros((n, 3)), 0.0
         self.force, self.stiffness = np.empty((n, 3)), np.empty((3 * n, 3 * n))
         self.after, self.report = np.empty((n, 4)), np.empty((n, 6))
-        self.arm = stack.top - stack.centroid[-1]
+        self.at, self.led = at, (n if at is None else at) - 1
+        self.arm = stack.top - stack.centroid[-1] if at is None else np.zeros(2)
         self.height = float(stack.top[1])
         self.rise = 0.0
         self.kept: list[tuple] = []
@@ -63,16 +70,16 @@ class EquilibriumPath:
     # -- one equilibrium ---------------------------------------------------------------------------------------------
 
     def top(self, position: np.ndarray) -> tuple[float, np.ndarray]:
-        """Horizontal displacement of the top [m] and its derivative by the coordinates, shape (3 n,)."""
-        slope = np.zeros(position.size)
-        slope[-3] = 1.0
-        turn = position[-1, 2]
+        """Horizontal displacement of the top, or of the drum that is led [m]; its derivative by the coordinates, (3 n,)."""
+        slope, own = np.zeros(position.size), 3 * self.led
+        slope[own] = 1.0
+        x, _, turn = position[self.led]
         if not self.geometric:
-            slope[-1] = -self.arm[1]
-            return float(position[-1, 0] - self.arm[1] * turn), slope
+            slope[own + 2] = -self.arm[1]
+            return float(x - self.arm[1] * turn), slope
         c, s = math.cos(turn), math.sin(turn)
-        slope[-1] = -s * self.arm[0] - c * self.arm[1]
-        return float(position[-1, 0] + c * self.arm[0] - s * self.arm[1] - self.arm[0]), slope
+        slope[own + 2] = -s * self.arm[0] - c * self.arm[1]
+        return float(x + c * self.arm[0] - s * self.arm[1] - self.arm[0]), slope
 
     def residual(self, position: np.ndarray, multiplier: float) -> np.ndarray:
         """Forces out of balance [N, N, N m], shape (3 n,); fills the tangent and the report."""
@@ -321,6 +328,7 @@ class EquilibriumPath:
             arms=self.height - self.stack.joint[:, 1],
             links=tuple((link.name, link.action) for link in self.stack.links),
             link_force=np.array(self.link_forces).reshape(len(self.kept), len(self.stack.links)),
+            at=self.at,
         )
 
 

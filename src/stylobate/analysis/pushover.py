@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..column import Column
-from ..errors import check_choice, check_range
+from ..errors import check_choice, check_range, check_whole
 from ..models.rigid_block.block_stack import BlockStack
 from .elastic_stability import check_stable
 from .equilibrium_path import EquilibriumPath
@@ -25,6 +25,7 @@ def pushover(
     control: str = "displacement",
     geometric: bool = True,
     to: float | None = None,
+    at: int | None = None,
     base_tilt: float = 0.0,
     direction: float = 0.0,
     compressive_strength: float | None = None,
@@ -47,6 +48,8 @@ def pushover(
         Displacement of the top at which to stop [m], whether or not the column has given way before. By default the
         path is followed until the multiplier is zero or the top has moved by two base widths (geometric), or to a tenth
         of the base width; and on from there while the multiplier still rises.
+    at : int, optional
+        Drum, from 1 at the base, whose centroid is led and told of instead of the top: of what a tie holds at its top.
     base_tilt : float
         Tilt of the base, downhill towards +x, where the forces push along it [degrees]; a negative one makes them push
         uphill. A column as found brings its own ``base_tilt``, counted the other way, counter-clockwise; its forces are
@@ -70,6 +73,8 @@ def pushover(
     """
     check_choice("`control`", control, CONTROLS)
     stack = towards(column, direction)
+    if at is not None:
+        check_whole("`at`", at, 1, stack.n, remedy="it is a drum, from 1 at the base")
     if to is None:
         end = (2.0 if geometric else 0.1) * float(stack.width[0])
     else:
@@ -81,4 +86,4 @@ def pushover(
     check_standing(stack, dead, strength, base_tilt)
     if geometric:
         check_stable(stack, dead, strength)
-    return EquilibriumPath(stack, dead, live, strength, geometric).follow(control, end, extend=to is None)
+    return EquilibriumPath(stack, dead, live, strength, geometric, at).follow(control, end, extend=to is None)

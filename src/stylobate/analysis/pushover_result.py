@@ -28,7 +28,7 @@ class PushoverResult:
     Parameters
     ----------
     displacement : array
-        Horizontal displacement of the middle of the top [m], shape (steps,).
+        Horizontal displacement of the middle of the top, or of the centroid of drum ``at`` [m], shape (steps,).
     multiplier : array
         Load multiplier [g], shape (steps,).
     position : array
@@ -54,6 +54,8 @@ class PushoverResult:
         Name of each link and what it does: ``shear``, ``closing`` of its joint, ``line``.
     link_force : array
         What each of them holds [N], shape (steps, links).
+    at : int, optional
+        Drum, from 1, whose movement is told instead of that of the top.
     """
 
     displacement: np.ndarray
@@ -73,6 +75,7 @@ class PushoverResult:
     arms: np.ndarray
     links: tuple[tuple[str, str], ...] = ()
     link_force: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+    at: int | None = None
 
     @property
     def peak(self) -> int:
@@ -139,7 +142,8 @@ class PushoverResult:
         """The path as a table: one row per step, joints numbered from 1."""
         import pandas
 
-        table = {"step": np.arange(len(self.displacement)), "top_displacement_m": self.displacement}
+        what = "top" if self.at is None else f"drum_{self.at}"
+        table = {"step": np.arange(len(self.displacement)), f"{what}_displacement_m": self.displacement}
         table["multiplier_g"] = self.multiplier
         names = np.array(STATES)
         for i in range(self.states.shape[1]):

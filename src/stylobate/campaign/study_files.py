@@ -11,9 +11,11 @@ import numpy as np
 
 from ..column.assembly_files import load_structure
 from ..column.scatter import LARGEST, Scatter
+from ..column.structure import Structure
 from ..column.toml import Table, parse_toml, read_table
 from ..constants import g
 from ..errors import InputError, as_typed, check_whole, within
+from ..models.base import Model
 from ..models.registry import make_models
 from ..motion import Motion, Suite, harmonic
 from ..motion.intensity_specs import IntensityMeasure, parse_measure
@@ -85,22 +87,40 @@ class ScatterTable(ColumnScatterTable):
     law: float | None = None
 
 
-class StudyFile(Table):
-    """A study file."""
+class RunsTable(Table):
+    """How runs are made: by which models, for how long, of which realisations."""
 
     name: str = ""
-    column: str | None = None
-    columns: list[str] | None = None
     model: str | None = None
     models: list[str] | None = None
     losses: str | None = None
     set: dict[str, Any] | None = None
     tail: Any = 0.0
     whole: bool = False
+    scatter: ScatterTable | None = None
+
+    def made_models(self) -> list[Model]:
+        """The models with their parameters."""
+        models = [*([self.model] if self.model else []), *(self.models or [])]
+        settings = {key: str(value) for key, value in (self.set or {}).items()}
+        if settings and len(models) > 1:
+            raise InputError("[set] is for one model, and several are named; give each a study of its own.")
+        return make_models([(model, settings) for model in models], self.losses)
+
+    def made_campaign(self) -> Campaign:
+        """Realisations, time after each motion and what of it is stepped."""
+        drawn = {} if self.scatter is None else _drawn(self.scatter)
+        return Campaign(**drawn, tail=_seconds(self.tail), whole=self.whole)
+
+
+class StudyFile(RunsTable):
+    """A study file."""
+
+    column: str | None = None
+    columns: list[str] | None = None
     keep: str = "rows"
     motions: MotionsTable
     scale: ScaleTable | None = None
-    scatter: ScatterTable | None = None
 
 
 def read_plan(path: str | Path) -> tuple[Study, dict[str, str]]:
@@ -131,23 +151,16 @@ def read_plan(path: str | Path) -> tuple[Study, dict[str, str]]:
 
 def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     names = [*([table.column] if table.column else []), *(table.columns or [])]
-    models = [*([table.model] if table.model else []), *(table.models or [])]
-    settings = {key: str(value) for key, value in (table.set or {}).items()}
-    if settings and len(models) > 1:
-        raise InputError("[set] is for one model, and several are named; give each a study of its own.")
+    models = table.made_models()
     motions, refused = _motions(table.motions, folder)
     im, levels = (None, [1.0]) if table.scale is None else levels_of(table.scale.im, table.scale.levels)
-    drawn: dict[str, Any] = {} if table.scatter is None else _drawn(table.scatter)
-    study = Study(
-        [load_structure(folder / name if (folder / name).is_file() else name) for name in names],
-        motions,
-        make_models([(model, settings) for model in models], table.losses),
-        levels,
-        im,
-        keep=table.keep,
-        campaign=Campaign(**drawn, tail=_seconds(table.tail), whole=table.whole),
-    )
-    return study, refused
+    stands = [structure_beside(folder, name) for name in names]
+    return Study(stands, motions, models, levels, im, keep=table.keep, campaign=table.made_campaign()), refused
+
+
+def structure_beside(folder: Path, name: str) -> Structure:
+    """What a file beside another one, or a preset, of that name describes."""
+    return load_structure(folder / name if (folder / name).is_file() else name)
 
 
 def _motions(table: MotionsTable, folder: Path) -> tuple[Sequence[Motion], dict[str, str]]:

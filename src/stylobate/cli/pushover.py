@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
@@ -44,6 +45,9 @@ class Loads(o.Group):
 def pushover(
     column: o.ColumnName,
     to: str | None = o.option("M", "Displacement of the top at which to stop, in metres."),
+    at: str | None = o.option(
+        "DRUM", "Drum, from 1, that is led and told of instead of the top, as where a tie holds it."
+    ),
     control: str = o.option("WAY", "displacement or arc-length.", "displacement"),
     linear: bool = o.option(None, "Equilibrium in the undisplaced state.", False),
     direction: str | None = o.option("0|180", "Forces to the right or to the left; the weaker one by default."),
@@ -69,13 +73,16 @@ def pushover(
     stone = o.the_column(column, project)
     loads = pushing.arguments
     far = None if to is None else number("--to", to)
+    led = None if at is None else o.whole_number("--at", at, 5)
     site = None if check is None else CodeSite.typed(check)
+    if site is not None and led is not None:
+        raise InputError("a check by a code is of the top, and `at` names a drum; leave one of them out.", "at")
     if direction is not None:
         loads["direction"] = number("--direction", direction)
     elif stone.as_found and stone.as_found.in_plane:
         loads["direction"] = limit_directions(stone, **loads).weakest.azimuth
     with execution.files("pushover", "pushover.csv", "pushover.json", "pushover") as files:
-        path = follow(stone, control=control, geometric=not linear, to=far, **loads)
+        path = follow(stone, control=control, geometric=not linear, to=far, at=led, **loads)
         summary = summarize(path) | {"direction_deg": loads.get("direction", 0.0)}
         checked = None if site is None else code_check(towards(stone, summary["direction_deg"]), path, site)
         if checked is not None:
@@ -130,6 +137,7 @@ def summarize(path: PushoverResult) -> dict:
         "peak_displacement_m": path.peak_displacement,
         "ultimate_displacement_m": path.ultimate_displacement,
         "governing_joint": path.governing_joint if path.peaked else None,
+        "led_drum": path.at,
         "complete": path.complete,
         "stop": path.stop,
         "steps": len(path.multiplier),

@@ -59,7 +59,8 @@ def draw_pushover(
             linestyle="none",
             label=f"ultimate displacement, {path.ultimate_displacement:.3g} m",
         )
-    curve.set(xlabel="displacement of the top [m]", ylabel="load multiplier [g]", title=title)
+    led = "the top" if path.at is None else f"drum {path.at}"
+    curve.set(xlabel=f"displacement of {led} [m]", ylabel="load multiplier [g]", title=title)
     curve.set_xlim(left=0.0)
     curve.xaxis.set_major_locator(MaxNLocator(6))
     curve.grid(True)

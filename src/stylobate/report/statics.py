@@ -84,10 +84,11 @@ def _around(column: Column) -> list[tuple[str, str]]:
 def pushover_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """Sentence and body of a pushover."""
     s = result.summary
+    led = "top" if s.get("led_drum") is None else f"drum {s['led_drum']}"
     if s["peaked"]:
         sentence = (
             f"Under steady horizontal forces the column bears at most {s['collapse_multiplier_g']:.4g} times its weight; it "
-            f"bears none when its top has moved by {n.length(s['ultimate_displacement_m'])}."
+            f"bears none when its {led} has moved by {n.length(s['ultimate_displacement_m'])}."
         )
     else:
         sentence = (
@@ -96,8 +97,8 @@ def pushover_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         )
     pairs = [
         ("largest horizontal force over the weight", f"{s['largest_multiplier_g']:.4g}"),
-        ("displacement of the top at the largest force", n.length(s.get("peak_displacement_m"))),
-        ("displacement of the top where it bears none", n.length(s.get("ultimate_displacement_m"))),
+        (f"displacement of its {led} at the largest force", n.length(s.get("peak_displacement_m"))),
+        (f"displacement of its {led} where it bears none", n.length(s.get("ultimate_displacement_m"))),
         ("governing joint", n.plain(s.get("governing_joint"))),
         ("steps of the path", n.plain(s.get("steps"))),
         ("end of the path", n.plain(s.get("stop"))),

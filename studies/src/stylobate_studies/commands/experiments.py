@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -29,16 +30,16 @@ WRITES = (
 
 
 def experiments(
-    folder: Path = o.argument("DIR", "Folder that holds granite and cube, or one of the two."),
+    folder: Path = o.argument("DIR", "Folder that holds experiments, or one of them."),
     realisations: str = o.option("N", "Of what is uncertain about the boulders: a probability each.", "0"),
     calibration: str = o.option("on|off", "Also choose friction and restitution on a part, test on another.", "on"),
     films: bool = o.option(None, "Films (GIF) of the ten worst tests beside their strips.", False),
     *,
     execution: o.Plain,
 ) -> None:
-    """Compute shaking-table tests of boulders and tosses of a cube, and score the results against what was measured.
+    """Compute shaking-table tests, of columns in a folder of one form too, and tosses; score them against what was measured.
 
-    A table per experiment; with --out, all tables, pictures, and strips of the ten worst tests.
+    A table per experiment; with --out, all tables, pictures, and strips of the ten worst tests of boulders.
     """
     from stylobate.cli import console
 
@@ -57,6 +58,7 @@ def experiments(
             threads=execution.count,
             bars=console.progress,
             ledger=console.ledger(place),
+            earlier=_earlier(place),
         )
         files = [] if place is None else _write(results, found, place, films)
     if execution.emits(results.summary | {"files": [str(file) for file in files]}):
@@ -66,6 +68,12 @@ def experiments(
         print(f"not used: {why}")
     if files:
         print(f"{len(files)} files in {files[0].parent}")
+
+
+def _earlier(place: Path | None) -> dict[str, Any]:
+    """What an earlier run of the command wrote into a folder."""
+    written = None if place is None else place / WRITES[0]
+    return json.loads(written.read_text(encoding="utf-8")) if written is not None and written.is_file() else {}
 
 
 def _write(results: Results, found: Found, place: Path, films: bool) -> list[Path]:
@@ -87,6 +95,8 @@ def _write(results: Results, found: Found, place: Path, films: bool) -> list[Pat
         files += _worst(results, found, place, films)
     if "cube_tosses" in tables:
         files += plots.save(pictures.draw_toss_errors(tables["cube_tosses"]), place / "cube_errors")
+    for name, one in summary.get("tested", {}).items():
+        files += plots.save(pictures.draw_tests(tables[f"{name}_tests"], one["scores"]), place / f"{name}_tests")
     return files
 
 
@@ -118,6 +128,8 @@ def _say(results: Results) -> None:
 
     from stylobate.cli import console
 
+    from ..experiments.measured import sentences
+
     summary = results.summary
     if "granite" in summary:
         rows = [
@@ -129,7 +141,8 @@ def _say(results: Results) -> None:
         console.print_table(pandas.DataFrame(rows), digits=3)
         for one in summary["granite"].get("calibration", ()):
             print(
-                f"calibrated on {one['calibrated_on']}: friction {one['friction']:g}, restitution {one['restitution']:g}; "
+                f"calibrated on {one['calibrated_on']}: friction {one['friction']:g}, restitution {one['restitution']:g}, "
+                f"edges worn to {1e3 * one['edges_m']:g} mm; "
                 f"right on {one.get('tested_on', 'no other')}: {one.get('accuracy', float('nan')):.3f}"
             )
     if "cube" in summary:
@@ -137,3 +150,7 @@ def _say(results: Results) -> None:
         print(f"{one['tosses']} tosses of a cube: {one['rest_face_accuracy']:.1%} rest on the face on which they did.")
         rows = [{"after": when} | values for when, values in one["after"].items()]
         console.print_table(pandas.DataFrame(rows), digits=3)
+    for name, one in summary.get("tested", {}).items():
+        for sentence in sentences(one):
+            print(f"{name}: {sentence}")
+        console.print_table(results.tables[f"{name}_scores"], digits=3)

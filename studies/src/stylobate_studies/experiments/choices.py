@@ -38,6 +38,8 @@ CUBE_FRICTION, CUBE_RESTITUTION, CUBE_STIFFNESS = 0.18, 0.125, 4e9
 
 #: Choices of a calibration.
 FRICTION_GRID, RESTITUTION_GRID = (0.5, 0.65, 0.8), (0.2, 0.5, 0.8)
+#: Radii to which edges may be worn [m].
+EDGES = (0.03, 0.06, 0.1)
 CUBE_FRICTION_GRID, CUBE_RESTITUTION_GRID = (0.12, 0.18, 0.24), (0.05, 0.125, 0.3)
 
 DAY = "2026-11-22"

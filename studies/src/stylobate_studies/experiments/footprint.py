@@ -37,11 +37,14 @@ def sphere(count: int) -> np.ndarray:
 
 def directions() -> np.ndarray:
     """Directions in which a mean gets its vertices, the denser the nearer to straight down, shape (k, 3)."""
-    tilt = np.radians(np.geomspace(0.1, FARTHEST, RINGS))[:, None]
-    azimuth = 2.0 * math.pi * np.arange(AROUND) / AROUND
+    return np.concatenate((downwards(np.geomspace(0.1, FARTHEST, RINGS), AROUND), sphere(COARSE)))
+
+
+def downwards(tilts: np.ndarray, around: int) -> np.ndarray:
+    """Directions at some angles from straight down [°], so many all round at each, shape (k, 3)."""
+    tilt, azimuth = np.radians(tilts)[:, None], 2.0 * math.pi * np.arange(around) / around
     x, y = np.sin(tilt) * np.cos(azimuth), np.sin(tilt) * np.sin(azimuth)
-    down = np.stack((x, y, np.broadcast_to(-np.cos(tilt), x.shape)), axis=-1).reshape(-1, 3)
-    return np.concatenate((down, sphere(COARSE)))
+    return np.stack((x, y, np.broadcast_to(-np.cos(tilt), x.shape)), axis=-1).reshape(-1, 3)
 
 
 def support(vertices: np.ndarray, along: np.ndarray) -> np.ndarray:
@@ -85,3 +88,18 @@ def mean_of(scans: Sequence[Scan], weights: Sequence[float]) -> Scan:
         inertia=np.asarray(inertia),
         centroid=np.zeros(3),
     )
+
+
+def worn(scan: Scan, radius: float) -> Scan:
+    """A scan whose edges and corners are worn round: all that a ball of this radius [m] reaches from within.
+
+    The body of an opening: its faces moved inward by the radius, and the ball carried along what is left.
+    """
+    from scipy.spatial import ConvexHull, HalfspaceIntersection
+
+    faces = ConvexHull(scan.vertices).equations.copy()
+    faces[:, 3] += radius
+    inner = HalfspaceIntersection(faces, np.zeros(3)).intersections
+    along = np.concatenate((downwards(np.geomspace(0.3, FARTHEST, 14), 24), sphere(100)))
+    reached = inner[np.argmax(along @ inner.T, axis=1)] + radius * along
+    return replace(scan, vertices=np.unique(reached.round(9), axis=0))

@@ -23,26 +23,28 @@ from stylobate.simulate import simulate
 
 from . import choices as c
 from . import scores
-from .footprint import mean_of, registered
+from .footprint import mean_of, registered, worn
 from .granite_files import NAMES, Granite, Test
 
 
 @dataclass(frozen=True, eq=False)
 class Variant:
-    """One way to compute all tests of a specimen: its body, and the azimuth of the shaking [rad]."""
+    """One way to compute all tests of a specimen: its body, the azimuth [rad], the radius of its edges [m]."""
 
     kind: str
     name: str
     body: Specimen
     azimuth: float = 0.0
+    edges: float = 0.0
 
     @property
     def settings(self) -> dict[str, float]:
-        """Friction, restitution and azimuth [°]."""
+        """Friction, restitution, azimuth [°] and the radius to which edges are worn [m]."""
         return {
             "friction": self.body.joint.tan_phi,
             "restitution": self.body.restitution,
             "azimuth_deg": math.degrees(self.azimuth),
+            "edges_m": self.edges,
         }
 
 
@@ -53,6 +55,9 @@ def variants(granite: Granite, realisations: int, calibrate: bool, seed: int = 1
     if calibrate:
         for name, friction, restitution in itertools.product(names, c.FRICTION_GRID, c.RESTITUTION_GRID):
             found.append(Variant("grid", name, granite.scans[name].specimen(friction, restitution)))
+        for name, radius in itertools.product(names, c.EDGES):
+            body = worn(granite.scans[name], radius).specimen(like=found[names.index(name)].body)
+            found.append(Variant("edges", name, body, edges=radius))
     for name in names:
         rng = np.random.default_rng((seed, NAMES.index(name)))
         mine = granite.scans[name]
@@ -189,21 +194,20 @@ def half_table(table: Any) -> Any:
 
 
 def calibration(granite: Granite, found: list[Variant], runs: Any) -> list[dict[str, Any]]:
-    """Friction and restitution that do best on one specimen, and how they do on the other."""
-    grid = [(v, one) for v, one in enumerate(found) if one.kind == "grid"]
+    """Friction and restitution, and the radius of edges, that do best on one specimen, and how they do on the other."""
     observed = {name: np.array([test.toppled[name] for test in granite.tests]) for name in NAMES}
     hard = {name: np.array([c.HARD <= t.logit[name] <= 1.0 - c.HARD for t in granite.tests]) for name in NAMES}
-    computed = {v: runs.loc[runs["variant"] == v, "toppled"].to_numpy(dtype=bool) for v, _ in grid}
+    computed = {v: runs.loc[runs["variant"] == v, "toppled"].to_numpy(dtype=bool) for v in range(len(found))}
     rows = []
-    for name in NAMES:
-        mine = [(v, one) for v, one in grid if one.name == name]
+    for kind, name in itertools.product(("grid", "edges"), NAMES):
+        mine = [(v, one) for v, one in enumerate(found) if (one.kind, one.name) == (kind, name)]
         if not mine:
             continue
         best, chosen = max(mine, key=lambda pair: scores.matthews(observed[name], computed[pair[0]]))
         row = {"calibrated_on": name, **{k: x for k, x in chosen.settings.items() if k != "azimuth_deg"}}
         row["accuracy_there"] = float((observed[name] == computed[best]).mean())
-        for v, one in grid:
-            if one.name != name and one.settings == chosen.settings:
+        for v, one in enumerate(found):
+            if one.kind == kind and one.name != name and one.settings == chosen.settings:
                 right = observed[one.name] == computed[v]
                 row |= {"tested_on": one.name, "accuracy": float(right.mean())}
                 row["hard_accuracy"] = float(right[hard[one.name]].mean())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 import zipfile
@@ -18,6 +17,7 @@ from stylobate.constants import g
 from stylobate.errors import InputError
 
 from . import choices as c
+from .measured_files import csv_rows
 
 #: The two specimens, and another scan of the first.
 NAMES, OTHER_SCAN = ("SP1", "SP2"), "SP1_alternative_mesh"
@@ -126,13 +126,8 @@ def _read_tests(folder: Path, granite: Granite) -> None:
     dt = float(motions["dt"]) if "dt" in motions and np.ndim(motions["dt"]) == 0 else math.nan
     if not 0.0 < dt <= 0.1:
         raise InputError(f"{folder / 'motions.npz'} has no time step dt between 0 and 0.1 s; the tests cannot be used.")
-    try:
-        with open(folder / "tests.csv", newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"{folder / 'tests.csv'} cannot be read ({error}).") from None
     listed = set()
-    for row in rows:
+    for row in csv_rows(folder / "tests.csv"):
         try:
             number = int(row["id"])
         except (KeyError, TypeError, ValueError):

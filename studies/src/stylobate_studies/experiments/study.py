@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from datetime import date
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from stylobate.campaign.campaign import Progress
 from stylobate.errors import InputError
 from stylobate.version import __version__
 
 from . import choices as c
-from . import cube, granite
+from . import cube, granite, measured
 from .cube_files import Tosses, read_tosses
 from .granite_files import Granite, read_granite
+from .measured_files import FILE, Measured, read_measured
 
 #: Contents of a folder of each experiment.
 MARKS = {"granite": "specimens.json", "cube": "tosses.npz"}
 
 #: Called with a title; gives what reports progress.
 Bars = Callable[[str], AbstractContextManager[Progress | None]]
+
+Read = TypeVar("Read", Granite, Tosses, Measured)
 
 
 @dataclass
@@ -31,6 +34,7 @@ class Found:
 
     granite: Granite | None = None
     cube: Tosses | None = None
+    tested: list[Measured] = field(default_factory=list)
     refused: list[str] = field(default_factory=list)
 
 
@@ -58,27 +62,38 @@ def read(folder: Path) -> Found:
             if (place / mark).is_file() or (place.is_dir() and place.name == name and name not in places):
                 places[name] = place
                 break
-    if not places:
+    tested = [one.parent for one in (folder / FILE, *sorted(folder.glob(f"*/{FILE}"))) if one.is_file()]
+    if not places and not tested:
         raise InputError(
-            f"{folder} holds no experiment: granite/specimens.json or cube/tosses.npz is expected there; see docs/nature.md."
+            f"{folder} holds no experiment: {FILE}, granite/specimens.json or cube/tosses.npz is expected there; see "
+            "docs/nature.md."
         )
     found = Found()
     if "granite" in places:
-        try:
-            found.granite = read_granite(places["granite"])
-            found.refused += found.granite.refused
-        except InputError as error:
-            found.refused.append(str(error).rstrip("."))
+        found.granite = _usable(found, read_granite, places["granite"])
     if "cube" in places:
-        try:
-            found.cube = read_tosses(places["cube"])
-            found.refused += found.cube.refused
-        except InputError as error:
-            found.refused.append(str(error).rstrip("."))
+        found.cube = _usable(found, read_tosses, places["cube"])
+    for place in tested:
+        if (one := _usable(found, read_measured, place)) is not None:
+            found.tested.append(one)
+    names = [one.name for one in found.tested]
+    if len(set(names)) < len(names):
+        raise InputError(f"two folders of tests are called alike ({', '.join(names)}); give each a name of its own.")
     usable = (found.granite and found.granite.tests and found.granite.scans) or (found.cube and found.cube.tosses)
-    if not usable:
+    if not usable and not any(one.tests for one in found.tested):
         raise InputError(f"nothing in {folder} can be used: {'; '.join(found.refused[:3]) or 'it holds no test'}.")
     return found
+
+
+def _usable(found: Found, read_one: Callable[[Path], Read], place: Path) -> Read | None:
+    """What is in a folder, its refused parts noted; None where nothing of it can be used."""
+    try:
+        one = read_one(place)
+    except InputError as error:
+        found.refused.append(str(error).rstrip("."))
+        return None
+    found.refused += one.refused
+    return one
 
 
 def compute(
@@ -89,6 +104,7 @@ def compute(
     threads: int | None = None,
     bars: Bars,
     ledger: Path | None,
+    earlier: Mapping[str, Any] | None = None,
 ) -> Results:
     """Compute and score everything that was found.
 
@@ -104,12 +120,17 @@ def compute(
         Progress by title.
     ledger : path, optional
         Where finished runs are kept.
+    earlier : mapping, optional
+        The summary of an earlier call, whose scores have been seen.
     """
     out = Results()
     if found.granite and found.granite.tests and found.granite.scans:
         _granite(found.granite, realisations, calibrate, threads, bars, ledger, out)
     if found.cube and found.cube.tosses:
         _cube(found.cube, calibrate, threads, bars, ledger, out)
+    for one in found.tested:
+        if one.tests:
+            _tested(one, threads, bars, ledger, earlier or {}, out)
     out.summary |= {
         "refused": found.refused,
         "choices": [choice._asdict() for choice in c.CHOICES],
@@ -118,6 +139,32 @@ def compute(
         "version": __version__,
     }
     return out
+
+
+def _tested(
+    tests: Measured,
+    threads: int | None,
+    bars: Bars,
+    ledger: Path | None,
+    earlier: Mapping[str, Any],
+    out: Results,
+) -> None:
+    with bars(tests.name) as progress:
+        runs = measured.computed(tests, threads=threads, progress=progress, ledger=ledger)
+    scores = measured.scores(tests, runs)
+    out.tables[f"{tests.name}_tests"] = measured.tests_table(tests, runs)
+    out.tables[f"{tests.name}_scores"] = scores
+    fixed, seen = tests.fixed, earlier.get("tested", {}).get(tests.name)
+    since = None
+    if seen:
+        since = earlier["date"] if seen["fixed"]["digest"] != fixed["digest"] else seen["changed_since"]
+    out.summary.setdefault("tested", {})[tests.name] = {
+        "fixed": fixed,
+        "changed_since": since,
+        "tests": len(tests.tests),
+        "runs": len(runs),
+        "scores": scores.to_dict("records"),
+    }
 
 
 def _granite(
