@@ -68,7 +68,10 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
         verdict, body = _TELL[result.kind](result)
         note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
         parts = [Section("Result", [note, *warnings_of(result, _doubts(result))]), asked_section(result)]
-        parts += [basis_section(result)] if result.kind in FROM_RUNS else []
+        alone = (
+            result.kind in FROM_RUNS and "monuments" not in result.summary
+        )  # several sites name no runs of one column
+        parts += [basis_section(result)] if alone else []
         parts += [once(structure_section(structure), structure.digest, told) for structure in result.structures[:5]]
         parts += [motions_section(result)] if asked is not None and asked.motions else []
         parts.append(Section("What was found", body))

@@ -52,6 +52,7 @@ TABLES = {
     Kind.SUITE: ("suite",),
     Kind.IDA: ("capacities", "fractiles", "measures"),
     Kind.RISK: ("risk",),
+    Kind.SURVIVAL: ("survival", "hazard"),
     Kind.INFER: ("draws", "observations"),
 }
 
