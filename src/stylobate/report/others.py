@@ -39,6 +39,7 @@ from .record import (
 )
 from .risk import fragility_result, risk_result, survival_result
 from .runs import once
+from .sequence import until_fall_result
 from .shaking import motions_section
 from .states import advice_notes, states_items
 from .statics import code_check, limit_result, pushover_result, static_model, statics_of_states, statics_section
@@ -286,6 +287,7 @@ _TELL: dict[Kind, Callable[[Any], tuple[tuple[str, str], list[Item]]]] = {
     Kind.RISK: risk_result,
     Kind.SURVIVAL: survival_result,
     Kind.INFER: inference_result,
+    Kind.UNTIL_FALL: until_fall_result,
     Kind.COMPARE: _compare,
     Kind.STUDY: _study,
 }
