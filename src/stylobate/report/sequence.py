@@ -65,11 +65,12 @@ def until_fall_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     one = rows[0]
     sentence = f"Earthquakes until it falls, {one['motion']} again and again: {one['earthquakes']}."
     if len(rows) > 1:
-        sentence = f"Earthquakes until it falls, over {len(rows)} kinds of which each comes again and again: {over['sentence']}."
+        sentence = f"Earthquakes until it falls, over {len(rows)} kinds, each again and again: {over['sentence']}."
     keys = ["motion", "earthquakes", "median_low", "median_high", "interval_low", "interval_high"]
     keys += ["runs", "not_fallen", "failed", "most"]
-    caption = f"Each kind by itself, with {n.plain(s.get('rest_s'))} s of quiet ground after each earthquake; `most` of them end a run."
-    return (sentence, " bad" if any(row["runs"] and row["not_fallen"] < row["runs"] for row in rows) else ""), [
+    caption = f"Each kind by itself, with {n.plain(s.get('rest_s'))} s of quiet ground after each earthquake."
+    fell = any(row["runs"] and row["not_fallen"] < row["runs"] for row in rows)
+    return (sentence, " bad" * fell), [
         table(rows, keys, caption),
         "Each earthquake finds what the one before has left; the next of a kind is its copy, which no two earthquakes are.",
     ]
