@@ -82,7 +82,7 @@ export async function hear(news) {
 
 function posterior(told) {
   const head = ["", "median", "5 %", "95 %", "spread over the prior's"];
-  return el("table", {}, el("thead", {}, el("tr", {}, head.map(one => el("th", { scope: "col" }, one)))),
+  return el("div", { class: "wide" }, el("table", {}, el("thead", {}, el("tr", {}, head.map(one => el("th", { scope: "col" }, one)))),
     el("tbody", {}, Object.entries(told).map(([name, one]) => el("tr", {}, el("th", { scope: "row" }, CALLED[name] || name),
-      [one.median, one.low, one.high, one.spread_over_prior].map(value => el("td", {}, number(value)))))));
+      [one.median, one.low, one.high, one.spread_over_prior].map(value => el("td", {}, number(value))))))));
 }
