@@ -16,14 +16,15 @@ from .analysis.pushover import pushover as pushover
 from .analysis.record_selection import select_records as select_records
 from .analysis.replicates import collapse_probability as collapse_probability
 from .analysis.risk import risk as risk
-from .analysis.risk import survival as survival
 from .analysis.rocking_spectrum import rocking_spectrum as rocking_spectrum
 from .analysis.sequence import earthquakes_until_fall as earthquakes_until_fall
 from .analysis.sequence import sequence as sequence
 from .analysis.states import compare_states as compare_states
 from .analysis.studies import run_study as run_study
 from .analysis.suite import suite_table as suite_table
+from .analysis.survival import survival as survival
 from .analysis.target_spectra import target_spectrum as target_spectrum
+from .analysis.weighing import weigh as weigh
 from .campaign.campaign import Campaign as Campaign
 from .campaign.cases import Study as Study
 from .campaign.prior import Prior as Prior
@@ -82,6 +83,7 @@ from .outcome import Outcome as Outcome
 from .plots.inline import Film as Film
 from .response import Response as Response
 from .response import load_response as load_response
+from .results.site_files import read_sites as read_sites
 from .simulate import simulate as simulate
 from .simulate import simulate_assembly as simulate_assembly
 from .simulate import simulate_many as simulate_many

@@ -13,7 +13,8 @@ from stylobate.analysis.evidence import Evidence
 from stylobate.analysis.fragility import fragility
 from stylobate.analysis.hazard import Hazard, read_hazard
 from stylobate.analysis.limit_states import FAILED, OPEN
-from stylobate.analysis.risk import parse_age, risk, survival
+from stylobate.analysis.risk import risk
+from stylobate.analysis.survival import parse_age, survival
 from stylobate.errors import InputError
 
 

@@ -1,4 +1,4 @@
-"""Hazard curves: how often a year the shaking at a site is stronger than so much; our own CSV, and that of OpenQuake."""
+"""Hazard curves: how often a year the shaking at a site is stronger than so much; our own CSV, OpenQuake's, and NRML."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
     ----------
     path : path
         CSV with the columns ``annual_rate`` and the intensity, called ``pga_g``, ``pgv_m_s``, ``sa_1s_g`` …, or ``im_g`` or
-        ``im_m_s`` where it is not said which; or the export ``hazard_curve-*.csv`` of OpenQuake,
+        ``im_m_s`` where it is not said which; or the export ``hazard_curve-*.csv`` or ``.xml`` (NRML) of OpenQuake,
         whose probabilities of exceedance become rates −ln(1 − p)/T, and whose PGV in cm/s become m/s.
     site : (float, float), optional
         Longitude and latitude [degrees], for a file of several sites: the nearest one.
@@ -147,6 +147,8 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
         The file cannot be read, has several sites, or holds no hazard curve.
     """
     text = read_bytes(path, MOST).decode("utf-8-sig", "replace")
+    if text.lstrip().startswith("<"):
+        return _nrml(shown(Path(path).name), text, site)
     lines = [line.strip() for line in text.replace("\r", "").split("\n") if line.strip()]
     comments = [line for line in lines if line.startswith("#")]
     lines = [line for line in lines if not line.startswith("#")]
@@ -178,20 +180,67 @@ def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tup
     cells = [row.split(",") for row in rows]
     if any(len(row) != len(head) for row in cells):
         raise InputError(f"{name} has rows with more or fewer fields than its header; export the curve again.")
-    chosen = 0
-    if len(cells) > 1:
-        if site is None or "lon" not in head or "lat" not in head:
-            raise InputError(f"{name} holds {len(cells)} sites; choose one with `site=LON,LAT`.", "site")
+    places = None
+    if "lon" in head and "lat" in head:
         places = [[_number(name, k, row, head.index(one)) for one in ("lon", "lat")] for k, row in enumerate(cells, 2)]
-        chosen = int(np.argmin([math.dist(place, site) for place in places]))
+    chosen = _nearest(name, len(cells), places if len(cells) > 1 else None, site)
     poe = np.array([_number(name, chosen + 2, cells[chosen], k) for k in at])
+    kind = "" if imt is None else imt[1] + (f"({imt[2]})" if imt[2] else "")
+    return _of_chances(name, kind, float(time[1]), im, poe)
+
+
+def _nearest(name: str, number: int, places: list[list[float]] | None, site: tuple[float, float] | None) -> int:
+    """Which of several sites is meant."""
+    if number == 1:
+        return 0
+    if site is None or places is None:
+        raise InputError(f"{name} holds {number} sites; choose one with `site=LON,LAT`.", "site")
+    return int(np.argmin([math.dist(place, site) for place in places]))
+
+
+def _of_chances(name: str, kind: str, time: float, im: np.ndarray, poe: np.ndarray) -> Hazard:
+    """The curve of probabilities of exceedance in a time [y]; PGV in cm/s, all else in g."""
     if ((poe < 0.0) | (poe > 1.0)).any():
         raise InputError(f"{name} has a probability of exceedance outside 0 to 1; mend the file.")
-    kind = "" if imt is None else imt[1] + (f"({imt[2]})" if imt[2] else "")
     velocity = kind.upper().startswith("PGV")
     sure = poe < 1.0  # a certain exceedance has no rate
-    rate = -np.log1p(-poe[sure]) / float(time[1])
+    rate = -np.log1p(-poe[sure]) / time
     return Hazard(im[sure] * (0.01 if velocity else 1.0), rate, "m/s" if velocity else "g", name, kind)
+
+
+def _nrml(name: str, text: str, site: tuple[float, float] | None) -> Hazard:
+    """Hazard curves of one measure, at one site or several, as NRML writes them."""
+    from xml.etree import ElementTree
+
+    if "<!DOCTYPE" in text or "<!ENTITY" in text:
+        raise InputError(f"{name} declares entities, which no hazard curve needs; export it again as NRML.")
+    try:
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        raise InputError(f"{name} is no XML that can be read ({error}); export it again.") from None
+
+    def inside(element: ElementTree.Element, tag: str) -> list[ElementTree.Element]:
+        return [one for one in element.iter() if one.tag.rpartition("}")[2] == tag]
+
+    def numbers(element: ElementTree.Element, tag: str) -> np.ndarray:
+        found = inside(element, tag)
+        cells = (found[0].text or "").split() if found else []
+        return np.array([_number(f"{tag} of {name}", 1, [cell], 0) for cell in cells])
+
+    sets = inside(root, "hazardCurves")
+    if len(sets) != 1:
+        raise InputError(f"{name} holds {len(sets)} sets of hazard curves (hazardCurves); give a file of one measure.")
+    (found,) = sets
+    each, im = inside(found, "hazardCurve"), numbers(found, "IMLs")
+    time = _number(f"investigationTime of {name}", 1, [found.get("investigationTime", "")], 0)
+    if not time > 0.0 or not each:
+        raise InputError(f"{name} has no hazard curve with an investigation time; export it again as NRML.")
+    places = [numbers(one, "pos").tolist()[:2] for one in each]
+    poe = numbers(each[_nearest(name, len(each), places, site)], "poEs")
+    if len(poe) != len(im):
+        raise InputError(f"{name} has {len(im)} intensities and {len(poe)} probabilities; mend the file.")
+    period = found.get("saPeriod")
+    return _of_chances(name, found.get("IMT", "") + (f"({float(period):g})" if period else ""), time, im, poe)
 
 
 def _number(name: str, line: int, cells: list[str], k: int) -> float:

@@ -1,17 +1,15 @@
-"""Risk: how often a year a column comes to a state, where in the hazard this comes from, and what its age says to that."""
+"""Risk: how often a year a column comes to a state, and where in the hazard this comes from."""
 
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from scipy.special import ndtr
 
-from ..errors import InputError, check_all, check_kind, check_range
+from ..errors import InputError, check_kind
 from ..motion.intensity_specs import ENDS, parse_measure
 from ..notebook import Shown
 from ..percent import percent
@@ -145,65 +143,6 @@ class Risk(Shown):
         }
 
 
-@dataclass(frozen=True, eq=False)
-class Survival(Shown):
-    """Evidence of the age of a column that still stands on hazard curves.
-
-    Parameters
-    ----------
-    risks : tuple of Risk
-        One per hazard curve.
-    age : float
-        [y]
-    """
-
-    risks: tuple[Risk, ...]
-    age: float
-
-    @property
-    def probability(self) -> np.ndarray:
-        """Probability that the column would still stand, by hazard curve, shape (k,): exp(−λ t)."""
-        return np.exp(-self.age * np.array([one.rate for one in self.risks]))
-
-    @property
-    def interval(self) -> tuple[np.ndarray, np.ndarray]:
-        """Its limits, by the interval of the rate."""
-        low, high = (np.array([getattr(one, name) for one in self.risks]) for name in ("high", "low"))
-        return np.exp(-self.age * low), np.exp(-self.age * high)
-
-    @property
-    def likelihood(self) -> np.ndarray:
-        """Likelihood of each hazard curve given that the column stands, over the largest one, shape (k,)."""
-        exponent = -self.age * np.array([one.rate for one in self.risks])
-        return np.exp(exponent - exponent.max())
-
-    def summary(self) -> dict[str, Any]:
-        """The JSON object of ``stylobate survival``."""
-        low, high = self.interval
-        likelihood = self.likelihood
-        return {
-            "age_y": self.age,
-            "survival_probability": {
-                one.hazard.name: float(p) for one, p in zip(self.risks, self.probability, strict=True)
-            },
-            "hazards": [
-                {
-                    "hazard": one.hazard.name,
-                    "annual_rate": one.rate,
-                    "return_period_y": 1.0 / one.rate if one.rate > 0.0 else None,
-                    "survival_probability": float(self.probability[k]),
-                    "survival_probability_low": float(low[k]),
-                    "survival_probability_high": float(high[k]),
-                    "relative_likelihood": float(likelihood[k]),
-                    "weight": float(likelihood[k] / likelihood.sum()),
-                }
-                for k, one in enumerate(self.risks)
-            ],
-            "state": self.risks[0].fragility.evidence.state,
-            "warnings": list(dict.fromkeys(text for one in self.risks for text in one.warnings)),
-        }
-
-
 def risk(fragility: Fragility, hazard: Hazard) -> Risk:
     """Mean annual rate of a state, Eq. (G4).
 
@@ -214,31 +153,10 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
     """
     check_kind("fragility", fragility, Fragility)
     check_kind("hazard", hazard, Hazard)
-    measure, unit = fragility.evidence.measure, fragility.evidence.unit
-    if hazard.unit not in ("-", unit) and unit != "-":
-        raise InputError(
-            f"the fragility is over {measure} in {unit} and {hazard.name} is in {hazard.unit}; give a hazard curve of "
-            f"{measure}, or another `im`."
-        )
-    said = hazard.imt.upper()
-    if said and measure != "im" and not _same(said, measure):
-        raise InputError(
-            f"the fragility is over {measure} and {hazard.name} is of {hazard.imt}; give one of {measure}."
-        )
-    kind = measure.partition("@")[0].partition(":")[0]
-    doubt = hazard.doubt() if kind in ENVELOPED and hazard.unit in ("g", "m/s") else ""
+    doubt = check_intensity(fragility.evidence.measure, fragility.evidence.unit, hazard)
     rate, edges, parts = _rate(hazard, fragility.log_median, fragility.beta)
     low, high = _limits(hazard, fragility)
-    last = float(curve(hazard.im[-1:], fragility.log_median, fragility.beta)[0])
-    beyond = float(hazard.rate[-1]) * (1.0 - last)
-    if beyond > rate:
-        enough = math.exp(fragility.log_median + fragility.beta)
-        rare, state = years(1.0 / float(hazard.rate[-1])), fragility.evidence.state
-        raise InputError(
-            f"{hazard.name} ends at {hazard.im[-1]:g} {hazard.unit}, once in {rare}, where the probability of {state} is "
-            f"{last:.2g}: most of the rate comes from stronger shaking, of which it says nothing; give a curve to "
-            f"{enough:.2g} {hazard.unit} or more."
-        )
+    beyond = check_reach(hazard, fragility.log_median, fragility.beta, rate, fragility.evidence.state)
     # no rate is above that of all shaking in the curve, and what is beyond its end may add to it
     return Risk(
         fragility,
@@ -255,22 +173,47 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
     )
 
 
-def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Survival:
-    """Evidence of an age about hazard curves.
+def check_intensity(measure: str, unit: str, hazard: Hazard) -> str:
+    """Doubt about the rates of a hazard curve for a fragility over an intensity, in a clause; empty where there is none.
 
-    Parameters
-    ----------
-    fragility : Fragility
-    age : float
-        Years that the column has stood as it is.
-    hazards : sequence of Hazard
+    Raises
+    ------
+    InputError
+        Fragility and hazard are of different intensities.
     """
-    check_kind("fragility", fragility, Fragility)
-    hazards = check_all("hazards", hazards, Hazard)
-    years = check_range("age", age, 0.0, 1e6, unit="years", open_low=True)
-    if not hazards:
-        raise InputError("no hazard curve is given; give at least one of them.")
-    return Survival(tuple(risk(fragility, hazard) for hazard in hazards), years)
+    if hazard.unit not in ("-", unit) and unit != "-":
+        raise InputError(
+            f"the fragility is over {measure} in {unit} and {hazard.name} is in {hazard.unit}; give a hazard curve of "
+            f"{measure}, or another `im`."
+        )
+    said = hazard.imt.upper()
+    if said and measure != "im" and not _same(said, measure):
+        raise InputError(
+            f"the fragility is over {measure} and {hazard.name} is of {hazard.imt}; give one of {measure}."
+        )
+    kind = measure.partition("@")[0].partition(":")[0]
+    return hazard.doubt() if kind in ENVELOPED and hazard.unit in ("g", "m/s") else ""
+
+
+def check_reach(hazard: Hazard, log_median: float, beta: float, rate: float, state: str) -> float:
+    """What stronger shaking than the last intensity of a curve could add to a rate at most [1/y].
+
+    Raises
+    ------
+    InputError
+        That is most of it.
+    """
+    last = float(curve(hazard.im[-1:], log_median, beta)[0])
+    beyond = float(hazard.rate[-1]) * (1.0 - last)
+    if beyond > rate:
+        enough = math.exp(log_median + beta)
+        rare = years(1.0 / float(hazard.rate[-1]))
+        raise InputError(
+            f"{hazard.name} ends at {hazard.im[-1]:g} {hazard.unit}, once in {rare}, where the probability of {state} is "
+            f"{last:.2g}: most of the rate comes from stronger shaking, of which it says nothing; give a curve to "
+            f"{enough:.2g} {hazard.unit} or more."
+        )
+    return beyond
 
 
 def years(value: float) -> str:
@@ -278,20 +221,28 @@ def years(value: float) -> str:
     return f"{float(f'{value:.2g}'):,.0f} years" if value >= 10.0 else f"{value:.2g} years"
 
 
-def parse_age(text: str) -> float:
-    """An age as typed, ``2400y`` [y]."""
-    found = re.fullmatch(r"\s*([0-9.eE+]+)\s*(y|yr|a|years?)\s*", text)
-    try:
-        value = float(found[1]) if found else math.nan
-    except ValueError:
-        value = math.nan
-    if not 0.0 < value <= 1e6:
-        raise InputError(f"age {text!r} cannot be read; write it in years, such as 2400y.")
-    return value
+def rates(hazard: Hazard, log_median: np.ndarray, beta: np.ndarray) -> np.ndarray:
+    """Rates of lognormal fragilities under one hazard curve [1/y], the shape of ``log_median`` and ``beta``."""
+    y, log_rate = np.log(hazard.im), np.log(hazard.rate)
+    parts = _stretches(y, log_rate, log_median[..., None], beta[..., None])
+    return parts.sum(axis=-1) + hazard.rate[-1] * ndtr((y[-1] - log_median) / beta)
+
+
+def _stretches(y: np.ndarray, log_rate: np.ndarray, log_median: Any, beta: Any) -> np.ndarray:
+    """The closed solution on every straight stretch of a hazard curve.  # Eq. (G5)"""
+    slope = -np.diff(log_rate) / np.diff(y)
+    z = (y - log_median) / beta
+    own = np.exp(log_rate[:-1]) * ndtr(z[..., :-1]) - np.exp(log_rate[1:]) * ndtr(z[..., 1:])
+    shift = slope * beta
+    # k₀ exp(−k ln θ + k²β²/2) with k₀ from the left end, in one exponent
+    exponent = log_rate[:-1] + slope * (y[:-1] - log_median) + 0.5 * shift**2
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        gain = np.nan_to_num(np.exp(exponent + log_interval(z[..., :-1] + shift, z[..., 1:] + shift)))
+    return np.maximum(own + gain, 0.0)
 
 
 def _rate(hazard: Hazard, log_median: float, beta: float, split: bool = True) -> tuple[float, np.ndarray, np.ndarray]:
-    """Rate, edges and parts: the closed solution on every straight stretch of the hazard curve.  # Eq. (G5)"""
+    """Rate, edges and parts, over parts of a decade where it is to be split."""
     y = np.log(hazard.im)
     bins = y[[0, -1]]
     if split:
@@ -300,20 +251,11 @@ def _rate(hazard: Hazard, log_median: float, beta: float, split: bool = True) ->
         bins = np.concatenate((y[:1], inner, y[-1:]))
         y = np.unique(np.concatenate((y, inner)))
     log_rate = np.interp(y, np.log(hazard.im), np.log(hazard.rate))
-    slope = -np.diff(log_rate) / np.diff(y)
     if math.isinf(log_median):
         ends = curve(np.exp(y), log_median, beta)
         parts = -np.diff(np.exp(log_rate)) * ends[1:]
     else:
-        z = (y - log_median) / beta
-        own = np.exp(log_rate[:-1]) * ndtr(z[:-1]) - np.exp(log_rate[1:]) * ndtr(z[1:])
-        shift = slope * beta
-        # k₀ exp(−k ln θ + k²β²/2) with k₀ from the left end, in one exponent
-        exponent = log_rate[:-1] + slope * (y[:-1] - log_median) + 0.5 * shift**2
-        u, v = z[:-1] + shift, z[1:] + shift
-        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            gain = np.nan_to_num(np.exp(exponent + log_interval(u, v)))
-        parts = np.maximum(own + gain, 0.0)
+        parts = _stretches(y, log_rate, log_median, beta)
     last = float(np.exp(log_rate[-1]) * curve(np.exp(y[-1:]), log_median, beta)[0])
     rate = float(parts.sum()) + last
     parts = np.add.reduceat(parts, np.searchsorted(y, bins[:-1] - 1e-12))

@@ -17,8 +17,8 @@ from .folder import RECORDS
 
 #: Files of a job: its column or assembly, the study of a domain, and where its commands write; its records lie in a folder
 #: that is called as that of the page.
-COLUMN, ASSEMBLY, STUDY, RESULT, FRAGILITY, REPORT = (
-    *("column.toml", "assembly.toml", "study.toml", "result", "fragility", "report.html"),
+COLUMN, ASSEMBLY, STUDY, RUIN, RESULT, FRAGILITY, REPORT = (
+    *("column.toml", "assembly.toml", "study.toml", "ruin.toml", "result", "fragility", "report.html"),
 )
 
 #: Most cells of a domain.
@@ -63,13 +63,15 @@ class MotionAsked(Table):
 class JobAsked(Table):
     """Computation that is asked for: all but kind, column and model as on the command line.
 
-    ``column`` is what a column file holds, ``assembly`` the text of an assembly file; of ``critical`` the amplitudes go from
-    ``first`` to ``last`` by ``step``. ``page`` is what the page's fields hold, for it to fill them again.
+    ``column`` is what a column file holds, ``assembly`` the text of an assembly file, ``ruin`` that of a ruin file; of
+    ``critical`` the amplitudes go from ``first`` to ``last`` by ``step``. ``page`` is what the page's fields hold, for it to
+    fill them again.
     """
 
-    kind: Literal["run", "critical", "domain", "ida"]
+    kind: Literal["run", "critical", "domain", "ida", "infer"]
     column: dict[str, Any] | None = None
     assembly: str | None = None
+    ruin: str | None = None
     model: str = "dem2d"
     settings: dict[str, str] = Field(default_factory=dict)
     motion: MotionAsked | None = None
@@ -116,6 +118,8 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
         return [["critical", *given, *_options(**steps), *end]]
     if asked.kind == "domain":
         return [["domain", STUDY, f"--out={RESULT}"]]
+    if asked.kind == "infer":
+        return [["infer", RUIN, f"--out={RESULT}"]]
     from ..analysis.fragility_checks import FEWEST
 
     if not asked.records:

@@ -30,7 +30,7 @@ class Job:
     id : str
     folder : Path
     kind : str
-        ``run``, ``domain``, ``ida`` or ``report``.
+        ``run``, ``critical``, ``domain``, ``ida``, ``infer`` or ``report``.
     title : str
         What it computes, in a line.
     commands : list of list of str

@@ -23,13 +23,14 @@ from ..column.toml import checked
 from ..errors import InputError
 from . import columns
 from .answers import Answer, Missing, as_json, json_object, missing
-from .asked import ASSEMBLY, COLUMN, FRAGILITY, RESULT, STUDY, JobAsked, commands, report_of, study
+from .asked import ASSEMBLY, COLUMN, FRAGILITY, RESULT, RUIN, STUDY, JobAsked, commands, report_of, study
 from .assemblies import assembly_of
 from .cells import new_cells
 from .curves import curves
 from .folder import RECORDS
 from .job import Job
 from .records import Records
+from .ruins import ruin_of
 from .workshop import Workshop
 
 #: Files of jobs that a browser shows, by the end of their names; it saves the others.
@@ -92,6 +93,8 @@ class JobAnswers:
         asked = checked(body, JobAsked, "the job")
         stone = _structure(asked)
         tables = study(asked) if asked.kind == "domain" else None
+        if asked.kind == "infer":
+            await run_in_threadpool(ruin_of, asked.ruin, stone, asked.assembly)
         wanted = [record for record in asked.records if not record.startswith("sample:")]
         if asked.motion is not None and asked.motion.kind == "record":
             wanted.append(asked.motion.text)
@@ -103,6 +106,8 @@ class JobAnswers:
                 write_column(stone.stack, folder / COLUMN)
             else:
                 (folder / ASSEMBLY).write_text(asked.assembly, encoding="utf-8")
+            if asked.ruin is not None:
+                (folder / RUIN).write_text(asked.ruin, encoding="utf-8")
             self.records.copy(wanted, folder / RECORDS)
             if tables is not None:
                 (folder / STUDY).write_text(tomli_w.dumps(tables), encoding="utf-8")
@@ -261,6 +266,8 @@ def _structure(asked: JobAsked) -> Structure:
 
 def _title(asked: JobAsked, name: str, records: Records) -> str:
     """A job in a line."""
+    if asked.kind == "infer":
+        return f"{name} · what shaking left the ruin"
     if asked.kind in ("run", "critical") and asked.motion is not None:
         what, kept = asked.motion.text, records.kept.get(asked.motion.text)
         what = kept.name if kept is not None else what

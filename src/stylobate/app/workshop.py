@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from .asked import ASSEMBLY, COLUMN, STUDY
+from .asked import ASSEMBLY, COLUMN, RUIN, STUDY
 from .folder import private
 from .job import CANCELLED, DONE, FAILED, REFUSED, RUNNING, WAITING, Job
 from .process import PATIENCE, Process
@@ -27,7 +27,7 @@ WAIT, KEEP = 50, 300
 LOG = "worker.log"
 
 #: Kinds of jobs that can be stopped and go on later where they were.
-LONG = ("domain", "ida", "critical")
+LONG = ("domain", "ida", "critical", "infer")
 
 #: Time between two looks at an idle process, and at one that is ending [s].
 LOOK, PAUSE = 0.5, 0.02
@@ -318,7 +318,7 @@ class Workshop:
         sentence = next(
             (complaint for complaint in reversed(complaints) if not complaint.startswith("warning: ")), "It failed."
         )
-        for file in (COLUMN, ASSEMBLY, STUDY):  # the job's own, of which the page knows nothing
+        for file in (COLUMN, ASSEMBLY, STUDY, RUIN):  # the job's own, of which the page knows nothing
             sentence = sentence.removeprefix(f"{file}: ")
         job.field = what.get("field")
         self._end(job, REFUSED if what["code"] == BAD_INPUT else FAILED, sentence)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -44,51 +44,14 @@ class Curves(o.Group):
 
         Where a ``single`` curve is wanted, a source of several columns is refused before any is fitted.
         """
-        from ..analysis.evidence import evidence, names_in, read_table, scaled_to, table_of
-        from ..analysis.fragility import fragility as fit
-        from ..analysis.limit_states import parse_state
-        from ..motion.intensity_specs import parse_measure
-        from ..results.sources import Source
+        from ..results.fragilities import fitted
 
         if method not in (None, "runs", "records"):
             raise InputError(f"--method is {method!r}; allowed is runs or records.", "method")
         if not 0 <= self.seed < 2**63:
             raise InputError(f"--seed is {self.seed}; allowed is a whole number from 0.", "seed")
-        asked, level = None if self.im is None else parse_measure(self.im), parse_state(self.state)
-        found, used = [], []
-        for source in sources:
-            table = read_table(source)
-            measure = asked
-            said = scaled_to(table)
-            if measure is None and said not in (None, "factor"):
-                measure = parse_measure(str(said))
-            who = names_in(table)
-            labels = who or [Path(source).stem] * len(table)
-            names = list(dict.fromkeys(labels))
-            if self.of:
-                missing = [one for one in self.of if one not in names]
-                if missing:
-                    raise InputError(
-                        f"{source} has no runs of a column or state {missing[0]!r}; it has {', '.join(names)}.",
-                        "of",
-                    )
-                names = [one for one in names if one in self.of]
-            if single and len(names) > 1:
-                raise InputError(
-                    f"{source} holds runs of {len(names)} columns or states ({', '.join(names)}); choose one with --of.",
-                    "of",
-                )
-            chosen: Any = table[[label in names for label in labels]]
-            place = table_of(source)
-            used.append(Source(source, place, chosen))
-            for name in names:
-                rows: Any = table[[label == name for label in labels]]
-                shown = f"{name}, {Path(source).stem}" if who and len(sources) > 1 else name
-                told = evidence(rows, measure, level, shown, doubt=Source(source, place, rows).doubt)
-                found.append(fit(told, method=method, seed=self.seed, records_are_one=self.records_are_one))
-        if len({one.evidence.unit for one in found}) > 1:
-            raise InputError("the sources are over different intensities; choose one with --im.", "im")
-        return found, used
+        how = {"method": method, "seed": self.seed, "records_are_one": self.records_are_one}
+        return fitted(sources, self.im, self.state, self.of, single=single, **how)
 
     def one(self, source: Path) -> tuple[Fragility, list[Source]]:
         """The one fragility of a source, for commands that go on from it, and the runs that it rests on."""

@@ -31,6 +31,7 @@ from .style import save, save_as
 from .suite import draw_suite
 from .uplift import draw_uplift
 from .views import draw_views
+from .weighing import draw_weighing
 
 __all__ = [
     "draw_amplitudes",
@@ -71,6 +72,7 @@ __all__ = [
     "draw_survival",
     "draw_uplift",
     "draw_views",
+    "draw_weighing",
     "save",
     "save_as",
 ]

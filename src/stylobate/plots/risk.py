@@ -6,7 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from ..analysis.risk import Risk, Survival, years
+from ..analysis.risk import Risk, years
+from ..analysis.survival import Survival
 from ..motion.intensity_specs import parse_measure
 from ..percent import percent
 from .fragility import NARROW, logarithmic

@@ -36,6 +36,7 @@ TITLES = {
     "risk": "risk",
     "survival": "survival",
     "infer": "what shaking it was",
+    "sequence": "earthquakes until it falls",
     "study": "study",
 }
 

@@ -39,6 +39,7 @@ from .record import (
 )
 from .risk import fragility_result, risk_result, survival_result
 from .runs import once
+from .sequence import until_fall_result
 from .shaking import motions_section
 from .states import advice_notes, states_items
 from .statics import code_check, limit_result, pushover_result, static_model, statics_of_states, statics_section
@@ -68,7 +69,10 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
         verdict, body = _TELL[result.kind](result)
         note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
         parts = [Section("Result", [note, *warnings_of(result, _doubts(result))]), asked_section(result)]
-        parts += [basis_section(result)] if result.kind in FROM_RUNS else []
+        alone = (
+            result.kind in FROM_RUNS and "monuments" not in result.summary
+        )  # several sites name no runs of one column
+        parts += [basis_section(result)] if alone else []
         parts += [once(structure_section(structure), structure.digest, told) for structure in result.structures[:5]]
         parts += [motions_section(result)] if asked is not None and asked.motions else []
         parts.append(Section("What was found", body))
@@ -283,6 +287,7 @@ _TELL: dict[Kind, Callable[[Any], tuple[tuple[str, str], list[Item]]]] = {
     Kind.RISK: risk_result,
     Kind.SURVIVAL: survival_result,
     Kind.INFER: inference_result,
+    Kind.UNTIL_FALL: until_fall_result,
     Kind.COMPARE: _compare,
     Kind.STUDY: _study,
 }

@@ -89,6 +89,8 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
 def survival_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """The chance of having stood so long, under each hazard curve."""
     s = result.summary
+    if "monuments" in s:
+        return _weighing(result)
     keys = [
         "hazard",
         "annual_rate",
@@ -104,3 +106,26 @@ def survival_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items: list[Item] = [table(s["hazards"], keys, "Hazard curves compared.")]
     items += kept(result.pictures, "survival", "Probability of having stood, over the years.")
     return (sentence, ""), items
+
+
+def _weighing(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    """Branches, monuments and sites of a logic tree that several monuments weigh."""
+    s = result.summary
+    keys = ["hazard", "prior_weight", "weight", "weight_if_own", "weight_if_shared"]
+    keys += ["probability", "probability_low", "probability_high"]
+    shown = sorted(s["hazards"], key=lambda one: -max(one["prior_weight"], one["weight"]))
+    items: list[Item] = [
+        table(
+            shown,
+            keys,
+            "Branches: weight before and after, if each site had its own earthquakes and if all shook every site; and the "
+            "probability of what is seen, with 95 % over what is not known of fragilities and ages.",
+        )
+    ]
+    items += kept(result.pictures, "survival", "Branches, monuments and hazard curves, grey before and blue after.")
+    caption = "What each monument tells of the branches, by itself and beside the others [bits]."
+    items.append(table(s["monuments"], ["monument", "seen", "bits_alone", "bits_beside_others"], caption))
+    caption = f"Exceeded once in 475 years, by the mean curve [{s['unit']}]."
+    items.append(table(s["sites"], ["site", "once_in_475_years_before", "once_in_475_years"], caption))
+    items.append(f"Earthquakes are taken as {s['earthquakes']}. Hazards beyond the branches are not in it.")
+    return (str(s["sentence"]), ""), items

@@ -5,11 +5,11 @@ from __future__ import annotations
 from .. import plots
 from ..motion import Span
 from ..response.events import events_of
-from ..results import RunResult
+from ..results import Numbers, RunResult
 from . import numbers as n
 from .page import Item, Rows, Section
 from .pictures import picture
-from .tables import MOST
+from .tables import MOST, table
 
 HEADER = ("", "earthquake", "outcome so far", "largest turn", "slip added", "fell", "links broken", "came to rest")
 
@@ -54,3 +54,23 @@ def sequence_section(run: RunResult) -> list[Section]:
 
 #: Marks of outcomes, in the words of the table.
 LOOKS = {"at rest": "good", "rocked": "good", "collapsed": "bad"}
+
+
+def until_fall_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    """How many earthquakes of each kind it takes until the structure falls."""
+    s, over = result.summary, result.summary["until_fall"]
+    rows = (
+        result.tables["until_fall"].astype(object).where(result.tables["until_fall"].notna(), None).to_dict("records")
+    )
+    one = rows[0]
+    sentence = f"Earthquakes until it falls, {one['motion']} again and again: {one['earthquakes']}."
+    if len(rows) > 1:
+        sentence = f"Earthquakes until it falls, over {len(rows)} kinds, each again and again: {over['sentence']}."
+    keys = ["motion", "earthquakes", "median_low", "median_high", "interval_low", "interval_high"]
+    keys += ["runs", "not_fallen", "failed", "most"]
+    caption = f"Each kind by itself, with {n.plain(s.get('rest_s'))} s of quiet ground after each earthquake."
+    fell = any(row["runs"] and row["not_fallen"] < row["runs"] for row in rows)
+    return (sentence, " bad" * fell), [
+        table(rows, keys, caption),
+        "Each earthquake finds what the one before has left; the next of a kind is its copy, which no two earthquakes are.",
+    ]

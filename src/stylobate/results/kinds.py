@@ -39,6 +39,7 @@ class Kind(Enum):
     RISK = "risk"
     SURVIVAL = "survival"
     INFER = "infer"
+    UNTIL_FALL = "sequence"
     STUDY = "study"
 
 

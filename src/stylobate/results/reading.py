@@ -43,6 +43,7 @@ KEYS = {
     Kind.RISK: ("annual_rate", "return_period_y"),
     Kind.SURVIVAL: ("hazards",),
     Kind.INFER: ("posterior", "accepted", "bayes_factor_no_earthquake"),
+    Kind.UNTIL_FALL: ("until_fall", "motions"),
 }
 
 #: Tables beside an object.
@@ -52,7 +53,9 @@ TABLES = {
     Kind.SUITE: ("suite",),
     Kind.IDA: ("capacities", "fractiles", "measures"),
     Kind.RISK: ("risk",),
+    Kind.SURVIVAL: ("survival", "hazard"),
     Kind.INFER: ("draws", "observations"),
+    Kind.UNTIL_FALL: ("until_fall",),
 }
 
 #: Further files by kind, a picture by its name without an ending, besides the one that is called after the kind.
@@ -110,11 +113,6 @@ def _foreign(place: Path) -> str:
         return f"folder {shown(place)} is empty; give one in which a command wrote its files."
     if (place / "data" / "study.json").is_file() or (place / "index.html").is_file():
         return f"{shown(place)} holds no result of a command, but a page or the paper's study; open its HTML file."
-    if (place / "sequence.json").is_file():
-        return (
-            f"{shown(place)} holds numbers of earthquakes until a fall, which no page shows; read until_fall.csv there, or "
-            "report a sequence."
-        )
     refuse_former(*place.glob(FORMER_FILES))
     if (place / RUNS_FILE).is_file():
         return f"{shown(place)} holds a command's work that is not finished; give the same command again, then report."
@@ -221,6 +219,7 @@ _READERS: dict[str, Callable[[Path], Result]] = {
     "risk.json": _read_numbers(Kind.RISK),
     "survival.json": _read_numbers(Kind.SURVIVAL),
     "infer.json": _read_numbers(Kind.INFER),
+    "sequence.json": _read_numbers(Kind.UNTIL_FALL),
 }
 
 

@@ -23,7 +23,7 @@ export const open = () => [...jobs.values()].filter(isOpen);
 let waiting = 0;
 function later() { if (!waiting && panel) waiting = setTimeout(() => { waiting = 0; paint(); }, 60); }
 
-const OPEN = { run: ["run", "job"], critical: ["run", "job"], domain: ["domain", "domainJob"], ida: ["fragility", "fragilityJob"] };
+const OPEN = { run: ["run", "job"], critical: ["run", "job"], domain: ["domain", "domainJob"], ida: ["fragility", "fragilityJob"], infer: ["ruin", "ruinJob"] };
 
 const places = new Map();
 

@@ -7,10 +7,11 @@ import * as domain from "./domain.js";
 import * as fragility from "./fragility.js";
 import * as jobs from "./jobs.js";
 import * as motion from "./motion.js";
+import * as ruin from "./ruin.js";
 import * as run from "./run.js";
 import { change, followAddress, listen, read, state } from "./state.js";
 
-const TABS = ["column", "motion", "run", "domain", "fragility", "jobs"];
+const TABS = ["column", "motion", "run", "domain", "fragility", "ruin", "jobs"];
 
 function showTab() {
   const tab = TABS.includes(state.tab) ? state.tab : "column";
@@ -29,7 +30,7 @@ function follow() {
   line = new EventSource("/api/events" + (state.domainJob ? `?job=${encodeURIComponent(state.domainJob)}` : ""));
   const on = (name, hear) => line.addEventListener(name, event => hear(JSON.parse(event.data)));
   on("ready", now => { ready = now; status(); });
-  on("job", job => { document.dispatchEvent(new CustomEvent("news", { detail: job })); jobs.hear(job); run.hear(job); domain.hear(job); fragility.hear(job); status(); });
+  on("job", job => { document.dispatchEvent(new CustomEvent("news", { detail: job })); jobs.hear(job); run.hear(job); domain.hear(job); fragility.hear(job); ruin.hear(job); status(); });
   on("gone", jobs.gone);
   on("cells", ({ job, cells }) => domain.add(job, cells));
   line.onerror = () => { find("#status").textContent = "not connected"; };
@@ -58,6 +59,7 @@ async function begin() {
   run.start(find("#run"));
   domain.start(find("#domain"));
   fragility.start(find("#fragility"), about);
+  ruin.start(find("#ruin"));
   jobs.start(find("#jobs"));
   follow();
   document.documentElement.dataset.ready = "true";

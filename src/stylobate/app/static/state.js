@@ -1,7 +1,7 @@
 // What the page holds, and the address that holds it too: #tab=run&job=…&s=…, the rest of it as base64.
 
 const START = {
-  tab: "column", column: null, assembly: "", preset: "paper-12-drums", job: "", domainJob: "", fragilityJob: "",
+  tab: "column", column: null, assembly: "", preset: "paper-12-drums", job: "", domainJob: "", fragilityJob: "", ruinJob: "", ruin: "",
   motion: {
     kind: "harmonic", frequency: "1", amplitude: "0.3", duration: "10", both: false, across: "0.15", phase: "90",
     shape: "ricker", region: "greece,6.5Mw,20km,seed=1", sample: "el-centro-1940", record: "", name: "",
@@ -12,7 +12,7 @@ const START = {
   fragility: { records: [], unit: "", im: "pgv", runs: "8", state: "collapse" },
   critical: { first: "0.05", last: "1", step: "0.05" },
 };
-const ADDRESSED = ["tab", "job", "domainJob", "fragilityJob"];
+const ADDRESSED = ["tab", "job", "domainJob", "fragilityJob", "ruinJob"];
 
 export const state = structuredClone(START);
 const listeners = [];
