@@ -21,6 +21,7 @@ from ...kernels.dem3d.records import BETA  # the row of a lane's damping, in the
 from ...motion import Motion
 from ..base import Case, RunOptions
 from ..start import Start
+from .released import followed
 
 #: Damping that is tried, one value per lane besides none [s].
 TRIED = np.concatenate(([0.0], np.geomspace(1e-6, 3e-3, 15)))
@@ -59,11 +60,7 @@ def restitutions(column: Column, model: Any) -> np.ndarray:
     for lane, beta in enumerate(TRIED):
         block.load(lane, Case(body, Motion(duration, np.zeros(2))))
         block.lane["damp"][0, BETA, lane] = beta
-    lean = []
-    while not block.is_over(0):
-        block.advance(1)
-        lean.append(block.lean()[: len(TRIED)])
-    other = np.array(lean)
+    other = np.array([block.lean()[: len(TRIED)] for _ in followed(block, 1, 1)])
     found = np.empty(len(TRIED))
     for lane in range(len(TRIED)):
         crossed = int(np.argmax(other[:, lane] < 0.0))
