@@ -32,16 +32,17 @@ class Free(NamedTuple):
 
 
 def released(
-    column: Column, model: Any, losses: Sequence[Losses], start: Start, duration: float, interval: float
+    column: Column, model: Any, losses: Sequence[Losses], starts: Sequence[Start], duration: float, interval: float
 ) -> list[Free]:
-    """Free motions from one start, with losses in place of the model's.
+    """Free motions from starts, with losses in place of the model's.
 
     Parameters
     ----------
     column : Column
     model : LossyDrums
     losses : sequence of Losses
-    start : Start
+    starts : sequence of Start
+        As many.
     duration, interval : float
         Of each motion, and between its states at most [s].
     """
@@ -55,9 +56,9 @@ def released(
         ordered = sorted(numbers, key=lambda number: models[number].step_for(column))
         for first in range(0, len(ordered), LANES):
             some = ordered[first : first + LANES]
-            block = model.block_for(kind, RunOptions(start=start, until_end=True))
+            block = models[some[0]].block_for(kind, RunOptions(start=starts[some[0]], until_end=True))
             for lane, number in enumerate(some):
-                block.pack = models[number].pack
+                block.pack, block.options = models[number].pack, replace(block.options, start=starts[number])
                 block.load(lane, Case(column, Motion(duration, np.zeros(2))))
             stride = max(1, int(interval / (block.chunk * block.dt.max())))
             states = [(block.dt * block.feed["step"][0], block.leans()) for _ in followed(block, stride, len(some))]
