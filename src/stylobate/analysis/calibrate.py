@@ -421,8 +421,7 @@ def _of_wobble(
         losses, starts = [_losses(one, limits, law) for one in at], [_start(begin, one[2:]) for one in at]
         found = []
         for one in released(column, model, losses, starts, duration, interval):
-            lean, began = np.hypot(*one.lean.T), beginning(one.time, one.lean, 0.0).time
-            found.append(np.diff(envelope(began, one.time, lean, edges, FLOOR * least)))
+            found.append(np.diff(envelope(0.0, one.time, np.hypot(*one.lean.T), edges, FLOOR * least)))
         told(len(at))
         return np.stack(found)
 

@@ -85,8 +85,8 @@ LossesName = Annotated[
     str | None,
     typer.Option(
         "--losses",
-        metavar="none|stone",
-        help="What joints lose: as other options say, or as measured stone (dem2d, dem3d).",
+        metavar="none|stone|FILE",
+        help="What joints lose: as other options say, as measured stone, or as a file of calibrate says (dem2d, dem3d).",
     ),
 ]
 
@@ -258,7 +258,7 @@ def _in_plane(structure: Any, project: str | None) -> Any:
 
 
 def the_model(name: str, settings: list[str] | None, losses: str | None = None) -> Model:
-    """The model of that name with its options, and with losses by name."""
+    """The model of that name with its options, and with losses by name or from a file."""
     from ..models.registry import make_model
 
     values: dict[str, str] = {}

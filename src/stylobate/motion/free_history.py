@@ -45,6 +45,8 @@ class FreeHistory:
         Shape (samples,), or (samples, 2) along x and y; tilt towards the axis [rad] or displacement along it [m].
     kind : {"tilt", "displacement"}
     name : str
+    unit : float
+        Size of the unit of its file [rad or m].
 
     Raises
     ------
@@ -56,6 +58,7 @@ class FreeHistory:
     values: np.ndarray
     kind: str = "tilt"
     name: str = "history"
+    unit: float = 1.0
 
     def __post_init__(self) -> None:
         check_range("dt", self.dt, 0.0, 10.0, unit="s", open_low=True)
@@ -152,7 +155,7 @@ def read_free_history(path: str | Path, unit: str | None = None, dt: float | Non
     if timed is None:
         if dt is None:
             raise InputError(f"{source.name} has no times; state the step: `dt=0.01`.", "dt")
-        return FreeHistory(dt, values, kind, source.name)
+        return FreeHistory(dt, values, kind, source.name, size)
     time = table[:, 0] * timed
     step = step_of(time)
     if step is None:
@@ -165,7 +168,7 @@ def read_free_history(path: str | Path, unit: str | None = None, dt: float | Non
             )
         made = [resampled(time, one, dt, source.name) for one in values.T]
         step, values = made[0][0], np.stack([one[1] for one in made], axis=-1)
-    return FreeHistory(step, values, kind, source.name)
+    return FreeHistory(step, values, kind, source.name, size)
 
 
 def _columns(
