@@ -1,20 +1,16 @@
-"""What joints lose, from a measured free motion: losses with intervals, and the restitution of its impacts in closed form."""
+"""What joints lose, from a measured free motion: losses, and the restitution of impacts in closed form."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..column import Column
-from ..column.loss_files import write_losses
-from ..column.losses import LAWS, Losses
+from ..column.losses import LAWS
 from ..errors import InputError, check_kind, check_range
 from ..models.base import Model
 from ..models.drums.impact import one_body
@@ -22,7 +18,8 @@ from ..models.drums.losses import LossyDrums
 from ..models.drums.released import Free, released
 from ..models.start import Start, check_takes_pose
 from ..motion.free_history import FreeHistory
-from .loss_likelihood import Posterior, likelihoods, searched
+from .calibration import Calibration, Loss, losses_at, start_of
+from .loss_likelihood import likelihoods, searched
 from .swings import Wobble, beginning, envelope, kept, kept_at, of_increments, sides_of, swings
 
 #: Damping is looked for between these, over the time of contact 1/√(k_n A/m) of the column as one body [-]: less than the
@@ -38,26 +35,11 @@ IN_PLANE, IN_SPACE = (48, 48, 4), (384, 192, 5)
 #: Discrepancies of decrements at least: of an impact in a plane, and of a wobble, whose phase is lost [-].
 LEAST_OF_IMPACTS, LEAST_OF_WOBBLES = 0.0025, 0.01
 
-#: Rate at which a wobble's direction turns at its beginning is known to this share at best, beside its noise [-].
-RATE = 0.1
-
 #: Restitutions are looked for by so much of their logarithm to either side of the mean, at so many places.
 AROUND, PLACES = 0.15, 241
 
 #: Fewest steps of a history in a swing.
 FEWEST_STEPS = 15
-
-#: Rate at which a wobble's direction turns at its beginning is known to this share at best, beside its noise [-].
-RATE = 0.1
-
-#: Restitutions are looked for by so much of their logarithm to either side of the mean.
-AROUND = 0.15
-
-#: A loss is not told where its interval reaches within this share of the way between its limits of either.
-AT_LIMIT = 0.03
-
-#: Two losses are not told apart where the correlation of their logarithms goes beyond this.
-TOGETHER = 0.8
 
 #: Fewest decrements, and most windows of a wobble.
 FEWEST, MOST = 2, 12
@@ -67,187 +49,6 @@ OVER_NOISE, LEAST = 10.0, 0.05
 
 #: Share of that to which computed motions are followed [-].
 FLOOR = 0.05
-
-#: Draws of the band in the picture.
-DRAWS = 16
-
-
-class Loss(NamedTuple):
-    """One loss.
-
-    Parameters
-    ----------
-    value, low, high : float
-        The likeliest, and the limits of the interval.
-    reaches : str
-        Limits of what was looked for which the interval reaches: ``least``, ``most``, both, or nothing.
-    """
-
-    value: float
-    low: float
-    high: float
-    reaches: str
-
-    @property
-    def told(self) -> bool:
-        """Whether the history tells it from both sides."""
-        return not self.reaches
-
-
-@dataclass(frozen=True, eq=False)
-class Calibration:
-    """Losses of a column from its free motion.
-
-    Parameters
-    ----------
-    column : Column
-    model : LossyDrums
-        What computed the motions.
-    history : FreeHistory
-    confidence : float
-        Of intervals.
-    noise : float
-        Standard deviation of the measured tilt [rad].
-    measured : Free
-        Time [s] and lean of the history [rad].
-    beginning : Wobble
-        From which motions were computed.
-    edges : array
-        Extremes of swings in a plane, or the ends of windows of a wobble: times of :attr:`amplitudes` [s].
-    amplitudes : array
-        Extremes, or the largest lean of each window [rad].
-    after : Posterior
-    limits : tuple
-        Of each loss, between which it was looked for.
-    restitution : Loss or None
-        Of an impact, by extremes alone (in a plane).
-    """
-
-    column: Column
-    model: LossyDrums
-    history: FreeHistory
-    confidence: float
-    noise: float
-    measured: Free
-    beginning: Wobble
-    edges: np.ndarray
-    amplitudes: np.ndarray
-    after: Posterior
-    limits: tuple[tuple[float, float], ...]
-    restitution: Loss | None
-
-    @cached_property
-    def laws(self) -> dict[str, float]:
-        """Share of each law of round faces that was tried; empty where the column has corners."""
-        return {law: self.after.share(law) for law in dict.fromkeys(self.after.laws) if law is not None}
-
-    @cached_property
-    def losses(self) -> Losses:
-        """The likeliest: means of logarithms under the likeliest law."""
-        return _losses(self.after.means(self.law), self.limits, self.law)
-
-    @property
-    def law(self) -> str | None:
-        """The likeliest law of round faces; None of others."""
-        return max(self.laws, key=self.laws.__getitem__) if self.laws else None
-
-    @cached_property
-    def told(self) -> dict[str, Loss]:
-        """Each loss with its interval, over all laws."""
-        found = {}
-        for i, (name, limits) in enumerate(zip(("stiffness_damping", "rolling_resistance"), self.limits)):
-            low, high = self.after.interval(i, self.confidence)
-            reaches = " and ".join(["least"] * (low < AT_LIMIT) + ["most"] * (high > 1.0 - AT_LIMIT))
-            found[name] = Loss(getattr(self.losses, name), _between(low, limits), _between(high, limits), reaches)
-        return found
-
-    @property
-    def apart(self) -> bool | None:
-        """Whether the history tells the two losses apart; None of one."""
-        if len(self.limits) < 2:
-            return None
-        return abs(self.after.correlation()) < TOGETHER and all(one.told for one in self.told.values())
-
-    @property
-    def sentence(self) -> str:
-        """What the history tells, in words."""
-        words = []
-        for name, loss in self.told.items():
-            unit = " s" if name == "stiffness_damping" else ""
-            span = f"{loss.low:.2g} to {loss.high:.2g}{unit}"
-            if loss.told:
-                words.append(f"{name} is {loss.value:.2g}{unit} ({span}, {self.confidence:.0%}).")
-            elif loss.reaches == "least":
-                words.append(f"{name} is at most {loss.high:.2g}{unit}: this history tells no lower limit.")
-            elif loss.reaches == "most":
-                words.append(f"{name} is at least {loss.low:.2g}{unit}: this history tells no upper limit.")
-            else:
-                words.append(f"{name} is not told by this history.")
-        if self.laws:
-            words.append("Law: " + ", ".join(f"{name} {share:.0%}" for name, share in self.laws.items()) + ".")
-        if self.apart is False:
-            words.append("It does not tell stiffness_damping and rolling_resistance apart: take them as a pair.")
-        if not self.after.reached:
-            words.append("No losses that were tried die away as it does: see the picture before using them.")
-        return " ".join(words)
-
-    def scatter(self) -> dict[str, float]:
-        """What is left unknown as parts of a :class:`~stylobate.Scatter`: spreads of losses, share of the other law."""
-        from scipy.special import ndtri
-
-        wide = 2.0 * float(ndtri(0.5 * (1.0 + self.confidence)))
-        found = {name: math.expm1(math.log(one.high / one.low) / wide) for name, one in self.told.items()}
-        if self.laws:
-            found["law"] = 1.0 - max(self.laws.values())
-        return found
-
-    def motions(self, number: int = DRAWS) -> list[Free]:
-        """Motion with the likeliest losses, then with so many draws of them, from the beginning on."""
-        wanted = [(self.law, self.after.means(self.law)), *self.after.drawn(number)]
-        duration = float(self.measured.time[-1] - self.beginning.time)
-        losses = [_losses(at, self.limits, law) for law, at in wanted]
-        starts = [_start(self.beginning, at[len(self.limits) :]) for _, at in wanted]
-        return released(self.column, self.model, losses, starts, duration, max(duration / 4000.0, 1e-4))
-
-    def save(self, path: str | Path) -> Path:
-        """Write the file of losses that ``--losses`` takes (TOML)."""
-        interval: dict[str, Any] = {"confidence": self.confidence}
-        interval |= {name: [one.low, one.high] for name, one in self.told.items()}
-        measured = {
-            "column": self.column.name,
-            "history": self.history.name,
-            "model": self.model.name,
-            "normal_stiffness": self.column.joints[0].normal_stiffness,
-            "decrements": len(self.amplitudes) - 1,
-            "discrepancy": self.after.discrepancy,
-            "said": self.sentence,
-        }
-        return write_losses(self.losses, path, interval, measured)
-
-    def summary(self) -> dict[str, Any]:
-        """Plain values, as ``stylobate calibrate`` prints them."""
-        found: dict[str, Any] = {"column": self.column.name, "model": self.model.name, "history": self.history.name}
-        for name, one in self.told.items():
-            found[name] = {"value": one.value, "low": one.low, "high": one.high, "told": one.told, "reaches": one.reaches}
-        found["law"], found["laws"] = self.losses.law, self.laws
-        found["restitution"] = None
-        if self.restitution is not None:
-            found["restitution"] = dict(zip(("value", "low", "high"), self.restitution[:3]))
-            found["restitution"]["housner"] = one_body(self.column).restitution
-        return found | {
-            "confidence": self.confidence,
-            "told_apart": self.apart,
-            "correlation": None if len(self.limits) < 2 else self.after.correlation(),
-            "reached": self.after.reached,
-            "decrements": len(self.amplitudes) - 1,
-            "discrepancy": self.after.discrepancy,
-            "noise_rad": self.noise,
-            "first_tilt_rad": self.beginning.tilt,
-            "precession_rad_s": self.beginning.rate,
-            "normal_stiffness": self.column.joints[0].normal_stiffness,
-            "scatter": self.scatter(),
-            "sentence": self.sentence,
-        }
 
 
 def calibrate(
@@ -299,8 +100,8 @@ def calibrate(
     size, alpha = np.hypot(lean[:, 0], lean[:, -1] * (lean.shape[1] - 1)), one_body(column).slenderness
     if float(size.max()) >= alpha:
         raise InputError(
-            f"{history.name} leans by {math.degrees(size.max()):.3g}°, and {column.name!r} falls from {math.degrees(alpha):.3g}° "
-            "on: check the column, and the unit of the history."
+            f"{history.name} leans by {math.degrees(size.max()):.3g}°, and {column.name!r} falls from "
+            f"{math.degrees(alpha):.3g}° on: check the column, and the unit of the history."
         )
     measured = Free(history.time, lean if lean.shape[1] == 2 else np.hstack((lean, np.zeros_like(lean))))
     done = 0
@@ -332,7 +133,8 @@ def _checked(history: FreeHistory, column: Column, model: Model | None) -> Lossy
     model = DistinctElement3D() if model is None else model
     if not isinstance(model, LossyDrums) or model.damped:
         raise InputError(
-            f"losses are looked for, with {model.name} as it is given; give dem2d or dem3d without damping of its own.", "model"
+            f"losses are looked for, with {model.name} as it is given; give dem2d or dem3d without damping of its own.",
+            "model",
         )
     check_takes_pose(Start(0.0), column)
     wobbles = column.section == "circular" and not model.is_plane(model.parameters())
@@ -345,7 +147,8 @@ def _checked(history: FreeHistory, column: Column, model: Model | None) -> Lossy
         )
     if two and not wobbles:
         raise InputError(
-            f"{history.name} has two columns of values, and what rocks in a plane has one; give the one in its plane.", "history"
+            f"{history.name} has two columns of values, and what rocks in a plane has one; give the one in its plane.",
+            "history",
         )
     return dataclasses.replace(model, planar=True) if isinstance(model, DistinctElement3D) and not wobbles else model
 
@@ -363,14 +166,14 @@ def _of_swings(
         else:
             why = "the history must go on for more swings, from its release on"
         raise InputError(
-            f"{history.name} has {len(found.tilts)} swings beyond its noise ({noise:.2g} rad) that are resolved, of {sides}; "
-            f"{FEWEST + 1} are needed: {why}."
+            f"{history.name} has {len(found.tilts)} swings beyond its noise ({noise:.2g} rad) that are resolved, of "
+            f"{sides}; {FEWEST + 1} are needed: {why}."
         )
     if bool((np.diff(found.tilts) > 4.0 * (found.errors[1:] + found.errors[:-1]) + 0.02 * found.tilts[:-1]).any()):
         grows = int(np.argmax(np.diff(found.tilts)))
         raise InputError(
-            f"{history.name} swings farther at {found.times[grows + 1]:.4g} s than before; a free motion dies away: cut it, or "
-            "take off its offset."
+            f"{history.name} swings farther at {found.times[grows + 1]:.4g} s than before; a free motion dies away: cut it, "
+            "or take off its offset."
         )
     logs, covariance = kept(found, alpha)
     limits = (_damping_limits(column),)
@@ -379,7 +182,7 @@ def _of_swings(
     interval = float(np.diff(found.times).min()) / 40.0
 
     def computed(law: str | None, at: np.ndarray) -> np.ndarray:
-        losses = [_losses(one, limits, law) for one in at]
+        losses = [losses_at(one, limits, law) for one in at]
         motions = released(column, model, losses, [start] * len(at), duration, interval)
         told(len(at))
         return np.stack([kept_at(found.tilts[:-1], one.time, one.lean[:, 0], alpha) for one in motions])
@@ -404,21 +207,21 @@ def _of_wobble(
     edges = _windows(begin, time, size, lasts, column)
     if len(edges) < FEWEST + 2:
         raise InputError(
-            f"{history.name} wobbles for {lasts - begin.time:.3g} s beyond its noise ({noise:.2g} rad), {len(edges) - 1} swings; "
-            f"{FEWEST + 1} are needed: give a longer history, from its release on."
+            f"{history.name} wobbles for {lasts - begin.time:.3g} s beyond its noise ({noise:.2g} rad), {len(edges) - 1} "
+            f"swings; {FEWEST + 1} are needed: give a longer history, from its release on."
         )
     shortest = float(np.diff(edges).min())
     if history.dt > shortest / FEWEST_STEPS:
         raise InputError(
-            f"{history.name} has a step of {history.dt:.3g} s; allowed is up to {shortest / FEWEST_STEPS:.2g} s for swings of "
-            "this column: give a history with a shorter step."
+            f"{history.name} has a step of {history.dt:.3g} s; allowed is up to {shortest / FEWEST_STEPS:.2g} s for swings "
+            "of this column: give a history with a shorter step."
         )
     logs = envelope(begin.time, time, size, edges, 0.5 * least)
     limits = (_damping_limits(column), ROLLING)
     duration, interval = float(edges[-1]) + 0.2 * float(edges[1]), shortest / 60.0
 
     def computed(law: str | None, at: np.ndarray) -> np.ndarray:
-        losses, starts = [_losses(one, limits, law) for one in at], [_start(begin, one[2:]) for one in at]
+        losses, starts = [losses_at(one, limits, law) for one in at], [start_of(begin, one[2:]) for one in at]
         found = []
         for one in released(column, model, losses, starts, duration, interval):
             found.append(np.diff(envelope(0.0, one.time, np.hypot(*one.lean.T), edges, FLOOR * least)))
@@ -432,7 +235,7 @@ def _of_wobble(
 
 
 def _windows(begin: Wobble, time: np.ndarray, size: np.ndarray, lasts: float, column: Column) -> np.ndarray:
-    """Ends of windows as long as swings of what it leans in the one before, from the beginning on [s]; :data:`MOST` at most."""
+    """Ends of :data:`MOST` windows at most, each as long as swings of what it leans in the one before [s]."""
     longer = 1.0
     while True:
         edges, tilt = [0.0], begin.tilt
@@ -449,27 +252,9 @@ def _windows(begin: Wobble, time: np.ndarray, size: np.ndarray, lasts: float, co
 
 
 def _half_swing(tilt: float, column: Column) -> float:
-    """Time from an extreme to the next of a slender block [s], Housner's Eq. 9: 2 arcosh(1/(1 − θ/α))/p; and a quarter more."""
+    """Time between extremes of a slender block, 2 arcosh(1/(1 − θ/α))/p (Housner 1963), and a quarter more [s]."""
     share = min(tilt / column.slenderness, 0.95)
     return 1.25 * 2.0 * math.acosh(1.0 / (1.0 - share)) / column.frequency_parameter
-
-
-def _start(begin: Wobble, others: np.ndarray) -> Start:
-    """Pose and velocity at the beginning of a motion.
-
-    Of a wobble two things are known badly, or not at all: the rate at which its direction turns, and whether the body turns
-    about its own axis as well, from not at all to with its direction. Both are given as shares of what may be.
-    """
-    from scipy.special import ndtri
-
-    if not len(others):
-        return Start(begin.tilt, begin.azimuth)
-    rate = begin.rate + math.hypot(begin.error, RATE * begin.rate) * float(ndtri(0.02 + 0.96 * others[0]))
-    across = math.sin(begin.tilt)
-    axis = np.array([across * math.cos(begin.azimuth), across * math.sin(begin.azimuth), math.cos(begin.tilt)])
-    upright = np.array([0.0, 0.0, rate])
-    spin = upright - (1.0 - float(others[1])) * (upright @ axis) * axis
-    return Start(begin.tilt, begin.azimuth, (float(spin[0]), float(spin[1]), float(spin[2])))
 
 
 def _laws(column: Column, model: LossyDrums) -> tuple[str | None, ...]:
@@ -481,15 +266,6 @@ def _damping_limits(column: Column) -> tuple[float, float]:
     joint = column.joints[0]
     contact = math.sqrt(column.mass / (joint.normal_stiffness * float(column.joint_areas[0])))
     return DAMPING[0] * contact, min(DAMPING[1] * contact, 1.0)
-
-
-def _between(share: float, limits: tuple[float, float]) -> float:
-    return limits[0] * (limits[1] / limits[0]) ** float(share)
-
-
-def _losses(shares: np.ndarray, limits: tuple[tuple[float, float], ...], law: str | None) -> Losses:
-    """Losses of a law at some shares of the way between their limits; of unknowns that begin with these."""
-    return Losses(*[_between(share, both) for share, both in zip(shares[: len(limits)], limits, strict=True)], law=law)
 
 
 def _restitution(logs: np.ndarray, covariance: np.ndarray, confidence: float) -> Loss:

@@ -1,12 +1,13 @@
 """What a free motion shows of losses without knowing its phase: swings of a rocking body, and how fast a wobble dies.
 
-A body that rocks in a plane turns about one edge, then about the other. At the extreme of a swing, of tilt θ, it stands still
-and its energy over that at rest is m g R [cos(α − θ) − cos α]. The impact between two extremes leaves the share e² of it
-(Housner 1963), so that extremes alone tell e, whatever the time between them:
+A body that rocks in a plane turns about one edge, then about the other. At the extreme of a swing, of tilt θ, it stands
+still and its energy over that at rest is m g R [cos(α − θ) − cos α]. The impact between two extremes leaves the share e²
+of it (Housner 1963), so that extremes alone tell e, whatever the time between them:
 
     e_k = √(V(θ_k+1)/V(θ_k)),   V(θ) = cos(α − θ) − cos α
 
-A body that wobbles has no such instants. How far it leans at most within windows as long as a swing falls as its energy does.
+A body that wobbles has no such instants. How far it leans at most within windows as long as a swing falls as its energy
+does.
 """
 
 from __future__ import annotations
@@ -167,8 +168,8 @@ def beginning(time: np.ndarray, lean: np.ndarray, noise: float) -> Wobble:
     near = np.arange(max(0, 2 * last - below), last + 1)
     if len(near) < FEWEST:
         raise InputError(
-            f"{len(near)} samples lie near the first extreme at {time[last]:.4g} s; {FEWEST} are needed: give a history with "
-            "a shorter step."
+            f"{len(near)} samples lie near the first extreme at {time[last]:.4g} s; {FEWEST} are needed: give a history "
+            "with a shorter step."
         )
     turned = np.unwrap(np.arctan2(lean[near, 1], lean[near, 0]))
     since = time[near] - time[near[0]]

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 HistoryName = Annotated[
     Path,
     typer.Argument(
-        metavar="HISTORY", help="Tilt or displacement over time (CSV), such as under time_s,tilt_deg or time_s,tilt_x_deg,tilt_y_deg."
+        metavar="HISTORY",
+        help="Tilt or displacement over time (CSV), under time_s,tilt_deg or time_s,tilt_x_deg,tilt_y_deg.",
     ),
 ]
 
@@ -73,10 +74,10 @@ def calibrate(
 
 def facts(found: Calibration) -> dict[str, str]:
     """What else the history tells, for people."""
-    import math
-
     begin, summary = found.beginning, found.summary()
-    told = {"history": f"{found.history.name}, from {math.degrees(begin.tilt):.3g}° on, noise {math.degrees(found.noise):.2g}°"}
+    told = {
+        "history": f"{found.history.name}, from {math.degrees(begin.tilt):.3g}° on, noise {math.degrees(found.noise):.2g}°"
+    }
     if found.restitution is not None:
         one, rigid = found.restitution, summary["restitution"]["housner"]
         told["restitution"] = (
@@ -86,6 +87,3 @@ def facts(found: Calibration) -> dict[str, str]:
     told["scatter"] = "--scatter " + ",".join(f"{name}={size:.0%}" for name, size in found.scatter().items())
     told["joint"] = f"normal_stiffness {summary['normal_stiffness']:.3g} N/m³, to which stiffness_damping belongs"
     return told
-
-
-__all__ = ["InputError", "calibrate"]

@@ -74,7 +74,10 @@ def read_losses(path: str | Path) -> Losses:
 
 
 def write_losses(
-    losses: Losses, path: str | Path, interval: Mapping[str, Any] | None = None, measured: Mapping[str, Any] | None = None
+    losses: Losses,
+    path: str | Path,
+    interval: Mapping[str, Any] | None = None,
+    measured: Mapping[str, Any] | None = None,
 ) -> Path:
     """Write a file of losses that :func:`read_losses` reads back as equal losses.
 

@@ -66,7 +66,9 @@ class FreeHistory:
         try:
             values = np.array(self.values, dtype=float)
         except (TypeError, ValueError):
-            raise InputError("values of a history are no array of numbers; give one or two columns.", "values") from None
+            raise InputError(
+                "values of a history are no array of numbers; give one or two columns.", "values"
+            ) from None
         values = values[:, None] if values.ndim == 1 else values
         if values.ndim != 2 or values.shape[1] not in (1, 2):
             raise InputError(f"{self.name} has the shape {values.shape}; give one column of values, or two (x and y).")
@@ -145,7 +147,8 @@ def read_free_history(path: str | Path, unit: str | None = None, dt: float | Non
     start = first_row(source.lines) if source.is_text else None
     if start is None:
         raise InputError(
-            f"{source.name} holds no columns of tilt or displacement (records of other formats hold accelerations); {EXAMPLE}."
+            f"{source.name} holds no columns of tilt or displacement (records of other formats hold accelerations); "
+            f"{EXAMPLE}."
         )
     rows, first = number_rows(source.lines, start, source.name)
     table = read_table(rows, first, source.name)
@@ -171,9 +174,7 @@ def read_free_history(path: str | Path, unit: str | None = None, dt: float | Non
     return FreeHistory(step, values, kind, source.name, size)
 
 
-def _columns(
-    header: str, table: np.ndarray, unit: str | None, file: str
-) -> tuple[float | None, list[int], str, float]:
+def _columns(header: str, table: np.ndarray, unit: str | None, file: str) -> tuple[float | None, list[int], str, float]:
     """Unit of the times [s] in the first column, if it holds them; columns of values, what they are, and their unit."""
     number = table.shape[1]
     if not header:

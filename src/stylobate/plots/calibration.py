@@ -13,9 +13,10 @@ from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, styled, zero_l
 def draw_calibration(
     calibration: Calibration, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """The measured motion, that with the likeliest losses, and below how far both still swing; the band holds draws of losses.
+    """The measured motion, that with the likeliest losses, and below how far both still swing.
 
-    Phases part where decay does not: what is fitted is the picture below.
+    The band holds motions with losses drawn as they are known. Phases part where decay does not: what is
+    fitted is the picture below.
 
     Parameters
     ----------
@@ -34,14 +35,15 @@ def draw_calibration(
 
     measured = calibration.measured
     above.plot(measured.time, shown(measured.lean), color=BLACK, linewidth=0.9, label="measured")
-    above.plot(begin.time + first.time, shown(first.lean), color=RED, linewidth=0.8, linestyle="--", label="likeliest losses")
+    dashes = {"color": RED, "linewidth": 0.9, "linestyle": "--"}
+    above.plot(begin.time + first.time, shown(first.lean), label="likeliest losses", **dashes)
     zero_line(above)
     above.set_ylabel("lean [°]" if wobbles else "tilt [°]")
     above.legend(loc="upper right", ncols=2)
     times = calibration.edges
     every = np.stack([_largest_after(one.time + begin.time, shown(one.lean), times) for one in (first, *others)])
     below.fill_between(times, every[1:].min(axis=0), every[1:].max(axis=0), color=RED, alpha=0.18, linewidth=0.0)
-    below.plot(times, every[0], color=RED, linewidth=0.9, linestyle="--")
+    below.plot(times, every[0], **dashes)
     below.plot(times, np.degrees(calibration.amplitudes), "o", color=BLACK, markersize=3.5)
     below.set_yscale("log")
     below.set_ylabel("largest lean of a swing [°]")
@@ -49,9 +51,13 @@ def draw_calibration(
     below.set_xlim(0.0, float(measured.time[-1]))
     for name, loss in calibration.told.items():
         if not loss.told:
-            below.text(0.01, 0.04, f"{name}: not told from both sides", transform=below.transAxes, fontsize=7.5, color=GREY)
+            below.text(
+                0.01, 0.04, f"{name}: not told from both sides", transform=below.transAxes, fontsize=7.5, color=GREY
+            )
             break
-    figure.suptitle(in_lines(title or calibration.sentence), x=0.01, ha="left", fontsize=9.0, color=BLUE if title else BLACK)
+    figure.suptitle(
+        in_lines(title or calibration.sentence), x=0.01, ha="left", fontsize=9.0, color=BLUE if title else BLACK
+    )
     return figure
 
 

@@ -72,6 +72,6 @@ def released(
 def followed(block: Any, stride: int, lanes: int) -> Iterator[None]:
     """Let a block go on by so many chunks of steps at a time, as long as any of its first lanes runs; the start first."""
     yield
-    while not all([block.is_over(lane) for lane in range(lanes)]):
+    while not all(block.is_over(lane) for lane in range(lanes)):
         block.advance(stride)
         yield
