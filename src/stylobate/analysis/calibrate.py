@@ -117,7 +117,8 @@ def calibrate(
     restitution = None
     if lean.shape[1] == 1:
         found = _of_swings(history, column, model, lean[:, 0], sd, told)
-        restitution = _restitution(*found.pop("impacts"), confidence)
+        logs, covariance = found.pop("impacts")
+        restitution = _restitution(logs, covariance, confidence)
     else:
         found = _of_wobble(history, column, model, lean, sd, told)
     return Calibration(column, model, history, confidence, sd, measured, **found, restitution=restitution)

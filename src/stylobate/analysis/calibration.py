@@ -210,8 +210,9 @@ class Calibration:
         found["law"], found["laws"] = self.losses.law, self.laws
         found["restitution"] = None
         if self.restitution is not None:
-            found["restitution"] = dict(zip(("value", "low", "high"), self.restitution[:3]))
-            found["restitution"]["housner"] = one_body(self.column).restitution
+            value, low, high, _ = self.restitution
+            rigid = one_body(self.column).restitution
+            found["restitution"] = {"value": value, "low": low, "high": high, "housner": rigid}
         return found | {
             "confidence": self.confidence,
             "told_apart": self.apart,

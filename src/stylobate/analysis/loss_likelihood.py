@@ -86,7 +86,8 @@ class Posterior(NamedTuple):
     def drawn(self, number: int, seed: int = 0) -> list[tuple[str | None, np.ndarray]]:
         """Law and unknowns of so many draws."""
         places = np.random.default_rng(seed).choice(len(self.weights), number, p=self.weights)
-        return [(self.laws[place], self.at[place]) for place in places.tolist()]
+        laws: list[str | None] = self.laws[places].tolist()
+        return list(zip(laws, self.at[places], strict=True))
 
 
 def searched(
@@ -120,7 +121,7 @@ def searched(
     stream = np.random.default_rng(0)
     every, logs, over = [], [], []
     for law in laws:
-        at = qmc.Halton(unknowns, seed=0).random(draws[0])
+        at = qmc.Halton(unknowns, scramble=False).random(draws[0] + 1)[1:]
         kernels: list[tuple[int, np.ndarray, np.ndarray]] = []
         found = likelihoods(computed(law, at), measured, noise, least)
         number = draws[1]
@@ -157,8 +158,9 @@ def likelihoods(
 
     The last is the absolute mean of what is left of the measured ones, each by how well it is known.
     """
-    number, known = len(measured), np.isfinite(decrements).all(axis=1)
-    whole, left = 0.5 * (np.eye(number) + 1.0), measured - np.where(known[:, None], decrements, 0.0)
+    number, known = len(measured), np.asarray(np.isfinite(decrements).all(axis=1))
+    whole = 0.5 * (np.eye(number) + np.ones((number, number)))
+    left = measured - np.where(known[:, None], decrements, 0.0)
     sizes = least * DISCREPANCIES
     logs = np.empty((len(sizes), len(left)))
     for i, size in enumerate(sizes):

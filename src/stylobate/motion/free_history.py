@@ -29,7 +29,8 @@ EXAMPLE = "name the columns as in time_s,tilt_deg, or time_s,tilt_x_deg,tilt_y_d
 FEWEST = 20
 
 _NAME = re.compile(
-    r"(?P<what>time|t|tilt|lean|rotation|displacement|disp|u)[_ ]?(?P<axis>x|y)?[\s_(\[,/]*(?P<unit>[a-z°]*)[)\]]?"
+    r"(?P<what>time|t(?![a-z])|tilt|lean|rotation|displacement|disp|u(?![a-wz]))[_ ]?(?P<axis>x|y)?"
+    r"[\s_(\[,/]*(?P<unit>[a-z°]*)[)\]]?"
 )
 
 
