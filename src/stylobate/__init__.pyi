@@ -1,6 +1,7 @@
 """The public names of the package: the one list of them, for the lazy loader and for type checkers."""
 
 from . import plots as plots
+from .analysis.calibrate import calibrate as calibrate
 from .analysis.certainty import certainty as certainty
 from .analysis.compare import compare_models as compare_models
 from .analysis.critical import critical_amplitude as critical_amplitude
@@ -48,6 +49,8 @@ from .column.links import Dowel as Dowel
 from .column.links import Layer as Layer
 from .column.links import Pad as Pad
 from .column.links import Tie as Tie
+from .column.loss_files import read_losses as read_losses
+from .column.losses import Losses as Losses
 from .column.scatter import Scatter as Scatter
 from .column.spatial.assembly import SpatialAssembly as SpatialAssembly
 from .column.spatial.stone import Stone as Stone
@@ -68,6 +71,8 @@ from .motion import MotionRequest as MotionRequest
 from .motion import harmonic as harmonic
 from .motion import pulses as pulses
 from .motion import stochastic_motion as stochastic_motion
+from .motion.free_history import FreeHistory as FreeHistory
+from .motion.free_history import read_free_history as read_free_history
 from .motion.pulses import cosine_pulse as cosine_pulse
 from .motion.pulses import gabor as gabor
 from .motion.pulses import half_sine_pulse as half_sine_pulse

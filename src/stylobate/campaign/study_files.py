@@ -99,13 +99,13 @@ class RunsTable(Table):
     whole: bool = False
     scatter: ScatterTable | None = None
 
-    def made_models(self) -> list[Model]:
+    def made_models(self, folder: Path) -> list[Model]:
         """The models with their parameters."""
         models = [*([self.model] if self.model else []), *(self.models or [])]
         settings = {key: str(value) for key, value in (self.set or {}).items()}
         if settings and len(models) > 1:
             raise InputError("[set] is for one model, and several are named; give each a study of its own.")
-        return make_models([(model, settings) for model in models], self.losses)
+        return make_models([(model, settings) for model in models], _losses(self.losses, folder))
 
     def made_campaign(self) -> Campaign:
         """Realisations, time after each motion and what of it is stepped."""
@@ -151,7 +151,7 @@ def read_plan(path: str | Path) -> tuple[Study, dict[str, str]]:
 
 def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     names = [*([table.column] if table.column else []), *(table.columns or [])]
-    models = table.made_models()
+    models = table.made_models(folder)
     motions, refused = _motions(table.motions, folder)
     im, levels = (None, [1.0]) if table.scale is None else levels_of(table.scale.im, table.scale.levels)
     stands = [structure_beside(folder, name) for name in names]
@@ -161,6 +161,11 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
 def structure_beside(folder: Path, name: str) -> Structure:
     """What a file beside another one, or a preset, of that name describes."""
     return load_structure(folder / name if (folder / name).is_file() else name)
+
+
+def _losses(losses: str | None, folder: Path) -> str | None:
+    """Losses of models: a name, or a file from the folder of the study on."""
+    return str(folder / losses) if losses is not None and (folder / losses).is_file() else losses
 
 
 def _motions(table: MotionsTable, folder: Path) -> tuple[Sequence[Motion], dict[str, str]]:

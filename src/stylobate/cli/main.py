@@ -17,6 +17,7 @@ from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeW
 from ..version import __version__
 from . import (
     animate,
+    calibrate,
     cite,
     columns,
     compare,
@@ -85,8 +86,8 @@ def _passing_on() -> Iterator[None]:
 
 
 for _room in (
-    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer, motion,
-    records, spectrum, columns, draw, convert, materials, animate, export, report, serve, cite
+    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer,
+    calibrate, motion, records, spectrum, columns, draw, convert, materials, animate, export, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))

@@ -85,8 +85,8 @@ LossesName = Annotated[
     str | None,
     typer.Option(
         "--losses",
-        metavar="none|stone",
-        help="What joints lose: as other options say, or as measured stone (dem2d, dem3d).",
+        metavar="none|stone|FILE",
+        help="What joints lose: as other options say, as measured stone, or as a file of calibrate says (dem2d, dem3d).",
     ),
 ]
 
@@ -258,12 +258,12 @@ def _in_plane(structure: Any, project: str | None) -> Any:
 
 
 def the_model(name: str, settings: list[str] | None, losses: str | None = None) -> Model:
-    """The model of that name with its options, and with losses by name."""
+    """The model of that name with its options, and with losses by name or from a file."""
     return the_models([(name, settings)], losses)[0]
 
 
 def the_models(named: Sequence[tuple[str, list[str] | None]], losses: str | None = None) -> list[Model]:
-    """Models by name with their options, and with losses by name for those that know them; see :func:`make_models`."""
+    """Models by name with their options, and with losses for those that know them; see :func:`make_models`."""
     from ..models.registry import make_models
 
     values = [(name, _settings(settings or [])) for name, settings in named]

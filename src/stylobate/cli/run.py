@@ -292,7 +292,7 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
 def losses_facts(response: Response) -> dict[str, str]:
     """What joints lost by name, in numbers."""
     told = response.summary()
-    if told["losses"] in (None, "none", "given"):
+    if told["losses"] in (None, "none") or "steps_over_undamped" not in response.provenance:
         return {}
     acting, more = told["losses_acting"], response.provenance["steps_over_undamped"]
     words = ", ".join(f"{name.replace('_', ' ')} {value:.2g}" for name, value in acting.items())

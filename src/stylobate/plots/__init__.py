@@ -1,6 +1,7 @@
 """Pictures in one style, one file per picture. Every function returns a figure; ``save`` writes it as PNG and SVG."""
 
 from .amplitudes import draw_amplitudes
+from .calibration import draw_calibration
 from .collapse_over_amplitude import draw_collapse_over_amplitude
 from .debris import draw_debris
 from .directions import draw_directions
@@ -36,6 +37,7 @@ from .weighing import draw_weighing
 __all__ = [
     "draw_amplitudes",
     "draw_boundaries",
+    "draw_calibration",
     "draw_collapse_over_amplitude",
     "draw_comparison",
     "draw_debris",

@@ -32,7 +32,8 @@ def losses_of(provenance: Mapping[str, Any]) -> dict[str, Any]:
         return {"losses": None}
     acting = {name: known.get(name) for name in LOSSES if known.get(name)}
     acting |= {name: provenance[key] for name, key in LOSSES.items() if provenance.get(key)}
-    name = "given" if acting and known["losses"] == "none" else known["losses"]
+    given = not isinstance(known["losses"], str) or (acting and known["losses"] == "none")
+    name = "given" if given else known["losses"]
     return {"losses": name, "losses_acting": acting}
 
 

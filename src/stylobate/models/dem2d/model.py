@@ -54,9 +54,9 @@ class DistinctElement2D(LossyDrums):
         Time step as a share of the largest stable one.
     time_step : float, optional
         Time step [s], instead of ``step_factor``.
-    losses : {"none", "stone"}
-        What joints lose, by name: ``stone`` chooses β (and, for round faces in space, c), with a source and a spread;
-        ``none`` leaves it to the parameters below.
+    losses : {"none", "stone"} or Losses
+        What joints lose: ``stone`` chooses β, with a source and a spread; ``none`` leaves it to the parameters below; or
+        those that were measured (:func:`stylobate.read_losses`).
     stiffness_damping : float
         β: dashpots of β times each contact's stiffness, in parallel, while the contact is closed and does not slide [s].
     mass_damping : float

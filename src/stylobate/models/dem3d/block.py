@@ -139,6 +139,13 @@ class SpaceBlock(LaneRuns):
         """Rotation of the lowest body of each lane, held in its plane, towards +x [rad]."""
         return np.arcsin(np.clip(self.bodies.leaning(self.records), -1.0, 1.0))
 
+    def leans(self) -> np.ndarray:
+        """Lean of the lowest body of each lane from its upright axis, towards x and y [rad], shape (2, lanes)."""
+        flat = np.stack([self.records.body[name][1] for name in ("kx", "ky")])
+        size = np.hypot(*flat)
+        lean = np.arctan2(size, self.records.body["kz"][1])
+        return flat * np.divide(lean, size, out=np.ones_like(size), where=size > 0.0)
+
     def stand(self, lane: int, case: Case) -> None:
         """Note how a column stands in a lane, and how its base moves."""
         for kept, one in zip(self.stood, (self.records.places(lane), self.records.axes(lane)), strict=True):

@@ -106,9 +106,9 @@ class DistinctElement3D(LossyDrums):
         Time step as a share of the largest stable one.
     time_step : float, optional
         Time step [s], instead of ``step_factor``.
-    losses : {"none", "stone"}
-        What joints lose, by name: ``stone`` chooses β (and, for round faces in space, c), with a source and a spread;
-        ``none`` leaves it to the parameters below.
+    losses : {"none", "stone"} or Losses
+        What joints lose: ``stone`` chooses β (and, for round faces in space, c), with a source and a spread; ``none`` leaves
+        it to the parameters below; or those that were measured (:func:`stylobate.read_losses`).
     stiffness_damping : float
         β: the depth of contact is taken as depth + β × its rate, so that no contact ever pulls; β times the stiffness in
         shear and torsion [s].
@@ -286,15 +286,16 @@ class DistinctElement3D(LossyDrums):
 
     def _check_stack(self, column: Column, motion: Motion) -> None:
         del motion
-        if self.law != "bed":
-            column.must_carry_on_whole_faces(f"dem3d with law={self.law}")
+        law = self.acting(column).law
+        if law != "bed":
+            column.must_carry_on_whole_faces(f"dem3d with law={law}")
         twice = next((drum.drum for drum in column.as_found.drums if drum.chip_left and drum.chip_right), None)
         if twice is not None and chipped(column):
             raise InputError(
                 f"drum {twice} of {column.name!r} is round and chipped on the left and on the right; dem3d knows one "
                 "chip of a round drum: leave the smaller one out, or use dem2d in its plane."
             )
-        if self.law == "bed" and chipped(column):
+        if law == "bed" and chipped(column):
             raise InputError(
                 f"dem3d with law=bed knows no chips of round drums, and a drum of {column.name!r} has one; use law=rim, "
                 "or leave the chip out."

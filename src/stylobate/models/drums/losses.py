@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, Self
 
-from ...column.losses import NAMED
+from ...column.loss_files import losses_by
+from ...column.losses import NAMED, Losses
 from ...column.materials import ROLLING
 from ...errors import InputError, check_choice
 from ...motion import Motion
@@ -22,17 +24,24 @@ class LossyDrums(SteppedDrums):
 
     Parameters
     ----------
-    losses : {"none", "stone"}
+    losses : {"none", "stone"} or Losses
         ``stone`` chooses β so that impacts of a column as one body, and of what else stands on the ground with all that it
         carries, leave what those of stone do, and a resistance to rolling of round columns in space; ``none`` leaves both
-        to the other parameters, by default none.
+        to the other parameters, by default none. Or those that were measured
+        (:func:`stylobate.calibrate`, :func:`stylobate.read_losses`).
     """
 
-    losses: str = "none"
+    losses: str | Losses = "none"
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        check_choice("losses", self.losses, NAMED)
+        if not isinstance(self.losses, Losses):
+            check_choice("losses", self.losses, NAMED)
+        elif self.losses.law is not None and getattr(self, "law", "rim") not in ("rim", self.losses.law):
+            raise InputError(
+                f"law = {getattr(self, 'law', None)!r} is given, and the losses are of law {self.losses.law!r}; give one.",
+                "law",
+            )
         chosen = (*self._chosen, *(("restitution",) if "y" in self.axes else ()))
         given = next((name for name in chosen if self.losses != "none" and getattr(self, name)), None)
         if given is not None:
@@ -41,6 +50,12 @@ class LossyDrums(SteppedDrums):
                 "other; give one of the two.",
                 "losses",
             )
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, str]) -> Any:
+        """As of all models; ``losses`` as a name, or as the path of a file of losses."""
+        made = super().from_settings({name: text for name, text in settings.items() if name != "losses"})
+        return replace(made, losses=losses_by(settings["losses"])) if "losses" in settings else made
 
     @property
     def _chosen(self) -> tuple[str, ...]:
@@ -91,10 +106,12 @@ class LossyDrums(SteppedDrums):
 def _acting(column: Any, model: Any) -> Any:
     changes: dict[str, Any] = {"losses": "none"}
     round_ = column.section == "circular" and "rolling_resistance" in model._chosen
-    own = None if column.stack is None else column.stack.losses
-    if own is not None and "y" in model.axes:
-        changes |= {"stiffness_damping": own.stiffness_damping, "restitution": None, "time_step": None}
+    drawn = None if column.stack is None or "y" not in model.axes else column.stack.losses
+    own = drawn or model.losses
+    if isinstance(own, Losses):
+        changes |= {"stiffness_damping": own.stiffness_damping}
         changes |= {"rolling_resistance": own.rolling_resistance, "law": own.law or model.law} if round_ else {}
+        changes |= {} if drawn is None else {"restitution": None, "time_step": None}
     elif model.losses == "stone":
         free = replace(model, losses="none")
         changes["stiffness_damping"] = damping_of_stone(column, free, model.rocking(column))

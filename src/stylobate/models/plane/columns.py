@@ -56,6 +56,11 @@ class ColumnLanes(LaneRuns):
         """Rotation of the lowest body of each lane, towards +x [rad]."""
         return -self.records.body["th"][1]
 
+    def leans(self) -> np.ndarray:
+        """The same, and none across the plane, shape (2, lanes)."""
+        lean = self.lean()
+        return np.stack([lean, np.zeros_like(lean)])
+
     # -- how a run begins ----------------------------------------------------------------------------------------
 
     def stand(self, lane: int, case: Case) -> None:

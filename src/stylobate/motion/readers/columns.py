@@ -33,7 +33,7 @@ def recognises(source: Source) -> bool:
     """Whether the first lines that are not titles are columns of numbers."""
     if not source.is_text:
         return False
-    start = _first_row(source.lines)
+    start = first_row(source.lines)
     return start is not None
 
 
@@ -46,7 +46,7 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
         No unit in the header and none stated, no time column and no step stated, unequal steps, rows of unequal length.
     """
     lines = source.lines
-    start = _first_row(lines)
+    start = first_row(lines)
     assert start is not None
     numbered = {line.strip(): number for number, line in enumerate(lines[:start], 1) if line.strip()}
     titles = list(numbered)
@@ -126,7 +126,7 @@ def _check_digest(components: list[Component], written: str, file: str) -> None:
         component.proven = True
 
 
-def _first_row(lines: list[str]) -> int | None:
+def first_row(lines: list[str]) -> int | None:
     """Index of the first line of numbers."""
     for index, line in enumerate(lines[: MAX_TITLE_LINES + 1]):
         text = line.strip()

@@ -151,7 +151,7 @@ def read_measured(folder: Path) -> Measured:
             raise InputError(f"name is {name!r}; allowed are letters, digits, - and _, as files are called after it.")
         if file.fixed > date.today():
             raise InputError(f"fixed is {file.fixed}, a day to come; give the day when all of this was fixed.")
-        models = file.made_models()
+        models = file.made_models(folder)
         if len(models) != 1:
             raise InputError("tests are compared with one model; give its name as model.")
         for score in file.scores:
