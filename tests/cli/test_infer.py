@@ -131,6 +131,7 @@ def test_nothing_seen_leaves_the_prior(ruin, capsys):
         ({"high": "leans"}, "allowed are stands, fell"),
         ({"more": 'model = "dem2d"'}, "ruins have directions"),
         ({"more": "set = {law = 'bed'}"}, "is drawn with the motions"),
+        ({"more": "set = {losses = 'stone'}"}, "losses is drawn with the motions"),
         (
             {"high": "fell", "pgv": "[0.01, 0.02]"},
             "none of 300 simulations leaves all that is seen.*'high fell'.*nearest are",

@@ -21,6 +21,9 @@ TOWARDS_SD = 15.0
 #: Draws of the prior where no number is given.
 USUAL_COUNT = 2000
 
+#: Parameters of a model that are drawn, or follow from what is drawn.
+DRAWN_OF_MODEL = ("law", "stiffness_damping", "losses", "restitution", "time_step")
+
 #: Offsets may exceed the largest that there shall be by so many of their standard deviations.
 BEYOND = 3.0
 
@@ -160,7 +163,8 @@ class Ruin:
     Raises
     ------
     InputError
-        A column or a joint that is not there, one that is seen twice, a slip beyond a drum.
+        A column or a joint that is not there, one that is seen twice, a slip beyond a drum; what cannot vary, and a model
+        that states what is drawn.
     """
 
     structures: Sequence[Structure]
@@ -177,6 +181,13 @@ class Ruin:
         check_kind("model", self.model, Model)
         check_whole("simulations", self.simulations, 1, MOST)
         check_whole("`seed`", self.seed, 0, 2**31)
+        usual = type(self.model)()
+        refuse_drawn([name for name in DRAWN_OF_MODEL if getattr(self.model, name, 0) != getattr(usual, name, 0)])
+        if alone := next((one for one in structures if not one.scattered), None):
+            raise InputError(
+                f"{alone.name!r} is {alone.described}, and a ruin is of columns and assemblies in space; leave it out.",
+                "columns",
+            )
         names = [one.name for one in structures]
         if not names:
             raise InputError("the ruin names no column; give at least one in columns.", "columns")
@@ -248,6 +259,16 @@ class Ruin:
             for joint, angle, sd in one.twists:
                 found.append(Fact(i, "twist", f"{name}: twist of joint {joint}, {angle:.3g}°", (angle,), sd, joint - 1))
         return found
+
+
+def refuse_drawn(stated: Sequence[str]) -> None:
+    """Refuse parameters of a model that are drawn."""
+    if stated:
+        raise InputError(
+            f"{stated[0]} is drawn with the motions, or follows from what is drawn; leave it out of the model, and give "
+            "law and stiffness_damping as lists in [prior].",
+            "set",
+        )
 
 
 def _usual_model() -> Any:

@@ -20,7 +20,7 @@ from ..motion.request import MotionRequest
 from ..motion.specs import parse_acceleration, parse_angle, parse_time, parse_velocity
 from ..reading import shown
 from .prior import LOSSES, Prior
-from .ruin import USUAL_COUNT, Observed, Ruin
+from .ruin import DRAWN_OF_MODEL, USUAL_COUNT, Observed, Ruin, refuse_drawn
 from .study_files import ColumnScatterTable, listed
 
 #: Columns that are as surveyed: of a ``[prior.scatter]`` that names nothing.
@@ -86,8 +86,7 @@ def read_ruin(path: str | Path) -> Ruin:
         with within("[prior]", "prior"):
             prior = _prior(table.prior, folder)
         settings = {key: str(value) for key, value in (table.set or {}).items()}
-        if drawn := next((key for key in ("law", "stiffness_damping") if key in settings), None):
-            raise InputError(f"{drawn} is drawn with the motions; give {drawn} = [...] in [prior] instead.", "set")
+        refuse_drawn([key for key in settings if key in DRAWN_OF_MODEL])
         return Ruin(structures, observed, prior, table.simulations, table.seed, make_model(table.model, settings))
 
 
