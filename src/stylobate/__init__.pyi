@@ -24,6 +24,7 @@ from .analysis.studies import run_study as run_study
 from .analysis.suite import suite_table as suite_table
 from .campaign.campaign import Campaign as Campaign
 from .campaign.cases import Study as Study
+from .campaign.outlasted import Outlasted as Outlasted
 from .campaign.prior import Prior as Prior
 from .campaign.ruin import Observed as Observed
 from .campaign.ruin import Ruin as Ruin

@@ -10,6 +10,7 @@ from typing import Any
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_choice, check_kind, check_range, check_whole, suggest
 from ..models.base import Model
+from .outlasted import Outlasted
 from .prior import MOST, Prior
 
 #: What may have become of a column; of the last two nothing follows for this earthquake.
@@ -159,6 +160,8 @@ class Ruin:
     seed : int
     model : Model
         In space.
+    survival : Outlasted, optional
+        Since when it has stood, and how often shaking comes.
 
     Raises
     ------
@@ -173,12 +176,14 @@ class Ruin:
     simulations: int = USUAL_COUNT
     seed: int = 0
     model: Model = field(default_factory=lambda: _usual_model())
+    survival: Outlasted | None = None
 
     def __post_init__(self) -> None:
         structures = tuple(check_all("structures", self.structures, Structure))
         observed = tuple(check_all("observed", self.observed, Observed))
         check_kind("prior", self.prior, Prior)
         check_kind("model", self.model, Model)
+        check_kind("survival", self.survival, Outlasted, optional=True)
         check_whole("simulations", self.simulations, 1, MOST)
         check_whole("`seed`", self.seed, 0, 2**31)
         usual = type(self.model)()
