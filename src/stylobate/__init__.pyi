@@ -28,6 +28,7 @@ from .analysis.target_spectra import target_spectrum as target_spectrum
 from .analysis.weighing import weigh as weigh
 from .campaign.campaign import Campaign as Campaign
 from .campaign.cases import Study as Study
+from .campaign.outlasted import Outlasted as Outlasted
 from .campaign.prior import Prior as Prior
 from .campaign.ruin import Observed as Observed
 from .campaign.ruin import Ruin as Ruin

@@ -87,6 +87,26 @@ def test_answer_and_its_files(ruin, tmp_path, capsys):
     assert call(["report", str(out), "--out", str(tmp_path / "report.html")]) == 0
 
 
+def test_survival_is_one_more_observation(ruin, tmp_path, capsys):
+    # The earthquake is one of a hazard that falls steeply: weaker ones are more likely than the even prior says.
+    (tmp_path / "hazard.csv").write_text("pgv_m_s,annual_rate\n0.02,0.2\n0.2,0.002\n2.0,2e-5\n")
+    out, file = tmp_path / "out", ruin()
+    medians = []
+    for more in ("", '[survival]\nhazard = "hazard.csv"\nsince = -300\nearthquake = [200, 700]\nuntil = 2020\n'):
+        file.write_text(file.read_text() + more)
+        assert call(["infer", str(file), "--out", str(out), "--json"]) == 0
+        told = json.loads(capsys.readouterr().out)
+        medians.append(told["posterior"]["pgv_m_s"]["median"])
+    assert medians[1] < medians[0]
+    survival = told["survival"]
+    assert 200 <= survival["earthquake"]["low"] <= survival["earthquake"]["high"] <= 700
+    assert 0.0 < survival["chance"] < 1.0
+    assert told["observations"][-1]["observation"] == told["checks"][-1]["observation"] == "survival since -300"
+    assert "outlasts all other shaking from -300 to 2020" in told["sentence"]
+    assert call(["report", str(out), "--out", str(tmp_path / "report.html")]) == 0
+    assert "Year of the earthquake" in (tmp_path / "report.html").read_text()
+
+
 @pytest.mark.parametrize(
     ("given", "varies"), [("friction = 0.1\noffset = 0.01", {"friction": 0.1, "offset": 0.01}), ("", {})]
 )
@@ -129,8 +149,11 @@ def test_nothing_seen_leaves_the_prior(ruin, capsys):
         ({"low": "offsets = [[1, 0.05, 0.0, 0.001]]\nno_slip_above = 0.01"}, "one of the two is wrong"),
         ({"low": "twist = [[1, 2.0, 1.0]]"}, "unknown key 'twist'"),
         ({"high": "leans"}, "allowed are stands, fell"),
+        ({"more": "[survival]\nhazard = 'none.csv'\nsince = 1200\nuntil = 2020"}, "none.csv"),
+        ({"more": "[survival]\nhazard = 'none.csv'\nuntil = 2020"}, "neither since nor earthquake"),
         ({"more": 'model = "dem2d"'}, "ruins have directions"),
         ({"more": "set = {law = 'bed'}"}, "is drawn with the motions"),
+        ({"more": "set = {losses = 'stone'}"}, "losses is drawn with the motions"),
         (
             {"high": "fell", "pgv": "[0.01, 0.02]"},
             "none of 300 simulations leaves all that is seen.*'high fell'.*nearest are",

@@ -5,9 +5,11 @@ import pytest
 
 import stylobate as st
 from stylobate.campaign.prior import peaks
+from stylobate.column.losses import Losses
 from stylobate.motion.elliptical import elliptical_pulse
 
 PRIOR = st.Prior(pgv=(0.1, 1.5), period=(0.3, 1.6))
+COLUMN = st.preset("paper-monolithic")
 
 
 def test_draw_is_the_same_whatever_their_number():
@@ -65,3 +67,20 @@ def test_records_are_turned_and_scaled():
 def test_what_is_no_prior_is_refused(fields, said):
     with pytest.raises(st.InputError, match=said):
         st.Prior(**fields)
+
+
+def test_columns_carry_the_losses_of_a_draw_but_keep_their_own():
+    draws = PRIOR.draws(6, 2)
+    own = COLUMN.replace(losses=Losses(2e-4, 0.003))
+    for k in range(6):
+        law = PRIOR.law[int(draws.parameters["law"][k])]
+        assert draws.losses(COLUMN, k, 0.01) == Losses(draws.parameters["stiffness_damping_s"][k], 0.01, law)
+        assert draws.losses(own, k, 0.01) == Losses(2e-4, 0.003, law)
+
+
+def test_what_cannot_vary_is_no_ruin():
+    with pytest.raises(st.InputError, match="restitution is drawn with the motions"):
+        st.Ruin([COLUMN], [], PRIOR, model=st.DistinctElement3D(restitution=0.9))
+    box = 0.5 * np.array([[x, y, 2 * z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    with pytest.raises(st.InputError, match="a ruin is of columns and assemblies in space"):
+        st.Ruin([st.Specimen(1.0, [0.5, 0.5, 0.2], box)], [], PRIOR)

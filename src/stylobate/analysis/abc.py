@@ -67,7 +67,9 @@ class Accepted:
         return float(1.0 / np.sum(self.weights**2))
 
 
-def accepted(features: np.ndarray, targets: np.ndarray, seen: np.ndarray, count: int) -> Accepted:
+def accepted(
+    features: np.ndarray, targets: np.ndarray, seen: np.ndarray, count: int, before: np.ndarray | None = None
+) -> Accepted:
     """The draws nearest to what is seen, moved to it.
 
     Parameters
@@ -80,12 +82,16 @@ def accepted(features: np.ndarray, targets: np.ndarray, seen: np.ndarray, count:
         Features of what is seen, shape (features,).
     count : int
         How many to accept.
+    before : array, optional
+        Weights of the draws before anything is seen, shape (draws,); all alike by default.
     """
     told, (at,) = summaries(features, targets, seen[None, :])
-    return nearest(told, targets, at, count)
+    return nearest(told, targets, at, count, before)
 
 
-def nearest(told: np.ndarray, targets: np.ndarray, at: np.ndarray, count: int) -> Accepted:
+def nearest(
+    told: np.ndarray, targets: np.ndarray, at: np.ndarray, count: int, before: np.ndarray | None = None
+) -> Accepted:
     """The draws whose summaries are nearest to those of what is seen, moved to it; without summaries all of them.
 
     Parameters
@@ -96,10 +102,13 @@ def nearest(told: np.ndarray, targets: np.ndarray, at: np.ndarray, count: int) -
         Summaries of what is seen, shape (summaries,).
     count : int
         How many to accept.
+    before : array, optional
+        Weights of the draws before anything is seen, shape (draws,); all alike by default.
     """
     draws = len(targets)
+    before = np.ones(draws) if before is None else before
     if not told.shape[1]:
-        return Accepted(np.arange(draws), np.full(draws, 1.0 / max(1, draws)), targets, np.zeros(draws))
+        return Accepted(np.arange(draws), before / max(1.0, before.sum()), targets, np.zeros(draws))
     away = told - at
     distance = np.sqrt((away**2).sum(axis=1))
     which = np.argsort(distance, kind="stable")[: min(count + 1, draws)]
@@ -108,6 +117,7 @@ def nearest(told: np.ndarray, targets: np.ndarray, at: np.ndarray, count: int) -
         reach *= 1.0 + 1e-9
     which = which[distance[which] < reach] if reach > 0.0 else which
     weights = 1.0 - (distance[which] / reach) ** 2 if reach > 0.0 else np.ones(len(which))  # Epanechnikov
+    weights *= before[which]
     weights /= weights.sum()
     return Accepted(which, weights, moved(targets[which], away[which], weights), distance[which])
 

@@ -74,10 +74,13 @@ class Answers:
     facts : sequence of Fact
     seed : int
         Of the errors with which is measured what draws leave.
+    weights : array, optional
+        Of the draws before any of these facts, shape (draws,); all alike by default.
     """
 
-    def __init__(self, table: Simulations, facts: Sequence[Fact], seed: int) -> None:
+    def __init__(self, table: Simulations, facts: Sequence[Fact], seed: int, weights: np.ndarray | None = None) -> None:
         self.table, self.facts, self.seed = table, tuple(facts), seed
+        self.weights = np.ones(len(table)) if weights is None else weights
         self.scores = {name: abc.Scores(table.parameters[name]) for name in TOLD if name != "azimuth_deg"}
         directions = abc.vectors(table.parameters["azimuth_deg"], table.prior.turn)
         self.targets = np.column_stack([*(one.scores for one in self.scores.values()), directions])
@@ -92,9 +95,7 @@ class Answers:
     def matching(self, facts: Sequence[Fact]) -> np.ndarray:
         """Numbers of the draws that match all events among facts."""
         return np.flatnonzero(
-            np.all(
-                [np.ones(len(self.table), bool), *(self.matched[one] for one in facts if one in self.matched)], axis=0
-            )
+            np.all([self.weights > 0.0, *(self.matched[one] for one in facts if one in self.matched)], axis=0)
         )
 
     def of_draws(
@@ -112,8 +113,12 @@ class Answers:
         """Draws that are accepted for facts."""
         which = self.matching(facts)
         found, seen = self.of_draws(facts, which)
-        near = abc.accepted(found, self.targets[which], seen, max(FEWEST, int(SHARE * len(which))))
+        near = abc.accepted(found, self.targets[which], seen, self._count(which, SHARE), self.weights[which])
         return replace(near, which=which[near.which])
+
+    @staticmethod
+    def _count(which: np.ndarray, share: float) -> int:
+        return max(FEWEST, int(share * len(which)))
 
     def foretold(self, facts: Sequence[Fact], what: np.ndarray) -> abc.Accepted:
         """Draws in which as much has moved as facts say, with one number of each draw, shape (draws,), to foretell it.
@@ -123,7 +128,8 @@ class Answers:
         which = self.matching(facts)
         found, seen = self.of_draws(facts, which, sizes=True)
         size = found.std(axis=0) + 1e-12
-        near = abc.nearest(found / size, what[which, None], seen / size, max(FEWEST, int(CLOSE * len(which))))
+        count = self._count(which, CLOSE)
+        near = abc.nearest(found / size, what[which, None], seen / size, count, self.weights[which])
         taken = which[near.which]
         return replace(near, which=taken, targets=what[taken, None])
 
@@ -169,7 +175,7 @@ class Answers:
     def shares(self) -> tuple[float, float, bool]:
         """Probabilities of what is seen under the prior and without any earthquake, and whether the latter is a limit."""
         which = self.matching(self.facts)
-        share = len(which) / len(self.table)
+        share = float(self.weights[which].sum() / self.weights.sum())
         fallen = sum(fact.kind == "state" and fact.value[0] == 1.0 for fact in self.facts)
         standing = sum(fact.kind == "state" for fact in self.facts) - fallen
         none = FALLS_OTHERWISE**fallen * (1.0 - FALLS_OTHERWISE) ** standing
@@ -193,9 +199,10 @@ class Answers:
         which = self.matching(self.facts)
         found, seen = self.of_draws(self.facts, which)
         told, at = abc.summaries(found, self.targets[which], seen[None, :])
-        weights = np.full(len(which), 1.0 / len(which))
+        weights = self.weights[which] / self.weights[which].sum()
         if told.shape[1]:
-            weights = abc.likelihood_weights(told, at[0], self.targets[which])
+            weights = weights * abc.likelihood_weights(told, at[0], self.targets[which])
+            weights /= weights.sum()
         scores = self.scores["pgv_m_s"]
         low, middle, high = scores.value(abc.quantiles(scores.scores[which], weights)).tolist()
         return Posterior(middle, low, high, abc.spread(scores.scores[which], weights))

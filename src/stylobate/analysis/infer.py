@@ -19,6 +19,7 @@ from ..errors import InputError, check_kind
 from ..notebook import Shown
 from . import abc
 from .answers import CALLED, FEWEST, TOLD, Answers, Posterior, listed, words_of
+from .outlasting import Outlasting, hazard_of, outlasting
 from .ruin_check import Checked, checks_of
 
 if TYPE_CHECKING:
@@ -34,6 +35,8 @@ class Inference(Shown):
     ruin : Ruin
     answers : Answers
         Of the table's draws that could be computed.
+    outlasted : Outlasting, optional
+        What survival since a date says, where it is observed.
     failed : int
         Draws that could not.
     wall_time : float
@@ -42,6 +45,7 @@ class Inference(Shown):
 
     ruin: Ruin
     answers: Answers
+    outlasted: Outlasting | None = None
     failed: int = 0
     wall_time: float = field(default=0.0)
 
@@ -74,12 +78,21 @@ class Inference(Shown):
             alone = self.answers.spread_of_pgv(self.answers.alone(fact))
             without = self.answers.spread_of_pgv(self.answers.without(fact))
             rows.append({"observation": fact.label, "spread_alone": alone, "spread_without": without})
+        if self.outlasted is not None:
+            without = Answers(self.answers.table, self.answers.facts, self.answers.seed)
+            alone, rest = self.answers.spread_of_pgv([]), without.spread_of_pgv(without.facts)
+            rows.append({"observation": self.outlasted.label, "spread_alone": alone, "spread_without": rest})
         return rows
 
     @cached_property
     def checks(self) -> list[Checked]:
         """Whether each thing seen is inside what all else predicts."""
-        return checks_of(self.answers, FEWEST)
+        checks = checks_of(self.answers, FEWEST)
+        lasted = self.outlasted
+        if lasted is not None:
+            said = f"that some of it has fallen or moved by another earthquake, by {lasted.hazard.name}"
+            checks.append(Checked(lasted.label, lasted.chance, lasted.odd, said))
+        return checks
 
     @property
     def odd(self) -> list[Checked]:
@@ -125,6 +138,8 @@ class Inference(Shown):
                 said.append(
                     f"What is seen is {1.0 / factor:.3g} times as probable without any such earthquake as with one."
                 )
+        if self.outlasted is not None:
+            said.append(self.outlasted.sentence(self.answers.matching(self.answers.facts)))
         for one in self.odd:
             said.append(f"{one.sentence}")
         return " ".join(said)
@@ -163,6 +178,9 @@ class Inference(Shown):
             "observations": self.told,
             "checks": [one.summary() for one in self.checks],
             "consistent": not self.odd,
+            "survival": None
+            if self.outlasted is None
+            else self.outlasted.summary(self.answers.matching(self.answers.facts)),
             "records": self.records,
             "by_likelihood": {"pgv_m_s": cross.summary()},
             "prior": self.ruin.prior.facts() | {"records": [one.name for one in self.ruin.prior.records]},
@@ -203,17 +221,19 @@ def infer(
 
     References
     ----------
-    Beaumont, Zhang and Balding (2002); Fearnhead and Prangle (2012).
+    Beaumont, Zhang and Balding (2002); Fearnhead and Prangle (2012); of survival, Anderson and Brune (1999).
     """
     began = time.perf_counter()
     if not isinstance(ruin, Ruin):
         ruin = read_ruin(check_kind("ruin", ruin, (str, Path)))
+    survival = None if ruin.survival is None else (ruin.survival, hazard_of(ruin.survival))
     options = {"folder": out, "campaign": campaign}
     table = simulations_of(ruin.simulated, ruin.prior, ruin.model, ruin.simulations, ruin.seed, **options)
     sound = table.some(np.flatnonzero(table.sound))
-    answers = Answers(sound, ruin.facts, ruin.seed)
+    lasted = None if survival is None else outlasting(sound, ruin.facts, *survival, ruin.seed)
+    answers = Answers(sound, ruin.facts, ruin.seed, None if lasted is None else lasted.weights)
     _refuse_few(answers)
-    return Inference(ruin, answers, len(table) - len(sound), time.perf_counter() - began)
+    return Inference(ruin, answers, lasted, len(table) - len(sound), time.perf_counter() - began)
 
 
 def _refuse_few(answers: Answers) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from ..column.losses import LAWS
+from ..column.column import Column
+from ..column.losses import LAWS, Losses
 from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError, as_typed, check_all, check_choice, check_range, check_whole
-from ..models.base import Model
 from ..motion import Motion, integrate
 from ..motion.elliptical import elliptical_pulse
 from .unknown_laws import PARTS
@@ -72,9 +73,9 @@ class Prior:
     scale : pair of float
         Factor of records, even in its logarithm [-].
     law : sequence of str
-        Laws of contact, each as likely; of structures other than round columns the model's own.
+        Laws of contact of round columns, each as likely.
     stiffness_damping : sequence of float
-        Each as likely [s].
+        Each as likely [s]; a column with losses of its own keeps these.
     scatter : Scatter, optional
         How what stands may differ from what was surveyed; by default as columns of their material do, with all drums in
         their places: a column that begins with offsets takes fifty times as long.
@@ -237,18 +238,15 @@ class Draws:
         azimuth, phase = float(p["azimuth_deg"][k]), float(p["phase_deg"][k])
         return elliptical_pulse(float(p["period_s"][k]), 1.0, azimuth=azimuth, phase=phase, **shape)
 
-    def groups(self, model: Model, fields: Sequence[str]) -> list[tuple[np.ndarray, Model]]:
-        """Draws of one law of contact and one damping, and the model with these: those of ``fields`` that vary."""
-        import dataclasses
+    def losses(self, column: Column, k: int, rolling: float) -> Losses:
+        """What the joints of a column lose in draw k, whose own losses, where it has any, are not drawn.
 
-        law, damping = (self.parameters[name] for name in ("law", "stiffness_damping_s"))
-        pairs = np.stack((law * ("law" in fields), damping * ("stiffness_damping" in fields)), axis=1)
-        found = []
-        for one, size in np.unique(pairs, axis=0).tolist():
-            given = {"law": self.prior.law[int(one)], "stiffness_damping": size}
-            changed = dataclasses.replace(model, **{name: given[name] for name in fields})
-            found.append((np.flatnonzero((pairs == [one, size]).all(axis=1)), changed))
-        return found
+        ``rolling`` is the resistance to rolling of the model.
+        """
+        law, own = self.prior.law[int(self.parameters["law"][k])], column.losses
+        if own is not None:
+            return dataclasses.replace(own, law=own.law or law)
+        return Losses(float(self.parameters["stiffness_damping_s"][k]), rolling, law)
 
 
 def peaks(motion: Motion) -> tuple[float, float]:

@@ -10,6 +10,7 @@ from typing import Any
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_choice, check_kind, check_range, check_whole, suggest
 from ..models.base import Model
+from .outlasted import Outlasted
 from .prior import MOST, Prior
 
 #: What may have become of a column; of the last two nothing follows for this earthquake.
@@ -20,6 +21,9 @@ TOWARDS_SD = 15.0
 
 #: Draws of the prior where no number is given.
 USUAL_COUNT = 2000
+
+#: Parameters of a model that are drawn, or follow from what is drawn.
+DRAWN_OF_MODEL = ("law", "stiffness_damping", "losses", "restitution", "time_step")
 
 #: Offsets may exceed the largest that there shall be by so many of their standard deviations.
 BEYOND = 3.0
@@ -156,11 +160,14 @@ class Ruin:
     seed : int
     model : Model
         In space.
+    survival : Outlasted, optional
+        Since when it has stood, and how often shaking comes.
 
     Raises
     ------
     InputError
-        A column or a joint that is not there, one that is seen twice, a slip beyond a drum.
+        A column or a joint that is not there, one that is seen twice, a slip beyond a drum; what cannot vary, and a model
+        that states what is drawn.
     """
 
     structures: Sequence[Structure]
@@ -169,14 +176,23 @@ class Ruin:
     simulations: int = USUAL_COUNT
     seed: int = 0
     model: Model = field(default_factory=lambda: _usual_model())
+    survival: Outlasted | None = None
 
     def __post_init__(self) -> None:
         structures = tuple(check_all("structures", self.structures, Structure))
         observed = tuple(check_all("observed", self.observed, Observed))
         check_kind("prior", self.prior, Prior)
         check_kind("model", self.model, Model)
+        check_kind("survival", self.survival, Outlasted, optional=True)
         check_whole("simulations", self.simulations, 1, MOST)
         check_whole("`seed`", self.seed, 0, 2**31)
+        usual = type(self.model)()
+        refuse_drawn([name for name in DRAWN_OF_MODEL if getattr(self.model, name, 0) != getattr(usual, name, 0)])
+        if alone := next((one for one in structures if not one.scattered), None):
+            raise InputError(
+                f"{alone.name!r} is {alone.described}, and a ruin is of columns and assemblies in space; leave it out.",
+                "columns",
+            )
         names = [one.name for one in structures]
         if not names:
             raise InputError("the ruin names no column; give at least one in columns.", "columns")
@@ -248,6 +264,16 @@ class Ruin:
             for joint, angle, sd in one.twists:
                 found.append(Fact(i, "twist", f"{name}: twist of joint {joint}, {angle:.3g}°", (angle,), sd, joint - 1))
         return found
+
+
+def refuse_drawn(stated: Sequence[str]) -> None:
+    """Refuse parameters of a model that are drawn."""
+    if stated:
+        raise InputError(
+            f"{stated[0]} is drawn with the motions, or follows from what is drawn; leave it out of the model, and give "
+            "law and stiffness_damping as lists in [prior].",
+            "set",
+        )
 
 
 def _usual_model() -> Any:

@@ -19,8 +19,9 @@ from ..motion import Motion
 from ..motion.request import MotionRequest
 from ..motion.specs import parse_acceleration, parse_angle, parse_time, parse_velocity
 from ..reading import shown
+from .outlasted import Outlasted
 from .prior import LOSSES, Prior
-from .ruin import USUAL_COUNT, Observed, Ruin
+from .ruin import DRAWN_OF_MODEL, USUAL_COUNT, Observed, Ruin, refuse_drawn
 from .study_files import ColumnScatterTable, listed
 
 #: Columns that are as surveyed: of a ``[prior.scatter]`` that names nothing.
@@ -56,12 +57,25 @@ class PriorTable(Table):
     scatter: ColumnScatterTable | None = None
 
 
+class SurvivalTable(Table):
+    """``[survival]``: since when it has stood, and how often shaking comes."""
+
+    hazard: str
+    until: float
+    since: float | list[float] | None = None
+    since_sd: float = 0.0
+    earthquake: float | list[float] | None = None
+    earthquake_sd: float = 0.0
+    site: list[float] | None = None
+
+
 class RuinFile(Table):
     """A ruin file."""
 
     columns: list[str]
     observed: list[ObservedTable] | None = None
     prior: PriorTable
+    survival: SurvivalTable | None = None
     simulations: int = USUAL_COUNT
     seed: int = 0
     model: str = "dem3d"
@@ -86,9 +100,11 @@ def read_ruin(path: str | Path) -> Ruin:
         with within("[prior]", "prior"):
             prior = _prior(table.prior, folder)
         settings = {key: str(value) for key, value in (table.set or {}).items()}
-        if drawn := next((key for key in ("law", "stiffness_damping") if key in settings), None):
-            raise InputError(f"{drawn} is drawn with the motions; give {drawn} = [...] in [prior] instead.", "set")
-        return Ruin(structures, observed, prior, table.simulations, table.seed, make_model(table.model, settings))
+        refuse_drawn([key for key in settings if key in DRAWN_OF_MODEL])
+        model = make_model(table.model, settings)
+        with within("[survival]", "survival"):
+            survival = None if table.survival is None else _survival(table.survival, folder)
+        return Ruin(structures, observed, prior, table.simulations, table.seed, model, survival)
 
 
 def _observed(table: ObservedTable, files: Sequence[str], structures: Sequence[Structure]) -> Observed:
@@ -104,6 +120,15 @@ def _observed(table: ObservedTable, files: Sequence[str], structures: Sequence[S
         value = getattr(table, name)
         fields[name] = None if value is None else _number(name, value, parse_angle)
     return Observed(names.get(table.column, table.column), **fields)
+
+
+def _survival(table: SurvivalTable, folder: Path) -> Outlasted:
+    given: dict[str, Any] = {
+        name: tuple(one) if isinstance(one := getattr(table, name), list) else one
+        for name in SurvivalTable.model_fields
+    }
+    given |= {"hazard": folder / table.hazard}
+    return Outlasted(**given)
 
 
 def _prior(table: PriorTable, folder: Path) -> Prior:

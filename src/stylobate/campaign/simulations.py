@@ -171,11 +171,13 @@ def simulations_of(
     Raises
     ------
     InputError
-        A model in the plane, a structure that it does not take, records without a direction.
+        A model in the plane, or one whose losses do not vary; a structure that it does not take.
     """
-    if model.is_plane(model.parameters()):
+    if model.is_plane(model.parameters()) or not model.varies_law:
         raise InputError(
-            f"{model.name} is a model in the plane, and ruins have directions; use dem3d (DistinctElement3D).", "model"
+            f"{model.name} is no model in space whose losses vary, and ruins have directions; use dem3d "
+            "(DistinctElement3D).",
+            "model",
         )
     table = _Table(tuple(one.stack or one for one in structures), prior.draws(count, seed), model, campaign)
     kept = None if folder is None else Path(folder) / TABLE_FILE
@@ -201,16 +203,22 @@ class _Table:
         """A case: a twin of a structure, and the motion of the draw."""
         k, i = divmod(number, len(self.structures))
         twin, _ = drawn_twin(self.structures[i], self.scatter[i], k, self.draws.seed + i, space=True)
+        if twin.stack is not None:
+            model: Any = self.model
+            losses = self.draws.losses(twin.stack, k, model.rolling_resistance)
+            twin = twin.stack.unwarned(losses=losses)
         return Case(twin, self.draws.motion(k))
 
     def groups(self) -> list[Group]:
-        """Cases of one model and one kind of structure."""
-        found: dict[tuple[Model, bool], list[np.ndarray]] = {}
-        for i, structure in enumerate(self.structures):
-            for draws, model in self.draws.groups(self.model, _varied(self.model, structure)):
-                key = model, structure.space_joints is None
-                found.setdefault(key, []).append(draws * len(self.structures) + i)
-        return [(np.sort(np.concatenate(numbers)), model, self.options) for (model, _), numbers in found.items()]
+        """All columns together, which carry their losses; assemblies, whose losses are the model's, by their damping."""
+        numbers = np.arange(len(self.draws) * len(self.structures)).reshape(len(self.draws), -1)
+        columns = np.array([one.stack is not None for one in self.structures])
+        found = [(numbers[:, columns].ravel(), self.model, self.options)]
+        damping = self.draws.parameters["stiffness_damping_s"] if not columns.all() else np.zeros(0)
+        for size in np.unique(damping).tolist():
+            model = replace(self.model, stiffness_damping=size)
+            found.append((numbers[damping == size][:, ~columns].ravel(), model, self.options))
+        return [group for group in found if len(group[0])]
 
     def request(self) -> Request:
         """All cases, to be run."""
@@ -275,10 +283,3 @@ class _Table:
         except Exception:  # whatever a damaged file makes of it
             return None
         return Simulations(self.draws.prior, parameters, tuple(left), self.draws.seed)
-
-
-def _varied(model: Model, structure: Structure) -> list[str]:
-    """What the draws say of the model: the law of contact of round columns alone, damping wherever there is any."""
-    column = structure.stack
-    fields = ["law"] if hasattr(model, "law") and column is not None and column.section == "circular" else []
-    return [*fields, *(["stiffness_damping"] if hasattr(model, "stiffness_damping") else [])]

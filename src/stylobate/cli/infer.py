@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -34,6 +34,7 @@ def infer(
     from ..campaign.ruin_files import read_ruin
     from ..motion.specs import parse_time
     from . import console
+    from .risk import hazards_of
 
     asked, found = read_ruin(ruin), ("infer.json", "draws.csv", "observations.csv")
     campaign = execution.campaign(tail=parse_time(tail, "tail"))
@@ -53,7 +54,13 @@ def infer(
                 files.picture(plots.draw_matches(answer), "matches")
                 if answer.told:
                     files.picture(plots.draw_observations(answer), "observations")
-            what = {"structures": list(asked.structures), "models": [asked.model], "motions": list(asked.prior.records)}
+            what: dict[str, Any] = {
+                "structures": list(asked.structures),
+                "models": [asked.model],
+                "motions": list(asked.prior.records),
+            }
+            if asked.survival is not None:
+                what |= hazards_of([Path(asked.survival.hazard)], None)
             files.asked(**what, tail_s=campaign.tail, simulations=asked.simulations, seed=asked.seed)
             files.summary(summary, "infer.json")
     if not execution.emits(summary):

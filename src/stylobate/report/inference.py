@@ -42,6 +42,16 @@ def inference_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         ("Bayes factor against no earthquake", f"{least}{s['bayes_factor_no_earthquake']:.3g}"),
         ("PGV by a synthetic likelihood", f"{cross['median']:.3g} m/s, {cross['low']:.3g} to {cross['high']:.3g}"),
     ]
+    if lasted := s.get("survival"):
+        year = lasted["earthquake"]
+        pairs += [
+            ("Chance of having outlasted all other shaking", f"{lasted['chance']:.2g}, by {lasted['hazard']}"),
+            (
+                "Earthquakes that leave what is seen",
+                f"once in {1.0 / lasted['annual_rate_of_such_earthquakes']:,.3g} years",
+            ),
+            ("Year of the earthquake", f"{year['median']:.0f}, {year['low']:.0f} to {year['high']:.0f}"),
+        ]
     items.append(Facts(pairs))
     items += kept(result.pictures, "matches", "The ruin beside the draws that are nearest to it, in plan.")
     return (str(s["sentence"]), " bad" if odd else ""), items
