@@ -18,6 +18,9 @@ PRIOR = st.Prior(pgv=(0.05, 2.0), period=(0.3, 1.6), law=("rim",), stiffness_dam
 #: λ = 2e-4 a year at 0.5 m/s, falling with the square of the PGV: straight in logarithms.
 HAZARD = Hazard(np.array([0.02, 5.0]), 5e-5 * np.array([0.02, 5.0]) ** -2.0, "m/s", "hazard.csv", "pgv")
 
+#: Of a column no bodies are told.
+NO_BODIES = np.zeros((DRAWS, 0), bool), np.zeros((DRAWS, 0, 2))
+
 STANDING = Fact(0, "state", "rock stands", (0.0,))
 
 
@@ -28,7 +31,7 @@ def rock(slip=0.0) -> Simulations:
     unknown = {"law": np.zeros(DRAWS), "stiffness_damping_s": np.full(DRAWS, 1e-4)}
     verdict = np.where(pgv > FELLS, FELL, STANDS).astype(np.int8)
     moved = np.stack((slip * pgv, 0.0 * pgv), axis=-1)[:, None, :]
-    left = Left("rock", verdict, np.full(DRAWS, np.nan), moved, np.zeros((DRAWS, 1)))
+    left = Left("rock", verdict, np.full(DRAWS, np.nan), moved, np.zeros((DRAWS, 1)), *NO_BODIES)
     return Simulations(PRIOR, {"pgv_m_s": pgv, **rest, **unknown}, (left,))
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ..campaign.ruin import Fact
 from ..campaign.simulations import Simulations
 from . import abc
-from .traces import EVENTS, features, left_by, matches
+from .traces import EVENTS, VECTORS, features, left_by, matches
 
 #: Parameters that are told, and their units.
 TOLD = {"pgv_m_s": "m/s", "pga_g": "g", "period_s": "s", "azimuth_deg": "°"}
@@ -163,14 +163,24 @@ class Answers:
         return self.posterior(self.to(facts))["pgv_m_s"].spread
 
     def without(self, fact: Fact) -> list[Fact]:
-        """All facts but one; without a state also what is seen of that structure besides."""
+        """All facts but one; without a state also what is seen of that structure or body besides."""
         if fact.kind == "state":
             return [one for one in self.facts if one.structure != fact.structure]
-        return [one for one in self.facts if one is not fact]
+        return [one for one in self.facts if one is not fact and not self._is_body_of(fact, one)]
+
+    @staticmethod
+    def _is_body_of(state: Fact, fact: Fact) -> bool:
+        """Whether a fact is how far a body has moved of which another says that it stands."""
+        same = (state.structure, state.joint) == (fact.structure, fact.joint)
+        return same and state.kind == "body" and fact.kind == "moved"
 
     def alone(self, fact: Fact) -> list[Fact]:
-        """A fact alone, with the state that it needs."""
-        return [one for one in self.facts if one is fact or (one.kind == "state" and one.structure == fact.structure)]
+        """A fact alone, with the states that it needs."""
+        return [
+            one
+            for one in self.facts
+            if one is fact or (one.kind == "state" and one.structure == fact.structure) or self._is_body_of(one, fact)
+        ]
 
     def shares(self) -> tuple[float, float, bool]:
         """Probabilities of what is seen under the prior and without any earthquake, and whether the latter is a limit."""
@@ -179,7 +189,7 @@ class Answers:
         fallen = sum(fact.kind == "state" and fact.value[0] == 1.0 for fact in self.facts)
         standing = sum(fact.kind == "state" for fact in self.facts) - fallen
         none = FALLS_OTHERWISE**fallen * (1.0 - FALLS_OTHERWISE) ** standing
-        told = [fact for fact in self.facts if fact.kind in ("offset", "twist")]  # a fall has any direction either way
+        told = [fact for fact in self.facts if fact.kind in (*VECTORS, "twist")]  # a fall has any direction either way
         if not told:
             return share, none, False
         stream = np.random.default_rng([self.seed, 2])

@@ -24,6 +24,7 @@ from ..campaign.simulations import FELL, STANDS, Simulations
 from ..errors import InputError
 from . import abc
 from .hazard import Hazard, read_hazard
+from .traces import VECTORS, plan
 
 #: Parameter that the intensity of a hazard curve is, by its unit, and what such a curve is of.
 MEASURES = {"m/s": ("pgv_m_s", "PGV"), "g": ("pga_g", "PGA")}
@@ -177,11 +178,16 @@ def changes(table: Simulations, facts: list[Fact]) -> tuple[np.ndarray, np.ndarr
         if fact.kind == "state":
             before |= left.verdict == FELL
             after |= (left.verdict == FELL) & (fact.value[0] == 0.0)
+        elif fact.kind == "body":
+            before |= left.fallen[:, fact.joint]
+            after |= left.fallen[:, fact.joint] & (fact.value[0] == 0.0)
         elif fact.kind == "no slip above":
             after |= stood & (left.largest > fact.value[0])
-        elif fact.kind == "offset":
-            moved = np.linalg.norm(left.slip[:, fact.joint], axis=1)
-            after |= stood & (moved > float(np.linalg.norm(fact.value)) + FARTHER * fact.sd)
+        elif fact.kind in VECTORS:
+            moved = np.linalg.norm(plan(fact, left), axis=1)
+            after |= (stood if fact.kind == "offset" else ~left.fallen[:, fact.joint]) & (
+                moved > float(np.linalg.norm(fact.value)) + FARTHER * fact.sd
+            )
     return before | after, after
 
 

@@ -9,10 +9,13 @@ import numpy as np
 
 from ..campaign.ruin import Fact
 from . import abc
-from .traces import EVENTS, LEAST_OFFSET, LEAST_TWIST
+from .traces import EVENTS, LEAST_OFFSET, LEAST_TWIST, VECTORS
 
 if TYPE_CHECKING:
     from .answers import Answers
+
+#: Kinds of facts that are states, of the whole or of a body.
+STATES = ("state", "body")
 
 #: Chance with which a ruin that shaking alone has made has a state, or anything else that is seen, called odd.
 CHANCE = 0.05
@@ -65,10 +68,10 @@ def checks_of(answers: Answers, fewest: int) -> list[Checked]:
             found.append((fact, float("nan"), "nothing: too few simulations match the rest"))
             continue
         found.append((fact, *(_event if fact.kind in EVENTS else _number)(answers, fact, rest)))
-    states = sum(fact.kind == "state" for fact in answers.facts)
+    states = sum(fact.kind in STATES for fact in answers.facts)
     others = len(found) - states
     return [
-        Checked(fact.label, chance, bool(chance * (states if fact.kind == "state" else others) < CHANCE), said)
+        Checked(fact.label, chance, bool(chance * (states if fact.kind in STATES else others) < CHANCE), said)
         for fact, chance, said in found
     ]
 
@@ -93,13 +96,13 @@ def _number(answers: Answers, fact: Fact, rest: list[Fact]) -> tuple[float, str]
         off = np.abs(abc.apart(predicted, middle, 360.0))
         share = float(taken.weights[off >= abs(float(abc.apart(seen[0], middle, 360.0)))].sum())
         return (share * taken.effective + 0.5) / (taken.effective + 1.0), f"a fall towards {middle:.0f}°"
-    scale = max(fact.sd, LEAST_OFFSET if fact.kind == "offset" else LEAST_TWIST)
+    scale = max(fact.sd, LEAST_OFFSET if fact.kind in VECTORS else LEAST_TWIST)
     taken = answers.foretold(rest, np.arcsinh(np.linalg.norm(answers.values[fact], axis=1) / scale))
     level = taken.targets[:, 0]
     mean, sd = float(np.average(level, weights=taken.weights)), abc.spread(level, taken.weights)
     off = (float(np.arcsinh(np.linalg.norm(seen) / scale)) - mean) / max(sd, 1e-12)
     low, high = scale * np.sinh(np.maximum(abc.quantiles(level, taken.weights)[[0, 2]], 0.0))
-    factor, unit = (1e3, "mm") if fact.kind == "offset" else (1.0, "°")
+    factor, unit = (1e3, "mm") if fact.kind in VECTORS else (1.0, "°")
     return float(
         2.0 * t.sf(abs(off), max(1.0, taken.effective - 1.0))
     ), f"{factor * low:.2g} to {factor * high:.3g} {unit}"

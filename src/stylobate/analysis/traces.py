@@ -8,11 +8,14 @@ from itertools import combinations_with_replacement
 import numpy as np
 
 from ..campaign.ruin import Fact
-from ..campaign.simulations import FELL, STANDS, Simulations
+from ..campaign.simulations import FELL, STANDS, Left, Simulations
 from .abc import vectors
 
 #: Kinds of facts that a draw matches or does not.
-EVENTS = ("state", "no slip above")
+EVENTS = ("state", "body", "no slip above")
+
+#: Kinds of facts that are vectors in plan [m].
+VECTORS = ("offset", "moved")
 
 #: Least scale of an offset and of a twist: smaller ones are alike [m], [degrees].
 LEAST_OFFSET, LEAST_TWIST = 1e-3, 0.1
@@ -23,6 +26,8 @@ def matches(fact: Fact, table: Simulations) -> np.ndarray:
     left = table.left[fact.structure]
     if fact.kind == "state":
         return left.verdict == (FELL if fact.value[0] else STANDS)
+    if fact.kind == "body":
+        return left.fallen[:, fact.joint] == bool(fact.value[0])
     return (left.verdict == STANDS) & (left.largest <= fact.value[0])
 
 
@@ -32,8 +37,13 @@ def left_by(fact: Fact, table: Simulations, stream: np.random.Generator) -> np.n
     if fact.kind == "fell towards":
         exact = left.towards[:, None]
     else:
-        exact = left.slip[:, fact.joint] if fact.kind == "offset" else left.twist[:, fact.joint, None]
+        exact = plan(fact, left) if fact.kind in VECTORS else left.twist[:, fact.joint, None]
     return exact + fact.sd * stream.standard_normal(exact.shape)
+
+
+def plan(fact: Fact, left: Left) -> np.ndarray:
+    """What every draw leaves in the place of a vector in plan [m], shape (draws, 2)."""
+    return (left.slip if fact.kind == "offset" else left.moved)[:, fact.joint]
 
 
 def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool = False) -> np.ndarray:
@@ -55,7 +65,12 @@ def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool
     found: list[np.ndarray] = []
     for structure in dict.fromkeys(fact.structure for fact in facts):
         own = [(fact, one) for fact, one in zip(facts, values, strict=True) if fact.structure == structure]
-        for kind, of in (("offset", _of_offsets), ("twist", _of_twists), ("fell towards", _of_falls)):
+        for kind, of in (
+            ("offset", _of_offsets),
+            ("moved", _of_offsets),
+            ("twist", _of_twists),
+            ("fell towards", _of_falls),
+        ):
             some = [(fact, one) for fact, one in own if fact.kind == kind]
             if some:
                 overall, each = of(some)

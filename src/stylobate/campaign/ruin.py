@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ..column.structure import Structure
-from ..errors import InputError, check_all, check_choice, check_kind, check_range, check_whole, suggest
+from ..errors import InputError, as_typed, check_all, check_choice, check_kind, check_range, check_whole, suggest
 from ..models.base import Model
 from .outlasted import Outlasted
 from .prior import MOST, Prior
@@ -50,6 +50,11 @@ class Observed:
         Twists of joints, from x towards y [degrees].
     no_slip_above : float, optional
         No joint is out of place by more than this [m].
+    fell, stand : sequence of str
+        Bodies of an assembly that have fallen, and that stand; of the others nothing is seen.
+    moved : sequence of (body, x, y, sd)
+        How far the centroids of bodies of an assembly that stand have moved along x and y, and the standard deviation of
+        each component [m].
 
     Raises
     ------
@@ -64,9 +69,13 @@ class Observed:
     offsets: Sequence[tuple[int, float, float, float]] = ()
     twists: Sequence[tuple[int, float, float]] = ()
     no_slip_above: float | None = None
+    fell: Sequence[str] = ()
+    stand: Sequence[str] = ()
+    moved: Sequence[tuple[str, float, float, float]] = ()
 
     def __post_init__(self) -> None:
         check_choice("`state`", self.state, STATES, field="state")
+        self._check_bodies()
         stands = bool(self.offsets) or bool(self.twists) or self.no_slip_above is not None
         if stands and self.state != "stands":
             raise InputError(
@@ -105,6 +114,35 @@ class Observed:
                     "no_slip_above",
                 )
 
+    def _check_bodies(self) -> None:
+        """Refuse bodies that contradict one another or the state; what has fallen tells the state, what has moved stands."""
+        fell, stand = ([*check_all(name, getattr(self, name), str)] for name in ("fell", "stand"))
+        if (fell or stand or self.moved) and self.state not in ("fell", "unknown"):
+            raise InputError(
+                f"state is {self.state!r}, and bodies are named: where all stand, leave the names out; where some have "
+                "fallen, leave the state out.",
+                "state",
+            )
+        rows: tuple[Any, ...] = tuple(tuple(one) for one in self.moved)
+        for row in rows:
+            if len(row) != 4 or not isinstance(row[0], str):
+                said = "body, x, y and sd, such as ['lintel', 0.031, -0.012, 0.003]"
+                raise InputError(f"a row of `moved` is {as_typed(list(row))}; allowed are {said}.", "moved")
+            for one in row[1:-1]:
+                check_range("a number of `moved`", one, -1e3, 1e3, unit="m", field="moved")
+            check_range("sd of a row of `moved`", row[-1], 0.0, 1e3, unit="m", open_low=True, field="moved")
+        moved = [row[0] for row in rows]
+        for name, bodies in (("fell", fell), ("stand", stand), ("moved", moved)):
+            if twice := next((one for one in bodies if bodies.count(one) > 1), None):
+                raise InputError(f"{twice!r} is twice in `{name}`; name each body once.", name)
+        for name, bodies in (("stand", stand), ("moved", moved)):
+            if both := next((one for one in bodies if one in fell), None):
+                raise InputError(f"{both!r} is in `fell` and in `{name}`; one of the two is wrong.", name)
+        object.__setattr__(self, "moved", rows)
+        object.__setattr__(self, "fell", tuple(fell))
+        object.__setattr__(self, "stand", tuple(dict.fromkeys([*stand, *moved])))
+        object.__setattr__(self, "state", "fell" if fell else self.state)
+
     @staticmethod
     def _check_row(name: str, row: tuple, numbers: int) -> None:
         example = "[2, 0.031, -0.012, 0.003]" if numbers == 4 else "[2, 4.0, 1.0]"
@@ -126,15 +164,15 @@ class Fact:
     ----------
     structure : int
         Number of what it is seen of, among those that are simulated.
-    kind : {"state", "no slip above", "fell towards", "offset", "twist"}
+    kind : {"state", "body", "no slip above", "fell towards", "offset", "moved", "twist"}
     label : str
         In words.
     value : tuple of float
-        Of a state 1 for fell, 0 for stands.
+        Of a state, of the whole or of a body, 1 for fell, 0 for stands.
     sd : float
         Standard deviation of each value; 0 of what is told apart without one.
     joint : int
-        From 0.
+        From 0; of a body its place among those that can move.
     """
 
     structure: int
@@ -211,12 +249,13 @@ class Ruin:
                     "column",
                 )
             self._check_joints(one, structures[names.index(one.column)])
+            self._check_bodies(one, structures[names.index(one.column)])
         object.__setattr__(self, "structures", structures)
         object.__setattr__(self, "observed", observed)
 
     @staticmethod
     def _check_joints(one: Observed, structure: Structure) -> None:
-        count = len(structure.face_pairs)
+        count = joints_of(structure)
         for name, row in [("offsets", row) for row in one.offsets] + [("twists", row) for row in one.twists]:
             if row[0] > count:
                 raise InputError(
@@ -234,10 +273,24 @@ class Ruin:
                     "offsets",
                 )
 
+    @staticmethod
+    def _check_bodies(one: Observed, structure: Structure) -> None:
+        named, known = (*one.fell, *one.stand), bodies_of(structure)
+        if named and structure.stack is not None:
+            raise InputError(
+                f"bodies are named of {one.column!r}, which is a column and falls as a whole; give its state.", "fell"
+            )
+        if unknown := next((name for name in named if name not in known), None):
+            raise InputError(
+                f"{unknown!r} is no body of {one.column!r} that can move; {suggest(unknown, known)}known are "
+                f"{', '.join(known)}.",
+                "fell" if unknown in one.fell else "stand",
+            )
+
     @property
     def told(self) -> list[Observed]:
         """Those of which something is seen that follows from this earthquake."""
-        return [one for one in self.observed if one.state in ("stands", "fell")]
+        return [one for one in self.observed if one.state in ("stands", "fell") or one.stand]
 
     @property
     def simulated(self) -> list[Structure]:
@@ -249,9 +302,17 @@ class Ruin:
     def facts(self) -> list[Fact]:
         """All that is seen, one by one."""
         found: list[Fact] = []
-        for i, one in enumerate(self.told):
-            fell, name = one.state == "fell", one.column
-            found.append(Fact(i, "state", f"{name} {one.state}", (float(fell),)))
+        for i, (one, structure) in enumerate(zip(self.told, self.simulated, strict=True)):
+            fell, name, bodies = one.state == "fell", one.column, bodies_of(structure)
+            if one.state != "unknown":
+                found.append(Fact(i, "state", f"{name} {one.state}", (float(fell),)))
+            for body in (*one.fell, *one.stand):
+                down, number = body in one.fell, bodies.index(body)
+                label = f"{name}: {body} {'fell' if down else 'stands'}"
+                found.append(Fact(i, "body", label, (float(down),), joint=number))
+            for body, x, y, sd in one.moved:
+                label = f"{name}: {body} moved by {1e3 * math.hypot(x, y):.3g} mm"
+                found.append(Fact(i, "moved", label, (x, y), sd, bodies.index(body)))
             if one.no_slip_above is not None:
                 bound = one.no_slip_above
                 found.append(Fact(i, "no slip above", f"{name}: no slip above {1e3 * bound:.3g} mm", (bound,)))
@@ -264,6 +325,16 @@ class Ruin:
             for joint, angle, sd in one.twists:
                 found.append(Fact(i, "twist", f"{name}: twist of joint {joint}, {angle:.3g}°", (angle,), sd, joint - 1))
         return found
+
+
+def bodies_of(structure: Structure) -> list[str]:
+    """Names of what can move, in the order of residuals."""
+    return [body.name for body in structure.bodies[structure.first :] if not body.fixed]
+
+
+def joints_of(structure: Structure) -> int:
+    """Number of its joints, as residuals count them."""
+    return len(structure.face_pairs if structure.space_joints is None else structure.space_joints)
 
 
 def refuse_drawn(stated: Sequence[str]) -> None:

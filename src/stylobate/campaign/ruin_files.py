@@ -38,6 +38,9 @@ class ObservedTable(Table):
     offsets: list[list[int | float]] | None = None
     twists: list[list[int | float]] | None = None
     no_slip_above: float | None = None
+    fell: list[str] | None = None
+    stand: list[str] | None = None
+    moved: list[list[Any]] | None = None
 
 
 class PriorTable(Table):
@@ -112,6 +115,7 @@ def _observed(table: ObservedTable, files: Sequence[str], structures: Sequence[S
     fields: dict[str, Any] = {"state": table.state, "no_slip_above": table.no_slip_above}
     names = dict(zip(files, (one.name for one in structures), strict=True))
     names |= {Path(file).stem: name for file, name in names.items()}
+    fields |= {name: tuple(getattr(table, name) or ()) for name in ("fell", "stand", "moved")}
     fields |= {
         "offsets": [tuple(row) for row in table.offsets or ()],
         "twists": [tuple(row) for row in table.twists or ()],

@@ -25,6 +25,7 @@ from ..version import __version__
 from .campaign import USUAL, Campaign
 from .digests import LENGTH, Digests, Hasher, laws
 from .prior import Draws, Prior
+from .ruin import bodies_of, joints_of
 from .runs import Group, Request, run_all
 
 if TYPE_CHECKING:
@@ -59,6 +60,10 @@ class Left:
         Offset vectors of the joints [m], shape (draws, joints, 2).
     twist : array
         Of the joints [degrees], shape (draws, joints).
+    fallen : array of bool
+        Bodies of an assembly that have fallen, of those that can move, shape (draws, bodies); of columns none are told.
+    moved : array
+        How far these have moved in plan [m], shape (draws, bodies, 2).
     """
 
     name: str
@@ -66,10 +71,14 @@ class Left:
     towards: np.ndarray
     slip: np.ndarray
     twist: np.ndarray
+    fallen: np.ndarray
+    moved: np.ndarray
 
     @classmethod
-    def of(cls, name: str, joints: int, rows: Sequence[dict[str, Any]]) -> Left:
+    def of(cls, structure: Structure, rows: Sequence[dict[str, Any]]) -> Left:
         """From rows of runs (``Measures.row()``)."""
+        joints, bodies = joints_of(structure), bodies_of(structure) if structure.stack is None else []
+        fallen, moved = np.zeros((len(rows), len(bodies)), dtype=bool), np.full((len(rows), len(bodies), 2), np.nan)
         verdict = np.full(len(rows), FAILED, dtype=np.int8)
         towards, slip = np.full(len(rows), np.nan), np.full((len(rows), joints, 2), np.nan)
         twist = np.full((len(rows), joints), np.nan)
@@ -81,7 +90,10 @@ class Left:
             towards[k] = np.nan if azimuth is None else azimuth
             slip[k] = np.transpose([row["residual_slip_x_m"], row["residual_slip_y_m"]])
             twist[k] = np.degrees(row["residual_twist_rad"])
-        return cls(name, verdict, towards, slip, twist)
+            if bodies:
+                fallen[k] = [body in row["fallen"] for body in bodies]
+                moved[k] = np.transpose([row["residual_displacement_x_m"], row["residual_displacement_y_m"]])
+        return cls(structure.name, verdict, towards, slip, twist, fallen, moved)
 
     @property
     def largest(self) -> np.ndarray:
@@ -140,7 +152,7 @@ class Simulations:
 
 
 #: Arrays of what is left of a structure.
-FIELDS = ("verdict", "towards", "slip", "twist")
+FIELDS = ("verdict", "towards", "slip", "twist", "fallen", "moved")
 
 
 def simulations_of(
@@ -236,7 +248,7 @@ class _Table:
         n, left = len(self.structures), []
         for i, structure in enumerate(self.structures):
             own = [rows[k * n + i] or {} for k in range(len(self.draws))]
-            left.append(Left.of(structure.name, len(structure.face_pairs), own))
+            left.append(Left.of(structure, own))
         return Simulations(self.draws.prior, self.draws.parameters, tuple(left), self.draws.seed)
 
     @property

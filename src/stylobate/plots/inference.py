@@ -12,6 +12,7 @@ from matplotlib.patches import Circle
 from ..analysis import abc
 from ..analysis.answers import CALLED, TOLD
 from ..analysis.infer import Inference
+from ..campaign.ruin import joints_of
 from ..campaign.simulations import FELL
 from .style import BLACK, BLUE, GREY, RED, SAND, WIDTH, in_lines, page, styled
 
@@ -162,7 +163,7 @@ def _column(
         fell = any(fact.kind == "state" and fact.value[0] for fact in facts)
         towards = next((fact.value[0] for fact in facts if fact.kind == "fell towards"), None)
         known = {fact.joint: fact.value for fact in facts if fact.kind == "offset"}
-        joints = len(inference.ruin.simulated[i].face_pairs)
+        joints = joints_of(inference.ruin.simulated[i])
         slips = np.array([known.get(joint, (np.nan, np.nan)) for joint in range(joints)])
     else:
         fell, towards, slips = left.verdict[k] == FELL, float(left.towards[k]), left.slip[k]
