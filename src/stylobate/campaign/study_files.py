@@ -141,7 +141,7 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     study = Study(
         [load_structure(folder / name if (folder / name).is_file() else name) for name in names],
         motions,
-        [make_model(model, settings | _losses(table.losses, folder)) for model in models],
+        [make_model(model, settings, _losses(table.losses, folder)) for model in models],
         levels,
         im,
         keep=table.keep,
@@ -150,11 +150,9 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     return study, refused
 
 
-def _losses(losses: str | None, folder: Path) -> dict[str, str]:
-    """Losses of models as a setting: a name, or a file from the folder of the study on."""
-    if losses is None:
-        return {}
-    return {"losses": str(folder / losses) if (folder / losses).is_file() else losses}
+def _losses(losses: str | None, folder: Path) -> str | None:
+    """Losses of models by name, or by their file, from the folder of the study on."""
+    return str(folder / losses) if losses is not None and (folder / losses).is_file() else losses
 
 
 def _motions(table: MotionsTable, folder: Path) -> tuple[Sequence[Motion], dict[str, str]]:

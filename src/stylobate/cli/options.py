@@ -269,11 +269,9 @@ def the_model(name: str, settings: list[str] | None, losses: str | None = None) 
         if key.strip() in values:
             raise InputError(f"--set {key.strip()} is given twice; give it once.", "set")
         values[key.strip()] = value.strip()
-    if losses is not None:
-        if "losses" in values:
-            raise InputError("losses are given twice, by --losses and by --set; give them once.", "losses")
-        values["losses"] = losses
-    return make_model(name, values)
+    if losses is not None and "losses" in values:
+        raise InputError("losses are given twice, by --losses and by --set; give them once.", "losses")
+    return make_model(name, values, losses)
 
 
 def input_facts(motion: Motion) -> dict[str, Any]:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import importlib
 from collections.abc import Mapping
+from typing import Any
 
+from ..column.loss_files import losses_by
+from ..column.losses import NAMED, Losses
 from ..errors import InputError, suggest
 from .base import Model
 
@@ -33,6 +37,18 @@ def model_class(name: str) -> type[Model]:
     return getattr(importlib.import_module(f"{__package__}.{module}"), attribute)
 
 
-def make_model(name: str, settings: Mapping[str, str] | None = None) -> Model:
-    """A model of that name with parameters given as texts, e.g. ``make_model("dem2d", {"points": "3"})``."""
-    return model_class(name).from_settings(settings or {})
+def make_model(name: str, settings: Mapping[str, str] | None = None, losses: str | None = None) -> Model:
+    """A model of that name with parameters given as texts, e.g. ``make_model("dem2d", {"points": "3"})``.
+
+    Parameters
+    ----------
+    name : str
+    settings : mapping of str to str, optional
+        They name no files, because strangers may give them.
+    losses : str, optional
+        Losses by name, or the path of a file of losses.
+    """
+    found = None if losses is None else losses_by(losses)
+    named = {} if found is None else {"losses": found if isinstance(found, str) else NAMED[0]}
+    made: Any = model_class(name).from_settings({**(settings or {}), **named})
+    return dataclasses.replace(made, losses=found) if isinstance(found, Losses) else made
