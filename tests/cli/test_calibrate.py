@@ -70,11 +70,15 @@ def test_what_tells_nothing_ends_in_one_sentence(measured, tmp_path, capsys, tex
     assert not out.exists()
 
 
-def test_a_file_of_losses_is_read_as_it_was_written(tmp_path, monkeypatch):
+def test_a_file_of_losses_is_read_as_it_was_written(tmp_path):
     losses = st.Losses(3.2e-4, 0.004, "bed")
     file = write_losses(losses, tmp_path / "losses.toml", {"confidence": 0.9, "stiffness_damping": [1e-4, 1e-3]})
     assert st.read_losses(file) == losses
-    assert make_model("dem3d", {"losses": str(file)}) == st.DistinctElement3D(losses=losses)
+    assert make_model("dem3d", losses=str(file)) == st.DistinctElement3D(losses=losses)
+    with pytest.raises(st.InputError, match="losses"):  # settings come from strangers, and name no files
+        make_model("dem3d", {"losses": str(file)})
+    with pytest.raises(st.InputError, match="rigid-block has no parameter"):
+        make_model("rigid-block", losses=str(file))
     assert losses_by("stone") == "stone"
 
 

@@ -98,6 +98,8 @@ def test_options_of_a_group_are_said_alike_wherever_they_are():
         ("domain", "duration"),
     }
     own |= {
+        ("calibrate", "unit"),
+        ("calibrate", "dt"),
         ("spectrum", "tail"),
         ("sequence", "motion"),
         ("compare", "settings"),

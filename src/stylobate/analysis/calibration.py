@@ -13,6 +13,7 @@ import numpy as np
 from ..column import Column
 from ..column.loss_files import write_losses
 from ..column.losses import Losses
+from ..column.scatter import LARGEST
 from ..errors import InputError
 from ..models.drums.impact import one_body
 from ..models.drums.losses import LossyDrums
@@ -107,13 +108,9 @@ class Calibration:
 
     @cached_property
     def losses(self) -> Losses:
-        """The likeliest: means of logarithms under the likeliest law."""
-        return losses_at(self.after.means(self.law), self.limits, self.law)
-
-    @property
-    def law(self) -> str | None:
-        """The likeliest law of round faces; None of others."""
-        return max(self.laws, key=self.laws.__getitem__) if self.laws else None
+        """Those of the motion that is likest the measured one."""
+        law, at = self.after.likeliest()
+        return losses_at(at, self.limits, law)
 
     @cached_property
     def told(self) -> dict[str, Loss]:
@@ -156,18 +153,21 @@ class Calibration:
         return " ".join(words)
 
     def scatter(self) -> dict[str, float]:
-        """What is left unknown as parts of a :class:`~stylobate.Scatter`: spreads of losses, share of the other law."""
+        """What is left unknown as parts of a :class:`~stylobate.Scatter`: spreads of losses, share of other laws."""
         from scipy.special import ndtri
 
         wide = 2.0 * float(ndtri(0.5 * (1.0 + self.confidence)))
-        found = {name: math.expm1(math.log(one.high / one.low) / wide) for name, one in self.told.items()}
+        found = {}
+        for name, one in self.told.items():
+            sigma = math.log(one.high / one.low) / wide
+            found[name] = min(math.sqrt(math.expm1(sigma**2)), LARGEST[name]) if sigma < 3.0 else LARGEST[name]
         if self.laws:
-            found["law"] = 1.0 - max(self.laws.values())
+            found["law"] = 1.0 - self.laws[str(self.losses.law)]
         return found
 
     def motions(self, number: int = DRAWS) -> list[Free]:
         """Motion with the likeliest losses, then with so many draws of them, from the beginning on."""
-        wanted = [(self.law, self.after.means(self.law)), *self.after.drawn(number)]
+        wanted = [self.after.likeliest(), *self.after.drawn(number)]
         duration = float(self.measured.time[-1] - self.beginning.time)
         losses = [losses_at(at, self.limits, law) for law, at in wanted]
         starts = [start_of(self.beginning, at[len(self.limits) :]) for _, at in wanted]

@@ -46,14 +46,17 @@ class Posterior(NamedTuple):
         Their sum is 1.
     discrepancy : float
         τ, its mean [-].
+    best : int
+        Draw whose decrements are likest the measured ones.
     off : float
-        By how much decrements with the likeliest losses differ from the measured ones on average [-].
+        By how much its decrements differ from these on average [-].
     """
 
     laws: np.ndarray
     at: np.ndarray
     weights: np.ndarray
     discrepancy: float
+    best: int
     off: float
 
     @property
@@ -73,10 +76,9 @@ class Posterior(NamedTuple):
         found = np.interp([outside, 1.0 - outside], np.cumsum(weights) - 0.5 * weights, self.at[order, unknown])
         return float(found[0]), float(found[1])
 
-    def means(self, law: str | None) -> np.ndarray:
-        """Means of all unknowns under a law."""
-        those = self.laws == law
-        return self.weights[those] @ self.at[those] / self.weights[those].sum()
+    def likeliest(self) -> tuple[str | None, np.ndarray]:
+        """Law and unknowns of the best draw: means of each by itself need not go together."""
+        return self.laws[self.best], self.at[self.best]
 
     def correlation(self) -> float:
         """Of the first two unknowns."""
@@ -119,7 +121,7 @@ def searched(
     from scipy.stats import qmc
 
     stream = np.random.default_rng(0)
-    every, logs, over = [], [], []
+    every, logs, likely, over = [], [], [], []
     for law in laws:
         at = qmc.Halton(unknowns, scramble=False).random(draws[0] + 1)[1:]
         kernels: list[tuple[int, np.ndarray, np.ndarray]] = []
@@ -143,12 +145,13 @@ def searched(
             found = tuple(np.concatenate(both) for both in zip(found, more, strict=True))
         every.append(at)
         logs.append(found[0] - np.log(_density(at, draws[0], kernels)))
+        likely.append(found[0])
         over.append(found[1:])
     weights = alike(np.concatenate(logs))
     discrepancies, offs = (np.concatenate(one) for one in zip(*over, strict=True))
     names = np.repeat(np.array(laws, dtype=object), [len(at) for at in every])
-    likeliest = int(np.concatenate(logs).argmax())
-    return Posterior(names, np.vstack(every), weights, float(weights @ discrepancies), float(offs[likeliest]))
+    best = int(np.concatenate(likely).argmax())
+    return Posterior(names, np.vstack(every), weights, float(weights @ discrepancies), best, float(offs[best]))
 
 
 def likelihoods(

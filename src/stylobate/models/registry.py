@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import importlib
 from collections.abc import Mapping, Sequence
-from dataclasses import fields
+from typing import Any
 
+from ..column.loss_files import losses_by
+from ..column.losses import NAMED, Losses
 from ..errors import InputError, suggest
 from .base import Model
 
@@ -34,13 +37,25 @@ def model_class(name: str) -> type[Model]:
     return getattr(importlib.import_module(f"{__package__}.{module}"), attribute)
 
 
-def make_model(name: str, settings: Mapping[str, str] | None = None) -> Model:
-    """A model of that name with parameters given as texts, e.g. ``make_model("dem2d", {"points": "3"})``."""
-    return model_class(name).from_settings(settings or {})
+def make_model(name: str, settings: Mapping[str, str] | None = None, losses: str | None = None) -> Model:
+    """A model of that name with parameters given as texts, e.g. ``make_model("dem2d", {"points": "3"})``.
+
+    Parameters
+    ----------
+    name : str
+    settings : mapping of str to str, optional
+        They name no files, because strangers may give them.
+    losses : str, optional
+        Losses by name, or the path of a file of losses.
+    """
+    found = None if losses is None else losses_by(losses)
+    named = {} if found is None else {"losses": found if isinstance(found, str) else NAMED[0]}
+    made: Any = model_class(name).from_settings({**(settings or {}), **named})
+    return dataclasses.replace(made, losses=found) if isinstance(found, Losses) else made
 
 
 def make_models(named: Sequence[tuple[str, Mapping[str, str]]], losses: str | None = None) -> list[Model]:
-    """Models side by side, each by its name and its settings, with losses by name for those that know them.
+    """Models side by side, each by its name and its settings, with losses by name or file for those that know them.
 
     A model whose settings name losses keeps these.
 
@@ -49,12 +64,14 @@ def make_models(named: Sequence[tuple[str, Mapping[str, str]]], losses: str | No
     InputError
         None of the models knows losses by name, and they are given.
     """
-    knows = [any(field.name == "losses" for field in fields(model_class(name))) for name, _ in named]
+    knows = [any(field.name == "losses" for field in dataclasses.fields(model_class(name))) for name, _ in named]
     if losses is not None and not any(knows):
         raise InputError(
             f"losses are {losses!r}, and none of the models {', '.join(name for name, _ in named)} knows them; leave them "
             "out, or take dem2d or dem3d.",
             "losses",
         )
-    more = {} if losses is None else {"losses": losses}
-    return [make_model(name, {**(more if known else {}), **settings}) for (name, settings), known in zip(named, knows)]
+    return [
+        make_model(name, settings, losses if known and "losses" not in settings else None)
+        for (name, settings), known in zip(named, knows)
+    ]

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from ..analysis.calibrate import Calibration
-from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, styled, zero_line
+from .style import BLACK, RED, WIDTH, in_lines, page, styled, zero_line
 
 
 @styled
@@ -46,18 +46,14 @@ def draw_calibration(
     below.plot(times, every[0], **dashes)
     below.plot(times, np.degrees(calibration.amplitudes), "o", color=BLACK, markersize=3.5)
     below.set_yscale("log")
+    for axis in (below.yaxis.set_major_formatter, below.yaxis.set_minor_formatter):
+        axis("{x:g}")
+    below.tick_params(axis="y", which="minor", labelsize=7.0)
     below.set_ylabel("largest lean of a swing [°]")
     below.set_xlabel("time [s]")
     below.set_xlim(0.0, float(measured.time[-1]))
-    for name, loss in calibration.told.items():
-        if not loss.told:
-            below.text(
-                0.01, 0.04, f"{name}: not told from both sides", transform=below.transAxes, fontsize=7.5, color=GREY
-            )
-            break
-    figure.suptitle(
-        in_lines(title or calibration.sentence), x=0.01, ha="left", fontsize=9.0, color=BLUE if title else BLACK
-    )
+    said = f"{calibration.column.name}, let go: {calibration.history.name}"
+    figure.suptitle(in_lines(title or said), x=0.01, ha="left", fontsize=10.0)
     return figure
 
 

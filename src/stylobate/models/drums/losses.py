@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, Self
 
-from ...column.loss_files import losses_by
 from ...column.losses import NAMED, Losses
 from ...column.materials import ROLLING
 from ...errors import InputError, check_choice
@@ -50,12 +48,6 @@ class LossyDrums(SteppedDrums):
                 "other; give one of the two.",
                 "losses",
             )
-
-    @classmethod
-    def from_settings(cls, settings: Mapping[str, str]) -> Any:
-        """As of all models; ``losses`` as a name, or as the path of a file of losses."""
-        made = super().from_settings({name: text for name, text in settings.items() if name != "losses"})
-        return replace(made, losses=losses_by(settings["losses"])) if "losses" in settings else made
 
     @property
     def _chosen(self) -> tuple[str, ...]:
