@@ -81,7 +81,7 @@ def test_words_for_people(folder, capsys):
     assert "Over the kinds, median of 2: more than 2 (no interval of fewer than 6)." in printed
 
 
-def test_counts_are_kept_and_have_no_page(folder, capsys):
+def test_counts_are_kept_and_have_a_page(folder, capsys):
     asked = [
         "sequence",
         folder / "column.toml",
@@ -101,7 +101,7 @@ def test_counts_are_kept_and_have_no_page(folder, capsys):
     code, _, error = run(capsys, "report", out, "--out", folder / "page.html")
     assert code == 0, error
     page = (folder / "page.html").read_text()
-    assert "Earthquakes until it falls, first again and again: more than 2" in page
+    assert "Earthquakes until it falls, first.csv again and again: median of 6: more than 2" in page
     assert "with 0.5 s of quiet ground" in page
 
 

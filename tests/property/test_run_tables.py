@@ -7,7 +7,7 @@ import pytest
 import stylobate as st
 from stylobate.analysis.evidence import evidence, read_table, scaled_to
 from stylobate.analysis.hazard import read_hazard
-from stylobate.cli.ida import the_facts
+from stylobate.analysis.record_facts import facts_of_records
 from stylobate.cli.main import call
 from stylobate.errors import InputError, as_typed
 
@@ -99,12 +99,12 @@ def test_decimal_commas_in_a_hazard_curve_and_in_facts_of_records(tmp_path):
         read_hazard(path)
     path.write_text("record,magnitude,distance_km\na,6,5,20\n")
     with pytest.raises(InputError, match=r"line 2 of .* has 4 fields where the header names 3"):
-        the_facts(path, [], ["a"])
+        facts_of_records(path, [], ["a"])
     path.write_text("record,magnitude\na,six\n")
     with pytest.raises(InputError, match="'six' as magnitude"):
-        the_facts(path, [], ["a"])
+        facts_of_records(path, [], ["a"])
     path.write_text("record,magnitude,distance_km\n01,6.5,\n")
-    facts = the_facts(path, [], ["01"])["01"]
+    facts = facts_of_records(path, [], ["01"])["01"]
     assert facts["magnitude"] == 6.5
     assert np.isnan(facts["distance_km"])
 

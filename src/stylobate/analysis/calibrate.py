@@ -143,7 +143,7 @@ def _checked(history: FreeHistory, column: Column, model: Model | None) -> Lossy
     if wobbles and not two:
         raise InputError(
             f"{history.name} has one column of values, and {column.name!r} is round: one direction does not tell how far it "
-            "leans; give two (x and y), or, if it rocked in one plane, set `planar=true`.",
+            "leans; give two (x and y), or, if it rocked in one plane, compute it in one plane (planar = true).",
             "history",
         )
     if two and not wobbles:

@@ -20,6 +20,7 @@ from ..models.drums.losses import LossyDrums
 from ..models.drums.released import Free, released
 from ..models.start import Start
 from ..motion.free_history import FreeHistory
+from ..percent import percent
 from .loss_likelihood import Posterior
 from .swings import Wobble
 
@@ -137,7 +138,7 @@ class Calibration:
             unit = " s" if name == "stiffness_damping" else ""
             span = f"{loss.low:.2g} to {loss.high:.2g}{unit}"
             if loss.told:
-                words.append(f"{name} is {loss.value:.2g}{unit} ({span}, {self.confidence:.0%}).")
+                words.append(f"{name} is {loss.value:.2g}{unit} ({span}, {percent(self.confidence)}).")
             elif loss.reaches == "least":
                 words.append(f"{name} is at most {loss.high:.2g}{unit}: this history tells no lower limit.")
             elif loss.reaches == "most":
@@ -145,7 +146,7 @@ class Calibration:
             else:
                 words.append(f"{name} is not told by this history.")
         if self.laws:
-            words.append("Law: " + ", ".join(f"{name} {share:.0%}" for name, share in self.laws.items()) + ".")
+            words.append("Law: " + ", ".join(f"{name} {percent(share)}" for name, share in self.laws.items()) + ".")
         if self.apart is False:
             words.append("It does not tell stiffness_damping and rolling_resistance apart: take them as a pair.")
         if not self.after.reached:

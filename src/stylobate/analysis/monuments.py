@@ -140,7 +140,7 @@ class Monument:
 
     def __post_init__(self) -> None:
         of = self.called
-        check_choice("`seen`", self.seen, SEEN, of=of)
+        check_choice("seen", self.seen, SEEN, of=of)
         for name in ("age", "until"):
             low, high = getattr(self, name)
             check_range(f"`{name}`", low, 0.0, OLDEST, unit="years", of=of)
@@ -148,7 +148,7 @@ class Monument:
         if self.until[1] >= self.age[0]:
             raise InputError(
                 f"{of} is known until {self.until[1]:g} years ago and was as it was for no more than {self.age[0]:g}; give "
-                "an earlier `age`, or a later `until`.",
+                "an earlier `age`, or a later until.",
                 "until",
             )
 
@@ -185,7 +185,7 @@ class Branch:
     model: GroundMotionModel | None = None
 
     def __post_init__(self) -> None:
-        check_range("`weight`", self.weight, 0.0, 1e6, of=f"branch {self.name!r}", open_low=True)
+        check_range("weight", self.weight, 0.0, 1e6, of=f"branch {self.name!r}", open_low=True)
         if bool(self.curves) == bool(self.sources) or (self.model is None) == bool(self.sources):
             raise InputError(
                 f"branch {self.name!r} needs a hazard curve for each site, or sources with a ground-motion model; give one."
@@ -226,7 +226,7 @@ class Sites:
                 (first.site, first.age, first.until) for first in self.monuments if first.name == one.name
             ):
                 raise InputError(
-                    f"states of {one.name!r} differ in site, `age` or `until`; one monument has one of each."
+                    f"states of {one.name!r} differ in site, `age` or until; one monument has one of each."
                 )
         measures = {(one.capacity.measure, one.capacity.unit) for one in self.monuments}
         if len(measures) > 1:

@@ -133,7 +133,7 @@ class RecordSelection(Shown):
         said += (
             ": the set meets it."
             if self.meets
-            else (": the set does not meet it; widen --factors, shorten --periods, or give more records.")
+            else (": the set does not meet it; allow larger factors, a shorter range of periods, or give more records.")
         )
         if len(self.motions) < self.target.fewest:
             said += f" The code wants {self.target.fewest} records at least."

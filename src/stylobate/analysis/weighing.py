@@ -358,7 +358,7 @@ def _each(
                 check_reach(hazard, float(best[0][n, 0]), float(best[1][n, 0]), found[n, b, 0], capacity.state)
             warnings += [f"{doubt}."] if doubt else []
     warnings += [
-        f"the fragility of {one.called} is taken as exactly known; give `median_95` and `beta_95`."
+        f"the fragility of {one.called} is taken as exactly known; give median_95 and beta_95."
         for one in states
         if not any(one.capacity.median_sides)
     ]

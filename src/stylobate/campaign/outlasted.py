@@ -54,7 +54,7 @@ class Outlasted:
 
     def __post_init__(self) -> None:
         check_kind("hazard", self.hazard, (str, Path))
-        check_range("`until`", self.until, FIRST, LAST, unit="(a year)", field="until")
+        check_range("until", self.until, FIRST, LAST, unit="(a year)", field="until")
         if self.since is None and self.earthquake is None:
             raise InputError("neither since nor earthquake is given; give at least one of the two years.", "since")
         for name in ("since", "earthquake"):

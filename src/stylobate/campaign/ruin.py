@@ -127,17 +127,17 @@ class Observed:
         for row in rows:
             if len(row) != 4 or not isinstance(row[0], str):
                 said = "body, x, y and sd, such as ['lintel', 0.031, -0.012, 0.003]"
-                raise InputError(f"a row of `moved` is {as_typed(list(row))}; allowed are {said}.", "moved")
+                raise InputError(f"a row of moved is {as_typed(list(row))}; allowed are {said}.", "moved")
             for one in row[1:-1]:
-                check_range("a number of `moved`", one, -1e3, 1e3, unit="m", field="moved")
-            check_range("sd of a row of `moved`", row[-1], 0.0, 1e3, unit="m", open_low=True, field="moved")
+                check_range("a number of moved", one, -1e3, 1e3, unit="m", field="moved")
+            check_range("sd of a row of moved", row[-1], 0.0, 1e3, unit="m", open_low=True, field="moved")
         moved = [row[0] for row in rows]
         for name, bodies in (("fell", fell), ("stand", stand), ("moved", moved)):
             if twice := next((one for one in bodies if bodies.count(one) > 1), None):
                 raise InputError(f"{twice!r} is twice in `{name}`; name each body once.", name)
         for name, bodies in (("stand", stand), ("moved", moved)):
             if both := next((one for one in bodies if one in fell), None):
-                raise InputError(f"{both!r} is in `fell` and in `{name}`; one of the two is wrong.", name)
+                raise InputError(f"{both!r} is in fell and in `{name}`; one of the two is wrong.", name)
         object.__setattr__(self, "moved", rows)
         object.__setattr__(self, "fell", tuple(fell))
         object.__setattr__(self, "stand", tuple(dict.fromkeys([*stand, *moved])))

@@ -11,7 +11,8 @@ import typer
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.calibrate import Calibration
+    from ..percent import whole
+from ..analysis.calibrate import Calibration
 
 HistoryName = Annotated[
     Path,
@@ -84,6 +85,6 @@ def facts(found: Calibration) -> dict[str, str]:
             f"{one.value:.3f} ({one.low:.3f} to {one.high:.3f}) by successive extremes alone; {rigid:.3f} of a rigid block"
         )
     told["decrements"] = f"{summary['decrements']}, which differ from computed ones by {summary['discrepancy']:.1%}"
-    told["scatter"] = "--scatter " + ",".join(f"{name}={size:.0%}" for name, size in found.scatter().items())
+    told["scatter"] = "--scatter " + ",".join(f"{name}={whole(size)}%" for name, size in found.scatter().items())
     told["joint"] = f"normal_stiffness {summary['normal_stiffness']:.3g} N/m³, to which stiffness_damping belongs"
     return told

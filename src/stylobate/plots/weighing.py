@@ -9,6 +9,7 @@ from matplotlib.figure import Figure, SubFigure
 
 from ..analysis.weighing import FRACTILES, WAYS, Weighing
 from ..motion.intensity_specs import parse_measure
+from ..percent import percents
 from .style import BLACK, BLUE, GREY, WIDTH, in_lines, page, styled
 
 #: Most branches and sites that are drawn.
@@ -63,7 +64,7 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
         im = result.im[site]
         for weight, color, called in ((result.prior, GREY, "before"), (result.weight, BLUE, "after")):
             low, _, high = result.fractiles(site, weight)
-            label = f"{called}, {100 * FRACTILES[0]:.0f} to {100 * FRACTILES[-1]:.0f} % of branches"
+            label = f"{called}, {percents(FRACTILES[0], FRACTILES[-1])} of branches"
             axes.fill_between(im, low, high, color=color, alpha=0.18, linewidth=0.0, label=label)
             axes.plot(im, result.mean(site, weight), color=color, linewidth=1.5)
         axes.set(xscale="log", yscale="log", xlabel=measure, title=site)

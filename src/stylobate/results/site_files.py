@@ -86,7 +86,7 @@ def _capacity(table: MonumentTable, folder: Path) -> Capacity:
     numbers = (table.median, table.beta, table.median_95, table.beta_95)
     if table.fragility is None:
         if table.median is None or table.beta is None or table.im is None:
-            raise InputError("it needs `fragility`, a file or folder, or `im`, `median` and `beta`; give one of both.")
+            raise InputError("it needs fragility, a file or folder, or `im`, median and beta; give one of both.")
         measure = parse_measure(table.im)
         told: dict[str, Any] = {"name": table.name, "im": measure.name, "unit": measure.unit, "state": table.state}
         for name, best, limits in (("median", table.median, table.median_95), ("beta", table.beta, table.beta_95)):
@@ -98,7 +98,7 @@ def _capacity(table: MonumentTable, folder: Path) -> Capacity:
             told |= {name: best, f"{name}_low": low, f"{name}_high": high}
         return Capacity.of(told)
     if any(one is not None for one in numbers):
-        raise InputError("`fragility` and numbers of one are both given; leave one out.", "fragility")
+        raise InputError("fragility and numbers of one are both given; leave one out.", "fragility")
     place = folder / table.fragility
     if (place / "fragility.json").is_file():
         found = read_json(place / "fragility.json")
