@@ -44,6 +44,7 @@ def test_a_ruin_is_a_job_with_its_files(fresh, wanted, tmp_path):
     [
         ('columns = ["column.toml"]', 'columns = ["/etc/hosts"]', "the page has column.toml"),
         ("[prior]", '[prior]\nrecords = "/etc"', "names records"),
+        ("[prior]", '[survival]\nhazard = "/etc/hosts"\nuntil = 2020\nsince = 1000\n[prior]', "names a hazard curve"),
         ("simulations = 200", "simulations = 50000", "takes up to 20000"),
         ('"stands"', '"leans"', "leans"),
         ("columns", "colums", "did you mean"),

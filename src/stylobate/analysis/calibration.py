@@ -20,6 +20,7 @@ from ..models.drums.losses import LossyDrums
 from ..models.drums.released import Free, released
 from ..models.start import Start
 from ..motion.free_history import FreeHistory
+from ..notebook import Shown
 from ..percent import percent
 from .loss_likelihood import Posterior
 from .swings import Wobble
@@ -61,7 +62,7 @@ class Loss(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Calibration:
+class Calibration(Shown):
     """Losses of a column from its free motion.
 
     Parameters

@@ -192,13 +192,6 @@ class Fragility(Shown):
         ends = [(0.0, math.inf) if end is None else end.beta_interval for end in self.ends]
         return min([math.exp(low), *(one for one, _ in ends)]), max([math.exp(high), *(one for _, one in ends)])
 
-    @property
-    def correlation(self) -> float:
-        """Of ln θ and ln β, over the samples that have a curve [-]."""
-        some = self.samples[np.isfinite(self.samples).all(axis=1)]
-        spread = some.std(axis=0) if len(some) > 2 else np.zeros(2)
-        return float(np.corrcoef(some.T)[0, 1]) if (spread > CLOSE).all() else 0.0
-
     def limits(self, best: float, samples: np.ndarray, plausible: np.ndarray) -> tuple[float, float]:
         """Confidence limits of a quantity: the wider ones of the bootstrap and of the likelihood.
 
@@ -262,7 +255,7 @@ class Fragility(Shown):
             "beta": _seen(self.beta),
             "beta_low": self.beta_interval[0],
             "beta_high": self.beta_interval[1],
-            "correlation": self.correlation,
+            "correlation": lognormal.correlation(self.samples),
             "im": e.measure,
             "unit": e.unit,
             "state": e.state,

@@ -185,3 +185,10 @@ def bootstrap(
             found.append(np.stack((one.log_median, np.log(one.beta)), axis=1))
     values = np.concatenate(found)
     return np.where(np.isnan(values), math.log(BETAS[0]), values)
+
+
+def correlation(samples: np.ndarray) -> float:
+    """Of ln θ and ln β over samples of both, shape (S, 2), that have a curve; none where one of them does not vary [-]."""
+    some = samples[np.isfinite(samples).all(axis=1)]
+    spread = some.std(axis=0) if len(some) > 2 else np.zeros(2)
+    return float(np.corrcoef(some.T)[0, 1]) if (spread > 1e-6).all() else 0.0

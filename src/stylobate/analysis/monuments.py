@@ -234,6 +234,21 @@ class Sites:
             raise InputError(f"the fragilities are over different intensities ({told}); give all of one.", "im")
         self._check_branches(known)
 
+    def windows(self, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Begin and end of what is known of each state [years before today], shape (n,).
+
+        Parameters
+        ----------
+        share : array
+            Where in its spans the age of each state lies, and until when it is known, from 0 to 1, shape (n, 2).
+        """
+        ages, untils = ([getattr(one, name) for one in self.monuments] for name in ("age", "until"))
+        begin, end = (
+            np.array([low + (high - low) * one for (low, high), one in zip(spans, part, strict=True)])
+            for spans, part in zip((ages, untils), share.T, strict=True)
+        )
+        return begin, end
+
     def _check_branches(self, known: Mapping[str, Site]) -> None:
         used = dict.fromkeys(one.site for one in self.monuments)
         if len({bool(one.sources) for one in self.branches}) > 1:

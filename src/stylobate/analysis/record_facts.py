@@ -7,8 +7,6 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-import pandas
-
 from ..errors import InputError
 from . import tables
 
@@ -35,6 +33,8 @@ def facts_of_records(about: Path | None, sources: Sequence[Path], names: Sequenc
     InputError
         The table cannot be read, or tells nothing.
     """
+    import pandas
+
     facts: dict[str, dict[str, float]] = {}
     for folder in (source for source in sources if about is None and (source / "manifest.csv").is_file()):
         table = pandas.read_csv(folder / "manifest.csv", dtype=str).fillna("")

@@ -10,7 +10,7 @@ import numpy as np
 import pandas
 
 from ..constants import g
-from ..errors import InputError, check_choice, check_range
+from ..errors import InputError, check_choice, check_range, check_whole
 from ..motion import Motion
 from ..motion.drift import cure_of
 from ..motion.intensity import displacement_drift
@@ -212,13 +212,15 @@ def select_records(
     the records' own, becomes less. At last all are multiplied by the one factor that lifts the mean onto its lower bound
     where it lies below, as far as the limits allow.
     """
-    check_range("count", count, 1, 1000)
+    check_whole("count", count, 1, 1000)
     check_choice("horizontal", horizontal, HORIZONTAL)
     low, high = periods
     check_range("first period", low, 0.01, 10.0, unit="s")
     check_range("last period", high, low, 10.0, unit="s", open_low=True)
     check_range("smallest factor", factors[0], 0.01, 1.0)
     check_range("largest factor", factors[1], 1.0, 100.0)
+    if per_event is not None:
+        check_whole("per_event", per_event, 1)
     check_range("least mean over the target", least, 0.1, 2.0)
     t = np.geomspace(low, high, POINTS)
     aim = target.at(t)

@@ -15,6 +15,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from ..errors import InputError, check_kind, within
+from ..notebook import Shown
 from .hazard import Hazard
 from .monuments import Branch, Sites
 from .poisson import Pattern, together
@@ -41,7 +42,7 @@ WAYS = ("as weighed", "each its own", "all shared")
 
 
 @dataclass(frozen=True, eq=False)
-class Weighing:
+class Weighing(Shown):
     """Weights of branches before and after what is seen.
 
     Parameters
@@ -264,7 +265,7 @@ def weigh(sites: Sites) -> Weighing:
     found = np.empty((len(variants) + 2, len(branches), theta.shape[1]))
     for number, share in enumerate(ages):
         now = slice(number * many[1], (number + 1) * many[1])
-        begin, end = _windows(sites, share[structures])
+        begin, end = sites.windows(share[structures])
         patterns = [_restricted(one, reached, begin, end) for one in variants]
         sets, back = np.unique(np.concatenate([one.sets for one in patterns]), axis=0, return_inverse=True)
         places = np.split(back.ravel(), np.cumsum([len(one.sets) for one in patterns])[:-1])
@@ -314,18 +315,6 @@ def _capacities(
     normal = ndtri(_evenly(rng, many, 2 * (structures.max() + 1))).reshape(many, -1, 2)
     drawn = [state.capacity.draw(normal[:, one]) for state, one in zip(sites.monuments, structures, strict=True)]
     return np.array([one for one, _ in drawn]), np.array([one for _, one in drawn])
-
-
-def _windows(sites: Sites, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Begin and end of what is known of each state [years before today], shape (n,)."""
-    both = (
-        np.array([low + (high - low) * one for (low, high), one in zip(spans, part, strict=True)])
-        for spans, part in zip(
-            ([one.age for one in sites.monuments], [one.until for one in sites.monuments]), share.T, strict=True
-        )
-    )
-    begin, end = both
-    return begin, end
 
 
 def _restricted(chosen: np.ndarray, reached: np.ndarray, begin: np.ndarray, end: np.ndarray) -> Pattern:

@@ -66,3 +66,5 @@ def _only_what_is_here(data: dict[str, object], here: str) -> None:
             )
     if isinstance(prior, dict) and "records" in prior:
         raise InputError("the prior of the ruin names records, which the page has not at hand; give pgv and period.")
+    if "survival" in data:
+        raise InputError("the ruin names a hazard curve, which the page has not at hand; leave survival out.")

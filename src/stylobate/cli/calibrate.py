@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..percent import whole
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..percent import whole
-from ..analysis.calibrate import Calibration
+    from ..analysis.calibration import Calibration
 
 HistoryName = Annotated[
     Path,

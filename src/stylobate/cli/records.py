@@ -63,14 +63,24 @@ def records(
     names = _file_names([str(name) for name in found.table["record"]])
     summary = found.summary()
     summary["refused"] = refused = suite.refused | found.refused
-    with execution.files("records", "records.csv", "records.json", "records", "scaled") as files:
+    with execution.files("records", "records.csv", "records.json", "records") as files:
         if files.wanted:
             from .. import plots
+            from ..atomic import output_folder
             from ..motion.writing import write_csv
 
-            for motion, name in zip(found.motions, names, strict=True):
-                (files / "scaled").mkdir(parents=True, exist_ok=True)
-                files.append(write_csv(motion, files / "scaled" / name))
+            place = files / "scaled"
+            there = sorted(one.name for one in place.iterdir()) if place.is_dir() else []
+            others = [name for name in there if name[0] != "." and name not in names]
+            if others:
+                raise InputError(
+                    f"{place} holds {others[0]}, which is not of these records and would be read with them; choose another "
+                    "folder for --out.",
+                    "out",
+                )
+            with output_folder(place, names):
+                for motion, name in zip(found.motions, names, strict=True):
+                    files.append(write_csv(motion, place / name))
             files.table(found.table.assign(file=[f"scaled/{name}" for name in names]), "records.csv")
             files.picture(plots.draw_record_selection(found), "records")
             files.json(summary, "records.json")

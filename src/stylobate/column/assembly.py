@@ -15,12 +15,12 @@ from ..errors import InputError, check_range, warn
 from .assembly_fields import check_fields
 from .block import FAR_AWAY, TOUCHING, Block, FaceJoint, ground_block, separation, smallest_turn, touching_faces
 from .column import GRAVITIES
-from .faces import FacePair, face_between
+from .faces import Bed, FacePair, face_between
 from .joint import Joint, given
 from .links.in_assembly import in_numbers, place_between
 from .links.link import Link
 from .links.placed import PlacedLink
-from .structure import Bed, Structure
+from .structure import Structure
 
 MAX_BLOCKS = 400
 

@@ -60,3 +60,33 @@ def face_between(left: np.ndarray, right: np.ndarray, origin: tuple[float, float
     t, foot = (right - left) / length, left - origin
     height, before = float(foot[1] * t[0] - foot[0] * t[1]), -float(foot @ t)
     return Face((float(t[0]), float(t[1])), height if upper else -height, before, length - before)
+
+
+class Bed(NamedTuple):
+    """Faces that lie on one another.
+
+    Parameters
+    ----------
+    lower, upper : int
+        Bodies by number.
+    rise : float
+        Upward component of the unit normal from the one into the other [-].
+    corners : array
+        In plan; of a plane along it [m], shape (k, 1 or 2).
+    level : float
+        Height of the faces [m].
+    area : float
+        [m²]
+    law : Joint
+    round : bool
+        Whether a circle bounds it.
+    """
+
+    lower: int
+    upper: int
+    rise: float
+    corners: np.ndarray
+    level: float
+    area: float
+    law: Joint
+    round: bool = False

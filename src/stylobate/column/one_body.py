@@ -9,7 +9,8 @@ import numpy as np
 
 from .column import Column
 from .drum import Drum
-from .structure import Bed, Structure
+from .faces import Bed
+from .structure import Structure
 
 #: Joints whose normals rise less than this carry nothing.
 LEVEL = 1e-6

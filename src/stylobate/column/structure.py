@@ -12,20 +12,19 @@ import math
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from .. import notebook
-from ..constants import g
 from ..errors import InputError
 from .as_found import AS_BUILT, AsFound
-from .faces import FacePair
+from .faces import Bed, FacePair
 from .joint import Joint
 from .links.link import Link, Numbers
 from .links.placed import PlacedLink
 from .shapes import Glued, Outlined, Placed, Shape, hull
 from .turning import about, quaternion_of
+from .words import as_html, described
 
 
 class Body(Protocol):
@@ -140,43 +139,9 @@ class Standing(Outlined):
         return self.polygon @ _turn(self.lean) + np.array(self.place)
 
 
-class Bed(NamedTuple):
-    """Faces that lie on one another.
-
-    Parameters
-    ----------
-    lower, upper : int
-        Bodies by number.
-    rise : float
-        Upward component of the unit normal from the one into the other [-].
-    corners : array
-        In plan; of a plane along it [m], shape (k, 1 or 2).
-    level : float
-        Height of the faces [m].
-    area : float
-        [m²]
-    law : Joint
-    round : bool
-        Whether a circle bounds it.
-    """
-
-    lower: int
-    upper: int
-    rise: float
-    corners: np.ndarray
-    level: float
-    area: float
-    law: Joint
-    round: bool = False
-
-
 def _turn(angle: float) -> np.ndarray:
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, s], [-s, c]])
-
-
-def _number(count: int, of: tuple[str, str]) -> str:
-    return f"{count} {of[count != 1]}"
 
 
 class Structure:
@@ -278,25 +243,13 @@ class Structure:
 
     def describe(self) -> str:
         """What it is, in a sentence or two: bodies, size and mass."""
-        moving = [body for body in self.bodies if not body.fixed]
-        corners = np.concatenate([body.corners for body in moving])
-        height, mass = float(corners[:, 1].max()) - (self.ground or 0.0), sum(body.mass for body in moving)
-        links = f" with {_number(len(self.placed_links), ('link', 'links'))}" if self.placed_links else ""
-        found = ", as found" if self.as_found else ""
-        said = f"{self.name}: {self.described} of {_number(len(moving), self.counted)}{links}{found}, "
-        said += f"{height:.4g} m high, {mass / 1e3:.4g} t."
-        if self.slenderness is not None and self.frequency_parameter is not None:
-            said += f" Slenderness {self.slenderness:.3f} rad, p = {self.frequency_parameter:.3f} rad/s."
-        if self.uplift_acceleration is not None:
-            said += f" A steady {self.uplift_acceleration / g:.3f} g opens the first joint."
-        return said
+        return described(self)
 
     def __repr__(self) -> str:
         return f"<{self.describe()}>"
 
     def _repr_html_(self) -> str:
-        shapes = [(body.corners, False) for body in self.bodies if not body.fixed]
-        return notebook.page(self.name, self.describe(), {}, notebook.silhouettes([shapes], [""]))
+        return as_html(self)
 
     # -- what it measures; None where it has no such thing -------------------------------------------------------------
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from ..analysis.calibrate import Calibration
+from ..analysis.calibration import Calibration
 from .style import BLACK, RED, WIDTH, in_lines, page, styled, zero_line
 
 

@@ -14,13 +14,14 @@ from ...errors import InputError, check_kind, check_range
 from ..assembly_fields import check_fields
 from ..block import FAR_AWAY, ground_block
 from ..column import GRAVITIES
+from ..faces import Bed
 from ..joint import Joint, given
 from ..links import link_from_dict
 from ..links.in_assembly import in_numbers
 from ..links.link import Link
 from ..links.placed import PlacedLink
 from ..shapes import Glued
-from ..structure import Bed, Body, Structure
+from ..structure import Body, Structure
 from .links import place_in_space
 from .stone import Stone
 from .touching import TOUCHING, Overlap, Solid, SpaceJoint, overlap_of, overlaps, separation

@@ -198,11 +198,8 @@ class DistinctElement3D(LossyDrums):
         response = self.told(column, motion, super().run(column, motion, options))
         if self.restitution is None:
             return response
-        undamped = replace(self, restitution=None, time_step=None).stable_step(column)
-        chosen = {
-            "stiffness_damping_s": self.damping(column),
-            "steps_over_undamped": undamped / self.stable_step(column),
-        }
+        more = replace(self, restitution=None, time_step=None).stable_step(column) / self.stable_step(column)
+        chosen = {"stiffness_damping_s": self.damping(column), "steps_over_undamped": more}
         return replace(response, provenance=response.provenance | chosen)
 
     def run_in_space(

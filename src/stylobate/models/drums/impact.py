@@ -24,6 +24,7 @@ from ...kernels.dem3d.records import BETA  # the row of a lane's damping, in the
 from ...motion import Motion
 from ..base import Case, RunOptions
 from ..start import Start
+from .released import followed
 
 #: Damping that is tried, one value per lane besides none [s].
 TRIED = np.concatenate(([0.0], np.geomspace(1e-6, 3e-3, 15)))
@@ -60,8 +61,7 @@ def in_lanes(block: Any, what: Structure) -> Iterator[np.ndarray]:
     for lane, beta in enumerate(TRIED):
         block.load(lane, Case(what, longest(what)))
         block.lane["damp"][0, BETA, lane] = beta
-    while not block.is_over(0):
-        block.advance(1)
+    for _ in followed(block, 1, len(TRIED)):
         yield block.lean()[: len(TRIED)]
 
 

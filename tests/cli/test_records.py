@@ -1,0 +1,58 @@
+"""``stylobate records`` as its user runs it: what is written, told, and refused."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from stylobate.cli.main import call
+from stylobate.motion.specs import parse_synthetic
+from stylobate.motion.writing import write_csv
+
+TARGET = "ec8,ag=0.2g,soil=B"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("records")
+    for k, (m, r) in enumerate([(6.0, 10), (6.5, 20), (6.8, 15), (7.0, 30)]):
+        write_csv(parse_synthetic(f"greece,{m}Mw,{r}km,seed={k}"), place / f"{k}.csv")
+    return place
+
+
+def test_what_is_written_reads_back_as_scaled(folder, tmp_path, capsys):
+    """The scaled files, asked for again, have the mean that was told."""
+    out = tmp_path / "out"
+    asked = ["records", str(folder), "--target", TARGET, "--count", "3", "--factors", "0.1:10"]
+    assert call([*asked, "--out", str(out)]) == 0
+    told = json.loads((out / "records.json").read_text())
+    assert told["meets"]
+    capsys.readouterr()
+    again = ["records", str(out / "scaled"), "--target", TARGET, "--count", "3", "--factors", "0.1:10", "--json"]
+    assert call(again) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["mean_g"] == pytest.approx(told["mean_g"], rel=1e-6)
+    # a second choice into the same folder would leave files of the first among its own
+    assert call([*asked[:5], "2", *asked[6:], "--out", str(out)]) == 2
+    assert "choose another folder" in capsys.readouterr().err
+    assert call([*asked, "--out", str(out)]) == 0
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        (["--periods", "3s:0.2s"], "the first value must be below the second"),
+        (["--periods", "0.2s:7s"], "allowed is [0, 4] s"),
+        (["--where", "pgv"], "write it as pgv=0.1m/s:0.8m/s"),
+        (["--count", "40"], "4 records can be used, and 40 are asked for"),
+        (["--per-event", "0"], "per_event"),
+        (["--factors", "2:3"], "smallest factor is 2"),
+    ],
+)
+def test_what_is_refused(folder, changed, words, capsys):
+    code = call(["records", str(folder), "--target", TARGET, "--factors", "0.1:10", *changed])
+    error = capsys.readouterr().err
+    assert code == 2, error
+    assert words.split(" records")[0] in error
+    assert "Traceback" not in error
