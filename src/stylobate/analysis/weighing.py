@@ -16,6 +16,7 @@ from scipy.special import ndtri
 
 from ..errors import InputError, check_kind, within
 from ..notebook import Shown
+from ..percent import percent
 from .hazard import Hazard
 from .monuments import Branch, Sites
 from .poisson import Pattern, together
@@ -149,8 +150,8 @@ class Weighing(Shown):
         names = [one.name for one in self.asked.branches]
         up, down = int(np.argmax(self.weight - self.prior)), int(np.argmin(self.weight - self.prior))
         text = (
-            f"What is seen of {who} speaks for {names[up]} (weight {self.prior[up]:.2g} before, {self.weight[up]:.2g} "
-            f"after) and against {names[down]} ({self.prior[down]:.2g}, {self.weight[down]:.2g})"
+            f"What is seen of {who} speaks for {names[up]} (weight {percent(self.prior[up])} before, "
+            f"{percent(self.weight[up])} after) and against {names[down]} ({percent(self.prior[down])}, {percent(self.weight[down])})"
         )
         if number > 1:
             most = max(self.told, key=lambda one: one["bits_beside_others"])
@@ -159,7 +160,7 @@ class Weighing(Shown):
             shared = self.posterior(self.likelihood[WAYS[2]])[up]
             text += (
                 f". Earthquakes are taken as each site's own: did all shake every site, {names[up]} would weigh "
-                f"{shared:.2g}"
+                f"{percent(shared)}"
             )
         return text + "."
 

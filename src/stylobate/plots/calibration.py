@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
+from matplotlib.ticker import LogLocator
 
 from ..analysis.calibration import Calibration
 from .style import BLACK, RED, WIDTH, in_lines, page, styled, zero_line
@@ -46,6 +47,7 @@ def draw_calibration(
     below.plot(times, every[0], **dashes)
     below.plot(times, np.degrees(calibration.amplitudes), "o", color=BLACK, markersize=3.5)
     below.set_yscale("log")
+    below.yaxis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
     for axis in (below.yaxis.set_major_formatter, below.yaxis.set_minor_formatter):
         axis("{x:g}")
     below.tick_params(axis="y", which="minor", labelsize=7.0)
