@@ -151,7 +151,8 @@ class Weighing(Shown):
         up, down = int(np.argmax(self.weight - self.prior)), int(np.argmin(self.weight - self.prior))
         text = (
             f"What is seen of {who} speaks for {names[up]} (weight {percent(self.prior[up])} before, "
-            f"{percent(self.weight[up])} after) and against {names[down]} ({percent(self.prior[down])}, {percent(self.weight[down])})"
+            f"{percent(self.weight[up])} after) and against {names[down]} ({percent(self.prior[down])}, "
+            f"{percent(self.weight[down])})"
         )
         if number > 1:
             most = max(self.told, key=lambda one: one["bits_beside_others"])
