@@ -8,6 +8,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import InputError
+from ..motion import Motion
+from ..motion.earthquakes import MAX_BYTES, is_catalogue, places_of, read_earthquake, station_of
+from ..motion.readers.source import Source
 from . import tables
 
 #: What may be told of a record.
@@ -16,17 +19,20 @@ ABOUT = ("magnitude", "distance_km")
 _MAGNITUDE = re.compile(r"\bM[wWlLsS]?\s?(\d\.\d)\b")
 
 
-def facts_of_records(about: Path | None, sources: Sequence[Path], names: Sequence[str]) -> dict[str, dict[str, float]]:
+def facts_of_records(
+    about: Path | None, sources: Sequence[Path], motions: Sequence[Motion]
+) -> dict[str, dict[str, float]]:
     """Magnitude and distance [km] by record.
 
     Parameters
     ----------
     about : path, optional
-        A table with the columns record, and magnitude or distance_km.
+        A table with the columns record, and magnitude or distance_km; or the QuakeML of the one earthquake of all records,
+        whose distance is that from the epicentre to stations whose StationXML lies with the records.
     sources : sequence of path
         Records, or folders of them; without ``about`` the ``manifest.csv`` of each is read.
-    names : sequence of str
-        Of the records.
+    motions : sequence of Motion
+        The records.
 
     Raises
     ------
@@ -35,6 +41,7 @@ def facts_of_records(about: Path | None, sources: Sequence[Path], names: Sequenc
     """
     import pandas
 
+    names = {name for motion in motions for name in (motion.name, motion.record)}
     facts: dict[str, dict[str, float]] = {}
     for folder in (source for source in sources if about is None and (source / "manifest.csv").is_file()):
         table = pandas.read_csv(folder / "manifest.csv", dtype=str).fillna("")
@@ -42,6 +49,8 @@ def facts_of_records(about: Path | None, sources: Sequence[Path], names: Sequenc
             told = _MAGNITUDE.search(" ".join(str(one) for one in row.values()))
             if told and row.get("file") in names:
                 facts[str(row["file"])] = {"magnitude": float(told[1])}
+    if about is not None and is_catalogue(about):
+        return _of_one_earthquake(about, sources, motions)
     if about is not None:
         table = tables.read(about, 10_000_000, "record", "the columns record, and magnitude or distance_km")
         known = [one for one in ABOUT if one in table.columns]
@@ -49,4 +58,20 @@ def facts_of_records(about: Path | None, sources: Sequence[Path], names: Sequenc
             raise InputError(f"{about} needs the columns record, and magnitude or distance_km.", "about")
         for name, *values in zip(table.texts("record"), *(table.numbers(one, math.nan) for one in known), strict=True):
             facts[name] = dict(zip(known, values, strict=True))
+    return facts
+
+
+def _of_one_earthquake(about: Path, sources: Sequence[Path], motions: Sequence[Motion]) -> dict[str, dict[str, float]]:
+    """Magnitude of an earthquake and distances from its epicentre, of stations that are described beside the records."""
+    earthquake = read_earthquake(about)
+    folders = [source if source.is_dir() else source.parent for source in sources]
+    beside = dict.fromkeys(path for folder in folders for path in sorted(folder.glob("*.xml")) if path != about)
+    places = places_of(Source(path, path.read_bytes()) for path in beside if path.stat().st_size <= MAX_BYTES)
+    facts = {}
+    for motion in motions:
+        place = places.get(station_of(motion.metadata) or "")
+        known = {"magnitude": earthquake.magnitude}
+        if place is not None:
+            known["distance_km"] = earthquake.distance_km(*place)
+        facts |= dict.fromkeys((motion.name, motion.record), known)
     return facts

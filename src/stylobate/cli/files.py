@@ -69,6 +69,14 @@ class Files(list[Path]):
         """Write a JSON file."""
         self.append(console.write_json(self / name, value))
 
+    def data(self, data: bytes, name: str) -> None:
+        """Write a file as it came."""
+        from ..atomic import replacing
+
+        with replacing(self / name) as partial:
+            partial.write_bytes(data)
+        self.append(self / name)
+
     def picture(self, figure: Any, name: str) -> None:
         """Write a picture, named without its ending."""
         from .. import plots

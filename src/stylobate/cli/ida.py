@@ -19,7 +19,7 @@ def ida(
     levels: str | None = o.option("A:A:N", "Stripes instead of a hunt, such as 0.1m/s:1.0m/s:10."),
     runs: int = o.option("N", "Runs of each record.", 14),
     largest: float = o.option("X", "A record is multiplied by at most this.", 20.0, flag="--largest-factor"),
-    about: Path | None = o.option("FILE", "CSV about the records: record, magnitude, distance_km."),
+    about: Path | None = o.option("FILE", "CSV about the records: record, magnitude, distance_km; or QuakeML."),
     *,
     population: o.Population,
     motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, "azimuths", "scale", "pga")],
@@ -38,7 +38,6 @@ def ida(
     from ..analysis.ida_curves import check_response, median_of
     from ..analysis.record_facts import facts_of_records
     from ..motion.intensity_specs import parse_levels, parse_measure
-    from ..motion.orientation import record_of
     from ..response.words import to_decide
     from . import console
 
@@ -48,9 +47,7 @@ def ida(
     check_response(edp, stone, how)
     stripes = None if levels is None else parse_levels(levels, measure)
     records = motions.request(motion=sources, separate=True).expand()
-    known = facts_of_records(
-        about, sources, [name for motion in records.motions for name in (motion.name, record_of(motion))]
-    )
+    known = facts_of_records(about, sources, records.motions)
     names = "runs.csv", "capacities.csv", "fractiles.csv", "measures.csv", "ida.json", "ida", "measures"
     with execution.files("ida", *names) as files:
         with files.campaign(campaign) as asked:

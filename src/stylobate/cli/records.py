@@ -34,7 +34,7 @@ def records(
     where: list[str] | None = o.option(
         "MEASURE=A:A", "As recorded, such as pgv=0.1m/s:0.8m/s, pulse_period=0.5s:2s, magnitude=6:7; may be repeated."
     ),
-    about: Path | None = o.option("FILE", "CSV about the records: record, magnitude, distance_km."),
+    about: Path | None = o.option("FILE", "CSV about the records: record, magnitude, distance_km; or QuakeML."),
     *,
     motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, *o.SEVERAL, "scale", "pga", "azimuth")],
     execution: o.Plain,
@@ -55,7 +55,7 @@ def records(
     limits = _pair("--factors", factors, lambda text: parse_number("--factors", text), "0.5:2")
     ranges = [_wanted(text) for text in where or ()]
     suite = motions.request(motion=sources, separate=True).expand()
-    known = facts_of_records(about, sources, [motion.name for motion in suite.motions])
+    known = facts_of_records(about, sources, suite.motions)
     found = select_records(
         suite.motions, aim, count, periods=between, horizontal=horizontal, factors=limits, least=least,
         per_event=per_event, wanted=ranges, about=known,

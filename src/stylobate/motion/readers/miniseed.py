@@ -51,7 +51,7 @@ def read(source: Source, descriptions: Sequence[Source]) -> tuple[list[Component
     InputError
         ObsPy is missing, no description covers the channel, the channel does not measure acceleration, gaps.
     """
-    obspy = _obspy(source.name)
+    obspy = obspy_for(f"{source.name} is miniSEED")
     try:
         with _complaints_raised():
             stream = obspy.read(io.BytesIO(source.data), format="MSEED")
@@ -128,7 +128,7 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
 
 def _channel(trace: Any, descriptions: Sequence[Source], file: str) -> tuple[Any, str]:
     """Description of a trace's channel at its time, and the file it stands in."""
-    obspy = _obspy(file)
+    obspy = obspy_for(f"{file} is miniSEED")
     stats = trace.stats
     for description in descriptions:
         try:
@@ -183,15 +183,14 @@ def _complaints_raised() -> Iterator[None]:
         sys.unraisablehook = hook
 
 
-def _obspy(file: str) -> Any:
+def obspy_for(what: str) -> Any:
+    """ObsPy, or the sentence that it is missing; ``what`` needs it."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             import obspy
     except ImportError:
-        raise InputError(
-            f"{file} is miniSEED, which needs ObsPy; install it with  pip install 'stylobate[seismology]'."
-        ) from None
+        raise InputError(f"{what}, which needs ObsPy; install it with  pip install 'stylobate[seismology]'.") from None
     return obspy
 
 
