@@ -269,7 +269,7 @@ def test_undecided_runs_widen_the_share_that_has_fallen_and_a_fall_without_a_tim
     assert Count.of_rows(rows, spans) == Count((1, 2, 3, 2), (1, 2, 3, 3), 2)
     response = st.sequence(COLUMN, [FIRST, SECOND], st.RigidBlock(), rest=REST).response
     whole = in_sequence([FIRST, SECOND], REST)
-    table = SequenceResult(response, whole, SimpleNamespace(rows=rows), 0.0).table
+    table = SequenceResult(response, whole, SimpleNamespace(drawn=SimpleNamespace(groups=()), rows=rows), 0.0).table
     assert table["fallen_share"].iloc[-1] == 0.5
     low, high = wilson_interval(np.array([2, 3]), np.array([4, 4]))
     assert table["fallen_share_low"].iloc[-1] == pytest.approx(low[0])

@@ -9,10 +9,10 @@ import stylobate as st
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.certainty import certainty
 from stylobate.analysis.population import Population
-from stylobate.analysis.unknown_law import share_under_another_law
+from stylobate.analysis.unknown_law import share_limits, share_under_another_law
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import the_twins
-from stylobate.campaign.unknown_laws import PER_LAW, usual_in_space
+from stylobate.campaign.unknown_laws import PER_LAW, usual_with_laws
 from stylobate.report.certainty import certainty_section, certainty_sentence
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
@@ -23,7 +23,7 @@ SPACE = st.DistinctElement3D()
 
 
 def drawn(number: int, column=ROUND, model=SPACE, seed: int = 0, **sizes):
-    scatter = dataclasses.replace(usual_in_space(column), **sizes)
+    scatter = dataclasses.replace(usual_with_laws(column, st.DistinctElement3D()), **sizes)
     return the_twins(column, model, Campaign(replicates=number, scatter=scatter, seed=seed))
 
 
@@ -63,7 +63,7 @@ def test_other_parts_stay_as_they_were():
 
 
 def test_square_columns_have_no_law_of_round_faces_and_planes_none_at_all():
-    assert usual_in_space(SQUARE).given.keys() & {"law", "rolling_resistance"} == set()
+    assert usual_with_laws(SQUARE, st.DistinctElement3D()).given.keys() & {"law", "rolling_resistance"} == set()
     twins = drawn(3, SQUARE, law=0.5)
     assert twins.left_out == ("law",)
     plane = drawn(3, SQUARE, st.DistinctElement2D())
@@ -150,3 +150,44 @@ def test_the_run_itself_is_the_same_whatever_its_twins_lose():
     assert np.array_equal(alone.histories.top, found.response.histories.top)
     assert found.population.drawn.groups == (0, 0, 0, 1)
     assert found.population.counts[v.FAILED] == 0
+
+
+def test_limits_over_many_cells_are_those_of_each():
+    """Share by share as :func:`share_under_another_law` gives them, wider than Wilson's; without laws these alone."""
+    verdicts = np.array([["collapsed"] * 6 + ["stands"] * 6, ["stands"] * 11 + ["undecided"], ["failed"] * 12])
+    groups = tuple(k // 3 for k in range(12))
+    low, high = share_limits(verdicts, groups)
+    alone = share_limits(verdicts, ())
+    assert (low[0], high[0]) == share_under_another_law([3, 3, 0, 0], [3] * 4)
+    assert high[1] == share_under_another_law([0, 0, 0, 1], [3] * 4)[1]
+    assert (low[2], high[2]) == (0.0, 1.0)
+    assert np.all(low <= alone[0])
+    assert np.all(high >= alone[1])
+    assert alone[1][0] == pytest.approx(0.746, abs=1e-3)  # Wilson's limit of 6 of 12
+
+
+@pytest.mark.parametrize("ask", ["suite", "critical", "domain"])
+def test_every_interval_of_columns_in_space_holds_their_laws(ask):
+    """What is not known of joints varies by default wherever columns like one are asked for, unless it is said what does."""
+    column, model, motion = ROUND, SPACE, st.ricker(1.5, 0.01 * st.g)
+    friction = {"scatter": st.Scatter(friction=0.1)}
+
+    def limits(**fields):
+        if ask == "suite":
+            table = st.suite_table(column, [motion], model, replicates=6, **fields)
+            known = "collapse_interval_of_columns_low" in table
+            return known, table.attrs["twins"][column.name]["scatter"]["law"], table["collapse_interval_high"][0]
+        if ask == "critical":
+            found = st.critical_amplitude(
+                column, motion, model, 0.01 * st.g, 0.02 * st.g, 0.01 * st.g, replicates=6, **fields
+            )
+            found = found.population
+            return bool(found.drawn.groups), found.drawn.scatter.law, found.interval[1][0]
+        found = st.collapse_probability(column, model, [1.5], [0.01 * st.g], 1.0, replicates=6, **fields)
+        return bool(found.scatter.law), found.scatter.law, found.interval[1][0, 0]
+
+    vary, law, high = limits()
+    assert (vary, law) == (True, 0.5)
+    alone, none, narrow = limits(**friction)
+    assert (alone, none) == (False, 0.0)
+    assert high >= narrow

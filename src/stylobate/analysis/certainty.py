@@ -12,7 +12,6 @@ from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import the_twins
-from ..campaign.unknown_laws import usual_in_space
 from ..column.structure import Structure
 from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
@@ -88,8 +87,6 @@ def certainty(
         A number that is not allowed, or input that the model refuses.
     """
     began = time.perf_counter()
-    if campaign.scatter is None and model.varies_law and not model.is_plane(model.parameters()):
-        campaign = replace(campaign, scatter=usual_in_space(column.stack or column))
     drawn = the_twins(column, model, campaign)
     twins, tail = drawn.columns, campaign.tail
     riding = () if until_end or until_rest or drawn.groups else tuple(twins[: model.carried(column)])

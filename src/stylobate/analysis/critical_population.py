@@ -13,6 +13,8 @@ from ..notebook import Shown
 from ..response.rows import Rows
 from . import verdicts as v
 from .capacity import SHARES, Capacity, bounds, of_levels, quantiles
+from .population import OF_COLUMNS
+from .unknown_law import share_limits
 
 if TYPE_CHECKING:
     import pandas
@@ -66,7 +68,12 @@ class CriticalPopulation(Shown):
 
     @property
     def interval(self) -> tuple[np.ndarray, np.ndarray]:
-        """Confidence limits of the probability; see :func:`stylobate.analysis.verdicts.collapse_interval`."""
+        """Confidence limits of the probability; see :func:`stylobate.analysis.unknown_law.share_limits`."""
+        return share_limits(self.verdicts.T, self.drawn.groups, self.confidence)
+
+    @property
+    def interval_of_columns(self) -> tuple[np.ndarray, np.ndarray]:
+        """The same as if the law of their joints were known."""
         return v.collapse_interval(*v.tally(self.verdicts, axis=0), self.confidence)
 
     @property
@@ -108,11 +115,13 @@ class CriticalPopulation(Shown):
         rows = {"amplitude_g": self.amplitudes / g, "factor": self.factors}
         rows |= {one: (self.verdicts == one).sum(axis=0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)}
         rows |= {"collapse_probability": self.probability, "collapse_interval_low": low, "collapse_interval_high": high}
+        if self.drawn.groups:
+            rows |= dict(zip(OF_COLUMNS, self.interval_of_columns, strict=True))
         return pandas.DataFrame(rows)
 
     def summary(self) -> dict[str, Any]:
         """Under the names of the JSON object of ``stylobate critical``; lists are over the amplitudes."""
-        low, high = self.interval
+        (low, high), of_columns = self.interval, self.interval_of_columns if self.drawn.groups else ()
         total = v.count(self.verdicts)
         return {
             "amplitudes_g": (self.amplitudes / g).tolist(),
@@ -120,6 +129,7 @@ class CriticalPopulation(Shown):
             "collapse_probability": self.probability.tolist(),
             "collapse_interval_low": low.tolist(),
             "collapse_interval_high": high.tolist(),
+            **{name: one.tolist() for name, one in zip(OF_COLUMNS, of_columns)},
             **{name: count.tolist() for name, count in self.counts.items()},
             "replicates": len(self.verdicts),
             "certainty": {

@@ -16,7 +16,7 @@ from ..response.words import doubt_of
 from . import verdicts as v
 from .debris import BodyOverTwins, bodies_over_twins, words_of_bodies
 from .directions import peak_of
-from .unknown_law import share_under_another_law
+from .unknown_law import share_limits
 
 if TYPE_CHECKING:
     import pandas
@@ -30,6 +30,9 @@ DISPLACEMENTS = (
 #: Twins that must stand before their largest and least displacement tell where a run belongs.
 ENOUGH = 8
 
+
+#: Interval in tables as if the law of the joints were known, where it is not.
+OF_COLUMNS = ("collapse_interval_of_columns_low", "collapse_interval_of_columns_high")
 
 #: Heading of a column of a table that holds :func:`chance_words`.
 CHANCE = "those like it that collapse"
@@ -75,30 +78,15 @@ class Population:
 
     @cached_property
     def interval(self) -> tuple[float, float]:
-        """Confidence limits of the probability of collapse; see :func:`stylobate.analysis.verdicts.collapse_interval`."""
-        low, high = self.interval_of_columns
-        if not self.drawn.groups:
-            return low, high
-        fell, open_, number = self._by_law
-        return (
-            min(low, share_under_another_law(fell, number, self.confidence)[0]),
-            max(high, share_under_another_law(fell + open_, number, self.confidence)[1]),
-        )
+        """Confidence limits of the probability of collapse; see :func:`stylobate.analysis.unknown_law.share_limits`."""
+        low, high = share_limits(np.array(self.verdicts), self.drawn.groups[: len(self.rows)], self.confidence)
+        return float(low), float(high)
 
     @cached_property
     def interval_of_columns(self) -> tuple[float, float]:
         """The same as if the law of their joints were known."""
         low, high = v.collapse_interval(*self._counts, self.confidence)
         return float(low), float(high)
-
-    @property
-    def _by_law(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Twins of each law that collapsed, that are undecided, and all that did not fail."""
-        group, said = np.array(self.drawn.groups), np.array(self.verdicts)
-        laws = range(int(group.max()) + 1)
-        counted = ((v.COLLAPSED,), (v.UNDECIDED,), (v.COLLAPSED, v.STANDS, v.UNDECIDED))
-        fell, open_, number = (np.array([np.isin(said[group == g], one).sum() for g in laws]) for one in counted)
-        return fell, open_, number
 
     @property
     def spread(self) -> dict[str, list[float] | None]:
@@ -182,6 +170,8 @@ class Population:
             "collapse_interval_high": high,
             "replicates": len(self.rows),
         }
+        if self.drawn.groups:
+            columns |= dict(zip(OF_COLUMNS, self.interval_of_columns, strict=True))
         columns |= {f"twins_{one}": number for one, number in self.counts.items() if one != v.NOT_RUN}
         name = next((one for one in DISPLACEMENTS if one in self.spread), DISPLACEMENTS[0])
         spread = self.spread.get(name)

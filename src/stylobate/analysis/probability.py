@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import store
+from ..campaign.unknown_laws import groups_of
 from ..column import Column
 from ..column.scatter import Scatter
 from ..constants import g
@@ -20,6 +21,7 @@ from ..notebook import Shown
 from ..version import __version__
 from . import verdicts as v
 from .domain import cell_edges, grid_coordinates
+from .unknown_law import share_limits
 
 if TYPE_CHECKING:
     import pandas
@@ -101,9 +103,9 @@ class CollapseProbability(Shown):
     def interval(self) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper confidence limit of the probability of collapse, each of shape (F, A).
 
-        See :func:`stylobate.analysis.verdicts.collapse_interval`.
+        See :func:`stylobate.analysis.unknown_law.share_limits`.
         """
-        return v.collapse_interval(*self._counts, self.confidence)
+        return share_limits(np.array(v.VERDICTS)[self.codes], groups_of(self.scatter, self.replicates), self.confidence)
 
     @property
     def kinds(self) -> np.ndarray:

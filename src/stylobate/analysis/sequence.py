@@ -25,6 +25,7 @@ from ..simulate import simulate
 from . import verdicts as v
 from .certainty import batch, certainty
 from .population import Population
+from .unknown_law import share_limits
 
 if TYPE_CHECKING:
     import pandas
@@ -159,6 +160,14 @@ class SequenceResult(Shown):
         return None if self.population is None else Count.of_rows(self.population.rows, spans_of(self.motion))
 
     @property
+    def _laws(self) -> tuple[int, ...]:
+        """Law of the joints of each of those like it that has a verdict; empty where all are of one."""
+        if self.population is None:
+            return ()
+        pairs = zip(self.population.rows, self.population.drawn.groups)
+        return tuple(law for row, law in pairs if v.verdict(row) != v.FAILED)
+
+    @property
     def table(self) -> pandas.DataFrame:
         """One row per earthquake; with replicates, the share of them that has fallen by then."""
         import pandas
@@ -167,10 +176,10 @@ class SequenceResult(Shown):
         falls = self.falls
         if falls is not None and falls.low and len(table):
             numbers = table["earthquake"].to_numpy()[:, None]
-            fell, stood = (np.array(falls.high) <= numbers).sum(axis=1), (np.array(falls.low) > numbers).sum(axis=1)
-            open_ = len(falls.low) - fell - stood
-            low, high = v.collapse_interval(fell, stood, open_)
-            share = v.share_collapsed(fell, stood, open_)
+            fell, stood = np.array(falls.high) <= numbers, np.array(falls.low) > numbers
+            verdicts = np.select([fell, stood], [v.COLLAPSED, v.STANDS], v.UNDECIDED)
+            low, high = share_limits(verdicts, self._laws)
+            share = v.share_collapsed(*v.tally(verdicts, axis=1))
             table = table.assign(fallen_share=share, fallen_share_low=low, fallen_share_high=high)
         return table
 
@@ -360,7 +369,7 @@ def earthquakes_until_fall(
     if not kinds:
         raise InputError("no motion is given; give at least one.", "motions")
     long = [in_sequence([one], rest, most) for one in kinds]
-    stands = the_twins(structure, model, campaign).columns if campaign.replicates else [structure]
+    stands = the_twins(structure, model, campaign, laws=False).columns if campaign.replicates else [structure]
     rows: list[dict] = []
     for motion in long:
         cases = [Case(one, motion) for one in stands]

@@ -12,8 +12,11 @@ counted, with m even from 0 to 1 before, and r as :data:`ALIKE`.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
+
+from . import verdicts as v
 
 #: Exponents of the density of r before anything is counted, (1 − r)³: its mean 0.2 is about that of the counts of other
 #: pages, 2, 18 and 0 of 24 (r = 0.5), 4, 10 and 1 of 16 (0.2), and 11 to 19 of 25 (0.05).
@@ -24,6 +27,31 @@ MEANS, CORRELATIONS = 61, 30
 
 #: Shares are told by hundredths: limits nearer to none or to all of the columns than that are none, and all.
 FINEST = 100
+
+
+def share_limits(
+    verdicts: np.ndarray, groups: Sequence[int], confidence: float = 0.95
+) -> tuple[np.ndarray, np.ndarray]:
+    """Confidence limits of the probability of collapse over twins of a column, whatever undecided ones come to.
+
+    Parameters
+    ----------
+    verdicts : array of str, shape (…, twins)
+    groups : sequence of int, shape (twins,)
+        Law of the joints of each; empty where all have that of the column. Limits are then those of
+        :func:`stylobate.analysis.verdicts.collapse_interval`, else they hold those under one more law as well.
+    confidence : float
+    """
+    low, high = v.collapse_interval(*v.tally(verdicts, axis=-1), confidence)
+    if not len(groups):
+        return low, high
+    low, high, law = np.array(low), np.array(high), np.eye(max(groups) + 1, dtype=int)[list(groups)]
+    kinds = ((v.COLLAPSED,), (v.COLLAPSED, v.UNDECIDED), (v.COLLAPSED, v.STANDS, v.UNDECIDED))
+    fell, may, number = (np.isin(verdicts, kind) @ law for kind in kinds)
+    for cell in np.ndindex(low.shape):
+        low[cell] = min(low[cell], share_under_another_law(fell[cell], number[cell], confidence)[0])
+        high[cell] = max(high[cell], share_under_another_law(may[cell], number[cell], confidence)[1])
+    return low, high
 
 
 def share_under_another_law(
@@ -37,18 +65,33 @@ def share_under_another_law(
         Columns that collapsed, and all of them, law by law.
     confidence : float
     """
-    from scipy.special import betainc, betaln
+    return _limits(tuple(sorted(zip(map(int, fell), map(int, number), strict=True))), confidence)
 
-    k, n = np.asarray(fell, dtype=float), np.asarray(number, dtype=float)
-    m = (np.arange(MEANS) + 0.5) / MEANS
-    r = (np.arange(CORRELATIONS) + 0.5) / CORRELATIONS
-    a, b = m[:, None] * (1.0 - r) / r, (1.0 - m[:, None]) * (1.0 - r) / r
+
+@lru_cache(maxsize=4096)
+def _limits(counted: tuple[tuple[int, int], ...], confidence: float) -> tuple[float, float]:
+    """The same of laws in any order; cells of a grid and amplitudes of a curve often count alike."""
+    from scipy.special import betaln
+
+    k, n = np.array(counted, dtype=float).T
+    a, b, before, shares, below_each = _before()
     seen = sum(betaln(a + one, b + all_ - one) - betaln(a, b) for one, all_ in zip(k, n, strict=True))
-    weight = np.exp(seen - np.max(seen)) * (1.0 - r) ** ALIKE
-    weight /= weight.sum()
-    shares = np.arange(1, FINEST) / FINEST
-    below = np.array([float((weight * betainc(a, b, x)).sum()) for x in shares])
+    weight = np.exp(seen - np.max(seen)) * before
+    below = np.tensordot(below_each, weight / weight.sum(), axes=2)
     outside = 0.5 * (1.0 - confidence)
     low = 0.0 if below[0] > outside or not k.sum() else float(np.interp(outside, below, shares))
     high = 1.0 if below[-1] < 1.0 - outside or k.sum() == n.sum() else float(np.interp(1.0 - outside, below, shares))
     return low, high
+
+
+@lru_cache(maxsize=1)
+def _before() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Exponents of the beta distributions over m and r, their weight before anything is counted, and how much of each lies
+    below every share that is told."""
+    from scipy.special import betainc
+
+    m = (np.arange(MEANS) + 0.5) / MEANS
+    r = (np.arange(CORRELATIONS) + 0.5) / CORRELATIONS
+    a, b = m[:, None] * (1.0 - r) / r, (1.0 - m[:, None]) * (1.0 - r) / r
+    shares = np.arange(1, FINEST) / FINEST
+    return a, b, (1.0 - r) ** ALIKE, shares, np.array([betainc(a, b, x) for x in shares])

@@ -147,7 +147,9 @@ class Study:
         """The columns as they stand: by model, column and realisation."""
         if not self.campaign.replicates:
             return [[[column] for column in self.columns] for _ in self.models]
-        return [[the_twins(one, model, self.campaign).columns for one in self.columns] for model in self.models]
+        return [
+            [the_twins(one, model, self.campaign, laws=False).columns for one in self.columns] for model in self.models
+        ]
 
     @cached_property
     def quiet(self) -> np.ndarray:

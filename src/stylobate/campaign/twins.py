@@ -12,14 +12,14 @@ from ..column.twins import drawn_twins
 from ..errors import InputError, check_kind
 from ..models.base import Model
 from .campaign import MAX_TWINS, Campaign
-from .unknown_laws import OF_ROUND, PARTS, drawn_laws
+from .unknown_laws import OF_ROUND, PARTS, drawn_laws, usual_with_laws
 
 
 class Twins(NamedTuple):
     """Columns like one, or assemblies, that a model can take: scatter, seed, what of it is left out, what they are.
 
     ``reduced`` is the number of assemblies whose offsets were halved or left out because their stones would have overlapped;
-    ``groups`` the law of the joints of each, where it varies.
+    ``groups`` the law of the joints of each, where it varies; ``one_law`` says that it could and does not.
     """
 
     columns: Sequence[Any]
@@ -29,6 +29,7 @@ class Twins(NamedTuple):
     like: str = "columns"
     reduced: int | None = None
     groups: tuple[int, ...] = ()
+    one_law: bool = False
 
     @property
     def words(self) -> str:
@@ -36,7 +37,8 @@ class Twins(NamedTuple):
         reduced = (
             f"; in {self.reduced} the offsets are halved or left out, as stones would overlap" if self.reduced else ""
         )
-        return described(len(self.columns), self.scatter, self.seed, self.left_out) + reduced
+        law = "; the law of their joints is taken as known" if self.one_law else ""
+        return described(len(self.columns), self.scatter, self.seed, self.left_out) + reduced + law
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -47,6 +49,7 @@ class Twins(NamedTuple):
             "left_out": list(self.left_out),
             "seed": self.seed,
             **({"laws": len(set(self.groups))} if self.groups else {}),
+            **({"law_taken_as_known": True} if self.one_law else {}),
             **({} if self.reduced is None else {"offsets_reduced": self.reduced}),
         }
 
@@ -61,8 +64,12 @@ def without(left_out: Sequence[str]) -> str:
     return f", without {', '.join(left_out).replace('_', ' ')}, which the model does not take" if left_out else ""
 
 
-def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: bool = True) -> Twins:
-    """Twins of a column that the model can take; not ``alone`` where more than the columns differs."""
+def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: bool = True, laws: bool = True) -> Twins:
+    """Twins of a column that the model can take; not ``alone`` where more than the columns differs.
+
+    Where no scatter is asked for, those of columns in space differ by the ``laws`` of their joints as well, unless what is
+    made of them takes these as known.
+    """
     check_kind("column", column, Structure)
     check_kind("model", model, Model)
     stands, replicates, seed = column.stack or column, campaign.replicates, campaign.seed
@@ -74,7 +81,8 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
         )
     if not replicates:
         raise InputError(f"replicates is 0; allowed is a whole number from 1 to {MAX_TWINS}.")
-    asked = usual_scatter(stands) if campaign.scatter is None else campaign.scatter
+    usual = usual_with_laws(stands, model) if laws else usual_scatter(stands)
+    asked = usual if campaign.scatter is None else campaign.scatter
     if unknown := [name for name in asked.given if name not in stands.scattered]:
         raise InputError(
             f"the scatter has {' and '.join(unknown).replace('_', ' ')}, by which twins of {column.described} such as "
@@ -89,15 +97,16 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
             f"nothing scatters{why}; give at least one coefficient of variation above 0, such as friction=10%."
         )
     space = not model.is_plane(model.parameters())
-    laws = drawn_laws(stands, model, size, replicates, seed) if any(getattr(size, name) for name in PARTS) else None
-    stiffness = None if laws is None else laws.stiffness
+    of_laws = drawn_laws(stands, model, size, replicates, seed) if any(getattr(size, name) for name in PARTS) else None
+    stiffness = None if of_laws is None else of_laws.stiffness
     drawn = drawn_twins(stands, size, replicates, seed, space=space, stiffness=stiffness)
     reduced = None if stands.space_joints is None else sum(share < 1.0 for _, share in drawn)
     twins = [one for one, _ in drawn]
-    if laws is None:
-        return Twins(twins, size, seed, left_out, stands.like, reduced)
-    twins = [one.unwarned(losses=losses) for one, losses in zip(twins, laws.losses, strict=True)]
-    return Twins(twins, size, seed, left_out, stands.like, reduced, laws.groups)
+    if of_laws is None:
+        one_law = stands.stack is not None and usual_with_laws(stands, model) != usual_scatter(stands)
+        return Twins(twins, size, seed, left_out, stands.like, reduced, one_law=one_law)
+    twins = [one.unwarned(losses=losses) for one, losses in zip(twins, of_laws.losses, strict=True)]
+    return Twins(twins, size, seed, left_out, stands.like, reduced, of_laws.groups)
 
 
 def _not_taken(stands: Structure, model: Model) -> tuple[str, ...]:

@@ -49,10 +49,10 @@ class Laws(NamedTuple):
     losses: tuple[Losses, ...]
 
 
-def usual_in_space(structure: Structure) -> Scatter:
-    """Scatter of columns like this one in space where nobody states it: of what a survey does not know, and of the laws."""
+def usual_with_laws(structure: Structure, model: Model) -> Scatter:
+    """Scatter of what stands where nobody states it: of what a survey does not know, and of the laws of joints in space."""
     usual, column = usual_scatter(structure), structure.stack
-    if column is None:
+    if column is None or not model.varies_law or model.is_plane(model.parameters()):
         return usual
     laws: dict[str, Any] = {"joint_stiffness": 1.0, "stiffness_damping": 0.8}
     if column.section == "circular":
@@ -61,12 +61,17 @@ def usual_in_space(structure: Structure) -> Scatter:
     return dataclasses.replace(usual, **laws)
 
 
+def groups_of(size: Scatter, number: int) -> tuple[int, ...]:
+    """Law of each of so many twins; empty where all have that of their column."""
+    return tuple(k // PER_LAW for k in range(number)) if any(getattr(size, name) for name in PARTS) else ()
+
+
 def drawn_laws(column: Structure, model: Model, size: Scatter, number: int, seed: int) -> Laws:
     """Laws of so many twins of a column; law g of a seed is the same for any number of them."""
     from scipy.special import ndtri
 
     acting: Any = model.acting(column)  # type: ignore[attr-defined]
-    groups = np.arange(number) // PER_LAW
+    groups = np.array(groups_of(size, number))
     stream = np.random.default_rng([seed, 1])
     even = (stream.random(4) + np.outer(groups + 1, EVENLY ** -np.arange(1.0, 5.0))) % 1.0
     common = np.clip(ndtri(even[:, :3]), -WITHIN, WITHIN)
@@ -80,4 +85,4 @@ def drawn_laws(column: Structure, model: Model, size: Scatter, number: int, seed
     other = {one: LAWS[1 - i] for i, one in enumerate(LAWS)}[acting.law]
     law = np.where(even[:, 3] < size.law, other, acting.law)
     losses = tuple(Losses(*each) for each in zip(beta.tolist(), c.tolist(), law.tolist(), strict=True))
-    return Laws(tuple(groups.tolist()), common[:, 2], losses)
+    return Laws(groups_of(size, number), common[:, 2], losses)
