@@ -14,6 +14,7 @@ from ..outcome import Outcome
 from . import options as o
 
 if TYPE_CHECKING:
+    from ..analysis.other_laws import OtherLaws
     from ..analysis.population import Population
     from ..campaign.campaign import Campaign, Progress
     from ..column.structure import Structure
@@ -191,6 +192,7 @@ def conclude(
 ) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..analysis.directions import direction_of
+    from ..analysis.other_laws import other_laws
     from ..motion.writing import write_csv
     from . import console
     from .files import files as files_of
@@ -209,6 +211,11 @@ def conclude(
             summary |= population.summary(summary)
         elif response.measures.blocks is not None:  # carried along by no run
             summary["replicates"] = 0
+        laws = None
+        if population is not None and not population.drawn.groups and not _followed(follow):
+            laws = other_laws(response, motion, model, campaign)
+        if laws is not None:
+            summary |= {"other_laws": laws.verdicts, "law_changes_verdict": laws.changes}
         if files.folder is not None:
             files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
             if population is not None:
@@ -216,8 +223,13 @@ def conclude(
             files.asked(structures=[stone], models=[model], motions=[taken])
             files.summary(summary, "run.json")
     if not quiet:
-        describe(response, taken, files, population)
+        describe(response, taken, files, population, laws)
     return summary
+
+
+def _followed(follow: partial[tuple[Response, Population | None]]) -> bool:
+    """Whether a run is followed beyond its tail."""
+    return bool(follow.keywords.get("until_end") or follow.keywords.get("until_rest"))
 
 
 def write_population(
@@ -266,7 +278,13 @@ def write(response: Response, motion: Motion, folder: Path, figures: bool = True
     return files
 
 
-def describe(response: Response, motion: Motion, files: list[Path], population: Population | None = None) -> None:
+def describe(
+    response: Response,
+    motion: Motion,
+    files: list[Path],
+    population: Population | None = None,
+    laws: OtherLaws | None = None,
+) -> None:
     """Print the verdict for people."""
     from ..response.words import doubt_of, opening_words
     from . import console
@@ -279,6 +297,9 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
     elif response.structure.scattered and response.measures.blocks is not None:
         facts["certainty"] = "one run, of exactly these stones; --replicates 15 runs assemblies like it as well"
     doubt = doubt_of(response) if population is None else population.doubt_about(response)
+    if laws is not None:
+        doubt = console.in_options(laws.sentence) or doubt
+        facts["under other laws"] = laws.words
     sentence = f"{sentence} {doubt}".rstrip()
     if opens := opening_words(response.provenance.get("opening")):
         what["rocks at"] = opens
