@@ -8,27 +8,34 @@ from scenes import DENSITY, FRICTION, Run, Scene
 import stylobate as st
 
 VERSION = st.__version__
-VARIANTS = {"stylobate": (0.0, 5e10), "stylobate, β = 10⁻⁴ s": (1e-4, 5e10), "stylobate, β = 10⁻³ s": (1e-3, 5e10)}
+STIFFNESS = 5e10
+VARIANTS = {
+    "stylobate": {},
+    "stylobate, β = 10⁻⁴ s": {"stiffness_damping": 1e-4},
+    "stylobate, β = 10⁻³ s": {"stiffness_damping": 1e-3},
+    "stylobate, losses of stone": {"losses": "stone"},
+    "stylobate, rigid beam": {},
+}
 SETTINGS = (
     "dem2d (plane) and dem3d (released or round, pivot friction 0), k_n 5e10 and k_s 2.5e10 N/m³, steps of 0.4 of the "
-    "largest stable one; no damping, or dashpots of 0.1 or 1 ms"
+    "largest stable one; no damping, dashpots of 0.1 or 1 ms, or "
+    "losses = stone; rigid-beam with true drums and joints as stiff"
 )
 
 
 def engine(variant: str):
     """A function that runs a scene."""
-    damping, stiffness = VARIANTS[variant]
+    beam, losses = variant.endswith("beam"), VARIANTS[variant]
 
     def run(scene: Scene) -> Run:
         column = st.Column.of_drums(
-            [drum(body) for body in scene.bodies], st.Joint(stiffness, 0.5 * stiffness, friction_coefficient=FRICTION)
+            [drum(body) for body in scene.bodies], st.Joint(STIFFNESS, 0.5 * STIFFNESS, friction_coefficient=FRICTION)
         )
         flat = scene.bodies[0].shape == "block" and not any(scene.omega)
-        model = (
-            st.DistinctElement2D(stiffness_damping=damping)
-            if flat
-            else st.DistinctElement3D(stiffness_damping=damping, pivot_friction=0.0)
-        )
+        if beam:
+            model = st.RigidBeam()
+        else:
+            model = st.DistinctElement2D(**losses) if flat else st.DistinctElement3D(pivot_friction=0.0, **losses)
         samples = 0.002 * np.arange(round(scene.duration / 0.002) + 1)
         x, y = scene.acceleration(samples)
         motion = st.Motion(0.002, x, None if flat or not y.any() else y)

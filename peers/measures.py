@@ -174,11 +174,11 @@ def verdicts(run: Engine, bodies, cells) -> dict[str, bool]:
     return {cell(f, a): collapsed(shaken(run, bodies, f, a), bodies) for f, a in cells}
 
 
-def plane(run: Engine, few: bool = False) -> dict:
-    """All plane cases; few cells with drums where asked for."""
+def plane(run: Engine, few: bool = False, free: bool = True) -> dict:
+    """All plane cases; few cells with drums where asked for, none that is set free where an engine only shakes."""
     cells = [(f, a) for f in FREQUENCIES for a in AMPLITUDES]
     static = {"static": static_threshold(run, column(1), 0.5 * BOTTOM / BLOCK.below)}
-    out: dict = static | released(run)
+    out: dict = static | (released(run) if free else {})
     for name, bodies in (("monolith", column(1)), ("drums", column(12))):
         seen = shaken(run, bodies, 1.0, 0.3, rest=0.0)
         chosen = FEW if few and name == "drums" else cells

@@ -29,7 +29,7 @@ def main(name: str, variant: str, part: str, file: str) -> None:
     module = importlib.import_module(f"engine_{name}")
     run = module.engine(variant)
     if part == "plane":
-        found = measures.plane(run, few=name != "stylobate")
+        found = measures.plane(run, few=name != "stylobate", free=not variant.endswith("beam"))
     elif part == "drums":
         found = measures.round_stack(run)
     elif part == "passes":

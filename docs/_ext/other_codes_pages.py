@@ -12,6 +12,7 @@ def texts(out):
         (out / "peers_verdicts.md", other_engines.verdict_table()),
         (out / "peers_round.md", other_engines.round_table()),
         (out / "peers_passes.md", other_engines.passes_table()),
+        (out / "peers_within.md", other_engines.within_table()),
     ]
 
 

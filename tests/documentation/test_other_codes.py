@@ -14,6 +14,9 @@ from validation.space import cylinder, rolling
 from stylobate.analysis import verdicts
 from stylobate.column import Drum
 
+#: It is shaken in the plane only.
+BEAM = "stylobate, rigid beam"
+
 REPOSITORY = Path(__file__).parents[2]
 
 
@@ -33,8 +36,8 @@ def test_the_stored_table_has_date_versions_and_every_part():
     for name, one in stored["engines"].items():
         assert one["version"]
         assert one["settings"]
-        assert set(one["parts"]) == {"passes"} if name in engines.EXPERIMENTS else {"plane"} < set(one["parts"])
-    assert set(engines.passing()) == {*engines.LINES, *engines.EXPERIMENTS} - {"LMGC90"}
+        assert set(one["parts"]) == {"passes"} if name in engines.EXPERIMENTS else {"plane"} <= set(one["parts"])
+    assert set(engines.passing()) == {*engines.LINES, *engines.EXPERIMENTS} - {"LMGC90", BEAM}
     assert not re.search(r"://|(?<!\w)/\w+/", engines.FILE.read_text(encoding="utf-8"))
 
 
@@ -50,7 +53,7 @@ def test_stored_thresholds_are_those_of_this_code():
 
 
 def test_what_the_page_says_of_statics_and_of_free_rocking():
-    for variant in engines.LINES:
+    for variant in engines.LINES.keys() - {BEAM}:
         seen = engines.parts(variant)["plane"]
         assert abs(seen["static"] - 1.0) < 0.01
         assert abs(seen["quarter"] - 1.0) < 0.01
@@ -66,7 +69,8 @@ def test_what_the_page_says_of_passes_nearly_in_a_plane():
     assert engines.STRUCK == pytest.approx(struck(), abs=5e-4)
     exact = aside_of_rigid_rolling(0.1)
     for one, seen in engines.passing().items():
-        assert seen["aside"][0] == pytest.approx(exact, abs=5e-3), one
+        if one != "stylobate, losses of stone":  # which resist rolling
+            assert seen["aside"][0] == pytest.approx(exact, abs=5e-3), one
     for one in ("MuJoCo, stiff contact", "PyBullet"):
         assert seen_in_plane(one) == pytest.approx(engines.STRUCK, abs=5e-3)
 
@@ -152,3 +156,19 @@ def test_what_is_measured_of_a_run(peers):
     assert measures.collapsed(fallen, scenes.column(1))
     stands = scenes.Run(t[:2], np.full((2, 1, 3), (0.0, 0.0, scenes.column(1)[0].below)), upright, 0.0)
     assert not measures.collapsed(stands, scenes.column(1))
+
+
+def test_what_the_page_says_of_round_columns_after_an_impact_and_of_the_rigid_beam():
+    """By default and with losses of stone, 70 % of the cases or more lie within the spread of the other engines."""
+    shares = {}
+    for variant in ("stylobate", "stylobate, losses of stone"):
+        counts = [count for name, count in engines.within(variant).items() if name.startswith("round")]
+        shares[variant] = tuple(map(sum, zip(*counts, strict=True)))
+        assert shares[variant][0] >= 0.7 * shares[variant][1]
+    assert list(shares.values()) == [(28, 36), (35, 36)]
+    stone = engines.passing()["stylobate, losses of stone"]
+    assert engines.fallen("stylobate, losses of stone") == 0
+    assert all(round(stone["kept"][k], 2) == 0.84 for k in (2, 3, 4, 5))
+    assert stone["growth"][-1] < 0.0
+    same = [engines.agreeing(BEAM, "plane", column) for column in ("monolith", "drums")]
+    assert [one.split(" (")[0] for one in same] == ["14 of 18", "7 of 18"]

@@ -12,9 +12,12 @@ from stylobate.plots.style import BLACK, BLUE, GREY, RED, WIDTH, styled, zero_li
 
 FILE = Path(__file__).parents[2] / "peers" / "results.json"
 
-LINES = {
+#: Variants in all tables, and their lines in the pictures; the rigid beam, whose swings are ten times as large, has none.
+LINES: dict[str, dict] = {
     "stylobate": {"color": RED, "marker": "s"},
     "stylobate, β = 10⁻⁴ s": {"color": "#e08214", "marker": "D"},
+    "stylobate, losses of stone": {"color": "#7f3b08", "marker": "*"},
+    "stylobate, rigid beam": {},
     "MuJoCo, stiff contact": {"color": BLUE, "marker": "o"},
     "MuJoCo, default contact": {"color": "#92c5de", "marker": "o"},
     "PyBullet": {"color": "#5aae61", "marker": "^"},
@@ -104,7 +107,9 @@ def plane_table() -> str:
             continue
         both = [", ".join(f"{one:.3f}" for one in swings(variant, name)[:5]) for name in ("monolith", "drums")]
         seconds = " / ".join(f"{seen[name]['wall']:.2g}" for name in ("monolith", "drums"))
-        rows.append([variant, *(number(seen[key]) for key in ("static", "quarter", "kept")), *both, seconds])
+        rows.append(
+            [variant, *(number(seen.get(key, math.nan)) for key in ("static", "quarter", "kept")), *both, seconds]
+        )
     return markdown(head, rows)
 
 
@@ -197,6 +202,48 @@ def passes_table() -> str:
     return markdown(head, rows)
 
 
+#: Swings after an impact, by what they are called in the table: of the monolith and of drums in the plane; of a round column
+#: what half a turn keeps of its energy, the largest displacement over six imperfections, and of a population of 24.
+AFTER_IMPACT = (
+    "monolith, swings",
+    "12 drums, swings",
+    "round: a pass keeps",
+    "round: largest swing",
+    "round: population",
+)
+
+
+def after_impact(variant: str) -> dict[str, list[float]]:
+    """What a variant finds after an impact, case by case, by the names of :data:`AFTER_IMPACT`."""
+    plane, passed = parts(variant).get("plane", {}), parts(variant).get("passes", {})
+    found = [[abs(one) for one in swings(variant, name)[:5]] if name in plane else [] for name in ("monolith", "drums")]
+    found += [passed.get("kept", []), parts(variant).get("0", {}).get("peaks", []), passed.get("population", [])]
+    return {name: [float(one) for one in some] for name, some in zip(AFTER_IMPACT, found, strict=True)}
+
+
+def within(variant: str) -> dict[str, tuple[int, int]]:
+    """In how many cases a variant of ours lies between the least and the largest of the other engines, and of how many."""
+    others = [after_impact(one) for one in results()["engines"] if not one.startswith("stylobate")]
+    counts = {}
+    for name, mine in after_impact(variant).items():
+        told = [(x, [one[name][k] for one in others if k < len(one[name])]) for k, x in enumerate(mine)]
+        cases = [(x, all_) for x, all_ in told if len(all_) > 1]
+        counts[name] = sum(min(all_) <= x <= max(all_) for x, all_ in cases), len(cases)
+    return counts
+
+
+def within_table() -> str:
+    """Cases after an impact in which ours lie within the spread of the other engines."""
+    rows = []
+    for variant in (one for one in results()["engines"] if one.startswith("stylobate")):
+        counts = within(variant)
+        around = [counts[name] for name in AFTER_IMPACT if name.startswith("round")]
+        whole = tuple(map(sum, zip(*around, strict=True)))
+        told = [f"{hit} of {of}" if of else "–" for hit, of in (*counts.values(), whole)]
+        rows.append([variant, *told[:-1], f"{told[-1]} ({100 * whole[0] / whole[1]:.0f} %)" if whole[1] else "–"])
+    return markdown(["here", *AFTER_IMPACT, "round, together"], rows)
+
+
 @styled
 def passes_compared() -> Figure:
     """Energy kept in one pass over the precession it starts with, and how many columns collapse over what one pass keeps."""
@@ -230,7 +277,7 @@ def engines_compared() -> Figure:
     grid = figure.subplots(2, 2)
     for axes, name, title in ((grid[0, 0], "monolith", "monolith"), (grid[0, 1], "drums", "12 drums")):
         for variant, line in LINES.items():
-            if name in parts(variant).get("plane", {}):
+            if line and name in parts(variant).get("plane", {}):
                 row = swings(variant, name)
                 axes.plot(range(1, len(row) + 1), row, markersize=4, label=variant, **line)
         axes.set(xlabel="swing", ylabel="largest displacement of the top [m]", title=f"Plane, 1 Hz, 0.3 g: {title}")
