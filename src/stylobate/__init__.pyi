@@ -5,6 +5,7 @@ from .analysis.calibrate import calibrate as calibrate
 from .analysis.certainty import certainty as certainty
 from .analysis.compare import compare_models as compare_models
 from .analysis.critical import critical_amplitude as critical_amplitude
+from .analysis.design_values import design_values as design_values
 from .analysis.domain import collapse_domain as collapse_domain
 from .analysis.evidence import evidence as evidence
 from .analysis.fragility import fragility as fragility
