@@ -51,6 +51,7 @@ from .column.links import Dowel as Dowel
 from .column.links import Layer as Layer
 from .column.links import Pad as Pad
 from .column.links import Tie as Tie
+from .column.links.anchorage import stone_at_anchor as stone_at_anchor
 from .column.loss_files import read_losses as read_losses
 from .column.losses import Losses as Losses
 from .column.scatter import Scatter as Scatter

@@ -120,21 +120,23 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
 
 
 def worst_of(values: pandas.DataFrame, share: float = 0.84) -> pandas.DataFrame:
-    """Of every link of every state at the largest level the quantity that is used most; links used most come first.
+    """What has a capacity, at the largest level of every state; links that are used most come first.
+
+    A ductile link at its capacity is judged by its slip, so that all quantities of a link stay together.
 
     Parameters
     ----------
     values : pandas.DataFrame
-        As of :func:`design_values`; links without capacity are left out.
+        As of :func:`design_values`.
     share : float
         Fractile [-].
     """
-    key = f"{100 * share:g}"
-    known: Any = values[values[f"use_value_{key}"].notna()]
-    order = _at_largest_level(known).sort_values(
-        [f"use_value_{key}", f"use_high_{key}"], ascending=False, kind="stable"
-    )
-    return order.drop_duplicates(["state", "link"])
+    key = f"use_value_{100 * share:g}"
+    known: Any = values[values[key].notna()]
+    known = _at_largest_level(known)
+    known = known.assign(most=known.groupby(["state", "link"])[key].transform("max"))
+    known = known.sort_values(["state", "most", "link", key], ascending=[True, False, True, False], kind="stable")
+    return known.drop(columns="most")
 
 
 def clearances(values: pandas.DataFrame) -> pandas.DataFrame:

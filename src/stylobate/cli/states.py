@@ -110,7 +110,7 @@ def states(
 
 
 def _describe_design(designed: pandas.DataFrame) -> None:
-    """Print the links that are used most, and the clearance that layers need; nothing where there are none."""
+    """Print the links used most of every state, and the clearance that layers need; nothing where there are none."""
     import pandas
 
     from ..analysis.design_values import clearances, worst_of
@@ -121,7 +121,7 @@ def _describe_design(designed: pandas.DataFrame) -> None:
     words = "not exceeded under 84 % of the motions, with the 95 % interval over records."
     if len(worst := worst_of(designed)):
         print(f"Design values at the largest level: {words}")
-        some = worst.groupby("state", sort=False).head(3)
+        some = worst.groupby("state", sort=False).head(6)
         told: dict[str, Any] = {key: some[key] for key in ("state", "link", "quantity", "unit")}
         told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
         told |= {"over capacity": some["use_value_84"], "at most": some["use_high_84"]}

@@ -13,13 +13,13 @@ from .style import CYCLE, GREY, WIDTH, page, plain, styled
 if TYPE_CHECKING:
     import pandas
 
-#: Most links in a picture.
+#: Most rows in a picture, as many of every state.
 MOST = 24
 
 
 @styled
 def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure | None = None) -> Figure:
-    """Links at the largest level, of each the quantity that is used most: a dot, its 95 % interval, and capacity at 1.
+    """Links at the largest level, those used most: a dot, its 95 % interval, and capacity at 1.
 
     An arrow: the upper limit is beyond all that was computed; without a dot, so is the value itself.
 
@@ -30,7 +30,8 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     figure : matplotlib figure or subfigure, optional
         Where to draw.
     """
-    shown = worst_of(values).head(MOST)
+    found = worst_of(values)
+    shown = found.groupby("state", sort=False).head(max(MOST // max(len(set(found["state"])), 1), 1))
     figure = page(figure, (WIDTH, 1.5 + 0.27 * len(shown)))
     axes = figure.subplots()
     value, low, high = (shown[f"use_{which}_84"].to_numpy(dtype=float) for which in ("value", "low", "high"))

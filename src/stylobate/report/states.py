@@ -162,7 +162,7 @@ def _design(result: Numbers) -> list[Item]:
 #: Caption of the table of design values.
 DESIGN = (
     "Design values at the largest level: what 84 % of the motions do not exceed, its 95 % interval over records, and both "
-    "over the capacity; of each link the quantity that is used most. inf: beyond all that was computed, because runs "
+    "over the capacity; links used most come first. inf: beyond all that was computed, because runs "
     "collapse or lose the link, or there are fewer than 21 records. design.csv holds every level, quantity, and 50 and 95 %."
 )
 
