@@ -5,6 +5,7 @@ from .analysis.calibrate import calibrate as calibrate
 from .analysis.certainty import certainty as certainty
 from .analysis.compare import compare_models as compare_models
 from .analysis.critical import critical_amplitude as critical_amplitude
+from .analysis.design_values import design_values as design_values
 from .analysis.domain import collapse_domain as collapse_domain
 from .analysis.evidence import evidence as evidence
 from .analysis.fragility import fragility as fragility
@@ -51,6 +52,7 @@ from .column.links import Dowel as Dowel
 from .column.links import Layer as Layer
 from .column.links import Pad as Pad
 from .column.links import Tie as Tie
+from .column.links.anchorage import stone_at_anchor as stone_at_anchor
 from .column.loss_files import read_losses as read_losses
 from .column.losses import Losses as Losses
 from .column.scatter import Scatter as Scatter

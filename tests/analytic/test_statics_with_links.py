@@ -115,6 +115,27 @@ def test_what_a_dowel_must_hold_by_hand(joint, capacities, least, yields, idle):
         assert [one.idle for one in found.links] == idle
 
 
+@pytest.mark.parametrize(
+    ("joint", "capacities", "largest"),
+    [
+        (ROUGH, [5.5e3], [5.5e3]),  # friction carries alone, and may as well leave all the capacity to the dowel
+        (ROUGH, [1e6], [0.95 * WEIGHT]),  # friction the other way adds to the push: (1/4 + 0.7) W
+        (SMOOTH, [2e4], [2e4]),
+        (SMOOTH, [1e6], [0.35 * WEIGHT]),  # (1/4 + 0.1) W
+        (SMOOTH, [1e6, 1e4], [0.35 * WEIGHT + 1e4, 1e4]),  # and the other dowel holds the other way
+    ],
+)
+def test_the_most_that_a_dowel_may_hold_by_hand(joint, capacities, largest):
+    """Largest force at the multiplier, rocking at 1/4: push, friction and the other dowel against it; 1e-6 beside 1e-9."""
+    dowels = [st.Dowel(shear_capacity=one, **DOWEL) for one in capacities]
+    column = with_links(st.Column.of_drums(BLOCK.drums, joint), *dowels)
+    for direction in (0.0, 180.0):
+        found = limit_analysis(column, direction=direction)
+        assert found.multiplier == pytest.approx(0.25, rel=1e-9)
+        assert [one.largest for one in found.links] == pytest.approx(largest, rel=1e-6)
+        assert all(abs(one.force) <= one.largest and not one.yields for one in found.links)
+
+
 def test_a_column_that_friction_carries_is_not_said_to_use_its_dowels(tmp_path, capsys):
     """Twelve drums that overturn about the base: no dowel need act, in the plane and round in space."""
     column = st.preset("paper-12-drums")
@@ -124,6 +145,11 @@ def test_a_column_that_friction_carries_is_not_said_to_use_its_dowels(tmp_path, 
     assert call(["limit", str(file)]) == 0
     said = capsys.readouterr().out
     assert said.count("need not act (capacity 5488 N)") == 11
+    # what a joint can take back from a dowel is the push on what lies above, and friction the other way
+    found = limit_analysis(column)
+    load = (found.multiplier + np.array(column.friction)) * np.array(column.joint_weights)
+    assert [one.largest for one in found.links] == pytest.approx(np.minimum(load[1:], 5488.0), rel=1e-6)
+    assert said.count("other answers have up to 5488 N") == 10
     assert "yields" not in said
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,7 +14,15 @@ from ..column.structure import Structure
 from ..errors import InputError, check_choice, check_kind
 from ..models.rigid_block.block_stack import BlockStack
 from .least_forces import Borne, Needed, needed_forces
-from .limit_programmes import ACTIVE, Facets, equilibrium_matrix, kinematic_bound, non_associated, static_bound
+from .limit_programmes import (
+    ACTIVE,
+    Facets,
+    equilibrium_matrix,
+    kinematic_bound,
+    largest_forces,
+    non_associated,
+    static_bound,
+)  # fmt: skip
 from .static_loads import check_standing, crushing_forces, gravity_forces, horizontal_forces
 
 FLOWS = ("non-associated", "associated")
@@ -53,6 +62,8 @@ class LinkForce:
         Whether it holds all its capacity in every answer.
     idle : bool
         Whether it need not act; all links that are idle may be left out together.
+    largest : float
+        The most that it holds in any answer [N], infinite where nothing limits it; NaN where it is not computed, in space.
     """
 
     name: str
@@ -61,6 +72,7 @@ class LinkForce:
     capacity: float
     yields: bool
     idle: bool
+    largest: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -201,7 +213,8 @@ def limit_analysis(
     if stack.links:
         capacity = np.array([link.capacity for link in stack.links])
         needed = needed_forces(lambda some, _: bear(Facets(stack.with_capacities(some))), capacity, whole)
-        forces, links = needed.forces, link_forces(stack.links, needed)
+        largest = largest_forces(equilibrium, dead, live, facets, lower, strength)
+        forces, links = needed.forces, link_forces(stack.links, needed, largest)
     upper, rates, multipliers = kinematic_bound(equilibrium, dead, live, facets)
     other = non_associated(equilibrium, live, facets, forces) if flow == "non-associated" else None
     if other is not None:
@@ -211,14 +224,11 @@ def limit_analysis(
     return _result(stack, lower, upper, forces, rates / control, multipliers / control, facets, shown, links)
 
 
-def link_forces(links: Sequence[Any], needed: Needed) -> tuple[LinkForce, ...]:
-    """Demand on the links of a programme, which have a name, an action and a capacity."""
-    return tuple(
-        LinkForce(
-            link.name, link.action, float(needed.least[k]), link.capacity, bool(needed.yields[k]), bool(needed.idle[k])
-        )
-        for k, link in enumerate(links)
-    )
+def link_forces(links: Sequence[Any], needed: Needed, largest: np.ndarray | None = None) -> tuple[LinkForce, ...]:
+    """Demand on the links of a programme, which have a name, an action and a capacity; the most of it [N] where known."""
+    most = np.full(len(links), math.nan) if largest is None else np.maximum(largest, np.abs(needed.least))
+    told = zip(links, needed.least.tolist(), needed.yields.tolist(), needed.idle.tolist(), most.tolist(), strict=True)
+    return tuple(LinkForce(link.name, link.action, least, link.capacity, *rest) for link, least, *rest in told)
 
 
 def towards(column: Column | BlockStack, direction: float) -> BlockStack:

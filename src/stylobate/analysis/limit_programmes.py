@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from .static_loads import contact_limits
 
 #: Strength counts as used up when less than this share of it is left [-].
 ACTIVE = 1e-7
+
+#: A multiplier stays if it falls by no more than this share of itself [-].
+STAYS = 1e-9
 
 _TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 
@@ -113,22 +117,8 @@ def static_bound(
     equilibrium: np.ndarray, dead: np.ndarray, live: np.ndarray, facets: Facets
 ) -> tuple[float, np.ndarray, np.ndarray]:
     """Largest λ in equilibrium with admissible forces (lower bound theorem), these forces, and ∂λ/∂k of the facets [1/N]."""
-    from scipy.optimize import linprog
-
-    size = len(equilibrium)
     scale = np.abs(dead).max()
-    balance = np.column_stack((equilibrium.T, live.ravel() / scale))
-    strength = np.column_stack((facets.matrix(), np.zeros(len(facets.rows))))
-    found = linprog(
-        np.append(np.zeros(size), -1.0),
-        A_ub=strength,
-        b_ub=np.array(facets.bound) / scale,
-        A_eq=balance,
-        b_eq=-dead.ravel() / scale,
-        bounds=(None, None),
-        method="highs",
-        options=_TIGHT,
-    )
+    found = _admissible(equilibrium, dead, live, facets, np.append(np.zeros(len(equilibrium)), -1.0))
     if found.status == 3:
         endless = [link.name for link in facets.stack.links if link.capacity == np.inf and link.strength]
         raise InputError(
@@ -136,6 +126,56 @@ def static_bound(
         )
     _check_solved(found, "static")
     return float(found.x[-1]), found.x[:-1] * scale, -found.ineqlin.marginals / scale
+
+
+def largest_forces(
+    equilibrium: np.ndarray, dead: np.ndarray, live: np.ndarray, facets: Facets, multiplier: float, strength: np.ndarray
+) -> np.ndarray:
+    """The most that each link holds in any admissible answer at a multiplier [N], infinite without limit; shape (links,).
+
+    Two programmes for each link: the largest and the smallest force that equilibrium and strength admit while λ stays.
+    ``strength`` is that of the joints against crushing [N], whose tangents are added as they are needed.
+    """
+    size, links = len(equilibrium), len(facets.stack.links)
+    scale, most = np.abs(dead).max(), np.zeros(links)
+    least = multiplier - STAYS * max(abs(multiplier), 1e-3)
+    for k in range(links):
+        for sign in (1.0, -1.0):
+            cost = np.zeros(size + 1)
+            cost[size - links + k] = sign
+            found = _admissible(equilibrium, dead, live, facets, cost, least)
+            while found.status == 0 and facets.cut(found.x[:-1] * scale, strength):
+                found = _admissible(equilibrium, dead, live, facets, cost, least)
+            if found.status == 3:
+                most[k] = np.inf
+                continue
+            _check_solved(found, "static")
+            most[k] = max(most[k], -sign * found.x[size - links + k] * scale)
+    return most
+
+
+def _admissible(
+    equilibrium: np.ndarray,
+    dead: np.ndarray,
+    live: np.ndarray,
+    facets: Facets,
+    cost: np.ndarray,
+    least: float | None = None,
+) -> Any:
+    """The admissible forces over the largest load, and λ, of least cost; λ not below ``least``."""
+    from scipy.optimize import linprog
+
+    scale = np.abs(dead).max()
+    return linprog(
+        cost,
+        A_ub=np.column_stack((facets.matrix(), np.zeros(len(facets.rows)))),
+        b_ub=np.array(facets.bound) / scale,
+        A_eq=np.column_stack((equilibrium.T, live.ravel() / scale)),
+        b_eq=-dead.ravel() / scale,
+        bounds=[(None, None)] * len(equilibrium) + [(least, None)],
+        method="highs",
+        options=_TIGHT,
+    )
 
 
 def kinematic_bound(

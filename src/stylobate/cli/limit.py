@@ -163,12 +163,20 @@ def summarize(found: LimitResult) -> dict:
 def link_words(row: dict) -> str:
     """Demand on a link, for people."""
     capacity = f"{row['capacity_n']:.4g} N" if math.isfinite(row["capacity_n"]) else "no limit"
+    most = row["largest_force_n"]
+    range_ = (
+        ""
+        if most is None
+        else f"; other answers have up to {most:.4g} N"
+        if math.isfinite(most)
+        else "; no upper limit"
+    )
     if row["need_not_act"]:
-        return f"need not act (capacity {capacity})"
+        return f"need not act (capacity {capacity}){range_}"
     force = f"{abs(row['force_n']):.4g} N of {capacity}"
     if row["yields"]:
         return f"{force}, yields"
-    return f"at least {force}" + ("" if row["force_n"] else ", where others act for it")
+    return f"at least {force}" + ("" if row["force_n"] else ", where others act for it") + range_
 
 
 def link_rows(links: Sequence[LinkForce]) -> list[dict]:
@@ -178,6 +186,7 @@ def link_rows(links: Sequence[LinkForce]) -> list[dict]:
             "link": link.name,
             "action": link.action,
             "force_n": link.force,
+            "largest_force_n": None if math.isnan(link.largest) else link.largest,
             "capacity_n": link.capacity,
             "yields": link.yields,
             "need_not_act": link.idle,

@@ -9,6 +9,8 @@ from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
+    import pandas
+
     from ..analysis.states import StateComparison
     from ..campaign.campaign import Campaign
     from ..column.structure import Structure
@@ -50,6 +52,7 @@ def states(
 
     Fragility curves under the same records with paired differences, and what the links bore.
     """
+    from ..analysis.design_values import design_values, worst_of
     from ..analysis.limit_states import parse_state
     from ..analysis.states import compare_states
     from ..campaign.study_files import levels_of
@@ -71,18 +74,27 @@ def states(
     parse_state(state)
     measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
     suite = request.expand()
-    with execution.files("states", "states.csv", "links.csv", "states.json", "states") as files:
+    with execution.files("states", "states.csv", "links.csv", "design.csv", "states.json", "states", "design") as files:
         with files.campaign(campaign, in_folder=True) as asked:
             found = compare_states(
                 columns, suite.motions, how, sizes, measure, state=state, out=files.folder, campaign=asked
             )
-        summary = found.summary() | {"model": how.name, "refused": suite.refused, "files": []}
+        designed = design_values(found)
+        summary = found.summary() | {
+            "design_values": designed.to_dict("records"),
+            "model": how.name,
+            "refused": suite.refused,
+            "files": [],
+        }
         if files.wanted:
             from .. import plots
 
             files.table(found.table, "states.csv")
             files.table(found.links, "links.csv")
+            files.table(designed, "design.csv")
             files.picture(plots.draw_states(found), "states")
+            if len(designed) and len(worst_of(designed)):
+                files.picture(plots.draw_design_values(designed), "design")
             what: dict[str, Any] = {"structures": list(columns.values()), "models": [how], "states": list(columns)}
             what |= {"motions": [how.taken(motion) for motion in suite.motions], "runs": found.table}
             what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": campaign.tail}
@@ -91,9 +103,33 @@ def states(
     if execution.emits(summary):
         return
     describe(found)
+    _describe_design(designed)
     console.print_refused(suite.refused)
     if files:
         print(f"{len(files)} files in {execution.out}")
+
+
+def _describe_design(designed: pandas.DataFrame) -> None:
+    """Print the links used most of every state, and the clearance that layers need; nothing where there are none."""
+    import pandas
+
+    from ..analysis.design_values import clearances, worst_of
+    from . import console
+
+    if not len(designed):
+        return
+    words = "not exceeded under 84 % of the motions, with the 95 % interval over records."
+    if len(worst := worst_of(designed)):
+        print(f"Design values at the largest level: {words}")
+        some = worst.groupby("state", sort=False).head(6)
+        told: dict[str, Any] = {key: some[key] for key in ("state", "link", "quantity", "unit")}
+        told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
+        told |= {"over capacity": some["use_value_84"], "at most": some["use_high_84"]}
+        console.print_table(pandas.DataFrame(told), digits=3)
+    if len(wide := clearances(designed)):
+        print(f"Clearance that layers need at the largest level [m]: {words}")
+        told = {"state": wide["state"], "link": wide["link"], "84 %": wide["value_84"], "from": wide["low_84"]}
+        console.print_table(pandas.DataFrame(told | {"to": wide["high_84"]}), digits=3)
 
 
 def _twins(columns: dict[str, Structure], campaign: Campaign) -> dict[str, Any]:

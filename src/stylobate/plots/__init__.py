@@ -4,6 +4,7 @@ from .amplitudes import draw_amplitudes
 from .calibration import draw_calibration
 from .collapse_over_amplitude import draw_collapse_over_amplitude
 from .debris import draw_debris
+from .design_values import draw_design_values
 from .directions import draw_directions
 from .domain import draw_boundaries, draw_domain
 from .elevation import draw_elevation
@@ -41,6 +42,7 @@ __all__ = [
     "draw_collapse_over_amplitude",
     "draw_comparison",
     "draw_debris",
+    "draw_design_values",
     "draw_directions",
     "draw_domain",
     "draw_efficiency",

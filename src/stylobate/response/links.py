@@ -118,6 +118,10 @@ def row_of(links: Sequence[LinkMeasures]) -> dict[str, Any]:
         "first_link_broken_s": min(times, default=None),
         "link_broken_s": [link.broken_at if link.broken else None for link in links],
         "link_utilisation": [float(link.utilisation) for link in links],
+        **{
+            f"link_{name}": [float(getattr(link, name.rpartition("_")[0])) for link in links]
+            for name in ("peak_shear_n", "peak_tension_n", "peak_slip_m", "peak_elongation_m")
+        },
     }
 
 

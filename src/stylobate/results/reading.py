@@ -49,7 +49,7 @@ KEYS = {
 #: Tables beside an object.
 TABLES = {
     Kind.CRITICAL: ("critical",),
-    Kind.STATES: ("states",),
+    Kind.STATES: ("states", "design"),
     Kind.SUITE: ("suite",),
     Kind.IDA: ("capacities", "fractiles", "measures"),
     Kind.RISK: ("risk",),
@@ -66,7 +66,7 @@ FURTHER = {
     Kind.IDA: ("measures",),
     Kind.RUNS: ("directions",),
     Kind.INFER: ("observations", "matches"),
-    Kind.STATES: ("links.csv",),
+    Kind.STATES: ("links.csv", "design"),
 }
 
 
