@@ -187,7 +187,8 @@ class Population:
         run : mapping
             Under the names of the JSON object of ``stylobate run``.
         """
-        if said := set_against(run, self.counts, self.confidence):
+        limits = self.interval if self.drawn.groups else None
+        if said := set_against(run, self.counts, self.confidence, limits):
             return said
         name = peak_of(run)
         stood = [abs(row[name]) for row, verdict in zip(self.rows, self.verdicts) if verdict == v.STANDS]
@@ -266,7 +267,12 @@ def chance_words(row: Mapping[str, Any]) -> str:
     return f"{said}; {', '.join(counts)}" if counts else said
 
 
-def set_against(run: Mapping[str, Any], counts: Mapping[str, Any], confidence: float = 0.95) -> str:
+def set_against(
+    run: Mapping[str, Any],
+    counts: Mapping[str, Any],
+    confidence: float = 0.95,
+    limits: tuple[float, float] | None = None,
+) -> str:
     """Caveat where most columns like one end otherwise than it did, the run counted in; empty where they do not.
 
     The column as surveyed is one of its population: its collapse is never set aside because others stand.
@@ -279,6 +285,8 @@ def set_against(run: Mapping[str, Any], counts: Mapping[str, Any], confidence: f
         How many columns like it have which verdict, by its name.
     confidence : float
         Level of the interval.
+    limits : (float, float), optional
+        Of the share, where more than the columns is unknown; else those of the counts.
     """
     fell, stood, open_ = (int(counts.get(one) or 0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED))
     collapsed, decided = bool(run.get("collapsed")), bool(run.get("decided", True))
@@ -287,7 +295,7 @@ def set_against(run: Mapping[str, Any], counts: Mapping[str, Any], confidence: f
         return ""
     number = fell + stood + open_
     fell, stood, open_ = fell + collapsed, stood + (decided and not collapsed), open_ + (not decided and not collapsed)
-    low, high = (float(one) for one in v.collapse_interval(fell, stood, open_, confidence))
+    low, high = limits or (float(one) for one in v.collapse_interval(fell, stood, open_, confidence))
     whole = f"{fell} of {number + 1}, this one and {number} like it, collapse{'s' if fell == 1 else ''}"
     whole += (
         f" ({100.0 * confidence:g} %: {percents(low, high)}); {_not_fallen({v.STANDS: stood, v.UNDECIDED: open_})}."
