@@ -81,7 +81,9 @@ def beside_them(summary: Mapping[str, Any]) -> str:
     known = summary.get("certainty")
     if not isinstance(known, Mapping):
         return ""
-    return set_against(summary, known, float(known.get("confidence") or 0.95)) or str(known.get("beside") or "")
+    limits = tuple(known["interval"]) if known.get("interval") else None
+    said = set_against(summary, known, float(known.get("confidence") or 0.95), limits)
+    return said or str(known.get("beside") or "")
 
 
 def certainty_section(summary: Mapping[str, Any]) -> Section | None:
