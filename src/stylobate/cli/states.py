@@ -91,7 +91,8 @@ def states(
 
             files.table(found.table, "states.csv")
             files.table(found.links, "links.csv")
-            files.table(designed, "design.csv")
+            if len(designed):
+                files.table(designed, "design.csv")
             files.picture(plots.draw_states(found), "states")
             if len(designed) and len(worst_of(designed)):
                 files.picture(plots.draw_design_values(designed), "design")
