@@ -12,6 +12,7 @@ def report(
     folders: list[Path] = o.argument("DIR...", "Folders that commands wrote with --out, in the order of the report."),
     out: Path = o.option("FILE.html", "The page, one file that needs nothing else.", ...),
     title: str | None = o.option("TEXT", "What stands, if not given."),
+    project: Path | None = o.option("FILE.toml", "Begin with a page of this project, to sign: client, site, engineer."),
     pdf: bool = o.option(None, "Print it to a PDF beside it; needs a Chromium on this machine.", False),
     *,
     execution: Annotated[o.Execution, o.But("dask", "out")],
@@ -23,12 +24,14 @@ def report(
     """
     from ..report.case import write_report
     from ..report.pdf import is_root, needs_browser
+    from ..report.project import read_project
     from ..results import read_results
 
+    signed = None if project is None else read_project(project)
     if pdf:
         needs_browser()
     found = read_results(folders)
-    files = write_report(found, out, title=title, pdf=pdf)
+    files = write_report(found, out, title=title, pdf=pdf, project=signed)
     results = [{"kind": one.kind.value, "folder": str(one.folder), "name": one.name} for one in found]
     if execution.emits({"results": results, "files": [str(file) for file in files]}):
         return

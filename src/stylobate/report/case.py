@@ -14,7 +14,8 @@ from ..version import __version__
 from . import page
 from .others import sections_of
 from .pdf import print_pdf
-from .record import NOTE
+from .project import Project, front_sections
+from .record import NOTE, SOURCES
 from .runs import run_sections, several_sections
 
 TEMPLATE = Path(__file__).with_name("case.html")
@@ -42,7 +43,12 @@ TITLES = {
 
 
 def write_report(
-    results: Iterable[Result | str | Path], out: str | Path, *, title: str | None = None, pdf: bool = False
+    results: Iterable[Result | str | Path],
+    out: str | Path,
+    *,
+    title: str | None = None,
+    pdf: bool = False,
+    project: Project | None = None,
 ) -> list[Path]:
     """Write the report of any results as one HTML file; each file appears whole or not at all.
 
@@ -58,6 +64,8 @@ def write_report(
         What stands, by default.
     pdf : bool
         Print it to a PDF file of the same name as well.
+    project : Project, optional
+        Begin with an executive page of this project (:func:`stylobate.report.project.read_project`), which is signed.
 
     Returns
     -------
@@ -79,12 +87,16 @@ def write_report(
         raise InputError("no result is given to report; give the folder in which a command wrote it.")
     names = [target.name, *([target.with_suffix(".pdf").name] if pdf else [])]
     with output_folder(target.parent, names) as folder:
-        return _write(found, folder / target.name, title, pdf)
+        return _write(found, folder / target.name, title, pdf, project)
 
 
-def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool) -> list[Path]:
+def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, project: Project | None) -> list[Path]:
     told: set[str] = set()
     cases = [_case(one, told, found) for one in found]
+    front = []
+    if project is not None:
+        cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
+        front = [page.part(section) for section in front_sections(project, found, cases, cited)]
     names = ", ".join(dict.fromkeys(one.name for one in found))
     kinds = ", ".join(dict.fromkeys(TITLES[one.kind.value] for one in found))
     lead = [f"{kinds[:1].upper()}{kinds[1:]}. Written on {date.today().isoformat()} by stylobate {__version__}."]
@@ -95,6 +107,8 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool) 
         "day": date.today().isoformat(),
         "lead": page.kinds(lead),
         "cases": cases,
+        "front": front,
+        "project": project,
     }
     files = [page.write_html(target, TEMPLATE, title=title or f"Report: {names}", **values)]
     if pdf:
@@ -109,7 +123,9 @@ def _case(result: Result, told: set[str], all_: Sequence[Result]) -> dict[str, A
     verdict = " ".join(text for note in notes for text in note.texts[: note.first])
     said = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
     known = [text.removeprefix(NOTE) for text in said if text.startswith(NOTE)]
+    cited = [item for part in sections if part.title == SOURCES for item in part.items]
     return {
+        "cited": [text for item in cited for text in (item.texts if isinstance(item, page.Points) else [str(item)])],
         "title": _title(result),
         "verdict": verdict,
         "notes": known,

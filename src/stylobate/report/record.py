@@ -17,6 +17,9 @@ from .page import Code, Facts, Item, Note, Points, Rows, Section
 #: Beginning of a text that the reader must know before relying on a result.
 NOTE = "Note: "
 
+#: Title of the section on what to cite.
+SOURCES = "Sources to cite"
+
 #: Options that are results, told elsewhere.
 FOUND = ("limit_analysis_g",)
 
@@ -157,7 +160,7 @@ def sources_section(citation: Citation) -> Section:
     items: list[Item] = [Points([package.strip(), *(reference.text for reference in citation.references)])]
     if citation.motion:
         items.append(f"And the source of the ground motion: {'; '.join(citation.motion.values())}.")
-    return Section("Sources to cite", items)
+    return Section(SOURCES, items)
 
 
 def versions_of(result: Result) -> dict[str, str]:

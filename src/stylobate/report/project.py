@@ -1,0 +1,112 @@
+"""The page that a signed report begins with: project, answers, assumptions, limits, sources, and where one signs."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import field_validator
+
+from ..column.toml import Table, read_table
+from ..errors import InputError
+from ..reading import shown
+from ..results import Result, RunResult, SeveralRuns
+from ..version import __version__
+from .page import Facts, Item, Points, Rows, Section
+from .record import known_model, titled
+
+
+class Project(Table):
+    """Facts that a report is signed with, as a project file (TOML) holds them; texts, and none of them empty."""
+
+    client: str
+    site: str
+    engineer: str
+    role: str | None = None
+    place: str | None = None
+    date: str | None = None
+    reference: str | None = None
+    assumptions: list[str] | None = None
+
+    @field_validator("date", mode="before")
+    @classmethod
+    def _as_text(cls, value: Any) -> Any:
+        """A date of TOML as it is written; a text stays."""
+        plain = isinstance(value, datetime.date) and not isinstance(value, datetime.datetime)
+        return value.isoformat() if plain else value
+
+
+def read_project(path: str | Path) -> Project:
+    """Read a project file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is not TOML, has an unknown key, lacks one, or has an empty value.
+    """
+    project = read_table(path, Project)
+    for key, value in project:
+        if any(not text.strip() for text in ([value] if isinstance(value, str) else value or [])):
+            raise InputError(f"{shown(path)}: {key} is empty; write it, or leave an optional key out.")
+    return project
+
+
+def front_sections(
+    project: Project, results: Sequence[Result], cases: Sequence[dict[str, Any]], cited: Sequence[str]
+) -> list[Section]:
+    """Sections of the first page.
+
+    Parameters
+    ----------
+    project : Project
+    results : sequence of Result
+    cases : sequence of dict
+        The case of each result, whose ``verdict`` is its answer: it is repeated as it stands there.
+    cited : sequence of str
+        What the cases cite, each once.
+    """
+    known = [(key, value) for key, value in project if isinstance(value, str) and key not in ("role", "place")]
+    answers = [[str(k), case["title"], case["verdict"]] for k, case in enumerate(cases, start=1)]
+    said = project.assumptions or ["None are told in the project file."]
+    return [
+        Section("Project", [Facts(known)]),
+        Section("Answers", [Rows(["case", "result", "answer"], answers)]),
+        Section("Assumptions of this report", [Points(said), "What the models assume stands with each case."]),
+        Section("Limits: what is not covered", _limits(results)),
+        Section("Sources of the results", _sources(results, cited)),
+    ]
+
+
+def _limits(results: Sequence[Result]) -> list[Item]:
+    """Limits of the models of all results, each model once."""
+    names = dict.fromkeys(name for one in results for name in _models(one))
+    kinds = {name: kind for name in names if (kind := known_model(name)) is not None}
+    items: list[Item] = ["The results are no check against a code. Where models end:"] if kinds else []
+    for name, kind in kinds.items():
+        items += [f"{titled(name)}:", Points(kind.limits)]
+    return items or ["The results are no check against a code; their limits stand with each case."]
+
+
+def _models(result: Result) -> list[str]:
+    if isinstance(result, RunResult):
+        return [result.response.model]
+    if isinstance(result, SeveralRuns):
+        return [one.response.model for one in result.runs]
+    return [str(model["name"]) for model in result.asked.models] if result.asked is not None else []
+
+
+def _sources(results: Sequence[Result], cited: Sequence[str]) -> list[Item]:
+    """Files with their digests, programs, and what is cited."""
+    state = {True: "as written", False: "changed since", None: "no list to check by"}
+    files = [
+        [str(k), file.name, file.digest, state[file.unchanged]]
+        for k, result in enumerate(results, start=1)
+        for one in (result.runs if isinstance(result, SeveralRuns) else (result,))
+        for file in one.files
+    ]
+    computed = dict.fromkeys(one.asked.version for one in results if one.asked is not None)
+    pairs = [("computed by stylobate", ", ".join(computed) or "not known"), ("written by stylobate", __version__)]
+    items: list[Item] = [Facts(pairs), Rows(["case", "file", "SHA-256", "state"], files, "Files", numbers=True)]
+    return [*items, "Cited:", Points(cited)] if cited else items
