@@ -61,7 +61,7 @@ class OtherLaws:
         made = "stands" if other == v.STANDS else "falls"
         return (
             f"The verdict hangs on what nobody knows of the joints: under {len(named)} of {len(self.verdicts)} other laws "
-            f"it {made} ({', '.join(named)}); `replicates=30` tells how sure it is."
+            f"it {made} ({', '.join(named)}); replicates tell how sure that is."
         )
 
     @property

@@ -216,6 +216,7 @@ def conclude(
             laws = other_laws(response, motion, model, campaign)
         if laws is not None:
             summary |= {"other_laws": laws.verdicts, "law_changes_verdict": laws.changes}
+            summary |= {"doubt": laws.sentence} if laws.changes else {}
         if files.folder is not None:
             files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
             if population is not None:
@@ -298,7 +299,7 @@ def describe(
         facts["certainty"] = "one run, of exactly these stones; --replicates 15 runs assemblies like it as well"
     doubt = doubt_of(response) if population is None else population.doubt_about(response)
     if laws is not None:
-        doubt = console.in_options(laws.sentence) or doubt
+        doubt = laws.sentence or doubt
         facts["under other laws"] = laws.words
     sentence = f"{sentence} {doubt}".rstrip()
     if opens := opening_words(response.provenance.get("opening")):

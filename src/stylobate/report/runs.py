@@ -95,7 +95,11 @@ def _verdict(run: RunResult) -> Note:
             "differences decide."
         )
     texts += filter(None, [_doubt(run)])
-    return Note([*texts, _scope(run)], verdict_look(r, bool(beside_them(run.summary))), first=len(texts))
+    return Note(
+        [*texts, _scope(run)],
+        verdict_look(r, bool(beside_them(run.summary) or run.summary.get("law_changes_verdict"))),
+        first=len(texts),
+    )
 
 
 def _doubt(run: RunResult) -> str:
