@@ -13,6 +13,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import stylobate as st
+from stylobate.campaign.ruin_files import read_ruin
 
 GALLERY = Path(__file__).parents[2] / "gallery"
 EXAMPLES = sorted(path.stem.removeprefix("plot_") for path in GALLERY.glob("plot_*.py"))
@@ -360,3 +361,13 @@ def test_many_sites(run):
         weights.append(before * np.mean(stands * -np.expm1(-k * temple * (2480 - 1400 - 100 * between[1]))))
     # 64 by 16 draws of what is not known: a standard error of a hundredth, four of them are let through.
     assert found.weight == pytest.approx(np.array(weights) / sum(weights), abs=0.04)
+
+
+def test_ruins_of_rome():
+    """The ruins of the documentation's real case: 100 Roman feet high, twins, one of them with a drum out of place."""
+    both, alone = (read_ruin(GALLERY / "ruins" / f"{name}.toml") for name in ("rome", "aurelius_alone"))
+    aurelius, trajan = both.structures
+    assert aurelius.height == pytest.approx(100 * 0.2957, rel=0.002)  # a Roman foot of 295.7 mm
+    assert aurelius.nameless_digest == trajan.nameless_digest == alone.structures[0].nameless_digest
+    assert [fact.kind for fact in both.facts] == ["state", "largest", "state", "no slip above"]
+    assert both.facts[:2] == alone.facts

@@ -101,7 +101,6 @@ class Observed:
             )
         if self.no_slip_above is not None:
             check_range("no_slip_above", self.no_slip_above, 0.0, 100.0, unit="m", open_low=True)
-        self._check_largest()
         for name, numbers in (("offsets", 4), ("twists", 3)):
             rows = tuple(tuple(one) for one in getattr(self, name))
             for row in rows:
@@ -110,32 +109,33 @@ class Observed:
             if twice := next((joint for joint in joints if joints.count(joint) > 1), None):
                 raise InputError(f"joint {twice} is given twice in `{name}`; give each joint once.", name)
             object.__setattr__(self, name, rows)
-        most, doubt = self.largest_slip or (math.inf, 0.0)
+        self._check_slips()
+
+    def _check_slips(self) -> None:
+        """Refuse a largest slip that is none, and a joint that is farther out of place than it or the bound."""
         slips = [(f"joint {joint} is", math.hypot(x, y), sd) for joint, x, y, sd in self.offsets]
-        for name, bound, of_bound, seen in (
-            ("no_slip_above", self.no_slip_above, 0.0, [*slips, ("the largest slip is", most, doubt)]),
-            ("largest_slip", most, doubt, slips),
-        ):
-            for said, length, sd in seen if bound is not None and math.isfinite(bound) else ():
-                if bound + BEYOND * math.hypot(of_bound, sd) < length < math.inf:
+        bounds, largest = [], self.largest_slip
+        if largest is not None:
+            if not isinstance(largest, (list, tuple)) or len(largest) != 2:
+                said = "a length and its sd, such as [0.1, 0.01]"
+                raise InputError(f"largest_slip is {as_typed(largest)}; allowed are {said}.", "largest_slip")
+            length = check_range("largest_slip", largest[0], 0.0, 100.0, unit="m")
+            sd = check_range(
+                "sd of largest_slip", largest[1], 0.0, 100.0, unit="m", open_low=True, field="largest_slip"
+            )
+            object.__setattr__(self, "largest_slip", (length, sd))
+            bounds = [("largest_slip", length, sd, slips)]
+            slips = [*slips, ("a joint is", length, sd)]
+        if self.no_slip_above is not None:
+            bounds.append(("no_slip_above", self.no_slip_above, 0.0, slips))
+        for name, bound, doubt, seen in bounds:
+            for said, length, sd in seen:
+                if length > bound + BEYOND * math.hypot(doubt, sd):
                     raise InputError(
                         f"{said} {1e3 * length:.3g} mm out of place, and {name} is {1e3 * bound:.3g} mm; one of the two "
                         "is wrong.",
                         name,
                     )
-
-    def _check_largest(self) -> None:
-        if self.largest_slip is None:
-            return
-        pair = self.largest_slip
-        if not isinstance(pair, (list, tuple)) or len(pair) != 2:
-            raise InputError(
-                f"largest_slip is {as_typed(pair)}; allowed are a length and its sd, such as [0.1, 0.01].",
-                "largest_slip",
-            )
-        length = check_range("largest_slip", pair[0], 0.0, 100.0, unit="m")
-        sd = check_range("sd of largest_slip", pair[1], 0.0, 100.0, unit="m", open_low=True, field="largest_slip")
-        object.__setattr__(self, "largest_slip", (length, sd))
 
     def _check_bodies(self) -> None:
         """Refuse bodies that contradict one another or the state; what has fallen tells the state, what has moved stands."""
@@ -288,7 +288,9 @@ class Ruin:
                 )
         column = structure.stack
         widths = [] if column is None else [float(width) for width in column.joint_widths]
-        seen = [("offsets", f"joint {joint}", math.hypot(x, y), [joint - 1]) for joint, x, y, _ in one.offsets]
+        seen = [
+            ("offsets", f"joint {joint}", math.hypot(x, y), range(joint - 1, joint)) for joint, x, y, _ in one.offsets
+        ]
         if one.largest_slip is not None:
             seen.append(("largest_slip", "a joint", one.largest_slip[0], range(count)))
         for name, which, length, joints in seen if widths else ():
