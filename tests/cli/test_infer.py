@@ -107,6 +107,14 @@ def test_survival_is_one_more_observation(ruin, tmp_path, capsys):
     assert "Year of the earthquake" in (tmp_path / "report.html").read_text()
 
 
+def test_joints_in_their_places_are_not_odd(ruin, capsys):
+    # 0 ± 3 mm of each joint: less than errors alone would mostly make of it, and what a survey writes that saw nothing move.
+    said = "offsets = [[1, 0.0, 0.0, 0.003], [2, 0.0, 0.0, 0.003]]"
+    assert call(["infer", str(ruin(low=said, pgv="[0.05, 1.0]")), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["consistent"], told["checks"]
+
+
 @pytest.mark.parametrize(
     ("given", "varies"), [("friction = 0.1\noffset = 0.01", {"friction": 0.1, "offset": 0.01}), ("", {})]
 )

@@ -35,7 +35,7 @@ def test_what_hands_have_moved_stands_out():
 
 def test_slips_tell_more_than_states():
     # A forest on 1,600 runs of columns that are not known left 0.62 of the spread of ln PGV by states, 0.36 with slips that
-    # have no errors. One on the runs of here (scikit-learn 1.9.1, 400 trees, out of bag, without ruins that match fewer than a
+    # have no errors. One on the runs of here (scikit-learn 1.9.1, 400 trees, out of bag, no ruin that matches fewer than a
     # hundred draws, as here) leaves these; an error over 1,450 ruins is known to 2 %, of which two are let through.
     forest = {"stout": (0.699, 0.477, 0.406), "slender": (0.597, 0.418, 0.368)}
     for columns, told in forest.items():

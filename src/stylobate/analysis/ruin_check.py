@@ -100,7 +100,8 @@ def _number(answers: Answers, fact: Fact, rest: list[Fact]) -> tuple[float, str]
     taken = answers.foretold(rest, np.arcsinh(np.linalg.norm(answers.values[fact], axis=1) / scale))
     level = taken.targets[:, 0]
     mean, sd = float(np.average(level, weights=taken.weights)), abc.spread(level, taken.weights)
-    off = (float(np.arcsinh(np.linalg.norm(seen) / scale)) - mean) / max(sd, 1e-12)
+    length = max(float(np.linalg.norm(seen)), fact.sd)  # who writes 0 ± 3 mm has seen none, not less than errors make
+    off = (float(np.arcsinh(length / scale)) - mean) / max(sd, 1e-12)
     low, high = scale * np.sinh(np.maximum(abc.quantiles(level, taken.weights)[[0, 2]], 0.0))
     factor, unit = (1e3, "mm") if fact.kind in LENGTHS else (1.0, "°")
     return float(
