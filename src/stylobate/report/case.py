@@ -143,7 +143,7 @@ PARTS_IN_ENGLISH = "Parts in English, because they are not translated or are pic
 
 def _spoken(language: Language) -> list[page.Item]:
     """How numbers are written, and which parts of the report stayed English; nothing of a report in English."""
-    if language.tag == "en":
+    if not language.foreign:
         return []
     said = [language.say(SPOKEN_IN)]
     if language.english:
@@ -174,9 +174,9 @@ def _case(result: Result, told: set[str], all_: Sequence[Result], language: Lang
     verdict = " ".join(text for note in notes for text in note.texts[: note.first])
     said = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
     known = [text.removeprefix(NOTE) for text in said if text.startswith(NOTE)]
-    cited = [item for part in sections if part.title == SOURCES for item in part.items]
+    sources = [item for part in sections if part.title == SOURCES for item in part.items]
     return {
-        "cited": [text for item in cited for text in (item.texts if isinstance(item, page.Points) else [str(item)])],
+        "cited": [text for item in sources if isinstance(item, page.Points) for text in item.texts],
         "title": _title(result, language),
         "verdict": language.say(verdict),
         "notes": known,

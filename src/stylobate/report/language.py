@@ -26,13 +26,16 @@ HOLE = re.compile(r"\{([a-z_]+)\}")
 #: What stands before the full stop of a sentence (no initial of a name), and what begins the next one.
 _LAST, _FIRST = r"[a-zα-ω\d)%”°’\]\s/][a-zα-ω\d)%”°’\]³²]", r"[A-Z“\d–]"
 
+#: Placeholders that stand for a number and nothing else, and a number.
+NUMBERS, _NUMBER = ("count", "open", "stood"), r"[<>]?\d[\d,.]*"
+
 _END = re.compile(rf"(?<={_LAST})\. (?={_FIRST})")
 
 #: What a placeholder may stand for: anything within one sentence.
 _WITHIN = rf"(?:(?!(?<={_LAST})\. {_FIRST}).)+?"
 
 #: A word; what holds an underscore or a digit is a name of the program.
-_WORD = re.compile(r"(?<![\w.])[A-Za-z]{2,}(?![\w])")
+_WORD = re.compile(r"(?<![\w./-])[A-Za-z]{2,}(?!\w|\.\w)")
 
 #: Letters of a sentence between its placeholders below which it fits almost anything: it counts where all of that is known.
 _FEW = 12
@@ -59,6 +62,8 @@ class Language:
 
     Attributes
     ----------
+    foreign : bool
+        Whether it is another language than English.
     english : dict
         Sections of which a part stayed English, in their order, as keys.
     """
@@ -67,15 +72,19 @@ class Language:
         self.tag, self.table, self.own = tag, dict(table or {}), set(own)
         self.english: dict[str, None] = {}
         self._open = False
-        patterns = sorted((one for one in self.table if HOLE.search(one)), key=_literal, reverse=True)
+        patterns = sorted((one for one in self.table if HOLE.search(one)), key=_before, reverse=True)
         self._patterns = [(_pattern(one), self.table[one], _literal(one) < _FEW) for one in patterns]
-        words = {word.lower() for one in self.table for word in _WORD.findall(HOLE.sub(" ", one))}
-        self._words = words - {word.lower() for one in self.table.values() for word in _WORD.findall(one)}
+        self.foreign = tag != "en"
+        every = sentences_of(LANGUAGES[0]) if self.foreign else {}
+        words = {word.lower() for one in every for word in _WORD.findall(HOLE.sub(" ", one))}
+        self._words = words - {
+            word.lower() for one in self.table.values() for word in _WORD.findall(HOLE.sub(" ", one))
+        }
         self.say: Callable[[str], str] = cache(self._say)
 
     def _say(self, text: str) -> str:
         """A text in this language as far as it is known: whole, or sentence by sentence."""
-        if not self.table or text in self.own or not _WORD.search(text):
+        if not self.foreign or text in self.own or not _WORD.search(text):
             return text
         if (found := self._whole(text)) is not None:
             return found
@@ -100,14 +109,14 @@ class Language:
             if found := pattern.fullmatch(text):
                 held = {name: self.say(value) for name, value in found.groupdict().items()}
                 said = into.format(**held)
-                if not any(self.is_english(one, 1) for one in held.values()):
+                if "text" in held or not any(self.is_english(one, 1) for one in held.values()):
                     return said
                 partly = partly or (None if few else said)
         return partly
 
     def is_english(self, text: str, least: int = 2) -> bool:
         """Whether a text of a page in this language still holds so many English words of the table, quotations left out."""
-        if not self.table or text in self.own or isinstance(text, Own):
+        if not self.foreign or text in self.own or isinstance(text, Own):
             return False
         plain = re.sub(r"“[^”]*”|‘[^’]*’|`[^`]*`", " ", text)
         for name in self.own:
@@ -138,7 +147,7 @@ class Language:
         if isinstance(item, (Points, Note)):
             return replace(item, texts=[self._told(text, 1) for text in item.texts])
         if isinstance(item, Picture):
-            self._open |= bool(self.table) and item.english
+            self._open |= self.foreign and item.english
             return replace(item, caption=self._told(item.caption, 1))
         if isinstance(item, Facts):
             pairs = [(self._told(name, 1), self._told(value)) for name, value in item.pairs]
@@ -197,6 +206,7 @@ def language_of(name: str, own: Iterable[str] = ()) -> Language:
     return Language(found.language, {one: said for one, said in found.sentences.items() if said.strip()}, own)
 
 
+@cache
 def sentences_of(tag: str) -> dict[str, str]:
     """The table of a language that comes with the package."""
     return parse_toml(Path(str(files("stylobate.report") / "languages" / f"{tag}.toml")))["sentences"]
@@ -221,6 +231,11 @@ def _literal(sentence: str) -> int:
     return sum(map(str.isalpha, HOLE.sub("", sentence)))
 
 
+def _before(sentence: str) -> tuple[bool, int, int]:
+    """Place of a sentence among those that a text is compared with: what only stands before a text comes first."""
+    return sentence.endswith(": {text}"), _literal(sentence), len(HOLE.sub("", sentence))
+
+
 def _pattern(sentence: str) -> re.Pattern[str]:
     """What a sentence matches; a placeholder that stands twice is the same text both times."""
     seen: set[str] = set()
@@ -233,5 +248,5 @@ def _pattern(sentence: str) -> re.Pattern[str]:
             text += f"(?P={part})"
         else:
             seen.add(part)
-            text += f"(?P<{part}>{_WITHIN})"
+            text += f"(?P<{part}>{_NUMBER if part in NUMBERS else _WITHIN})"
     return re.compile(text)

@@ -84,7 +84,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     models = [str(model["name"]) for model in asked.models] if asked is not None else []
     models = models or [str(result.summary[key]) for key in ("model",) if key in result.summary]
     if result.kind in (Kind.PUSHOVER, Kind.LIMIT):
-        parts.append(once(static_model(), "model of statics", told))
+        parts.append(once(static_model(), "statics model", told))
     elif models:
         parts.append(once(model_section(models), f"model {models}", told))
     parameters = asked.models[0]["parameters"] if asked is not None and len(asked.models) == 1 else {}

@@ -16,7 +16,7 @@ from .page import Picture
 def picture(figure: Figure, caption: str) -> Picture:
     """A figure as a picture of the page, its texts in the language of the report."""
     english = False
-    if (language := SPOKEN.get()) is not None and language.table:
+    if (language := SPOKEN.get()) is not None and language.foreign:
         for text in figure.findobj(Text):
             assert isinstance(text, Text)
             text.set_text("\n".join(map(language.say, text.get_text().split("\n"))))
