@@ -142,7 +142,7 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
     if parameters:
         items.append(
             Facts(
-                [(Own(key), n.plain(value)) for key, value in parameters.items()],
+                [(Own(key), Own(v) if isinstance(v, str) else n.plain(v)) for key, v in parameters.items()],
                 "Parameters of the model by their names in the program, in SI units; –: not set.",
             )
         )
