@@ -100,5 +100,5 @@ def test_a_file_of_translations(tmp_path):
         file.write_text(changed)
         with pytest.raises(InputError, match=words):
             language_of(str(file))
-    with pytest.raises(InputError, match="translation-template"):
+    with pytest.raises(InputError, match="writes a template"):
         language_of("klingon")

@@ -187,8 +187,8 @@ def language_of(name: str, own: Iterable[str] = ()) -> Language:
     if not name.endswith(".toml"):
         known = ", ".join(f'"{one}"' for one in ("en", *LANGUAGES))
         raise InputError(
-            f"language is {name!r}; it is one of {known}, or a file of translations such as de.toml, for which "
-            "'stylobate report --translation-template de.toml' writes the sentences.",
+            f"language is {name!r}; it is one of {known}, or a file of translations such as de.toml, of which "
+            "'stylobate report' writes a template.",
             "language",
         )
     found, known = read_table(name, Translations), sentences_of(LANGUAGES[0])
