@@ -226,7 +226,8 @@ def test_what_one_more_law_comes_to():
     away = under_another_law(np.array([1.0, 2.0, 3.0, 4.0]), 200_000, np.random.default_rng(1))
     assert np.quantile(away, [0.025, 0.975]) == pytest.approx([-4.593, 4.593], rel=0.03)
     bound = under_another_law(np.array([1.0, 2.0, np.inf]), 1000, np.random.default_rng(1))
-    assert np.isfinite(bound[bound < 0.0]).all() and np.isposinf(bound[bound > 0.0]).all()
+    assert np.isfinite(bound[bound < 0.0]).all()
+    assert np.isposinf(bound[bound > 0.0]).all()
     assert np.isinf(under_another_law(np.array([1.0]), 10, np.random.default_rng(1))).all()
 
 
@@ -240,7 +241,7 @@ def test_too_few_laws_are_said_and_leave_no_limits():
 
 def test_analyses_over_records_draw_laws_and_say_which():
     """Runs of an IDA and of a study in space say of which law each is; in the plane none does."""
-    motions = [dataclasses.replace(st.harmonic(2.0, 1.0, 0.3), name=name) for name in ("one", "other")]
+    motions = [st.harmonic(2.0, 1.0, 0.3).replace(name=name) for name in ("one", "other")]
     found = st.ida(ROUND, motions, SPACE, "pga", levels=[0.1], replicates=4, tail=0.1)
     assert found.runs[LAW].tolist() == [1, 1, 1, 2] * 2
     study = st.Study((ROUND,), motions, [SPACE, st.DistinctElement2D()], (0.1,), "pga", replicates=4, tail=0.1)

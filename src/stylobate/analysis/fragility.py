@@ -94,7 +94,8 @@ class Fragility(Shown):
     @property
     def laws(self) -> int:
         """Number of laws of the joints, where they vary; else 0."""
-        return 0 if self.samples_of_columns is None else len(np.unique(self.evidence.laws))
+        laws = self.evidence.laws
+        return 0 if laws is None else len(np.unique(laws))
 
     @property
     def of_columns(self) -> Fragility:

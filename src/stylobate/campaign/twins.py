@@ -14,7 +14,6 @@ from ..models.base import Model
 from .campaign import MAX_TWINS, Campaign
 from .unknown_laws import OF_ROUND, PARTS, drawn_laws, usual_with_laws
 
-
 #: Column of a table of runs: the number of the law of the joints, where it varies.
 LAW = "law_of_joints"
 
