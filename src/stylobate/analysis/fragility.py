@@ -117,9 +117,7 @@ class Fragility(Shown):
             "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
             "nothing about the next earthquake"
         )
-        few = f"the twins share {self.laws} law{'s' * (self.laws > 1)} of the joints, too few to tell how much it decides: "
-        few += f"give more replicates, of which every {PER_LAW} share one, such as {FEW_LAWS * PER_LAW}"
-        known = (self.outside, self.no_dispersion, alone * self.records_are_one, few * (0 < self.laws < FEW_LAWS))
+        known = (self.outside, self.no_dispersion, alone * self.records_are_one, self.few_laws)
         said = [f"{one}." for one in known if one]
         return [self.evidence.doubt, *said] if self.evidence.doubt else said
 
@@ -151,6 +149,13 @@ class Fragility(Shown):
             f"the fitted median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}"
             f"{unit}): it is told by the shape of the curve, not by runs; give {more} intensities"
         )
+
+    @property
+    def few_laws(self) -> str:
+        """Caveat on twins of too few laws of the joints; empty where there are enough, or one is taken as known."""
+        few = f"the twins share {self.laws} law{'s' * (self.laws > 1)} of the joints, too few to tell how much it decides: "
+        few += f"give more replicates, of which every {PER_LAW} share one, such as {FEW_LAWS * PER_LAW}"
+        return few * (0 < self.laws < FEW_LAWS)
 
     @property
     def no_dispersion(self) -> str:

@@ -178,7 +178,7 @@ def ida(
     _warn_of_factors(traces, measure.power)
     table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model, drawn)
     table["hunted"] = stripes is None
-    table.attrs["doubt"] = doubt = caveat([column], model)
+    table.attrs["doubt"] = doubt = "" if drawn is not None and drawn.groups else caveat([column], model)
     return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
 
 

@@ -195,7 +195,7 @@ def compare_states(
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
     parts: list[Any] = [table[table["state"] == label] for label in labels]
-    before = caveat(named, model)
+    before = caveat(named, *study.of_one_law)
     told = [evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
@@ -204,7 +204,7 @@ def compare_states(
         for first, one, curve in zip(compared.values(), told[1:], curves[1:], strict=True)
     )
     side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records, told[0].laws))
-    before = doubt(labels, named, model)
+    before = doubt(labels, named, model) if study.of_one_law else ""
     return StateComparison(labels, named, result, table, curves, differences, side_by_side, state, before)
 
 

@@ -154,6 +154,12 @@ class Study:
         models = self.models if self.campaign.replicates else ()
         return [[the_twins(one, model, self.campaign) for one in self.columns] for model in models]
 
+    @property
+    def of_one_law(self) -> list[Model]:
+        """Models in which not all columns vary by the law of their joints, so that doubts about it stand."""
+        vary = [all(one.groups for one in some) for some in self.twins] or [False] * len(self.models)
+        return [model for model, does in zip(self.models, vary, strict=True) if not does]
+
     @cached_property
     def quiet(self) -> np.ndarray:
         """Share below which each motion counts as quiet [-], shape (motions,)."""

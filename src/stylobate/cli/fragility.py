@@ -117,6 +117,7 @@ def describe(found: Fragility) -> None:
     if s.get("laws"):
         alone = between(s["median_of_columns_low"], s["median_of_columns_high"])
         median += f"; by records and columns alone {alone}, the rest by the law of the joints"
+        median += f" ({found.few_laws})" if found.few_laws else ""
     limits = between(s["beta_low"], s["beta_high"], digits=2)
     spread = f"not seen in these runs (95 %: {limits})" if s["beta"] is None else f"{s['beta']:.3f} (95 %: {limits})"
     records = ", each taken for a record of its own" if s["records_are_one"] else f" of {s['records']} records"
