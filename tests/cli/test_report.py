@@ -328,7 +328,7 @@ def test_every_share_of_a_suite_has_its_interval_and_its_number():
     runs = [
         {"column": "a", "record": f"r{k // 2}", "motion": f"r{k // 2} at {k % 2}°", "verdict": end, "pga_g": 0.3}
         | {"collapse_probability": 0.4, "replicates": 6, "twins_collapsed": 2, "twins_stands": 2, "twins_undecided": 1,
-           "twins_failed": 1}
+           "twins_failed": 1, "collapse_interval_low": 0.12, "collapse_interval_high": 0.88}
         for k, end in enumerate(ends)
     ]  # fmt: skip
     (sentence, look), items = _suite(SimpleNamespace(summary={"runs": runs}, pictures={}))
