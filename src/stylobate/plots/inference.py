@@ -214,7 +214,10 @@ def _said(inference: Inference) -> str:
     one = inference.posterior["pgv_m_s"]
     if not one.informative:
         return "What shaking was it? These shapes do not tell the PGV"
-    return f"What shaking was it? PGV {one.median:.2g} m/s ({one.low:.2g} to {one.high:.2g}, 90 %)"
+    told = f"PGV {one.median:.2g} m/s ({one.low:.2g} to {one.high:.2g}, 90 %)"
+    if inference.odd:
+        return f"Not as shaking alone leaves it; if it did all of it: {told}"
+    return f"What shaking was it? {told}"
 
 
 def _plain_ticks(axes: Axes, low: float, high: float) -> None:
