@@ -53,7 +53,8 @@ def statements_markdown(rows: Sequence[Statement], quick: bool) -> str:
     lines = [
         "# The paper, sentence by sentence",
         "",
-        "Every checkable sentence of Baraldi, Sarhosis and Milani, in our words, beside what this package computes. "
+        "Sentences of Baraldi, Sarhosis and Milani that can be checked, in our words, beside what this package "
+        "computes. Their equations and figures have no rows of their own yet. "
         f"Written by `stylobate reproduce{' --quick' if quick else ''}`; nothing in it is edited by hand. "
         "Rows with another source than the paper's sections are what others found of columns in space.",
         "",
