@@ -29,6 +29,8 @@ ORDER = (
     "plot_portal.py",
     "plot_temple_corner.py",
     "plot_in_space.py",
+    "plot_what_shaking.py",
+    "plot_many_sites.py",
 )
 
 _shown: WeakSet[Figure] = WeakSet()

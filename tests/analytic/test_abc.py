@@ -32,6 +32,23 @@ def test_posterior_of_a_normal_mean(mean):
     assert (low, middle, high) == pytest.approx(exact + spread * norm.ppf(abc.SHARES), abs=0.12 * spread)
 
 
+def test_draws_are_foretold_without_themselves(monkeypatch):
+    # The closed form of what is left out (Allen 1974) against regressions that leave each of forty draws out in turn.
+    monkeypatch.setattr(abc, "PENALTIES", np.array([1e-2]))
+    stream = np.random.default_rng(2)
+    features, targets = stream.standard_normal((40, 5)), stream.standard_normal((40, 2))
+    own, found = abc.expected(features, targets, features)
+    scaled = (features - features.mean(axis=0)) / features.std(axis=0)
+    design = np.column_stack((np.ones(40), scaled))
+    penalty = 1e-2 * np.linalg.svd(scaled, compute_uv=False)[0] ** 2 * np.diag([0.0, 1, 1, 1, 1, 1])
+    for k in range(40):
+        rest = np.delete(np.arange(40), k)
+        line = np.linalg.solve(design[rest].T @ design[rest] + penalty, design[rest].T @ targets[rest])
+        assert own[k] == pytest.approx(design[k] @ line, abs=1e-9)  # of numbers of order one, in double precision
+    line = np.linalg.solve(design.T @ design + penalty, design.T @ targets)
+    assert found == pytest.approx(design @ line, abs=1e-9)
+
+
 def test_ranks_of_the_truth_are_even():
     # Simulation-based calibration of the same model: 300 truths, ten bins.
     theta, measured = conjugate()

@@ -43,6 +43,11 @@ def test_a_history_becomes_losses_that_other_commands_take(measured, tmp_path, c
                  "--replicates", "0", "--json"]) == 0  # fmt: skip
     ran = json.loads(capsys.readouterr().out)
     assert ran["losses_acting"]["stiffness_damping"] == pytest.approx(loss["value"], rel=1e-12)
+    assert call(["report", str(out), "--out", str(tmp_path / "r.html")]) == 0
+    text = (tmp_path / "r.html").read_text(encoding="utf-8").replace("\N{NO-BREAK SPACE}", " ")
+    assert told["sentence"] in text
+    assert f"{loss['value']:.4g}" in text
+    assert "restitution by successive extremes" in text
 
 
 @pytest.mark.parametrize(

@@ -179,6 +179,9 @@ def test_no_data_centre(run):
     assert code == 2
     assert "no data centre is called 'NOWHERE'" in errors
     code, _, errors = run("fetch", "42", "--service", "http://127.0.0.1:9")
+    assert code == 2
+    assert "'http://127.0.0.1:9' is no address of a data centre" in errors
+    code, _, errors = run("fetch", "42", "--service", "http://127.0.0.1:59999")
     assert code == 1
     assert "gives no answer" in errors
 

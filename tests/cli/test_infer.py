@@ -107,6 +107,14 @@ def test_survival_is_one_more_observation(ruin, tmp_path, capsys):
     assert "Year of the earthquake" in (tmp_path / "report.html").read_text()
 
 
+def test_joints_in_their_places_are_not_odd(ruin, capsys):
+    # 0 ± 3 mm of each joint: less than errors alone would mostly make of it, and what a survey writes that saw nothing move.
+    said = "offsets = [[1, 0.0, 0.0, 0.003], [2, 0.0, 0.0, 0.003]]"
+    assert call(["infer", str(ruin(low=said, pgv="[0.05, 1.0]")), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["consistent"], told["checks"]
+
+
 @pytest.mark.parametrize(
     ("given", "varies"), [("friction = 0.1\noffset = 0.01", {"friction": 0.1, "offset": 0.01}), ("", {})]
 )
@@ -147,6 +155,14 @@ def test_nothing_seen_leaves_the_prior(ruin, capsys):
         ({"low": "offsets = [[1, 0.01, 0.0, 0.0]]"}, "allowed is \\(0"),
         ({"low": "offsets = [[1, 20, 3, 1]]"}, "offsets are in metres"),
         ({"low": "offsets = [[1, 0.05, 0.0, 0.001]]\nno_slip_above = 0.01"}, "one of the two is wrong"),
+        ({"low": "largest_slip = [0.01, 0.002]\noffsets = [[1, 0.05, 0.0, 0.001]]"}, "largest_slip is 10 mm; one of"),
+        (
+            {"low": "largest_slip = [0.03, 0.002]\nno_slip_above = 0.01"},
+            "no_slip_above is 10 mm; one of the two is wrong",
+        ),
+        ({"low": "largest_slip = [0.03]"}, "a length and its sd"),
+        ({"low": "largest_slip = [30, 1]"}, "offsets are in metres"),
+        ({"high": "fell", "fell": "largest_slip = [0.01, 0.002]"}, "what fell has none"),
         ({"low": "twist = [[1, 2.0, 1.0]]"}, "unknown key 'twist'"),
         ({"high": "leans"}, "allowed are stands, fell"),
         ({"more": "[survival]\nhazard = 'none.csv'\nsince = 1200\nuntil = 2020"}, "none.csv"),

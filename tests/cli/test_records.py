@@ -37,6 +37,12 @@ def test_what_is_written_reads_back_as_scaled(folder, tmp_path, capsys):
     assert call([*asked[:5], "2", *asked[6:], "--out", str(out)]) == 2
     assert "choose another folder" in capsys.readouterr().err
     assert call([*asked, "--out", str(out)]) == 0
+    page = tmp_path / "r.html"
+    assert call(["report", str(out), "--out", str(page)]) == 0
+    text = page.read_text(encoding="utf-8")
+    assert told["sentence"][:40] in text
+    assert text.count("<td") > 3 * len(told["records"])
+    assert "stylobate records" in text
 
 
 @pytest.mark.parametrize(

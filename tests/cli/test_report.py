@@ -18,6 +18,8 @@ from stylobate.own_files import OwnFiles
 from stylobate.plots import style
 from stylobate.report import pdf, pictures
 from stylobate.report.case import write_report
+from stylobate.report.language import HOLE, LANGUAGES, Language, sentences_of
+from stylobate.report.project import Project
 from stylobate.results import Kind, read_results
 
 EVIL = '<script>alert("x")</script> & <b onclick=1>'
@@ -161,6 +163,20 @@ def test_names_of_strangers_are_text(page):
     assert "default-src 'none'" in page
 
 
+@pytest.mark.parametrize("tag", LANGUAGES)
+def test_every_kind_of_result_in_another_language_has_no_english_of_the_table(place, tmp_path, tag):
+    """No whole sentence, and no piece of four words between placeholders; what is cited and typed is left out."""
+    project = Project(client="a", site="b", engineer="c", language=tag)
+    (file,) = write_report(folders(place), tmp_path / "r.html", project=project)
+    content = re.sub(r'<p class="code">.*?</p>', "", file.read_text(encoding="utf-8"))
+    text = " ".join(Page(content).text.replace("\N{NO-BREAK SPACE}", " ").split())
+    pieces = {one.strip(" .:;,()") for sentence in sentences_of(tag) for one in HOLE.split(sentence)[::2]}
+    long = [one for one in pieces if len(re.findall("[A-Za-z]{2,}", one)) >= 4]
+    assert len(long) > 300
+    assert [one for one in long if one in text] == []
+    assert sentences_of(tag)["Sources to cite"] in text
+
+
 def test_the_first_page_tells_how_sure_each_run_is(page):
     front = Page(page[: page.index("</nav>")]).text
     assert "Of 3 columns like this one" in front
@@ -196,9 +212,9 @@ def test_the_first_page_has_the_shares_and_each_doubt_once():
         "Result", [Note(["It falls at 1 g.", "Scope."], "verdict bad"), *warnings_of(result, [plane, other])]
     )
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(case, "_title", lambda result: "")
+        patch.setattr(case, "_title", lambda result, language: "")
         patch.setattr(case, "_sections_of", lambda result, told, all_: [result])
-        cases = [case._case(one, set(), []) for one in (run, several)]
+        cases = [case._case(one, set(), [], Language()) for one in (run, several)]
     assert [one["verdict"] for one in cases] == ["It stands. 1 of 15 falls.", "It falls at 1 g."]
     (note,) = case._notes([one["notes"] for one in cases])
     assert note.texts == [f"On all of them: {plane}", f"On 2: {other}"]
@@ -312,7 +328,7 @@ def test_every_share_of_a_suite_has_its_interval_and_its_number():
     runs = [
         {"column": "a", "record": f"r{k // 2}", "motion": f"r{k // 2} at {k % 2}°", "verdict": end, "pga_g": 0.3}
         | {"collapse_probability": 0.4, "replicates": 6, "twins_collapsed": 2, "twins_stands": 2, "twins_undecided": 1,
-           "twins_failed": 1}
+           "twins_failed": 1, "collapse_interval_low": 0.12, "collapse_interval_high": 0.88}
         for k, end in enumerate(ends)
     ]  # fmt: skip
     (sentence, look), items = _suite(SimpleNamespace(summary={"runs": runs}, pictures={}))

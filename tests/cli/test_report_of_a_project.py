@@ -6,6 +6,7 @@ import re
 import pytest
 
 from stylobate.cli.main import call
+from stylobate.report.language import sentences_of
 
 GOOD = """client = "Ministry <b>"
 site = "Temple, column 5"
@@ -60,3 +61,42 @@ def test_a_file_that_cannot_be_signed_is_refused(statics, tmp_path, capsys, text
     assert why in said
     assert "Traceback" not in said
     assert not out.exists()
+
+
+def test_a_report_in_a_language_of_a_file_beside_the_project(statics, tmp_path):
+    """What the file translates is translated; the rest is English, and the page says so at its start."""
+    assert call(["report", "--translation-template", str(tmp_path / "de.toml")]) == 0
+    text = (tmp_path / "de.toml").read_text(encoding="utf-8").replace('language = ""', 'language = "de"')
+    (tmp_path / "de.toml").write_text(text.replace('Signature = ""', 'Signature = "Unterschrift"'), encoding="utf-8")
+    (tmp_path / "p.toml").write_text(f'{GOOD}language = "de.toml"\n')
+    out = tmp_path / "r.html"
+    assert call(["report", str(statics / "limit"), "--project", str(tmp_path / "p.toml"), "--out", str(out)]) == 0
+    page = out.read_text(encoding="utf-8")
+    assert '<html lang="de">' in page
+    assert "<h3>Unterschrift</h3>" in page
+    start = page[: page.index("<h3>")]
+    assert "Parts in English" in start
+    assert "What was asked" in start
+
+
+def test_a_template_needs_no_results_and_a_report_does(tmp_path, capsys):
+    assert call(["report", "--out", str(tmp_path / "r.html")]) == 2
+    assert "give the folders of the results" in capsys.readouterr().err
+    (tmp_path / "mine.toml").write_text("mine")
+    assert call(["report", "--translation-template", str(tmp_path / "mine.toml")]) == 2
+    assert (tmp_path / "mine.toml").read_text() == "mine"
+
+
+@pytest.mark.parametrize("language", ["it", "el"])
+def test_the_executive_page_is_all_in_its_language(statics, tmp_path, language):
+    (tmp_path / "p.toml").write_text(f'{GOOD}language = "{language}"\n')
+    out = tmp_path / "r.html"
+    assert call(["report", str(statics / "limit"), "--project", str(tmp_path / "p.toml"), "--out", str(out)]) == 0
+    page = html.unescape(out.read_text(encoding="utf-8"))
+    said = sentences_of(language)
+    for english in ("Signature", "Answers", "Limits: what is not covered", "Assumptions of this report", "Verdict"):
+        assert f"<h3>{english}</h3>" not in page
+    for english in ("Signature", "Answers", "Limits: what is not covered", "Sources of the results"):
+        assert f"<h3>{said[english]}</h3>" in page
+    number = re.search(r"[\d.]+ volte il suo peso|[\d.]+ φορές το βάρος", page)
+    assert number, page[:3000]

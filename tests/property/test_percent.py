@@ -44,7 +44,7 @@ def test_all_who_tell_a_share_tell_the_same():
     (share,) = shares({"a": np.array([1] * 23 + [0] * 17)})
     population = Population(Twins([], Scatter(), 0, ()), rows)
     assert percents(share.low, share.high) == share.words == "58 %"
-    assert chance_words({f"twins_{key}": value for key, value in population.counts.items()}).startswith("58 % of 40 (")
+    assert chance_words(population.columns).startswith("58 % of 40 (")
     assert f"(95 %: {percents(*population.interval)})" in population.sentence
     assert population.counts[v.COLLAPSED] == 23
 

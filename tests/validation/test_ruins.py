@@ -34,8 +34,10 @@ def test_what_hands_have_moved_stands_out():
 
 
 def test_slips_tell_more_than_states():
-    # A forest on 1,600 runs of other columns left 0.62 of the spread by states, 0.37 with slips without errors; a forest on
-    # the same runs as here 0.67 and, with errors of 1 mm, 0.46. Ours is to be within a tenth of the latter.
-    states, slips = (KEPT[name]["pgv_m_s"]["error_over_prior"] for name in ("states_alone", "states_and_slips"))
-    assert states < 0.74
-    assert slips < 0.56
+    # A forest on 1,600 runs of columns that are not known left 0.62 of the spread of ln PGV by states, 0.36 with slips that
+    # have no errors. One on the runs of here (scikit-learn 1.9.1, 400 trees, out of bag, no ruin that matches fewer than a
+    # hundred draws, as here) leaves these; an error over 1,450 ruins is known to 2 %, of which two are let through.
+    forest = {"stout": (0.699, 0.477, 0.406), "slender": (0.597, 0.418, 0.368)}
+    for columns, told in forest.items():
+        for said, error in zip(("states", "1 mm", "exact"), told, strict=True):
+            assert KEPT["what_slips_tell"][f"{columns}, {said}"] < 1.04 * error

@@ -11,7 +11,7 @@ import numpy as np
 from ..campaign.ruin import Fact
 from ..campaign.simulations import Simulations
 from . import abc
-from .traces import EVENTS, VECTORS, features, left_by, matches
+from .traces import EVENTS, LENGTHS, features, left_by, matches
 
 #: Parameters that are told, and their units.
 TOLD = {"pgv_m_s": "m/s", "pga_g": "g", "period_s": "s", "azimuth_deg": "°"}
@@ -189,7 +189,7 @@ class Answers:
         fallen = sum(fact.kind == "state" and fact.value[0] == 1.0 for fact in self.facts)
         standing = sum(fact.kind == "state" for fact in self.facts) - fallen
         none = FALLS_OTHERWISE**fallen * (1.0 - FALLS_OTHERWISE) ** standing
-        told = [fact for fact in self.facts if fact.kind in (*VECTORS, "twist")]  # a fall has any direction either way
+        told = [fact for fact in self.facts if fact.kind in (*LENGTHS, "twist")]  # a fall has any direction either way
         if not told:
             return share, none, False
         stream = np.random.default_rng([self.seed, 2])

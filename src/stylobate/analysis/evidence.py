@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..campaign.twins import LAW
 from ..errors import InputError, check_kind
 from ..motion.intensity_specs import ENDS, IntensityMeasure, measure_of_column, parse_measure
 from ..outcome import Outcome
@@ -16,6 +17,7 @@ from . import tables
 from . import verdicts as v
 from .ida_curves import Ida
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, LimitState, parse_state
+from .lognormal import fit
 
 if TYPE_CHECKING:
     import pandas
@@ -68,6 +70,8 @@ class Evidence:
         Which runs have one capacity: those under one motion of a record with one column; all of a record by default.
     doubt : str
         What stands before all that rests on these runs, because of the model; empty where nothing does.
+    laws : array, shape (n,), optional
+        Number of the law of the joints of each run, where it varies.
     """
 
     records: np.ndarray
@@ -80,6 +84,12 @@ class Evidence:
     brackets: bool = False
     curves: np.ndarray | None = None
     doubt: str = ""
+    laws: np.ndarray | None = None
+
+    def only(self, mask: np.ndarray) -> Evidence:
+        """Some of these runs."""
+        alike = {name: None if (one := getattr(self, name)) is None else one[mask] for name in ("curves", "laws")}
+        return replace(self, records=self.records[mask], im=self.im[mask], codes=self.codes[mask], **alike)
 
     def count(self, code: int) -> int:
         """Number of runs that say so."""
@@ -245,7 +255,16 @@ def evidence(
         "hunted" in table and bool(table["hunted"].iloc[0]),
         table.groupby(alike, dropna=False).ngroup().to_numpy()[~zero],
         doubt,
+        _laws(table, ~zero),
     )
+
+
+def _laws(table: pandas.DataFrame, some: np.ndarray) -> np.ndarray | None:
+    """Law of the joints of some runs; None where a table does not say that it varies."""
+    import pandas
+
+    laws = np.nan_to_num(np.asarray(pandas.to_numeric(table[LAW], errors="coerce"))) if LAW in table else np.zeros(1)
+    return laws[some].astype(int) if laws.any() else None
 
 
 def _rivals(table: pandas.DataFrame, measure: IntensityMeasure) -> list[str]:
@@ -337,3 +356,17 @@ def intervals(evidence: Evidence, codes: np.ndarray, method: str) -> tuple[np.nd
     np.maximum.at(low, curve[below], y[below])
     told = np.isfinite(low) | np.isfinite(high)
     return low[told], high[told], owner[first][told]
+
+
+def medians_by_law(evidence: Evidence, codes: np.ndarray, method: str) -> np.ndarray:
+    """ln of the median capacity under each law of the joints, shape (laws,).
+
+    Infinite where no run under a law exceeds the state, or every one does; NaN where none is decided.
+    """
+    assert evidence.laws is not None
+    found = []
+    for law in np.unique(evidence.laws):
+        mine = evidence.laws == law
+        low, high, _ = intervals(evidence.only(mine), codes[mine], method)
+        found.append(float(fit(low, high).log_median[0]) if len(low) else np.nan)
+    return np.array(found)

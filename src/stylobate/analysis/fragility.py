@@ -9,16 +9,18 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtr
 
+from ..campaign.unknown_laws import PER_LAW
 from ..errors import InputError, check_choice, check_kind
 from ..notebook import Shown
 from . import likelihood_region, lognormal
-from .evidence import Evidence, intervals
+from .evidence import Evidence, intervals, medians_by_law
 from .evidence import evidence as evidence_of
 from .fragility_checks import check_bootstrap, check_number, check_shape
 from .fragility_points import Points, goodness, points_of
 from .ida_curves import Ida
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 from .lognormal import curve
+from .unknown_law import under_another_law
 
 #: Samples of the bootstrap.
 SAMPLES = 1000
@@ -28,6 +30,9 @@ METHODS = ("runs", "records")
 
 #: A limit of the median that is farther from all intensities that were run than by this factor is none.
 FAR = 1000.0
+
+#: Laws of the joints from fewer than which how much they decide is not told.
+FEW_LAWS = 4
 
 #: A dispersion so near, in its logarithm, to where the fit ends is at the end [-].
 CLOSE = 1e-6
@@ -65,6 +70,8 @@ class Fragility(Shown):
     confidence : float
     records_are_one : bool
         Every run counts as a record of its own: ``records`` are runs.
+    samples_of_columns : array, shape (S, 2), optional
+        The samples as if the law of the joints were known, where it varies.
     """
 
     evidence: Evidence
@@ -82,6 +89,21 @@ class Fragility(Shown):
     confidence: float
     records_are_one: bool = False
     ends: tuple[Fragility | None, ...] = ()
+    samples_of_columns: np.ndarray | None = None
+
+    @property
+    def laws(self) -> int:
+        """Number of laws of the joints, where they vary; else 0."""
+        laws = self.evidence.laws
+        return 0 if laws is None else len(np.unique(laws))
+
+    @property
+    def of_columns(self) -> Fragility:
+        """The same as if the law of the joints were known, of which the samples draw one more."""
+        if self.samples_of_columns is None:
+            return self
+        ends = tuple(None if one is None else one.of_columns for one in self.ends)
+        return replace(self, samples=self.samples_of_columns, samples_of_columns=None, ends=ends)
 
     @property
     def counted(self) -> str:
@@ -95,7 +117,8 @@ class Fragility(Shown):
             "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
             "nothing about the next earthquake"
         )
-        said = [f"{one}." for one in (self.outside, self.no_dispersion, alone * self.records_are_one) if one]
+        known = (self.outside, self.no_dispersion, alone * self.records_are_one, self.few_laws)
+        said = [f"{one}." for one in known if one]
         return [self.evidence.doubt, *said] if self.evidence.doubt else said
 
     @property
@@ -126,6 +149,13 @@ class Fragility(Shown):
             f"the fitted median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}"
             f"{unit}): it is told by the shape of the curve, not by runs; give {more} intensities"
         )
+
+    @property
+    def few_laws(self) -> str:
+        """Caveat on twins of too few laws of the joints; empty where there are enough, or one is taken as known."""
+        few = f"the twins share {self.laws} law{'s' * (self.laws > 1)} of the joints, too few to tell how much it decides: "
+        few += f"give more replicates, of which every {PER_LAW} share one, such as {FEW_LAWS * PER_LAW}"
+        return few * (0 < self.laws < FEW_LAWS)
 
     @property
     def no_dispersion(self) -> str:
@@ -244,6 +274,13 @@ class Fragility(Shown):
             f"the one brings it, and every {run} from the other on does."
         )
 
+    def _law_facts(self) -> dict[str, Any]:
+        """Number of laws of the joints, and limits of the median as if they were known; empty where they do not vary."""
+        if not self.laws:
+            return {}
+        low, high = self.of_columns.median_interval
+        return {"laws": self.laws, "median_of_columns_low": low, "median_of_columns_high": high}
+
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate fragility``."""
         e = self.evidence
@@ -252,6 +289,7 @@ class Fragility(Shown):
             "median": self.median,
             "median_low": self.median_interval[0],
             "median_high": self.median_interval[1],
+            **self._law_facts(),
             "beta": _seen(self.beta),
             "beta_low": self.beta_interval[0],
             "beta_high": self.beta_interval[1],
@@ -345,10 +383,10 @@ def fragility(
         )
     points = points_of(used, codes, how, both_ways=True)
     distance, p_value = goodness(used, how, points, log_median, beta, rng)
-    found = Fragility(
+    found = _with_laws(Fragility(
         used, how, log_median, beta, *_known(low, high, owner, samples, rng, confidence), (extremes[0], extremes[1]),
         points, distance, p_value, confidence, records_are_one,
-    )  # fmt: skip
+    ), rng)  # fmt: skip
     if (codes >= 0).all():
         return found
     return replace(found, ends=tuple(_ended(found, counted, samples, seed) for counted in (EXCEEDED, NOT_EXCEEDED)))
@@ -372,15 +410,26 @@ def _ended(found: Fragility, counted: int, samples: int, seed: int) -> Fragility
     one = found.evidence
     one = replace(one, codes=np.where(one.codes < 0, counted, one.codes))
     low, high, owner = intervals(one, one.codes, found.method)
-    best = lognormal.fit(low, high)
+    best, rng = lognormal.fit(low, high), np.random.default_rng(seed)
     try:
         check_shape(one, low, high, best)
     except InputError:
         return None
-    known = _known(low, high, owner, samples, np.random.default_rng(seed), found.confidence)
+    known = _known(low, high, owner, samples, rng, found.confidence)
     names = ("samples", "region", "dispersions", "bracket")
     middle, spread = (float(each[0]) for each in best)
-    return replace(found, evidence=one, log_median=middle, beta=spread, **dict(zip(names, known)))
+    return _with_laws(replace(found, evidence=one, log_median=middle, beta=spread, **dict(zip(names, known))), rng)
+
+
+def _with_laws(found: Fragility, rng: np.random.Generator) -> Fragility:
+    """The curve with samples that draw one more law of the joints, where the runs are of several."""
+    e = found.evidence
+    if e.laws is None:
+        return found
+    away = under_another_law(medians_by_law(e, e.codes, found.method), len(found.samples), rng)
+    return replace(
+        found, samples=found.samples + np.stack((away, np.zeros(len(away))), axis=1), samples_of_columns=found.samples
+    )
 
 
 def _seen(beta: float) -> float | None:

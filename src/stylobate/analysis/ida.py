@@ -16,7 +16,7 @@ from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.cases import RELATIVE
 from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
-from ..campaign.twins import the_twins
+from ..campaign.twins import Twins, the_twins
 from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, suggest, warn
@@ -140,7 +140,7 @@ def ida(
     facts = [_facts(one, measure, relation, known.get(one.name, known.get(record_of(one), {}))) for one in motions]
     if angle is None:
         facts = [{name: value for name, value in one.items() if name not in RELATIVE} for one in facts]
-    drawn = the_twins(column, model, campaign, laws=False) if campaign.replicates else None
+    drawn = the_twins(column, model, campaign) if campaign.replicates else None
     columns = [column] if drawn is None else list(drawn.columns)
     traces = []
     for motion, fact in zip(motions, facts):
@@ -176,9 +176,9 @@ def ida(
     except KeyboardInterrupt:
         raise Stopped(done, total, campaign.ledger) from None
     _warn_of_factors(traces, measure.power)
-    table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model)
+    table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model, drawn)
     table["hunted"] = stripes is None
-    table.attrs["doubt"] = doubt = caveat([column], model)
+    table.attrs["doubt"] = doubt = "" if drawn is not None and drawn.groups else caveat([column], model)
     return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
 
 
@@ -252,6 +252,7 @@ def _table(
     column: Structure,
     measure: IntensityMeasure,
     model: Model,
+    drawn: Twins | None,
 ) -> pandas.DataFrame:
     import pandas
 
@@ -263,7 +264,7 @@ def _table(
             factor = (trace.levels[k] / trace.value) ** (1.0 / measure.power)
             scaled = {key: value * factor ** powers.get(key, 0) for key, value in fact.items()}
             who = {"record": record_of(trace.motion), "motion": trace.motion.name, "realisation": trace.number}
-            who |= {"column": column.name, "model": model.name}
+            who |= {"column": column.name, "model": model.name} | (drawn.law_of(trace.number) if drawn else {})
             widths = column.widths
             found: dict[str, Any] = {"verdict": v.verdict(trace.rows[k]), **trace.rows[k]}
             rows.append(

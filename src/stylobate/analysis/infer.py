@@ -116,9 +116,10 @@ class Inference(Shown):
     @property
     def sentence(self) -> str:
         """The answer, in a few sentences."""
-        pgv, said = self.posterior["pgv_m_s"], []
+        pgv, said = self.posterior["pgv_m_s"], [one.sentence for one in self.odd]
         if pgv.informative:
-            said.append(f"The peak ground velocity was {words_of('pgv_m_s', pgv)} (90 %).")
+            start = "If shaking alone did all of it, the" if said else "The"
+            said.append(f"{start} peak ground velocity was {words_of('pgv_m_s', pgv)} (90 %).")
         told = [name for name, one in self.posterior.items() if one.informative and name != "pgv_m_s"]
         said += [
             f"{CALLED[name].capitalize() if name != 'pga_g' else 'PGA'} {words_of(name, self.posterior[name])}."
@@ -140,8 +141,6 @@ class Inference(Shown):
                 )
         if self.outlasted is not None:
             said.append(self.outlasted.sentence(self.answers.matching(self.answers.facts)))
-        for one in self.odd:
-            said.append(f"{one.sentence}")
         return " ".join(said)
 
     @property

@@ -183,6 +183,8 @@ def changes(table: Simulations, facts: list[Fact]) -> tuple[np.ndarray, np.ndarr
             after |= left.fallen[:, fact.joint] & (fact.value[0] == 0.0)
         elif fact.kind == "no slip above":
             after |= stood & (left.largest > fact.value[0])
+        elif fact.kind == "largest":
+            after |= stood & (left.largest > fact.value[0] + FARTHER * fact.sd)
         elif fact.kind in VECTORS:
             moved = np.linalg.norm(plan(fact, left), axis=1)
             after |= (stood if fact.kind == "offset" else ~left.fallen[:, fact.joint]) & (

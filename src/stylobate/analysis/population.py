@@ -253,15 +253,15 @@ def chance_words(row: Mapping[str, Any]) -> str:
     Parameters
     ----------
     row : mapping
-        Of a table with :attr:`Population.columns`, or the JSON object of ``stylobate run``.
+        Of a table with :attr:`Population.columns`, or the JSON object of ``stylobate run`` with twins; their interval is
+        that of :attr:`Population.interval`, which holds another law of the joints where that is not known.
     """
     known = row.get("certainty") or {one: row.get(f"twins_{one}") for one in v.MADE}
     fell, stood, open_, failed = (int(known.get(one) or 0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED))
     number = fell + stood + open_
     if not number:
         return f"none of {failed} could be computed" if failed else ""
-    limits = known.get("interval") or v.collapse_interval(fell, stood, open_, float(known.get("confidence") or 0.95))
-    low, high = (float(one) for one in limits)
+    low, high = (float(row[f"collapse_interval_{one}"]) for one in ("low", "high"))
     said = f"{percents(fell / number, (fell + open_) / number)} of {number} ({percents(low, high)})"
     counts = [f"{count} {word}" for count, word in ((open_, "undecided"), (failed, "failed")) if count]
     return f"{said}; {', '.join(counts)}" if counts else said

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..campaign.ruin import Fact
 from . import abc
-from .traces import EVENTS, LEAST_OFFSET, LEAST_TWIST, VECTORS
+from .traces import EVENTS, LEAST_OFFSET, LEAST_TWIST, LENGTHS
 
 if TYPE_CHECKING:
     from .answers import Answers
@@ -96,13 +96,14 @@ def _number(answers: Answers, fact: Fact, rest: list[Fact]) -> tuple[float, str]
         off = np.abs(abc.apart(predicted, middle, 360.0))
         share = float(taken.weights[off >= abs(float(abc.apart(seen[0], middle, 360.0)))].sum())
         return (share * taken.effective + 0.5) / (taken.effective + 1.0), f"a fall towards {middle:.0f}°"
-    scale = max(fact.sd, LEAST_OFFSET if fact.kind in VECTORS else LEAST_TWIST)
+    scale = max(fact.sd, LEAST_OFFSET if fact.kind in LENGTHS else LEAST_TWIST)
     taken = answers.foretold(rest, np.arcsinh(np.linalg.norm(answers.values[fact], axis=1) / scale))
     level = taken.targets[:, 0]
     mean, sd = float(np.average(level, weights=taken.weights)), abc.spread(level, taken.weights)
-    off = (float(np.arcsinh(np.linalg.norm(seen) / scale)) - mean) / max(sd, 1e-12)
+    length = max(float(np.linalg.norm(seen)), fact.sd)  # who writes 0 ± 3 mm has seen none, not less than errors make
+    off = (float(np.arcsinh(length / scale)) - mean) / max(sd, 1e-12)
     low, high = scale * np.sinh(np.maximum(abc.quantiles(level, taken.weights)[[0, 2]], 0.0))
-    factor, unit = (1e3, "mm") if fact.kind in VECTORS else (1.0, "°")
+    factor, unit = (1e3, "mm") if fact.kind in LENGTHS else (1.0, "°")
     return float(
         2.0 * t.sf(abs(off), max(1.0, taken.effective - 1.0))
     ), f"{factor * low:.2g} to {factor * high:.3g} {unit}"

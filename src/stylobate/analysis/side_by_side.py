@@ -12,6 +12,7 @@ import numpy as np
 from ..percent import percents
 from . import verdicts as v
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
+from .unknown_law import share_under_another_law
 
 #: Intensities that differ by less are one [-].
 CLOSE = 1e-6
@@ -99,7 +100,11 @@ class Share:
         return said + (f"; {self.failed} more could not be computed." if self.failed else ".")
 
 
-def shares(codes: Mapping[Any, np.ndarray], records: Sequence[Any] | np.ndarray | None = None) -> list[Share]:
+def shares(
+    codes: Mapping[Any, np.ndarray],
+    records: Sequence[Any] | np.ndarray | None = None,
+    laws: np.ndarray | None = None,
+) -> list[Share]:
     """The shares of all that stand side by side.
 
     Parameters
@@ -108,6 +113,8 @@ def shares(codes: Mapping[Any, np.ndarray], records: Sequence[Any] | np.ndarray 
         By label what each run says, as of :mod:`~stylobate.analysis.limit_states`; the runs of all in the same order.
     records : array, optional
         Of which record each run is, in the same order; each of its own by default.
+    laws : array of int, optional
+        Law of the joints of each run, where it varies: intervals hold the share under one more law, too.
     """
     same = np.all([code != FAILED for code in codes.values()], axis=0)
     names = (
@@ -120,6 +127,8 @@ def shares(codes: Mapping[Any, np.ndarray], records: Sequence[Any] | np.ndarray 
         )
         failed = int(np.count_nonzero(mine == FAILED))
         number, interval = len(np.unique(owner)), _interval(mine[same], owner)
+        if laws is not None:
+            interval = _with_laws(interval, mine[same], laws[same])
         found.append(Share(str(label), int(same.sum()), exceeded, not_exceeded, undecided, failed, number, interval))
     return found
 
@@ -132,6 +141,15 @@ def _interval(codes: np.ndarray, owner: np.ndarray) -> tuple[float, float]:
     passed = [float((np.bincount(owner, hit, len(runs))[there] / runs[there]).sum()) for hit in hits]
     low, high = (float(v.wilson_interval(one, there.sum())[k]) for k, one in enumerate(passed))
     return (min(low, float(hits[0].mean())), max(high, float(hits[1].mean()))) if len(codes) else (low, high)
+
+
+def _with_laws(interval: tuple[float, float], codes: np.ndarray, laws: np.ndarray) -> tuple[float, float]:
+    """Limits that hold those under one more law of the joints, none and all of the undecided counted in."""
+    law = np.unique(laws, return_inverse=True)[1]
+    number = np.bincount(law)
+    some, most = (np.bincount(law, np.isin(codes, kind)) for kind in ((EXCEEDED,), (EXCEEDED, OPEN)))
+    low, high = share_under_another_law(some, number)[0], share_under_another_law(most, number)[1]
+    return min(interval[0], low), max(interval[1], high)
 
 
 def codes_of(verdicts: np.ndarray) -> np.ndarray:

@@ -22,7 +22,7 @@ from ..notebook import Shown
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
 from .difference import Difference, caveat, doubt, reference
-from .evidence import Evidence, evidence, intervals
+from .evidence import Evidence, evidence, intervals, medians_by_law
 from .fragility import SAMPLES, Fragility, fragility
 from .fragility_checks import check_bootstrap
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
@@ -30,6 +30,7 @@ from .lognormal import bootstrap, falls, fit
 from .paired import levels_of, median_ends, share_limits, unseen
 from .side_by_side import Share, shares
 from .studies import StudyResult, run_study
+from .unknown_law import under_another_law
 
 if TYPE_CHECKING:
     import pandas
@@ -194,7 +195,7 @@ def compare_states(
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
     parts: list[Any] = [table[table["state"] == label] for label in labels]
-    before = caveat(named, model)
+    before = caveat(named, *study.of_one_law)
     told = [evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
@@ -202,8 +203,8 @@ def compare_states(
         _with_undecided(told[first], one, curves[first], curve, samples, seed, confidence)
         for first, one, curve in zip(compared.values(), told[1:], curves[1:], strict=True)
     )
-    side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records))
-    before = doubt(labels, named, model)
+    side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records, told[0].laws))
+    before = doubt(labels, named, model) if study.of_one_law else ""
     return StateComparison(labels, named, result, table, curves, differences, side_by_side, state, before)
 
 
@@ -290,8 +291,11 @@ def _difference(
         weight = np.random.default_rng(seed).multinomial(len(names), np.full(len(names), 1.0 / len(names)), samples)
         sums, runs = np.bincount(mine, change, len(names)), np.bincount(mine, minlength=len(names))
         drawn = (weight @ sums) / np.maximum(weight @ runs, 1)
+        if first.laws is not None:
+            mean = [change[first.laws[known] == one].mean() for one in np.unique(first.laws[known])]
+            drawn = drawn + under_another_law(np.array(mean), samples, np.random.default_rng(seed))
         paired, (levels, _) = runs > 0, levels_of(first.records[known], first.im[known])
-        low, high = share_limits(sums[paired], runs[paired], levels, drawn, confidence)
+        low, high = share_limits(sums[paired], runs[paired], levels, np.clip(drawn, -1.0, 1.0), confidence)
     ratio = (math.nan, math.nan, math.nan)
     if first_curve is not None and other_curve is not None:
         ratio = _ratio((first, other), (first_curve, other_curve), samples, seed)
@@ -310,7 +314,7 @@ def _ratio(
     Its limits are at least as far off as the levels leave both medians open, and as records that nobody saw may move them.
     """
     known = (both[0].codes >= 0) & (both[1].codes >= 0)
-    best, drawn, ends = [], [], []
+    best, drawn, ends, by_law = [], [], [], []
     for one, alone in zip(both, curves, strict=True):
         codes = np.where(known, one.codes, OPEN)
         low, high, owner = intervals(one, codes, "runs")
@@ -319,12 +323,19 @@ def _ratio(
         curve_of_both = fit(low, high)
         best.append(float(curve_of_both.log_median[0]) if not falls(curve_of_both) else math.nan)
         drawn.append(bootstrap(low, high, owner, samples, np.random.default_rng(seed))[:, 0])
+        if one.laws is not None:
+            by_law.append(medians_by_law(one, codes, "runs"))
         ends.append(median_ends(*intervals(one, codes, "records")[:2], alone.median_interval))
     if not np.isfinite(best).all():
         return math.nan, math.nan, math.nan
     middle, curve = best[1] - best[0], curves[0]
     with np.errstate(invalid="ignore"):
         change = drawn[1] - drawn[0]
+        if by_law:
+            away = under_another_law(by_law[1] - by_law[0], samples, np.random.default_rng(seed))
+            if not np.isfinite(away).all():  # under some law there is no curve of both
+                return math.exp(middle), math.nan, math.nan
+            change = change + away
     change = change[np.isfinite(change)]
     records, im = both[0].records[known], both[0].im[known]
     number, step = len(np.unique(records)), levels_of(records, im)[1]

@@ -155,7 +155,7 @@ def run_study(
     if folder is not None and not folder.is_dir():
         raise InputError(f"folder {folder} does not exist; create it first.")
     started, plan = time.perf_counter(), study.plan()
-    plan = replace(plan, axes=plan.axes | {"doubt": caveat(study.columns, *study.models)})
+    plan = replace(plan, axes=plan.axes | {"doubt": caveat(study.columns, *study.of_one_law)})
     ledger = None if folder is None else folder / RUNS_FILE
     turn = None if ledger is None else its_turn(ledger, plan.digests, campaign.progress, waiting)
     request = study.request(plan)

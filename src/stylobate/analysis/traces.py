@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations_with_replacement
 
 import numpy as np
 
@@ -14,11 +13,15 @@ from .abc import vectors
 #: Kinds of facts that a draw matches or does not.
 EVENTS = ("state", "body", "no slip above")
 
-#: Kinds of facts that are vectors in plan [m].
+#: Kinds of facts that are vectors in plan [m], and all that are lengths.
 VECTORS = ("offset", "moved")
+LENGTHS = (*VECTORS, "largest")
 
 #: Least scale of an offset and of a twist: smaller ones are alike [m], [degrees].
-LEAST_OFFSET, LEAST_TWIST = 1e-3, 0.1
+LEAST_OFFSET, LEAST_TWIST = 1e-4, 0.1
+
+#: Draws about which bumps are laid.
+BUMPS = 100
 
 
 def matches(fact: Fact, table: Simulations) -> np.ndarray:
@@ -34,10 +37,11 @@ def matches(fact: Fact, table: Simulations) -> np.ndarray:
 def left_by(fact: Fact, table: Simulations, stream: np.random.Generator) -> np.ndarray:
     """What every draw leaves in the place of a number that is seen, measured as badly as that one, shape (draws, values)."""
     left = table.left[fact.structure]
-    if fact.kind == "fell towards":
-        exact = left.towards[:, None]
+    if fact.kind in VECTORS:
+        exact = plan(fact, left)
     else:
-        exact = plan(fact, left) if fact.kind in VECTORS else left.twist[:, fact.joint, None]
+        alone = {"fell towards": left.towards, "largest": left.largest}
+        exact = (alone[fact.kind] if fact.kind in alone else left.twist[:, fact.joint])[:, None]
     return exact + fact.sd * stream.standard_normal(exact.shape)
 
 
@@ -50,38 +54,47 @@ def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool
     """Features of numbers that are seen, from which a regression expects parameters, shape (draws, features).
 
     Lengths on a scale that is linear below what can be measured and logarithmic above it, of each joint and of the whole
-    structure, with products of those of structures; directions as axes and as senses.
+    structure; bumps over all of these; directions as axes and as senses.
 
     Parameters
     ----------
     facts : sequence of Fact
         That are no events.
     values : sequence of array
-        Of each fact, shape (draws, values).
+        Of each fact, shape (draws, values); the last row is what is seen.
     sizes : bool
         How much has moved in each structure alone, not which joints and whereto.
     """
     levels: list[np.ndarray] = []
-    found: list[np.ndarray] = []
+    each: list[np.ndarray] = []
+    directions: list[np.ndarray] = []
     for structure in dict.fromkeys(fact.structure for fact in facts):
         own = [(fact, one) for fact, one in zip(facts, values, strict=True) if fact.structure == structure]
-        for kind, of in (
-            ("offset", _of_offsets),
-            ("moved", _of_offsets),
-            ("twist", _of_twists),
-            ("fell towards", _of_falls),
-        ):
+        for kind, of in _OF.items():
             some = [(fact, one) for fact, one in own if fact.kind == kind]
             if some:
-                overall, each = of(some)
-                levels += overall
-                found += each
-    products = [one * other for one, other in combinations_with_replacement(levels, 2)]
-    columns = levels if sizes else [*levels, *found, *products]
+                for all_of_them, one in zip((levels, each, directions), of(some), strict=True):
+                    all_of_them += one
+    columns = levels if sizes else [*levels, *each, *directions, *_bumps([*levels, *each])]
     return np.column_stack(columns) if columns else np.zeros((len(values[0]) if values else 0, 0))
 
 
-_Told = tuple[list[np.ndarray], list[np.ndarray]]
+_Told = tuple[list[np.ndarray], list[np.ndarray], list[np.ndarray]]
+
+
+def _bumps(levels: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Bells over lengths about some draws (radial basis functions), by which a linear regression bends, shape (draws,) each.
+
+    They are as wide as draws usually are apart; what is seen, the last row, is the middle of none.
+    """
+    if not levels:
+        return []
+    points = np.column_stack(levels)
+    points = (points - points.mean(axis=0)) / (points.std(axis=0) + 1e-12)
+    middles = points[np.linspace(0, max(0, len(points) - 2), min(BUMPS, len(points))).astype(int)]
+    squares = (points**2).sum(axis=1)[:, None] + (middles**2).sum(axis=1) - 2.0 * points @ middles.T
+    width = float(np.median(squares))
+    return list(np.exp(-np.maximum(squares, 0.0) / width).T) if width > 1e-12 else []
 
 
 def _of_offsets(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
@@ -90,16 +103,15 @@ def _of_offsets(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
     x, y = np.moveaxis(each, -1, 0)
     length, square = np.hypot(x, y), x * x + y * y
     overall = [np.arcsinh(length.max(axis=1) / scale.max())]
-    if len(some) > 1:
-        overall.append(np.arcsinh(np.sqrt(square.mean(axis=1)) / scale.max()))
     bottom = square.sum(axis=1) + np.sum(scale**2)
     axis = [(x * x - y * y).sum(axis=1) / bottom, (2.0 * x * y).sum(axis=1) / bottom]
     long = length.sum(axis=1) + scale.sum()
-    found = [*axis, x.sum(axis=1) / long, y.sum(axis=1) / long]
-    if len(some) > 1:
-        found += [np.arcsinh(length / scale)[:, j] for j in range(len(some))]
-        found += [one[:, j] for one in _unit(x, y, scale) for j in range(len(some))]
-    return overall, found
+    directions = [*axis, x.sum(axis=1) / long, y.sum(axis=1) / long]
+    if len(some) == 1:
+        return overall, [], directions
+    overall.append(np.arcsinh(np.sqrt(square.mean(axis=1)) / scale.max()))
+    directions += [one[:, j] for one in _unit(x, y, scale) for j in range(len(some))]
+    return overall, list(np.arcsinh(length / scale).T), directions
 
 
 def _unit(x: np.ndarray, y: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -108,12 +120,24 @@ def _unit(x: np.ndarray, y: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, 
     return (x * x - y * y) / bottom, 2.0 * x * y / bottom
 
 
-def _of_twists(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
-    scale = np.array([max(fact.sd, LEAST_TWIST) for fact, _ in some])
+def _of_sizes(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
+    """Of numbers without a direction: twists, the largest offset."""
+    least = [LEAST_OFFSET if fact.kind in LENGTHS else LEAST_TWIST for fact, _ in some]
+    scale = np.array([max(fact.sd, one) for (fact, _), one in zip(some, least, strict=True)])
     sizes = np.arcsinh(np.abs(np.concatenate([one for _, one in some], axis=1)) / scale)
-    return [sizes.max(axis=1)], list(sizes.T) if len(some) > 1 else []
+    return [sizes.max(axis=1)], list(sizes.T) if len(some) > 1 else [], []
 
 
 def _of_falls(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
     ((_, angle),) = some
-    return [], [*vectors(angle[:, 0], 180.0).T, *vectors(angle[:, 0], 360.0).T]
+    return [], [], [*vectors(angle[:, 0], 180.0).T, *vectors(angle[:, 0], 360.0).T]
+
+
+#: Lengths of the whole, lengths of each, and directions, by the kind of facts.
+_OF = {
+    "offset": _of_offsets,
+    "moved": _of_offsets,
+    "largest": _of_sizes,
+    "twist": _of_sizes,
+    "fell towards": _of_falls,
+}

@@ -6,7 +6,8 @@ that collapses is p_g, and the laws' shares follow a beta distribution of mean m
     p_g ~ Beta(m (1 − r)/r, (1 − m)(1 − r)/r),   k_g ~ Binomial(n_g, p_g)
 
 The truth is one more law. What is known of its share is the mean of these distributions over m and r after what was
-counted, with m even from 0 to 1 before, and r as :data:`ALIKE`.
+counted, with m even from 0 to 1 before, and r as :data:`ALIKE`. Of medians and of differences, which every law has over the
+same records, one more is foretold from the mean and spread of the few (:func:`under_another_law`).
 """
 
 from __future__ import annotations
@@ -52,6 +53,35 @@ def share_limits(
         low[cell] = min(low[cell], share_under_another_law(fell[cell], number[cell], confidence)[0])
         high[cell] = max(high[cell], share_under_another_law(may[cell], number[cell], confidence)[1])
     return low, high
+
+
+def under_another_law(values: np.ndarray, samples: int, rng: np.random.Generator) -> np.ndarray:
+    """How far what one more law comes to may lie from the mean of a few, drawn so many times.
+
+    Values of laws follow a normal distribution of which nothing else is known, so that one more of G differs from their mean
+    by s √(1 + 1/G) times Student's t of G − 1.
+
+    Parameters
+    ----------
+    values : array, shape (G,)
+        Of each law, over the same records; infinite where its runs only tell a bound, NaN where they tell nothing: the draws
+        on that side are infinite then, as they are on both of fewer than two.
+    samples : int
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    array, shape (samples,)
+    """
+    known = values[np.isfinite(values)]
+    draws = rng.standard_t(max(len(known) - 1, 1), samples)
+    if len(known) < 2:
+        return np.copysign(np.inf, draws)
+    draws *= known.std(ddof=1) * np.sqrt(1.0 + 1.0 / len(known))
+    told_by_none = np.isnan(values).any()
+    draws[(draws > 0.0) & (told_by_none or np.isposinf(values).any())] = np.inf
+    draws[(draws < 0.0) & (told_by_none or np.isneginf(values).any())] = -np.inf
+    return draws
 
 
 def share_under_another_law(

@@ -65,7 +65,8 @@ class Reference:
         number = f.get("number", "") if "journal" not in f else ""
         parts = (where, book, editor, f.get("howpublished", ""), place, f.get("type", ""), number, f.get("pages", ""))
         year = f" ({self.year})" if self.year else ""
-        sentences = [f"{authors}{year}", f["title"], ", ".join(part for part in parts if part), f.get("note", "")]
+        title = re.sub("[{}]", "", f["title"])  # braces keep capitals in BibTeX
+        sentences = [f"{authors}{year}", title, ", ".join(part for part in parts if part), f.get("note", "")]
         doi = f" doi:{f['doi']}" if "doi" in f else ""
         return " ".join(f"{sentence.rstrip('.')}." for sentence in sentences if sentence).replace("--", "–") + doi
 

@@ -11,7 +11,6 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from ..column.scatter import usual_scatter
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_choice, check_range
 from ..models.base import Case, Cases, Model
@@ -26,7 +25,7 @@ from .campaign import COMPUTING, USUAL, Campaign, Fields, campaigning
 from .digests import LENGTH, Digests, Hasher, samples_of
 from .plan import Plan
 from .runs import Group, Request
-from .twins import the_twins
+from .twins import Twins, the_twins
 
 #: Most cases of a study.
 MAX_CASES = 20_000_000
@@ -147,9 +146,19 @@ class Study:
         """The columns as they stand: by model, column and realisation."""
         if not self.campaign.replicates:
             return [[[column] for column in self.columns] for _ in self.models]
-        return [
-            [the_twins(one, model, self.campaign, laws=False).columns for one in self.columns] for model in self.models
-        ]
+        return [[one.columns for one in some] for some in self.twins]
+
+    @cached_property
+    def twins(self) -> list[list[Twins]]:
+        """Twins by model and column; none without replicates."""
+        models = self.models if self.campaign.replicates else ()
+        return [[the_twins(one, model, self.campaign) for one in self.columns] for model in models]
+
+    @property
+    def of_one_law(self) -> list[Model]:
+        """Models in which not all columns vary by the law of their joints, so that doubts about it stand."""
+        vary = [all(one.groups for one in some) for some in self.twins] or [False] * len(self.models)
+        return [model for model, does in zip(self.models, vary, strict=True) if not does]
 
     @cached_property
     def quiet(self) -> np.ndarray:
@@ -201,10 +210,16 @@ class Study:
 
         number, sizes = self.campaign.replicates, self.campaign.scatter
         scatter = sizes.given if sizes is not None and number else None
-        if number and sizes is None:  # each column scatters as its material does
-            usual = {one.name: usual_scatter(one).given for one in self.columns}
+        if (
+            number and sizes is None
+        ):  # each column scatters as its material does, in space by the laws of its joints too
+            usual = {
+                f"{one.name}, {model.name}": twins.scatter.given
+                for model, some in zip(self.models, self.twins, strict=True)
+                for one, twins in zip(self.columns, some, strict=True)
+            }
             same = len({str(one) for one in usual.values()}) == 1
-            scatter = usual[self.columns[0].name] if same else usual
+            scatter = next(iter(usual.values())) if same else usual
         return {
             "models": [{"model": model.name, "parameters": model.parameters()} for model in self.models],
             "columns": [{"column": column.name, **column.widths} for column in self.columns],
@@ -216,6 +231,7 @@ class Study:
             "levels": list(self.levels),
             "factors": self.factors.tolist(),
             "realisations": number,
+            "laws": [[list(one.groups) for one in some] for some in self.twins],
             "scatter": scatter,
             "seed": self.campaign.seed,
             "tail_s": self.campaign.tail,

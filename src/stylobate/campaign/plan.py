@@ -15,6 +15,7 @@ from ..errors import InputError
 from ..response.rows import Rows
 from .digests import Digests
 from .runs import known
+from .twins import LAW
 
 if TYPE_CHECKING:
     import pandas
@@ -74,6 +75,10 @@ class Plan:
             table[name] = np.array(values, dtype=float)[motion, column] * factor ** axes["powers"][name]
         table |= {"model": picked([one["model"] for one in axes["models"]], model)}
         table |= {"realisation": realisation + 1 if axes["realisations"] else np.zeros(len(self), dtype=np.int64)}
+        laws = axes.get("laws") or []
+        if any(of_column for of_model in laws for of_column in of_model):
+            whole = [[of_column or [-1] * self.shape[4] for of_column in of_model] for of_model in laws]
+            table[LAW] = np.array(whole)[model, column, realisation] + 1
         return pandas.DataFrame(table)
 
     def save(self, folder: Path) -> Path:

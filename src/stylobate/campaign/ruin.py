@@ -50,6 +50,8 @@ class Observed:
         Twists of joints, from x towards y [degrees].
     no_slip_above : float, optional
         No joint is out of place by more than this [m].
+    largest_slip : (length, sd), optional
+        How far that joint is out of place that is so most, whichever it is, and the standard deviation [m].
     fell, stand : sequence of str
         Bodies of an assembly that have fallen, and that stand; of the others nothing is seen.
     moved : sequence of (body, x, y, sd)
@@ -69,6 +71,7 @@ class Observed:
     offsets: Sequence[tuple[int, float, float, float]] = ()
     twists: Sequence[tuple[int, float, float]] = ()
     no_slip_above: float | None = None
+    largest_slip: tuple[float, float] | None = None
     fell: Sequence[str] = ()
     stand: Sequence[str] = ()
     moved: Sequence[tuple[str, float, float, float]] = ()
@@ -76,12 +79,12 @@ class Observed:
     def __post_init__(self) -> None:
         check_choice("`state`", self.state, STATES, field="state")
         self._check_bodies()
-        stands = bool(self.offsets) or bool(self.twists) or self.no_slip_above is not None
-        if stands and self.state != "stands":
+        given = [name for name in ("offsets", "twists", "no_slip_above", "largest_slip") if getattr(self, name)]
+        if given and self.state != "stands":
             raise InputError(
                 f"state is {self.state!r}, and a slip or a twist is given: what fell has none; leave them out, or give "
                 "state = 'stands'.",
-                "offsets" if self.offsets else "twists" if self.twists else "no_slip_above",
+                given[0],
             )
         if self.state != "fell" and (self.fell_towards is not None or self.towards_sd is not None):
             raise InputError(
@@ -106,13 +109,33 @@ class Observed:
             if twice := next((joint for joint in joints if joints.count(joint) > 1), None):
                 raise InputError(f"joint {twice} is given twice in `{name}`; give each joint once.", name)
             object.__setattr__(self, name, rows)
-        for joint, x, y, sd in self.offsets if self.no_slip_above is not None else ():
-            if math.hypot(x, y) > self.no_slip_above + BEYOND * sd:  # type: ignore[operator]
-                raise InputError(
-                    f"joint {joint} is {1e3 * math.hypot(x, y):.3g} mm out of place, and no_slip_above is "
-                    f"{1e3 * self.no_slip_above:.3g} mm; one of the two is wrong.",  # type: ignore[operator]
-                    "no_slip_above",
-                )
+        self._check_slips()
+
+    def _check_slips(self) -> None:
+        """Refuse a largest slip that is none, and a joint that is farther out of place than it or the bound."""
+        slips = [(f"joint {joint} is", math.hypot(x, y), sd) for joint, x, y, sd in self.offsets]
+        bounds, largest = [], self.largest_slip
+        if largest is not None:
+            if not isinstance(largest, (list, tuple)) or len(largest) != 2:
+                said = "a length and its sd, such as [0.1, 0.01]"
+                raise InputError(f"largest_slip is {as_typed(largest)}; allowed are {said}.", "largest_slip")
+            length = check_range("largest_slip", largest[0], 0.0, 100.0, unit="m")
+            sd = check_range(
+                "sd of largest_slip", largest[1], 0.0, 100.0, unit="m", open_low=True, field="largest_slip"
+            )
+            object.__setattr__(self, "largest_slip", (length, sd))
+            bounds = [("largest_slip", length, sd, slips)]
+            slips = [*slips, ("a joint is", length, sd)]
+        if self.no_slip_above is not None:
+            bounds.append(("no_slip_above", self.no_slip_above, 0.0, slips))
+        for name, bound, doubt, seen in bounds:
+            for said, length, sd in seen:
+                if length > bound + BEYOND * math.hypot(doubt, sd):
+                    raise InputError(
+                        f"{said} {1e3 * length:.3g} mm out of place, and {name} is {1e3 * bound:.3g} mm; one of the two "
+                        "is wrong.",
+                        name,
+                    )
 
     def _check_bodies(self) -> None:
         """Refuse bodies that contradict one another or the state; what has fallen tells the state, what has moved stands."""
@@ -164,7 +187,7 @@ class Fact:
     ----------
     structure : int
         Number of what it is seen of, among those that are simulated.
-    kind : {"state", "body", "no slip above", "fell towards", "offset", "moved", "twist"}
+    kind : {"state", "body", "no slip above", "largest", "fell towards", "offset", "moved", "twist"}
     label : str
         In words.
     value : tuple of float
@@ -264,13 +287,19 @@ class Ruin:
                     name,
                 )
         column = structure.stack
-        for joint, x, y, _ in one.offsets if column is not None else ():
-            width = float(column.joint_widths[joint - 1])  # type: ignore[union-attr]
-            if math.hypot(x, y) >= width:
+        widths = [] if column is None else [float(width) for width in column.joint_widths]
+        seen = [
+            ("offsets", f"joint {joint}", math.hypot(x, y), range(joint - 1, joint)) for joint, x, y, _ in one.offsets
+        ]
+        if one.largest_slip is not None:
+            seen.append(("largest_slip", "a joint", one.largest_slip[0], range(count)))
+        for name, which, length, joints in seen if widths else ():
+            width = max(widths[joint] for joint in joints)
+            if length >= width:
                 raise InputError(
-                    f"joint {joint} of {one.column!r} is {math.hypot(x, y):.3g} m out of place, and {width:.3g} m wide: its "
-                    "drum would have fallen; offsets are in metres.",
-                    "offsets",
+                    f"{which} of {one.column!r} is {length:.3g} m out of place, and {width:.3g} m wide: its drum would have "
+                    "fallen; offsets are in metres.",
+                    name,
                 )
 
     @staticmethod
@@ -316,6 +345,10 @@ class Ruin:
             if one.no_slip_above is not None:
                 bound = one.no_slip_above
                 found.append(Fact(i, "no slip above", f"{name}: no slip above {1e3 * bound:.3g} mm", (bound,)))
+            if one.largest_slip is not None:
+                length, sd = one.largest_slip
+                label = f"{name}: largest offset, {1e3 * length:.3g} mm"
+                found.append(Fact(i, "largest", label, (length,), sd))
             if one.fell_towards is not None:
                 label = f"{name} fell towards {one.fell_towards:g}°"
                 found.append(Fact(i, "fell towards", label, (one.fell_towards,), one.towards_sd or TOWARDS_SD))

@@ -38,6 +38,7 @@ class ObservedTable(Table):
     offsets: list[list[int | float]] | None = None
     twists: list[list[int | float]] | None = None
     no_slip_above: float | None = None
+    largest_slip: list[float] | None = None
     fell: list[str] | None = None
     stand: list[str] | None = None
     moved: list[list[Any]] | None = None
@@ -112,7 +113,7 @@ def read_ruin(path: str | Path) -> Ruin:
 
 def _observed(table: ObservedTable, files: Sequence[str], structures: Sequence[Structure]) -> Observed:
     """What is seen of a column, which is named by its file as the ruin lists it, or by its own name."""
-    fields: dict[str, Any] = {"state": table.state, "no_slip_above": table.no_slip_above}
+    fields: dict[str, Any] = {name: getattr(table, name) for name in ("state", "no_slip_above", "largest_slip")}
     names = dict(zip(files, (one.name for one in structures), strict=True))
     names |= {Path(file).stem: name for file, name in names.items()}
     fields |= {name: tuple(getattr(table, name) or ()) for name in ("fell", "stand", "moved")}

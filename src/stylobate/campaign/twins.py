@@ -14,6 +14,9 @@ from ..models.base import Model
 from .campaign import MAX_TWINS, Campaign
 from .unknown_laws import OF_ROUND, PARTS, drawn_laws, usual_with_laws
 
+#: Column of a table of runs: the number of the law of the joints, where it varies.
+LAW = "law_of_joints"
+
 
 class Twins(NamedTuple):
     """Columns like one, or assemblies, that a model can take: scatter, seed, what of it is left out, what they are.
@@ -30,6 +33,10 @@ class Twins(NamedTuple):
     reduced: int | None = None
     groups: tuple[int, ...] = ()
     one_law: bool = False
+
+    def law_of(self, number: int) -> dict[str, int]:
+        """Law of the joints of a twin, as a column of a table of runs; empty where all have that of the structure itself."""
+        return {LAW: self.groups[number] + 1} if self.groups else {}
 
     @property
     def words(self) -> str:

@@ -114,6 +114,10 @@ def describe(found: Fragility) -> None:
         open_ = f"; with the {' and '.join(counts)} all exceeding it {low}, all not exceeding it {high}"
     known = median_words(s) if s["outside"] else f"{s['median']:.4g}{unit}"
     median = f"{known} (95 %: {between(s['median_low'], s['median_high'])}){open_}"
+    if s.get("laws"):
+        alone = between(s["median_of_columns_low"], s["median_of_columns_high"])
+        median += f"; by records and columns alone {alone}, the rest by the law of the joints"
+        median += f" ({found.few_laws})" if found.few_laws else ""
     limits = between(s["beta_low"], s["beta_high"], digits=2)
     spread = f"not seen in these runs (95 %: {limits})" if s["beta"] is None else f"{s['beta']:.3f} (95 %: {limits})"
     records = ", each taken for a record of its own" if s["records_are_one"] else f" of {s['records']} records"

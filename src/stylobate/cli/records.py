@@ -83,8 +83,9 @@ def records(
                     files.append(write_csv(motion, place / name))
             files.table(found.table.assign(file=[f"scaled/{name}" for name in names]), "records.csv")
             files.picture(plots.draw_record_selection(found), "records")
-            files.json(summary, "records.json")
-            summary["files"] = files.names
+            chosen: dict[str, object] = {"target": target, "count": count, "periods_s": list(between)}
+            files.asked(motions=list(found.motions), factors=list(limits), **chosen)
+            files.summary(summary, "records.json")
     if execution.emits(summary):
         return
     print(f"Target: {aim.words}. {found.sentence}")

@@ -9,11 +9,18 @@ from . import options as o
 
 
 def report(
-    folders: list[Path] = o.argument("DIR...", "Folders that commands wrote with --out, in the order of the report."),
-    out: Path = o.option("FILE.html", "The page, one file that needs nothing else.", ...),
+    folders: list[Path] | None = o.argument(
+        "DIR...", "Folders that commands wrote with --out, in the order of the report.", None
+    ),
+    out: Path | None = o.option("FILE.html", "The page, one file that needs nothing else."),
     title: str | None = o.option("TEXT", "What stands, if not given."),
     project: Path | None = o.option("FILE.toml", "Begin with a page of this project, to sign: client, site, engineer."),
     pdf: bool = o.option(None, "Print it to a PDF beside it; needs a Chromium on this machine.", False),
+    template: Path | None = o.option(
+        "FILE.toml",
+        "Write the sentences of a report to translate, for `language` in the project file; nothing else.",
+        flag="--translation-template",
+    ),
     *,
     execution: Annotated[o.Execution, o.But("dask", "out")],
 ) -> None:
@@ -22,11 +29,24 @@ def report(
     What was asked, what stands as a dimensioned elevation, the motion, the verdict and how sure it is, what the model
     assumes and where it ends, versions and digests, and what to cite. Several folders make one report.
     """
+    from ..atomic import output_folder
+    from ..errors import InputError
     from ..report.case import write_report
+    from ..report.language import write_template
     from ..report.pdf import is_root, needs_browser
     from ..report.project import read_project
     from ..results import read_results
 
+    if template is not None:
+        with output_folder(template.parent, [template.name]) as folder:
+            file = write_template(folder / template.name)
+        if not execution.emits({"files": [str(file)]}):
+            print(f"1 file: {file}")
+        return
+    if not folders or out is None:
+        raise InputError(
+            "give the folders of the results and --out FILE.html, or --translation-template FILE.toml alone.", "out"
+        )
     signed = None if project is None else read_project(project)
     if pdf:
         needs_browser()

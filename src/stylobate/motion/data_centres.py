@@ -75,9 +75,14 @@ class DataCentre:
             )
         self._time = obspy.UTCDateTime
         with self._answering("its services"):
-            self._client: Any = Client(
-                name if "://" in name else name.upper(), timeout=PATIENCE, user_agent="stylobate"
-            )
+            try:
+                known = name if "://" in name else name.upper()
+                self._client: Any = Client(known, timeout=PATIENCE, user_agent="stylobate")
+            except ValueError:
+                raise InputError(
+                    f"{name!r} is no address of a data centre; give one such as https://eida.example.org, or its name "
+                    f"({', '.join(sorted(URL_MAPPINGS))})."
+                ) from None
 
     def earthquake(self, number: str) -> tuple[Earthquake, bytes]:
         """The earthquake that has this number in the catalogue of the centre, and its QuakeML."""

@@ -82,7 +82,8 @@ def draw_fragility(
     axes.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)
     axes.set_ylabel(f"probability of {state}")
     axes.grid(True)
-    axes.set_title(title or f"{state}, {100 * found[0].confidence:g} % bands over {found[0].counted}", fontsize=9)
+    laws = " and laws of the joints" if any(one.laws for one in found) else ""
+    axes.set_title(title or f"{state}, {100 * found[0].confidence:g} % bands over {found[0].counted}{laws}", fontsize=9)
     legend_below(axes, ax is None, handlelength=2.4, ncols=1, fontsize=8)
     return figure
 

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from datetime import date
 from pathlib import Path
 from typing import Any
+
+from markupsafe import Markup
 
 from ..atomic import output_folder
 from ..errors import InputError, StylobateError
 from ..results import Result, RunResult, SeveralRuns, read_results
 from ..version import __version__
 from . import page
+from .language import Language, language_of, speaking
 from .others import sections_of
 from .pdf import print_pdf
 from .project import Project, front_sections
@@ -38,6 +42,8 @@ TITLES = {
     "survival": "survival",
     "infer": "what shaking it was",
     "sequence": "earthquakes until it falls",
+    "records": "records chosen",
+    "calibrate": "losses from a measured history",
     "study": "study",
 }
 
@@ -92,44 +98,89 @@ def write_report(
 
 def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, project: Project | None) -> list[Path]:
     told: set[str] = set()
-    cases = [_case(one, told, found) for one in found]
+    language = language_of("en" if project is None else project.language, _names(found))
+    with speaking(language):
+        cases = [_case(one, told, found, language) for one in found]
     front = []
     if project is not None:
         cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
-        front = [page.part(section) for section in front_sections(project, found, cases, cited)]
+        sections = front_sections(project, found, cases, cited)
+        front = [page.part(language.section(section)) for section in sections]
     names = ", ".join(dict.fromkeys(one.name for one in found))
-    kinds = ", ".join(dict.fromkeys(TITLES[one.kind.value] for one in found))
-    lead = [f"{kinds[:1].upper()}{kinds[1:]}. Written on {date.today().isoformat()} by stylobate {__version__}."]
-    notes = page.kinds(_notes([case["notes"] for case in cases]) if len(cases) > 1 else [])
+    kinds = ", ".join(dict.fromkeys(language.say(TITLES[one.kind.value]) for one in found))
+    day = date.today().isoformat()
+    lead = [f"{kinds[:1].upper()}{kinds[1:]}. {language.say(f'Written on {day} by stylobate {__version__}.')}"]
+    notes = _notes([case["notes"] for case in cases]) if len(cases) > 1 else []
     values = {
-        "notes": notes,
+        "notes": page.kinds([language.item(one) for one in notes]),
         "version": __version__,
-        "day": date.today().isoformat(),
+        "day": day,
         "lead": page.kinds(lead),
         "cases": cases,
         "front": front,
         "project": project,
+        "language": language.tag,
+        "say": language.say,
+        "foot": Markup('"' + PAGES.sub(r'" counter(\1) "', re.sub(r'["\\\\<]', "", language.say(FOOT))) + '"'),
+        "spoken": page.kinds(_spoken(language)),
     }
-    files = [page.write_html(target, TEMPLATE, title=title or f"Report: {names}", **values)]
+    files = [page.write_html(target, TEMPLATE, title=title or language.say(f"Report: {names}"), **values)]
     if pdf:
         files.append(print_pdf(target, target.with_suffix(".pdf")))
     return files
 
 
-def _case(result: Result, told: set[str], all_: Sequence[Result]) -> dict[str, Any]:
+#: Foot of a printed page, and the counters of a style sheet in it.
+FOOT, PAGES = "page {page} of {pages}", re.compile(r"\{(pages?)\}")
+
+#: What a report in another language says of itself before anything else.
+SPOKEN_IN = (
+    "Numbers have a decimal point; a comma in a number groups thousands. Names, commands, parameters of the program and "
+    "what is cited are as they are."
+)
+PARTS_IN_ENGLISH = "Parts in English, because they are not translated or are pictures drawn before: {sections}."
+
+
+def _spoken(language: Language) -> list[page.Item]:
+    """How numbers are written, and which parts of the report stayed English; nothing of a report in English."""
+    if not language.foreign:
+        return []
+    said = [language.say(SPOKEN_IN)]
+    if language.english:
+        words = language.table.get(PARTS_IN_ENGLISH, PARTS_IN_ENGLISH)
+        said.append(words.replace("{sections}", ", ".join(language.english)))
+    return [page.Note(said, "fair" if language.english else "")]
+
+
+def _names(found: Sequence[Result]) -> set[str]:
+    """Names that people gave, of which a report translates nothing."""
+    asked = [one.asked for one in found if one.asked is not None]
+    motions = [str(motion.get(key)) for one in asked for motion in one.motions for key in ("name", "record")]
+    runs = [run for one in found for run in (one.runs if isinstance(one, SeveralRuns) else (one,))]
+    motions += [str(one.response.provenance.get("motion")) for one in runs if isinstance(one, RunResult)]
+    bodies = [body.name for one in found for stands in one.structures if stands.stack is None for body in stands.bodies]
+    return {
+        *motions,
+        *bodies,
+        *(one.name for one in found),
+        *(stands.name for one in found for stands in one.structures),
+    }
+
+
+def _case(result: Result, told: set[str], all_: Sequence[Result], language: Language) -> dict[str, Any]:
     """A case as the template takes it; its verdict is what the verdicts of its first section begin with."""
     sections = _sections_of(result, told, all_)
     notes = [item for item in sections[0].items if isinstance(item, page.Note) and "verdict" in item.look]
     verdict = " ".join(text for note in notes for text in note.texts[: note.first])
     said = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
     known = [text.removeprefix(NOTE) for text in said if text.startswith(NOTE)]
-    cited = [item for part in sections if part.title == SOURCES for item in part.items]
+    sources = [item for part in sections if part.title == SOURCES for item in part.items]
     return {
-        "cited": [text for item in cited for text in (item.texts if isinstance(item, page.Points) else [str(item)])],
-        "title": _title(result),
-        "verdict": verdict,
+        "cited": [text for item in sources if isinstance(item, page.Points) for text in item.texts],
+        "title": _title(result, language),
+        "verdict": language.say(verdict),
         "notes": known,
-        "parts": [page.part(section) for section in sections],
+        "parts": [page.part(language.section(section)) for section in sections],
     }
 
 
@@ -169,7 +220,7 @@ def _sections(result: Result, told: set[str], all_: Sequence[Result]) -> list[pa
     return sections_of(result, told, next((run for run in runs if run.motion is not None), None))
 
 
-def _title(result: Result) -> str:
+def _title(result: Result, language: Language) -> str:
     if isinstance(result, RunResult):
         return f"{result.name}: {result.response.provenance.get('motion', 'run')}, {result.response.model}"
-    return f"{result.name}: {TITLES[result.kind.value]}"
+    return f"{result.name}: {language.say(TITLES[result.kind.value])}"

@@ -69,7 +69,10 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
         said += f"with {level} confidence"
         if alone := known.get("interval_of_columns"):
             said += f" ({percents(*alone)} if the law of its joints were known)"
-    said += f". {open_} of them had not come to rest and are counted both ways." if open_ else "."
+    said += f". {open_} of them had not come to rest and {'is' if open_ == 1 else 'are'} counted both ways." * bool(
+        open_
+    )
+    said += "." * (not open_)
     if known.get("failed"):
         said += f" {known['failed']} more could not be computed."
     beside = beside_them(summary)

@@ -23,6 +23,7 @@ from ..results import Comparison, Kind, Numbers, Result, RunResult, StudyFolder
 from ..results.kinds import Grid
 from . import numbers as n
 from .certainty import OF_TWINS
+from .chosen import calibration_result, records_result
 from .critical import critical_result
 from .inference import inference_result
 from .page import Facts, Item, Note, Rows, Section
@@ -83,7 +84,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     models = [str(model["name"]) for model in asked.models] if asked is not None else []
     models = models or [str(result.summary[key]) for key in ("model",) if key in result.summary]
     if result.kind in (Kind.PUSHOVER, Kind.LIMIT):
-        parts.append(once(static_model(), "model of statics", told))
+        parts.append(once(static_model(), "statics model", told))
     elif models:
         parts.append(once(model_section(models), f"model {models}", told))
     parameters = asked.models[0]["parameters"] if asked is not None and len(asked.models) == 1 else {}
@@ -135,6 +136,8 @@ def _scope(kind: Kind) -> str:
             "Forces at rest tell when rocking begins and how far the column can lean; whether it stands an earthquake, only "
             "runs in time tell."
         )
+    if kind is Kind.RECORDS:
+        return "This says how the records follow the target. It says nothing about any column under them."
     return (
         "This holds for the columns, motions and models named below; what they leave out stands under them. It is no check "
         "against a code."
@@ -294,4 +297,6 @@ _TELL: dict[Kind, Callable[[Any], tuple[tuple[str, str], list[Item]]]] = {
     Kind.UNTIL_FALL: until_fall_result,
     Kind.COMPARE: _compare,
     Kind.STUDY: _study,
+    Kind.RECORDS: records_result,
+    Kind.CALIBRATE: calibration_result,
 }

@@ -18,6 +18,12 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 
+class Own(str):
+    """Words that are nobody's to translate: of the project file, names of files, what is cited."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True)
 class Picture:
     """A figure on the page.
@@ -29,11 +35,14 @@ class Picture:
     caption : str
     dots_per_inch : int
         Resolution of the PNG, from which its width on paper follows; 0 for as wide as it is on a screen.
+    english : bool
+        Whether a text in it is English in a report of another language.
     """
 
     file: Path | bytes
     caption: str
     dots_per_inch: int = 0
+    english: bool = False
 
     @property
     def content(self) -> bytes:
@@ -131,6 +140,7 @@ _SIGNS = {"good": "✓ ", "fair": "≈ ", "bad": "✗ ", "": ""}
 
 _KINDS = {
     str: "text",
+    Own: "text",
     Points: "points",
     Picture: "picture",
     Rows: "rows",

@@ -14,7 +14,8 @@ from ..errors import InputError
 from ..reading import shown
 from ..results import Result, RunResult, SeveralRuns
 from ..version import __version__
-from .page import Facts, Item, Points, Rows, Section
+from .language import language_of
+from .page import Facts, Item, Own, Points, Rows, Section
 from .record import known_model, titled
 
 
@@ -29,6 +30,7 @@ class Project(Table):
     date: str | None = None
     reference: str | None = None
     assumptions: list[str] | None = None
+    language: str = "en"
 
     @field_validator("date", mode="before")
     @classmethod
@@ -50,6 +52,9 @@ def read_project(path: str | Path) -> Project:
     for key, value in project:
         if any(not text.strip() for text in ([value] if isinstance(value, str) else value or [])):
             raise InputError(f"{shown(path)}: {key} is empty; write it, or leave an optional key out.")
+    if project.language.endswith(".toml"):
+        project = project.model_copy(update={"language": str(Path(path).parent / project.language)})
+    language_of(project.language)
     return project
 
 
@@ -67,9 +72,10 @@ def front_sections(
     cited : sequence of str
         What the cases cite, each once.
     """
-    known = [(key, value) for key, value in project if isinstance(value, str) and key not in ("role", "place")]
-    answers = [[str(k), case["title"], case["verdict"]] for k, case in enumerate(cases, start=1)]
-    said = project.assumptions or ["None are told in the project file."]
+    apart = ("role", "place", "language")
+    known = [(key, Own(value)) for key, value in project if isinstance(value, str) and key not in apart]
+    answers = [[str(k), Own(case["title"]), Own(case["verdict"])] for k, case in enumerate(cases, start=1)]
+    said = list(map(Own, project.assumptions or ())) or ["None are told in the project file."]
     return [
         Section("Project", [Facts(known)]),
         Section("Answers", [Rows(["case", "result", "answer"], answers)]),
@@ -101,7 +107,7 @@ def _sources(results: Sequence[Result], cited: Sequence[str]) -> list[Item]:
     """Files with their digests, programs, and what is cited."""
     state = {True: "as written", False: "changed since", None: "no list to check by"}
     files = [
-        [str(k), file.name, file.digest, state[file.unchanged]]
+        [str(k), Own(file.name), file.digest, state[file.unchanged]]
         for k, result in enumerate(results, start=1)
         for one in (result.runs if isinstance(result, SeveralRuns) else (result,))
         for file in one.files
@@ -109,4 +115,4 @@ def _sources(results: Sequence[Result], cited: Sequence[str]) -> list[Item]:
     computed = dict.fromkeys(one.asked.version for one in results if one.asked is not None)
     pairs = [("computed by stylobate", ", ".join(computed) or "not known"), ("written by stylobate", __version__)]
     items: list[Item] = [Facts(pairs), Rows(["case", "file", "SHA-256", "state"], files, "Files", numbers=True)]
-    return [*items, "Cited:", Points(cited)] if cited else items
+    return [*items, "Cited:", Points(list(map(Own, cited)))] if cited else items

@@ -12,7 +12,7 @@ from ..models.registry import model_class
 from ..results import Result
 from ..version import __version__
 from . import numbers as n
-from .page import Code, Facts, Item, Note, Points, Rows, Section
+from .page import Code, Facts, Item, Note, Own, Points, Rows, Section
 
 #: Beginning of a text that the reader must know before relying on a result.
 NOTE = "Note: "
@@ -71,7 +71,7 @@ def basis_section(result: Result) -> Section:
             pairs.append(
                 ("computed by", f"{typed(source['command'])}\non {source['day']}, version {source['version']}")
             )
-        items.append(Facts(pairs, str(source["path"])))
+        items.append(Facts(pairs, Own(source["path"])))
         if source["command"] is None:
             items.append(Note([NOT_TOLD.format(why=source["not_told"])], "fair"))
         elif source["unchanged"] is False:
@@ -142,14 +142,14 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
     if parameters:
         items.append(
             Facts(
-                [(key, n.plain(value)) for key, value in parameters.items()],
+                [(Own(key), Own(v) if isinstance(v, str) else n.plain(v)) for key, v in parameters.items()],
                 "Parameters of the model by their names in the program, in SI units; –: not set.",
             )
         )
     known = {key: str(value) for key, value in versions.items() if value not in (None, "")}
-    items.append(Facts([*known.items(), ("folder", str(result.folder))], "Versions and inputs"))
+    items.append(Facts([*known.items(), ("folder", Own(result.folder))], "Versions and inputs"))
     state = {True: "as written", False: "changed since", None: "no list to check by"}
-    body = [[file.name, file.digest, state[file.unchanged]] for file in result.files]
+    body = [[Own(file.name), file.digest, state[file.unchanged]] for file in result.files]
     items.append(Rows(["file", "SHA-256", "state"], body, "Files this report rests on", numbers=True))
     return Section("Parameters, versions and digests", items)
 
@@ -157,9 +157,9 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
 def sources_section(citation: Citation) -> Section:
     """Citations."""
     package, *_ = [line for line in citation.text.splitlines() if line.startswith("  ")]
-    items: list[Item] = [Points([package.strip(), *(reference.text for reference in citation.references)])]
+    items: list[Item] = [Points([Own(package.strip()), *(Own(reference.text) for reference in citation.references)])]
     if citation.motion:
-        items.append(f"And the source of the ground motion: {'; '.join(citation.motion.values())}.")
+        items += ["And the source of the ground motion:", Points([Own("; ".join(citation.motion.values()))])]
     return Section(SOURCES, items)
 
 

@@ -16,7 +16,7 @@ from ..plots import draw_motion, draw_spectra
 from ..response import Response
 from ..results import Result
 from . import numbers as n
-from .page import Facts, Item, Note, Rows, Section
+from .page import Facts, Item, Note, Own, Rows, Section
 from .pictures import picture
 
 #: Most motions of a table, and the digits of a digest in it.
@@ -57,7 +57,7 @@ def motion_section(
     facts.append(("duration and time step", f"{motion.duration:.2f} s, {motion.dt:.4g} s"))
     metadata = known.get("metadata") or {}
     facts += [
-        (key.replace("_", " "), str(metadata[key])) for key in SAID if metadata.get(key) not in (None, "", "None")
+        (key.replace("_", " "), Own(metadata[key])) for key in SAID if metadata.get(key) not in (None, "", "None")
     ]
     done = [str(one) for one in (known.get("processing") or motion.processing)]
     recorded = any(metadata.get(key) for key in ("format", "station", "network", "event"))

@@ -41,6 +41,8 @@ class Kind(Enum):
     INFER = "infer"
     UNTIL_FALL = "sequence"
     STUDY = "study"
+    RECORDS = "records"
+    CALIBRATE = "calibrate"
 
 
 @dataclass(frozen=True)

@@ -44,6 +44,8 @@ KEYS = {
     Kind.SURVIVAL: ("hazards",),
     Kind.INFER: ("posterior", "accepted", "bayes_factor_no_earthquake"),
     Kind.UNTIL_FALL: ("until_fall", "motions"),
+    Kind.RECORDS: ("target_words", "meets", "records", "sentence"),
+    Kind.CALIBRATE: ("stiffness_damping", "decrements", "reached", "sentence"),
 }
 
 #: Tables beside an object.
@@ -67,6 +69,7 @@ FURTHER = {
     Kind.RUNS: ("directions",),
     Kind.INFER: ("observations", "matches"),
     Kind.STATES: ("links.csv", "design"),
+    Kind.CALIBRATE: ("losses.toml", "calibration"),
 }
 
 
@@ -220,6 +223,8 @@ _READERS: dict[str, Callable[[Path], Result]] = {
     "survival.json": _read_numbers(Kind.SURVIVAL),
     "infer.json": _read_numbers(Kind.INFER),
     "sequence.json": _read_numbers(Kind.UNTIL_FALL),
+    "records.json": _read_numbers(Kind.RECORDS),
+    "calibrate.json": _read_numbers(Kind.CALIBRATE),
 }
 
 

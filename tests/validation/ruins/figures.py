@@ -26,14 +26,20 @@ KEPT = Path(__file__).with_name("figures.json")
 #: Draws of the table and of that with the prior of the figures by a forest; ruins that are made.
 DRAWS, FOREST_DRAWS, RUINS, MORE = 4000, 1600, 200, 1000
 
+#: Heights, widths below and above [m] and drums of three columns; and of slender ones, of which more fall.
+STOUT = {"A": (5.0, 0.80, 0.68, 4), "B": (6.0, 0.90, 0.76, 5), "C": (3.5, 0.60, 0.52, 3)}
+SLENDER = {"A": (5.0, 0.60, 0.56, 4), "B": (6.0, 0.72, 0.66, 5), "C": (3.5, 0.42, 0.38, 3)}
+
+#: Errors with which offsets are measured where they are to tell as much as they can [m].
+SLIP_SDS = {"1 mm": 1e-3, "exact": 1e-6}
+
 #: Errors of a survey: offsets [m], azimuths of falls [degrees].
 OFFSET_SD, TOWARDS_SD = 0.003, 15.0
 
 
-def three_columns() -> list[st.Column]:
+def three_columns(sizes: dict[str, tuple[float, float, float, int]] = STOUT) -> list[st.Column]:
     """Round columns of 5 m, 6 m and 3.5 m, of three to five drums."""
     joint = st.Joint(normal_stiffness=5e9, shear_stiffness=5e9, friction_coefficient=0.67)
-    sizes = {"A": (5.0, 0.80, 0.68, 4), "B": (6.0, 0.90, 0.76, 5), "C": (3.5, 0.60, 0.52, 3)}
     return [
         st.Column.tapered(
             height=height, bottom_width=low, top_width=high, drums=drums, section="circular", density=2600.0, joint=joint,
@@ -86,7 +92,8 @@ def calibration(ruins: Simulations, numbers: np.ndarray, table: Simulations, ins
         From which they are inferred; where ``inside``, these draws are among its own and left out, twenty together.
     """
     stream, few, wide = np.random.default_rng(11), 0, {name: [] for name in TOLD}
-    ranks, around, off = ({name: [] for name in TOLD} for _ in range(3))
+    ranks, around, off, off_ln = ({name: [] for name in TOLD} for _ in range(4))
+    sizes = {name: float(np.log(table.parameters[name]).std()) for name in TOLD if name != "azimuth_deg"}
     for block in np.array_split(numbers, max(1, len(numbers) // 20)):
         kept = np.ones(len(table), bool)
         if inside:
@@ -106,7 +113,9 @@ def calibration(ruins: Simulations, numbers: np.ndarray, table: Simulations, ins
                 ranks[name].append(rank)
                 around[name].append(rank)
                 wide[name].append(abc.spread(taken.targets[:, column], taken.weights))
-                off[name].append(true - float(np.average(taken.targets[:, column], weights=taken.weights)))
+                middle = float(np.average(taken.targets[:, column], weights=taken.weights))
+                off[name].append(true - middle)
+                off_ln[name].append(np.log(ruins.parameters[name][k] / scores.value(middle)) / sizes[name])
             angles, turn = answers.azimuths(taken), rest.prior.turn
             true, middle = float(ruins.parameters["azimuth_deg"][k]), abc.middle_direction(angles, taken.weights, turn)
             away = float(abc.apart(true, middle, turn))
@@ -126,6 +135,8 @@ def calibration(ruins: Simulations, numbers: np.ndarray, table: Simulations, ins
             "spread_over_prior": float(np.sqrt(np.mean(np.square(wide[name])))),
             "error_over_prior": float(np.sqrt(np.mean(np.square(off[name])))),
         }  # fmt: skip
+        if off_ln[name]:
+            found[name]["error_of_ln_over_prior"] = float(np.sqrt(np.mean(np.square(off_ln[name]))))
     return found
 
 
@@ -169,6 +180,20 @@ def flagged(table: Simulations, facts: list[Fact]) -> bool:
     return not len(answers.matching(facts)) or any(one.odd for one in checks_of(answers, FEWEST))
 
 
+def what_slips_tell(folder: Path) -> dict:
+    """Errors of ln PGV over the prior's spread by states alone and with slips, of stout and of slender columns."""
+    found: dict = {}
+    for name, sizes in {"stout": STOUT, "slender": SLENDER}.items():
+        (folder / name).mkdir(parents=True, exist_ok=True)
+        table = table_of(OF_FOREST, FOREST_DRAWS, folder / name, three_columns(sizes))
+        numbers = np.random.default_rng(2).permutation(FOREST_DRAWS)
+        for said, sd in {"states": np.inf, **SLIP_SDS}.items():
+            told = calibration(table, numbers, table, True, sd=sd, falls=False)
+            found[f"{name}, {said}"] = told["pgv_m_s"]["error_of_ln_over_prior"]
+        found[f"{name}, ruins"] = told["ruins"]
+    return found
+
+
 def quickness(folder: Path) -> dict:
     """Times of an inference of ten thousand draws: the table, by its processor time, and a second question to it."""
     seen = [
@@ -191,18 +216,16 @@ def quickness(folder: Path) -> dict:
 
 def renewed(folder: Path) -> dict:
     """All figures, with tables kept in a folder."""
-    for name in ("usual", "forest", "long"):
+    for name in ("usual", "long"):
         (folder / name).mkdir(parents=True, exist_ok=True)
-    table, forest = table_of(USUAL, DRAWS, folder / "usual"), table_of(OF_FOREST, FOREST_DRAWS, folder / "forest")
+    table = table_of(USUAL, DRAWS, folder / "usual")
     numbers = np.random.default_rng(2).permutation(DRAWS)
-    tried = np.random.default_rng(2).permutation(FOREST_DRAWS)[:400]
     return {
         "calibration": calibration(table, numbers[:RUINS], table, True),
         "calibration_of_more": calibration(table, numbers[:MORE], table, True),
         "other_law": other_law(table, 300),
         "moved_by_hand": moved_by_hand(table),
-        "states_alone": calibration(forest, tried, forest, True, sd=np.inf, falls=False),
-        "states_and_slips": calibration(forest, tried, forest, True, sd=0.001, falls=False),
+        "what_slips_tell": what_slips_tell(folder),
         "quickness": quickness(folder / "long"),
     }
 

@@ -1,0 +1,252 @@
+"""The language of a report: its sentences are looked up in one table per language, and what has no entry is told."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import replace
+from functools import cache
+from importlib.resources import files
+from pathlib import Path
+
+from ..atomic import replacing
+from ..column.toml import Table, parse_toml, read_table
+from ..errors import InputError
+from ..reading import shown
+from .page import Code, Facts, Item, Note, Own, Picture, Points, Section
+
+#: Languages whose tables come with the package; a report is written in English and needs none.
+LANGUAGES = ("it", "el")
+
+#: A named placeholder of a sentence.
+HOLE = re.compile(r"\{([a-z_]+)\}")
+
+#: What stands before the full stop of a sentence (no initial of a name), and what begins the next one.
+_LAST, _FIRST = r"[a-zα-ω\d)%”°’\]\s/][a-zα-ω\d)%”°’\]³²]", r"[A-Z“\d–]"
+
+#: Placeholders that stand for a number and nothing else, and a number.
+NUMBERS, _NUMBER = ("count", "open", "stood"), r"[<>]?\d[\d,.]*"
+
+_END = re.compile(rf"(?<={_LAST})\. (?={_FIRST})")
+
+#: What a placeholder may stand for: anything within one sentence.
+_WITHIN = rf"(?:(?!(?<={_LAST})\. {_FIRST}).)+?"
+
+#: A word; what holds an underscore or a digit is a name of the program.
+_WORD = re.compile(r"(?<![\w./-])[A-Za-z]{2,}(?!\w|\.\w)")
+
+#: Letters of a sentence between its placeholders below which it fits almost anything: it counts where all of that is known.
+_FEW = 12
+
+
+class Translations(Table):
+    """A file of translations: the tag of its language (BCP 47), and English sentences with their translations."""
+
+    language: str
+    sentences: dict[str, str]
+
+
+class Language:
+    """A table of sentences, and what of a report was not in it.
+
+    Parameters
+    ----------
+    tag : str
+        Of the language (BCP 47).
+    table : mapping
+        English sentences to translations, both with the same named placeholders; empty for English.
+    own : iterable of str
+        Names that belong to the reader, such as those of columns and motions: they are in no language.
+
+    Attributes
+    ----------
+    foreign : bool
+        Whether it is another language than English.
+    english : dict
+        Sections of which a part stayed English, in their order, as keys.
+    """
+
+    def __init__(self, tag: str = "en", table: Mapping[str, str] | None = None, own: Iterable[str] = ()) -> None:
+        self.tag, self.table, self.own = tag, dict(table or {}), set(own)
+        self.english: dict[str, None] = {}
+        self._open = False
+        patterns = sorted((one for one in self.table if HOLE.search(one)), key=_before, reverse=True)
+        self._patterns = [(_pattern(one), self.table[one], _literal(one) < _FEW) for one in patterns]
+        self.foreign = tag != "en"
+        every = sentences_of(LANGUAGES[0]) if self.foreign else {}
+        words = {word.lower() for one in every for word in _WORD.findall(HOLE.sub(" ", one))}
+        self._words = words - {
+            word.lower() for one in self.table.values() for word in _WORD.findall(HOLE.sub(" ", one))
+        }
+        self.say: Callable[[str], str] = cache(self._say)
+
+    def _say(self, text: str) -> str:
+        """A text in this language as far as it is known: whole, or sentence by sentence."""
+        if not self.foreign or text in self.own or not _WORD.search(text):
+            return text
+        if (found := self._whole(text)) is not None:
+            return found
+        parts = _END.split(text)
+        ends = [f"{one}." for one in parts[:-1]] + parts[-1:]
+        said, k = [], 0
+        while k < len(ends):
+            for last in range(len(ends), k, -1):
+                found = self._whole(" ".join(ends[k:last])) if last - k < len(ends) else None
+                if found is not None or last == k + 1:
+                    said.append(ends[k] if found is None else found)
+                    k = last
+                    break
+        return " ".join(said)
+
+    def _whole(self, text: str) -> str | None:
+        """A text that an entry covers from end to end; None where none does."""
+        if text in self.table:
+            return self.table[text]
+        partly = None
+        for pattern, into, few in self._patterns:
+            if found := pattern.fullmatch(text):
+                held = {name: self.say(value) for name, value in found.groupdict().items()}
+                said = into.format(**held)
+                if "text" in held or not any(self.is_english(one, 1) for one in held.values()):
+                    return said
+                partly = partly or (None if few else said)
+        return partly
+
+    def is_english(self, text: str, least: int = 2) -> bool:
+        """Whether a text of a page in this language still holds so many English words of the table, quotations left out."""
+        if not self.foreign or text in self.own or isinstance(text, Own):
+            return False
+        plain = re.sub(r"“[^”]*”|‘[^’]*’|`[^`]*`", " ", text)
+        for name in self.own:
+            if len(name) > 3 and name in plain:
+                plain = plain.replace(name, " ")
+        return sum(word.lower() in self._words for word in _WORD.findall(plain)) >= least
+
+    def _told(self, text: str, least: int = 2) -> str:
+        if isinstance(text, Own):
+            return text
+        lines = [self.say(line) for line in text.split("\n")]
+        self._open |= any(self.is_english(line, least) for line in lines)
+        return "\n".join(lines)
+
+    def section(self, section: Section) -> Section:
+        """A section in this language; that a part of it stayed English is kept in mind."""
+        self._open = False
+        title = self._told(section.title, 1)
+        items = [self.item(one) for one in section.items]
+        if self._open:
+            self.english.setdefault(title)
+        return Section(title, items)
+
+    def item(self, item: Item) -> Item:
+        """An item in this language."""
+        if isinstance(item, (str, Code)):
+            return item if isinstance(item, Code) else self._told(item, 1)
+        if isinstance(item, (Points, Note)):
+            return replace(item, texts=[self._told(text, 1) for text in item.texts])
+        if isinstance(item, Picture):
+            self._open |= self.foreign and item.english
+            return replace(item, caption=self._told(item.caption, 1))
+        if isinstance(item, Facts):
+            pairs = [(self._told(name, 1), self._told(value)) for name, value in item.pairs]
+            return replace(item, pairs=pairs, caption=self._told(item.caption, 1))
+        header = [self._told(name, 1) for name in item.header]
+        body = [[self._told(cell) for cell in row] for row in item.body]
+        looks = {self.say(text): look for text, look in item.looks.items()}
+        return replace(item, header=header, body=body, caption=self._told(item.caption, 1), looks=looks)
+
+
+#: The language in which pictures of a report are drawn.
+SPOKEN: ContextVar[Language | None] = ContextVar("SPOKEN", default=None)
+
+
+@contextmanager
+def speaking(language: Language) -> Iterator[None]:
+    """Draw the pictures inside in this language."""
+    token = SPOKEN.set(language)
+    try:
+        yield
+    finally:
+        SPOKEN.reset(token)
+
+
+def language_of(name: str, own: Iterable[str] = ()) -> Language:
+    """A language by its tag, or by a file of translations.
+
+    Raises
+    ------
+    InputError
+        There is neither, or the file is no table of sentences with their placeholders.
+    """
+    if name == "en":
+        return Language()
+    if name in LANGUAGES:
+        return Language(name, sentences_of(name), own)
+    if not name.endswith(".toml"):
+        known = ", ".join(f'"{one}"' for one in ("en", *LANGUAGES))
+        raise InputError(
+            f"language is {name!r}; it is one of {known}, or a file of translations such as de.toml, of which "
+            "'stylobate report' writes a template.",
+            "language",
+        )
+    found, known = read_table(name, Translations), sentences_of(LANGUAGES[0])
+    for english, said in found.sentences.items():
+        if english not in known:
+            raise InputError(
+                f"{shown(name)}: {english!r} is no sentence of a report of this version; write the template again and "
+                "compare."
+            )
+        if said.strip() and sorted(HOLE.findall(said)) != sorted(HOLE.findall(english)):
+            raise InputError(
+                f"{shown(name)}: the translation of {english!r} must hold {', '.join(HOLE.findall(english)) or 'no'} "
+                "in braces, as the sentence does."
+            )
+    return Language(found.language, {one: said for one, said in found.sentences.items() if said.strip()}, own)
+
+
+@cache
+def sentences_of(tag: str) -> dict[str, str]:
+    """The table of a language that comes with the package."""
+    return parse_toml(Path(str(files("stylobate.report") / "languages" / f"{tag}.toml")))["sentences"]
+
+
+def write_template(path: Path) -> Path:
+    """Write a file of all sentences of a report with empty translations."""
+    import tomli_w
+
+    text = tomli_w.dumps({"language": "", "sentences": dict.fromkeys(sentences_of(LANGUAGES[0]), "")})
+    head = (
+        "# Sentences of a report. Give the tag of the language, such as de, and write each translation behind its\n"
+        "# sentence, with the same names in braces. What stays empty stays English in the report, which says so.\n"
+    )
+    with replacing(path) as partial:
+        partial.write_text(head + text, encoding="utf-8")
+    return path
+
+
+def _literal(sentence: str) -> int:
+    """Letters of a sentence between its placeholders."""
+    return sum(map(str.isalpha, HOLE.sub("", sentence)))
+
+
+def _before(sentence: str) -> tuple[bool, int, int]:
+    """Place of a sentence among those that a text is compared with: what only stands before a text comes first."""
+    return sentence.endswith(": {text}"), _literal(sentence), len(HOLE.sub("", sentence))
+
+
+def _pattern(sentence: str) -> re.Pattern[str]:
+    """What a sentence matches; a placeholder that stands twice is the same text both times."""
+    seen: set[str] = set()
+    parts = HOLE.split(sentence)
+    text = ""
+    for k, part in enumerate(parts):
+        if not k % 2:
+            text += re.escape(part)
+        elif part in seen:
+            text += f"(?P={part})"
+        else:
+            seen.add(part)
+            text += f"(?P<{part}>{_NUMBER if part in NUMBERS else _WITHIN})"
+    return re.compile(text)
