@@ -28,19 +28,30 @@ def base_acceleration(f, l, place):
     return along_base(ax, az, f.bc[l], f.bs[l])
 
 
+@law
+def ground_at(g, f, w, k, l):
+    """Acceleration of the base at step k of the chunk; none where no run goes on."""
+    if w.status[l] == RUNNING:
+        g.ax[l], g.az[l] = base_acceleration(f, l, (f.step[l] + k) * f.ratio[l])
+    else:
+        g.ax[l] = 0.0
+        g.az[l] = 0.0
+
+
 @kernel
 def fill_ground(ground, feed, watch):
     """Acceleration of the base for the next chunk, each lane from its own motion."""
     f = feed[0]
     for l in range(f.x.shape[0]):
-        running = watch[0].status[l] == RUNNING
         for k in range(CHUNK + 1):
-            g = ground[k]
-            if running:
-                g.ax[l], g.az[l] = base_acceleration(f, l, (f.step[l] + k) * f.ratio[l])
-            else:
-                g.ax[l] = 0.0
-                g.az[l] = 0.0
+            ground_at(ground[k], f, watch[0], k, l)
+
+
+@strict
+def lose(u, w, l):
+    """A lane has failed in which a body is not anywhere, or far away."""
+    lost = w.status[l] == RUNNING and not (abs(u.x[l]) + abs(u.z[l]) + abs(u.th[l]) < FAR) and u.im[l] > 0.0
+    w.status[l] = FAILED if lost else w.status[l]
 
 
 @strict
@@ -50,8 +61,7 @@ def check_finite(body, watch):
     for i in range(1, body.shape[0]):
         u = body[i]
         for l in range(u.x.shape[0]):
-            lost = w.status[l] == RUNNING and not (abs(u.x[l]) + abs(u.z[l]) + abs(u.th[l]) < FAR) and u.im[l] > 0.0
-            w.status[l] = FAILED if lost else w.status[l]
+            lose(u, w, l)
 
 
 @law
@@ -61,15 +71,98 @@ def top_place(top, w, l):
     return top.x[l] - st * w.th[l]
 
 
+@law
+def straighten_one(u, l):
+    """Renormalises (cos, sin) of a body."""
+    fix = 1.5 - 0.5 * (u.c[l] * u.c[l] + u.s[l] * u.s[l])
+    u.c[l] *= fix
+    u.s[l] *= fix
+
+
 @apart
 def straighten(body):
     """Renormalise (cos, sin) of all bodies."""
     for i in range(body.shape[0]):
         u = body[i]
         for l in range(u.x.shape[0]):
-            fix = 1.5 - 0.5 * (u.c[l] * u.c[l] + u.s[l] * u.s[l])
-            u.c[l] *= fix
-            u.s[l] *= fix
+            straighten_one(u, l)
+
+
+@law
+def look_at_top(top, o, w, l):
+    """Begins a look at one lane: the peak of its top, and sums over the column."""
+    # peaks of a column that stands: they end with its collapse
+    w.top[l] = max(w.top[l], abs(top_place(top, w, l) - w.stood[l])) if w.when[l] < 0 else w.top[l]
+    w.going[l] = 0.0
+    w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
+    w.m[l] = 0.0
+    w.x[l] = 0.0
+    w.z[l] = 0.0
+    w.px[l] = 0.0
+    w.held[l] = 0.0
+
+
+@law
+def look_at_drum(u, w, l):
+    """Adds a drum to the sums over the column."""
+    w.turn[l] = max(w.turn[l], abs(u.th[l])) if w.when[l] < 0 else w.turn[l]
+    w.m[l] += u.m[l]
+    w.x[l] += u.m[l] * u.x[l]
+    w.z[l] += u.m[l] * u.z[l]
+    w.px[l] += u.m[l] * u.vx[l]
+
+
+@law
+def look_at_joint(u, v, e, o, f, w, j, l):
+    """Looks at joint j with the sums over the drums above it, and takes the drum on it out of them."""
+    margin = SUPPORT_MARGIN if j > 0 else 0.0
+    cf, sf, _, _, c, s, ls, lq, rs, rq, lo, hi, _ = meeting(u, v, e, l)
+    ht = e.ht[l]
+    opening = ct.opening(ls, lq, rs, rq, c, s, e.wr[l])
+    w.open[l] = max(w.open[l], opening) if w.when[l] < 0 else w.open[l]
+    # centroid of the part above, and the end of the contact on the side to which it leans, in world axes
+    each = 1.0 / w.m[l]
+    cx = w.x[l] * each
+    cz = w.z[l] * each
+    middle = v.x[l] + 0.5 * cf * (lo + hi) - sf * ht
+    side = 1.0 if cx > middle else -1.0
+    end = hi if cx > middle else lo
+    end_x = v.x[l] + cf * end - sf * ht
+    end_z = v.z[l] + sf * end + cf * ht
+    out = side * (cx - end_x)
+    up = max(cz - end_z, 0.0)
+    outward = side * (w.px[l] * each - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
+    down = max(o.g[l] - w.vmax[l], 0.0)
+    against = max(w.amax[l] + side * o.gx[l], 0.0) + margin
+    held = w.held[l] * each  # by links
+    going, lost = going_and_lost(out, outward, out * down, against * up + held)
+    w.going[l] = 1.0 if going else w.going[l]
+    parted = hi <= lo
+    hit = (lost | parted) & (w.status[l] == RUNNING) & (w.when[l] < 0)
+    w.when[l] = f.step[l] if hit else w.when[l]
+    w.which[l] = j if hit else w.which[l]
+    w.side[l] = (1 if cx > middle else -1) if hit else w.side[l]
+    w.parted[l] = (1 if parted else 0) if hit else w.parted[l]
+    wider = (w.when[l] == f.step[l]) & (opening > w.wide[l])
+    w.wide[l] = opening if wider else w.wide[l]
+    w.about[l] = j if wider else w.about[l]
+    keep = 0.0 if parted else 1.0  # a joint that has parted does not close again
+    e.kn[l] *= keep
+    e.ks[l] *= keep
+    e.co[l] *= keep
+    w.m[l] -= u.m[l]
+    w.x[l] -= u.m[l] * u.x[l]
+    w.z[l] -= u.m[l] * u.z[l]
+    w.px[l] -= u.m[l] * u.vx[l]
+
+
+@law
+def keep_peaks(w, l):
+    """Keeps the peaks of a lane in which no part is on its way out."""
+    calm = (w.when[l] < 0) & (w.going[l] == 0.0)
+    w.ktop[l] = w.top[l] if calm else w.ktop[l]
+    w.kopen[l] = w.open[l] if calm else w.kopen[l]
+    w.kturn[l] = w.turn[l] if calm else w.kturn[l]
 
 
 @apart
@@ -90,76 +183,23 @@ def observe(body, joint, lane, feed, watch, hold, drums):
     lanes = w.status.shape[0]
     top = body[drums]
     for l in range(lanes):
-        # peaks of a column that stands: they end with its collapse
-        w.top[l] = max(w.top[l], abs(top_place(top, w, l) - w.stood[l])) if w.when[l] < 0 else w.top[l]
-        w.going[l] = 0.0
-        w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
-        w.m[l] = 0.0
-        w.x[l] = 0.0
-        w.z[l] = 0.0
-        w.px[l] = 0.0
-        w.held[l] = 0.0
+        look_at_top(top, o, w, l)
     straighten(body)
     for i in range(1, drums + 1):
         u = body[i]
         for l in range(lanes):
-            w.turn[l] = max(w.turn[l], abs(u.th[l])) if w.when[l] < 0 else w.turn[l]
-            w.m[l] += u.m[l]
-            w.x[l] += u.m[l] * u.x[l]
-            w.z[l] += u.m[l] * u.z[l]
-            w.px[l] += u.m[l] * u.vx[l]
+            look_at_drum(u, w, l)
     for j in range(drums):
         u = body[j + 1]
         v = body[j]
         e = joint[j]
-        margin = SUPPORT_MARGIN if j > 0 else 0.0
         if hold.shape[0] > 0:
             for l in range(lanes):
                 w.held[l] = hold[j].moment[l]
         for l in range(lanes):
-            cf, sf, _, _, c, s, ls, lq, rs, rq, lo, hi, _ = meeting(u, v, e, l)
-            ht = e.ht[l]
-            opening = ct.opening(ls, lq, rs, rq, c, s, e.wr[l])
-            w.open[l] = max(w.open[l], opening) if w.when[l] < 0 else w.open[l]
-            # centroid of the part above, and the end of the contact on the side to which it leans, in world axes
-            each = 1.0 / w.m[l]
-            cx = w.x[l] * each
-            cz = w.z[l] * each
-            middle = v.x[l] + 0.5 * cf * (lo + hi) - sf * ht
-            side = 1.0 if cx > middle else -1.0
-            end = hi if cx > middle else lo
-            end_x = v.x[l] + cf * end - sf * ht
-            end_z = v.z[l] + sf * end + cf * ht
-            out = side * (cx - end_x)
-            up = max(cz - end_z, 0.0)
-            outward = side * (w.px[l] * each - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
-            down = max(o.g[l] - w.vmax[l], 0.0)
-            against = max(w.amax[l] + side * o.gx[l], 0.0) + margin
-            held = w.held[l] * each  # by links
-            going, lost = going_and_lost(out, outward, out * down, against * up + held)
-            w.going[l] = 1.0 if going else w.going[l]
-            parted = hi <= lo
-            hit = (lost | parted) & (w.status[l] == RUNNING) & (w.when[l] < 0)
-            w.when[l] = f.step[l] if hit else w.when[l]
-            w.which[l] = j if hit else w.which[l]
-            w.side[l] = (1 if cx > middle else -1) if hit else w.side[l]
-            w.parted[l] = (1 if parted else 0) if hit else w.parted[l]
-            wider = (w.when[l] == f.step[l]) & (opening > w.wide[l])
-            w.wide[l] = opening if wider else w.wide[l]
-            w.about[l] = j if wider else w.about[l]
-            keep = 0.0 if parted else 1.0  # a joint that has parted does not close again
-            e.kn[l] *= keep
-            e.ks[l] *= keep
-            e.co[l] *= keep
-            w.m[l] -= u.m[l]
-            w.x[l] -= u.m[l] * u.x[l]
-            w.z[l] -= u.m[l] * u.z[l]
-            w.px[l] -= u.m[l] * u.vx[l]
+            look_at_joint(u, v, e, o, f, w, j, l)
     for l in range(lanes):
-        calm = (w.when[l] < 0) & (w.going[l] == 0.0)
-        w.ktop[l] = w.top[l] if calm else w.ktop[l]
-        w.kopen[l] = w.open[l] if calm else w.kopen[l]
-        w.kturn[l] = w.turn[l] if calm else w.kturn[l]
+        keep_peaks(w, l)
 
 
 @strict

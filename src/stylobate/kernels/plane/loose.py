@@ -142,7 +142,7 @@ def move_loose(state, search, gx, gz, gx1, gz1, dt):
             continue
         u = body[i]
         s = shape[i]
-        drift(u, o, 0, u.fx[0], u.fz[0], u.mo[0], gx, gz, kick, dt, damped)
+        drift(u, o, o, 0, u.fx[0], u.fz[0], u.mo[0], gx, gz, kick, dt, damped)
         s.travel += (abs(u.vx[0]) + abs(u.vz[0]) + s.r * abs(u.w[0])) * dt
         farthest = max(farthest, s.travel)
     o.work[0] -= (0.5 * (gx + gx1) * o.px[0] + 0.5 * (gz + gz1) * o.pz[0]) * dt

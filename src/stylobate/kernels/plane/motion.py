@@ -57,8 +57,11 @@ def gather(body, load, span, touch):
 
 
 @law
-def drift(u, o, l, fx, fz, mo, gx, gz, kick, dt, damped):
-    """Motion of a body under a force and a moment: velocities over a time ``kick``, positions over a step ``dt``."""
+def drift(u, o, sums, l, fx, fz, mo, gx, gz, kick, dt, damped):
+    """Motion of a body under a force and a moment: velocities over a time ``kick``, positions over a step ``dt``.
+
+    ``sums`` takes what its dampers take out, and its momentum: the lane's own record, or one of the body's own.
+    """
     vx = u.vx[l]
     vz = u.vz[l]
     w = u.w[l]
@@ -73,7 +76,7 @@ def drift(u, o, l, fx, fz, mo, gx, gz, kick, dt, damped):
         nx, mx = damped_velocity(vx, ax, kick, half, local)
         nz, mz = damped_velocity(vz, az, kick, half, local)
         nw, mw = damped_velocity(w, aw, kick, half, local)
-        o.visc[l] += alpha * kick * (m * (mx * mx + mz * mz) + u.i[l] * mw * mw)
+        sums.visc[l] += alpha * kick * (m * (mx * mx + mz * mz) + u.i[l] * mw * mw)
     else:
         nx = vx + ax * kick
         nz = vz + az * kick
@@ -87,8 +90,30 @@ def drift(u, o, l, fx, fz, mo, gx, gz, kick, dt, damped):
     c, s = turn(u.c[l], u.s[l], nw * dt)
     u.c[l] = c
     u.s[l] = s
-    o.px[l] += m * nx
-    o.pz[l] += m * nz
+    sums.px[l] += m * nx
+    sums.pz[l] += m * nz
+
+
+@law
+def no_momentum(sums, l):
+    """Begins the sum of momenta of a step."""
+    sums.px[l] = 0.0
+    sums.pz[l] = 0.0
+
+
+@law
+def move_between(u, e, a, o, sums, g, l):
+    """Motion of a body with two contacts from t_n to t_{n+1}: in ``e`` it is the upper one, in ``a`` the lower one."""
+    fx, fz, mo = e.fx[l] - a.fx[l], e.fz[l] - a.fz[l], e.mu_[l] - a.ml[l]
+    drift(u, o, sums, l, fx, fz, mo, g.ax[l], g.az[l], o.dt[l], o.dt[l], o.damp.shape[0] > 1)
+
+
+@law
+def add_work(o, sums, g0, g1, l):
+    """Adds the work of the body force −m a over a step by the trapezoidal rule.  # Eq. (D5)"""
+    mean_x = 0.5 * (g0.ax[l] + g1.ax[l])
+    mean_z = 0.5 * (g0.az[l] + g1.az[l])
+    sums.work[l] -= (mean_x * sums.px[l] + mean_z * sums.pz[l]) * o.dt[l]
 
 
 @apart
@@ -99,8 +124,7 @@ def move(body, load, span, touch, lane, ground, k):
     g1 = ground[k + 1]
     damped = o.damp.shape[0] > 1
     for l in range(o.dt.shape[0]):
-        o.px[l] = 0.0
-        o.pz[l] = 0.0
+        no_momentum(o, l)
     for i in range(body.shape[0]):
         s = span[i]
         if s.fixed != 0:
@@ -110,19 +134,15 @@ def move(body, load, span, touch, lane, ground, k):
         a = load[s.above]
         if s.count == 0:
             for l in range(o.dt.shape[0]):
-                fx, fz, mo = e.fx[l] - a.fx[l], e.fz[l] - a.fz[l], e.mu_[l] - a.ml[l]
-                drift(u, o, l, fx, fz, mo, g0.ax[l], g0.az[l], o.dt[l], o.dt[l], damped)
+                move_between(u, e, a, o, o, g0, l)
         else:
             gather_others(u, s, load, touch)
             for l in range(o.dt.shape[0]):
                 fx, fz = e.fx[l] - a.fx[l] + u.fx[l], e.fz[l] - a.fz[l] + u.fz[l]
                 mo = e.mu_[l] - a.ml[l] + u.mo[l]
-                drift(u, o, l, fx, fz, mo, g0.ax[l], g0.az[l], o.dt[l], o.dt[l], damped)
-    # work of the body force −m a by the trapezoidal rule  # Eq. (D5)
+                drift(u, o, o, l, fx, fz, mo, g0.ax[l], g0.az[l], o.dt[l], o.dt[l], damped)
     for l in range(o.dt.shape[0]):
-        mean_x = 0.5 * (g0.ax[l] + g1.ax[l])
-        mean_z = 0.5 * (g0.az[l] + g1.az[l])
-        o.work[l] -= (mean_x * o.px[l] + mean_z * o.pz[l]) * o.dt[l]
+        add_work(o, o, g0, g1, l)
 
 
 @strict

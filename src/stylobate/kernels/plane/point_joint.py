@@ -101,6 +101,21 @@ def put(f, l, cl, sl, sum_s, sum_q, upper, lower):
     f.ml[l] = lower
 
 
+@law
+def joint_force(u, v, e, f, o, sums, l):
+    """Force of one joint at t_n in one lane; brings its memory from t_{n−1} to t_n.
+
+    ``sums`` takes the work of its springs and dashpots: the lane's own record, or one in which each joint adds for itself.
+    """
+    damped = e.dn.shape[0] > 1
+    at = meeting(u, v, e, l)
+    sum_s, sum_q, upper, lower, shear, visc = press(u, v, e, o, l, damped, 0.0, 1.0, o.dt[l], at)
+    put(f, l, at[0], at[1], sum_s, sum_q, upper, lower)
+    sums.shear[l] += shear
+    if damped:
+        sums.visc[l] += visc
+
+
 @apart
 def joint_forces(body, joint, load, pair, lane):
     """Forces of all joints at t_n; brings the contact memory from t_{n−1} to t_n."""
@@ -110,14 +125,8 @@ def joint_forces(body, joint, load, pair, lane):
         v = body[pair[j].lower]
         e = joint[j]
         f = load[j]
-        damped = e.dn.shape[0] > 1
         for l in range(e.over.shape[0]):
-            at = meeting(u, v, e, l)
-            sum_s, sum_q, upper, lower, shear, visc = press(u, v, e, o, l, damped, 0.0, 1.0, o.dt[l], at)
-            put(f, l, at[0], at[1], sum_s, sum_q, upper, lower)
-            o.shear[l] += shear
-            if damped:
-                o.visc[l] += visc
+            joint_force(u, v, e, f, o, o, l)
 
 
 @law

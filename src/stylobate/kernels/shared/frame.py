@@ -10,6 +10,25 @@ from .records import FEED, GROUND, LANE, WATCH
 
 
 @law
+def go_on(f, w, l):
+    """A run that goes on is a chunk further."""
+    if w.status[l] == RUNNING:
+        f.step[l] += CHUNK
+
+
+@law
+def end_run(o, f, w, l):
+    """A run ends at its last step, or at its collapse; a lane that is over gets dt = 0."""
+    if w.status[l] == RUNNING:
+        if w.when[l] >= 0 and w.follow[l] == 0:
+            w.status[l] = COLLAPSED
+        elif f.step[l] >= f.end[l]:
+            w.status[l] = COLLAPSED if w.when[l] >= 0 else ENDED
+    if w.status[l] != RUNNING:
+        o.dt[l] = 0.0
+
+
+@law
 def run_chunks(fill_ground, look_ahead, forces, move, look, state, chunks):
     """Advance all lanes by up to ``chunks`` × CHUNK steps; returns as soon as the run in some lane is over.
 
@@ -26,8 +45,7 @@ def run_chunks(fill_ground, look_ahead, forces, move, look, state, chunks):
             forces(state)
             move(state, k)
         for l in range(watch[0].status.shape[0]):
-            if watch[0].status[l] == RUNNING:
-                feed[0].step[l] += CHUNK
+            go_on(feed[0], watch[0], l)
         look(state)
         end_runs(lane, feed, watch)
 
@@ -38,13 +56,7 @@ def end_runs(lane, feed, watch):
     f = feed[0]
     w = watch[0]
     for l in range(w.status.shape[0]):
-        if w.status[l] == RUNNING:
-            if w.when[l] >= 0 and w.follow[l] == 0:
-                w.status[l] = COLLAPSED
-            elif f.step[l] >= f.end[l]:
-                w.status[l] = COLLAPSED if w.when[l] >= 0 else ENDED
-        if w.status[l] != RUNNING:
-            lane[0].dt[l] = 0.0
+        end_run(lane[0], f, w, l)
 
 
 @kernel
