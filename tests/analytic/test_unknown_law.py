@@ -255,3 +255,12 @@ def test_interval_of_a_table_is_that_of_its_twins():
     row = {"twins_collapsed": 2, "twins_stands": 13, "twins_undecided": 0, "twins_failed": 0}
     row |= {"collapse_interval_low": 0.01, "collapse_interval_high": 0.62}
     assert chance_words(row) == "13 % of 15 (1 to 62 %)"
+
+
+def test_states_of_few_laws_say_so_and_conclude_nothing():
+    """Three twins share one law: limits of a difference are those of all that can be, and the reason stands before."""
+    motions = [st.harmonic(2.0, 1.0, 0.3).replace(name=f"m{k}") for k in range(2)]
+    states = {"as found": ROUND, "other": dataclasses.replace(ROUND, name="other")}
+    found = st.compare_states(states, motions, SPACE, [0.1], "pga", replicates=3, tail=0.1)
+    assert found.doubt.startswith("The twins share 1 law of the joints")
+    assert (found.differences[0].share_low, found.differences[0].share_high) == (-1.0, 1.0)

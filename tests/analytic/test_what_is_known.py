@@ -10,7 +10,8 @@ from scipy.stats import chi2, t
 
 from stylobate.analysis import lognormal
 from stylobate.analysis.evidence import Evidence
-from stylobate.analysis.fragility import between, fragility
+from stylobate.analysis.fragility import fragility
+from stylobate.analysis.fragility_curve import between
 from stylobate.analysis.hazard import Hazard
 from stylobate.analysis.likelihood_region import LARGER, dispersions, region
 from stylobate.analysis.limit_states import EXCEEDED, OPEN

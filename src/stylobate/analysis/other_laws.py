@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..campaign.campaign import Campaign
-from ..campaign.unknown_laws import UNDAMPED
+from ..campaign.unknown_laws import UNDAMPED, on_rim_or_bed
 from ..column.column import Column
 from ..column.losses import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING
@@ -102,15 +102,14 @@ def _companions(column: Column, model: Any) -> Iterator[tuple[str, Column]]:
     """Columns under other laws, by these laws in words."""
     acting = model.acting(column)
     damped = acting.damping(column) > UNDAMPED
-    round_ = column.section == "circular"
-    whole = round_ and not column.on_rings and not any(drum.chipped for drum in column.as_found.drums)
+    whole = on_rim_or_bed(column)
     for law in LAWS if whole else (acting.law,):
         for with_losses in (False, True):
             if law == acting.law and with_losses == damped:
                 continue
             faces = f"on {law}s, " if whole else ""
             words = f"{faces}{'damped as stone' if with_losses else 'undamped'}"
-            rolling = ROLLING.value if with_losses and round_ else 0.0
+            rolling = ROLLING.value if with_losses and column.section == "circular" else 0.0
             yield words, column.unwarned(losses=Losses(CONTACT.value if with_losses else 0.0, rolling, law))
     own = Losses(acting.damping(column), acting.rolling_resistance, acting.law)
     for words, factor in (("stiffer joints", FACTOR), ("softer joints", 1.0 / FACTOR)):

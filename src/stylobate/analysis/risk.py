@@ -13,7 +13,7 @@ from ..errors import InputError, check_kind
 from ..motion.intensity_specs import ENDS, parse_measure
 from ..notebook import Shown
 from ..percent import percent
-from .fragility import Fragility
+from .fragility_curve import Fragility
 from .hazard import Hazard
 from .lognormal import curve, log_interval
 

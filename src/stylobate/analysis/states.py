@@ -23,14 +23,15 @@ from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
 from .difference import Difference, caveat, doubt, reference
 from .evidence import Evidence, evidence, intervals, medians_by_law
-from .fragility import SAMPLES, Fragility, fragility
+from .fragility import SAMPLES, fragility
 from .fragility_checks import check_bootstrap
+from .fragility_curve import Fragility
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
 from .lognormal import bootstrap, falls, fit
 from .paired import levels_of, median_ends, share_limits, unseen
 from .side_by_side import Share, shares
 from .studies import StudyResult, run_study
-from .unknown_law import under_another_law
+from .unknown_law import few_laws, under_another_law
 
 if TYPE_CHECKING:
     import pandas
@@ -205,6 +206,8 @@ def compare_states(
     )
     side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records, told[0].laws))
     before = doubt(labels, named, model) if study.of_one_law else ""
+    if told[0].laws is not None and (few := few_laws(len(np.unique(told[0].laws)))):
+        before = f"{before} {few[:1].upper()}{few[1:]}.".lstrip()
     return StateComparison(labels, named, result, table, curves, differences, side_by_side, state, before)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import InputError, check_all, check_kind, check_range
 from ..notebook import Shown
-from .fragility import Fragility
+from .fragility_curve import Fragility
 from .hazard import Hazard
 from .poisson import stands
 from .risk import Risk, risk

@@ -17,6 +17,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ..campaign.unknown_laws import PER_LAW
 from . import verdicts as v
 
 #: Exponents of the density of r before anything is counted, (1 − r)³: its mean 0.2 is about that of the counts of other
@@ -25,6 +26,9 @@ ALIKE = 3.0
 
 #: Values of m and r that are looked at.
 MEANS, CORRELATIONS = 61, 30
+
+#: Laws of the joints from fewer than which how much they decide is not told.
+FEW_LAWS = 4
 
 #: Shares are told by hundredths: limits nearer to none or to all of the columns than that are none, and all.
 FINEST = 100
@@ -82,6 +86,13 @@ def under_another_law(values: np.ndarray, samples: int, rng: np.random.Generator
     draws[(draws > 0.0) & (told_by_none or np.isposinf(values).any())] = np.inf
     draws[(draws < 0.0) & (told_by_none or np.isneginf(values).any())] = -np.inf
     return draws
+
+
+def few_laws(number: int) -> str:
+    """Caveat on twins of so few laws; empty where there are enough, or none as one is taken as known."""
+    said = f"the twins share {number} law{'s' * (number > 1)} of the joints, too few to tell how much it decides: give more "
+    said += f"replicates, of which every {PER_LAW} share one, such as {FEW_LAWS * PER_LAW}"
+    return said * (0 < number < FEW_LAWS)
 
 
 def share_under_another_law(

@@ -210,9 +210,7 @@ class Study:
 
         number, sizes = self.campaign.replicates, self.campaign.scatter
         scatter = sizes.given if sizes is not None and number else None
-        if (
-            number and sizes is None
-        ):  # each column scatters as its material does, in space by the laws of its joints too
+        if number and sizes is None:  # by material, and in space by the laws of joints
             usual = {
                 f"{one.name}, {model.name}": twins.scatter.given
                 for model, some in zip(self.models, self.twins, strict=True)

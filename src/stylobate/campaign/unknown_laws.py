@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..column.column import Column
 from ..column.losses import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import WITHIN, Scatter, spread_of, usual_scatter
@@ -56,9 +57,14 @@ def usual_with_laws(structure: Structure, model: Model) -> Scatter:
         return usual
     laws: dict[str, Any] = {"joint_stiffness": 1.0, "stiffness_damping": 0.8}
     if column.section == "circular":
-        whole = not column.on_rings and not any(drum.chipped for drum in column.as_found.drums)
-        laws |= {"rolling_resistance": 0.8} | ({"law": 0.5} if whole else {})
+        laws |= {"rolling_resistance": 0.8} | ({"law": 0.5} if on_rim_or_bed(column) else {})
     return dataclasses.replace(usual, **laws)
+
+
+def on_rim_or_bed(column: Column) -> bool:
+    """Whether the faces of a column may as well carry on their rims as on their beds: whole round ones without rings."""
+    chipped = any(drum.chipped for drum in column.as_found.drums)
+    return column.section == "circular" and not column.on_rings and not chipped
 
 
 def groups_of(size: Scatter, number: int) -> tuple[int, ...]:

@@ -13,7 +13,7 @@ from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.fragility import Fragility
+    from ..analysis.fragility_curve import Fragility
     from ..results.sources import Source
 
 Sources = Annotated[
@@ -101,7 +101,7 @@ def fragility(
 
 def describe(found: Fragility) -> None:
     """A curve in words."""
-    from ..analysis.fragility import between
+    from ..analysis.fragility_curve import between
     from ..analysis.side_by_side import known_end, median_words, within
     from . import console
 

@@ -164,19 +164,15 @@ def link_words(row: dict) -> str:
     """Demand on a link, for people."""
     capacity = f"{row['capacity_n']:.4g} N" if math.isfinite(row["capacity_n"]) else "no limit"
     most = row["largest_force_n"]
-    range_ = (
-        ""
-        if most is None
-        else f"; other answers have up to {most:.4g} N"
-        if math.isfinite(most)
-        else "; no upper limit"
-    )
+    rest = "; no upper limit"
+    if most is None or math.isfinite(most):
+        rest = "" if most is None else f"; other answers have up to {most:.4g} N"
     if row["need_not_act"]:
-        return f"need not act (capacity {capacity}){range_}"
+        return f"need not act (capacity {capacity}){rest}"
     force = f"{abs(row['force_n']):.4g} N of {capacity}"
     if row["yields"]:
         return f"{force}, yields"
-    return f"at least {force}" + ("" if row["force_n"] else ", where others act for it") + range_
+    return f"at least {force}" + ("" if row["force_n"] else ", where others act for it") + rest
 
 
 def link_rows(links: Sequence[LinkForce]) -> list[dict]:

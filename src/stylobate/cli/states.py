@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from ..analysis.states import StateComparison
     from ..campaign.campaign import Campaign
     from ..column.structure import Structure
+    from ..models.base import Model
 
 
 def the_states(as_built: str | None, as_found: str | None, strengthened: list[str] | None) -> dict[str, str]:
@@ -99,7 +100,7 @@ def states(
             what: dict[str, Any] = {"structures": list(columns.values()), "models": [how], "states": list(columns)}
             what |= {"motions": [how.taken(motion) for motion in suite.motions], "runs": found.table}
             what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": campaign.tail}
-            files.asked(**what, **_twins(columns, campaign) if population.replicates is not None else {})
+            files.asked(**what, **_twins(columns, how, campaign) if population.replicates is not None else {})
             files.summary(summary, "states.json")
     if execution.emits(summary):
         return
@@ -133,11 +134,11 @@ def _describe_design(designed: pandas.DataFrame) -> None:
         console.print_table(pandas.DataFrame(told | {"to": wide["high_84"]}), digits=3)
 
 
-def _twins(columns: dict[str, Structure], campaign: Campaign) -> dict[str, Any]:
+def _twins(columns: dict[str, Structure], model: Model, campaign: Campaign) -> dict[str, Any]:
     """How twins of the columns are drawn, as it is kept beside the results."""
-    from ..column.scatter import usual_scatter
+    from ..campaign.unknown_laws import usual_with_laws
 
-    sizes = {label: (campaign.scatter or usual_scatter(one)).describe() for label, one in columns.items()}
+    sizes = {label: (campaign.scatter or usual_with_laws(one, model)).describe() for label, one in columns.items()}
     same = len(set(sizes.values())) == 1
     told = sizes.values() if same else (f"{label}: {one}" for label, one in sizes.items())
     return {"replicates": campaign.replicates, "scatter": "; ".join(dict.fromkeys(told)), "seed": campaign.seed}

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from ..analysis.fragility import Fragility
+from ..analysis.fragility_curve import Fragility
 from ..analysis.lognormal import curve
 from ..motion.intensity_specs import parse_measure
 from .style import BLACK, BLUE, GREY, RED, legend_below, panel, styled

@@ -7,9 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference
-from ..analysis.fragility import Fragility, curve
 from ..analysis.fragility_checks import FEWEST
+from ..analysis.fragility_curve import Fragility
 from ..analysis.limit_states import FAILED, OPEN
+from ..analysis.lognormal import curve
 from ..analysis.side_by_side import median_name, median_words
 from ..analysis.states import StateComparison
 from ..motion.intensity_specs import parse_measure

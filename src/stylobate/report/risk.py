@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..analysis.fragility import between
+from ..analysis.fragility_curve import between
 from ..analysis.risk import years
 from ..analysis.side_by_side import median_words
 from ..analysis.verdicts import open_runs

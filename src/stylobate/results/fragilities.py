@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from ..analysis.evidence import evidence, names_in, read_table, scaled_to, table_of
-from ..analysis.fragility import Fragility
 from ..analysis.fragility import fragility as fit
+from ..analysis.fragility_curve import Fragility
 from ..analysis.limit_states import parse_state
 from ..errors import InputError
 from ..motion.intensity_specs import parse_measure

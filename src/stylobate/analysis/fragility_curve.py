@@ -1,0 +1,322 @@
+"""A fragility curve: how probable a limit state is over an intensity of the shaking, and how sure that is."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.special import ndtr
+
+from ..notebook import Shown
+from . import lognormal
+from .evidence import Evidence
+from .fragility_points import Points
+from .limit_states import EXCEEDED, FAILED, OPEN
+from .lognormal import curve
+from .unknown_law import few_laws
+
+#: A limit of the median that is farther from all intensities that were run than by this factor is none.
+FAR = 1000.0
+
+#: A dispersion so near, in its logarithm, to where the fit ends is at the end [-].
+CLOSE = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Fragility(Shown):
+    """A lognormal fragility with what is known about it.
+
+    Parameters
+    ----------
+    evidence : Evidence
+    method : str
+        ``runs``: every run counts; ``records``: the capacity under each record, bracketed by its runs.
+    log_median, beta : float
+        ln θ and β.
+    samples : array, shape (S, 2)
+        ln θ and ln β of the bootstrap over records.
+    region : array, shape (k, 2)
+        ln θ and ln β at the edge of what the likelihood leaves plausible, see :mod:`~stylobate.analysis.likelihood_region`.
+    dispersions : (float, float)
+        What it leaves plausible of β.
+    bracket : (float, float) or None
+        The largest intensity up to which nothing exceeds the state and the smallest from which everything does, where no
+        run contradicts them: then the median lies between them, and of the dispersion only an upper limit is known.
+    extremes : (Fit, Fit)
+        Of all runs, open and failed ones counted as exceeded, and as not exceeded.
+    ends : tuple of Fragility or None
+        The same two with all that is known about them, None where one makes no curve; empty where all runs are decided.
+        Intervals hold theirs, too.
+    points : Points
+    distance, p_value : float
+        Largest distance between the points and the curve [-], and the share of sets of runs drawn from the curve that have
+        a larger one.
+    confidence : float
+    records_are_one : bool
+        Every run counts as a record of its own: ``records`` are runs.
+    samples_of_columns : array, shape (S, 2), optional
+        The samples as if the law of the joints were known, where it varies.
+    """
+
+    evidence: Evidence
+    method: str
+    log_median: float
+    beta: float
+    samples: np.ndarray
+    region: np.ndarray
+    dispersions: tuple[float, float]
+    bracket: tuple[float, float] | None
+    extremes: tuple[tuple[float, float], tuple[float, float]]
+    points: Points
+    distance: float
+    p_value: float
+    confidence: float
+    records_are_one: bool = False
+    ends: tuple[Fragility | None, ...] = ()
+    samples_of_columns: np.ndarray | None = None
+
+    @property
+    def laws(self) -> int:
+        """Number of laws of the joints, where they vary; else 0."""
+        laws = self.evidence.laws
+        return 0 if laws is None else len(np.unique(laws))
+
+    @property
+    def of_columns(self) -> Fragility:
+        """The same as if the law of the joints were known, of which the samples draw one more."""
+        if self.samples_of_columns is None:
+            return self
+        ends = tuple(None if one is None else one.of_columns for one in self.ends)
+        return replace(self, samples=self.samples_of_columns, samples_of_columns=None, ends=ends)
+
+    @property
+    def counted(self) -> str:
+        """Samples that count as independent of one another, over which the interval is, in words."""
+        return "runs" if self.records_are_one else "records"
+
+    @property
+    def warnings(self) -> list[str]:
+        """Caveats beside anything that rests on this curve."""
+        alone = (
+            "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
+            "nothing about the next earthquake"
+        )
+        known = (self.outside, self.no_dispersion, alone * self.records_are_one, self.few_laws)
+        said = [f"{one}." for one in known if one]
+        return [self.evidence.doubt, *said] if self.evidence.doubt else said
+
+    @property
+    def median(self) -> float:
+        """θ, in the unit of the measure."""
+        return math.exp(self.log_median)
+
+    @property
+    def records(self) -> int:
+        """Number of records of which a run is decided."""
+        return len(np.unique(self.evidence.records[self.evidence.codes >= 0]))
+
+    @property
+    def levels(self) -> tuple[float, float]:
+        """Smallest and largest intensity of a run that is decided."""
+        im = self.evidence.im[self.evidence.codes >= 0]
+        return float(im.min()), float(im.max())
+
+    @property
+    def outside(self) -> str:
+        """Caveat on a median beyond all intensities that were computed; empty where it is among them."""
+        e, (low, high) = self.evidence, self.levels
+        unit = "" if e.unit == "-" else f" {e.unit}"
+        if low * (1.0 - CLOSE) <= self.median <= high * (1.0 + CLOSE):
+            return ""
+        where, more = ("above", "larger") if self.median > high else ("below", "smaller")
+        return (
+            f"the fitted median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}"
+            f"{unit}): it is told by the shape of the curve, not by runs; give {more} intensities"
+        )
+
+    @property
+    def few_laws(self) -> str:
+        """Caveat on twins of too few laws of the joints; empty where there are enough, or one is taken as known."""
+        return few_laws(self.laws)
+
+    @property
+    def no_dispersion(self) -> str:
+        """What must be said of a dispersion that these runs do not show, which β then is the least of; else empty."""
+        if _seen(self.beta) is not None:
+            return ""
+        most = self.beta_interval[1]
+        limit = f"it may be up to {most:.2g}" if math.isfinite(most) else "no limit of it is known"
+        return (
+            f"the dispersion is not seen in these runs ({limit}, with {100.0 * self.confidence:g} % confidence): "
+            f"β = {lognormal.BETAS[0]:g} is where the fit ends, no value; give levels that lie closer"
+        )
+
+    def probability(self, im: np.ndarray) -> np.ndarray:
+        """Probability of exceedance given the intensity, shape of ``im``."""
+        return curve(im, self.log_median, self.beta)
+
+    def interval(self, im: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Confidence limits of :meth:`probability`, point by point: what the quantiles of the samples' curves hold, and the
+        curves of the region; with open runs, from the lower ones of the curve if none exceeds to the upper ones if all do.
+        """
+        samples, plausible = (
+            np.array([curve(im, m, math.exp(s)) for m, s in one]) for one in (self.samples, self.region)
+        )
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], axis=0)
+        low, high = np.minimum(low, plausible.min(axis=0)), np.maximum(high, plausible.max(axis=0))
+        if self.ends:
+            most, least = self.ends
+            low = np.zeros_like(low) if least is None else np.minimum(low, least.interval(im)[0])
+            high = np.ones_like(high) if most is None else np.maximum(high, most.interval(im)[1])
+        return low, high
+
+    @property
+    def median_interval(self) -> tuple[float, float]:
+        """Confidence limits of θ, whatever open runs come to; 0 and +inf where none is known."""
+        middle, spread = self.samples.T
+        endless = spread >= math.log(lognormal.BETAS[1]) - CLOSE
+        im = np.log(self.evidence.im)
+        samples = np.where(endless, np.copysign(np.inf, middle - im.mean()), middle)
+        low, high = self.limits(self.log_median, samples, self.region[:, 0])
+        if self.bracket is not None:
+            low, high = min(low, math.log(self.bracket[0])), max(high, math.log(self.bracket[1]))
+        far = math.log(FAR)
+        low = math.exp(low) if low > im.min() - far else 0.0
+        high = math.exp(high) if high < im.max() + far else math.inf
+        if self.ends:
+            most, least = self.ends
+            low = min(low, 0.0 if most is None else most.median_interval[0])
+            high = max(high, math.inf if least is None else least.median_interval[1])
+        return low, high
+
+    @property
+    def beta_interval(self) -> tuple[float, float]:
+        """Confidence limits of β, whatever open runs come to; 0 and +inf where none is known."""
+        least, most = np.log(lognormal.BETAS)
+        samples = np.where(self.samples[:, 1] >= most - CLOSE, np.inf, self.samples[:, 1])
+        with np.errstate(divide="ignore"):
+            plausible = np.log(self.dispersions)
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], method="nearest")
+        if low <= least + CLOSE:  # samples that show no dispersion do not say that there is none
+            low, high = plausible.min(), max(high, plausible.max())
+        else:
+            low, high = self.limits(math.log(self.beta), samples, plausible)
+        ends = [(0.0, math.inf) if end is None else end.beta_interval for end in self.ends]
+        return min([math.exp(low), *(one for one, _ in ends)]), max([math.exp(high), *(one for _, one in ends)])
+
+    def limits(self, best: float, samples: np.ndarray, plausible: np.ndarray) -> tuple[float, float]:
+        """Confidence limits of a quantity: the wider ones of the bootstrap and of the likelihood.
+
+        The bootstrap knows that runs of one record hang together; the region knows what the design leaves open, of which
+        samples of the same runs see nothing. Where so many samples have no curve that a limit would be one of theirs, the
+        quantiles of the samples are taken as they are, and the limit on that side is none.
+
+        Parameters
+        ----------
+        best : float
+        samples, plausible : array
+            Of the samples of the bootstrap, infinite where one has no curve; and over the region of the likelihood.
+        """
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], method="nearest")
+        if np.isfinite([low, high]).all():
+            low, high = self.basic(best, samples)
+        return min(float(low), float(plausible.min())), max(float(high), float(plausible.max()))
+
+    def basic(self, best: float, samples: np.ndarray) -> tuple[float, float]:
+        """Confidence limits of a quantity from its value and those of the samples.  # Eq. (G3)
+
+        The basic bootstrap, its quantiles widened as Student's t is against the normal distribution.
+        """
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], method="nearest")
+        return float(2.0 * best - high), float(2.0 * best - low)
+
+    @property
+    def _share(self) -> float:
+        from scipy.stats import t
+
+        n = self.records
+        return float(ndtr(math.sqrt(n / (n - 1.0)) * t.ppf(0.5 - 0.5 * self.confidence, n - 1)))
+
+    @property
+    def sentence(self) -> str:
+        """Words of the runs on the median, in a sentence."""
+        e = self.evidence
+        where = f"{e.state} at {e.measure}"
+        unit = "" if e.unit == "-" else f" {e.unit}"
+        if self.outside:
+            return f"{e.name}: {self.outside}."
+        if self.bracket is None:
+            return f"{e.name}: half of the {self.counted} bring {where} = {self.median:.3g}{unit}."
+        low, high = self.bracket
+        run = "decided run" if self.ends else "run"
+        if low == high:
+            return f"{e.name}: no {run} below {e.measure} = {low:.4g}{unit} brings {e.state}, and every {run} above it does."
+        return (
+            f"{e.name}: half of the {self.counted} bring {where} between {low:.4g} and {high:.4g}{unit}: no {run} up to "
+            f"the one brings it, and every {run} from the other on does."
+        )
+
+    def _law_facts(self) -> dict[str, Any]:
+        """Number of laws of the joints, and limits of the median as if they were known; empty where they do not vary."""
+        if not self.laws:
+            return {}
+        low, high = self.of_columns.median_interval
+        return {"laws": self.laws, "median_of_columns_low": low, "median_of_columns_high": high}
+
+    def summary(self) -> dict[str, Any]:
+        """The JSON object of ``stylobate fragility``."""
+        e = self.evidence
+        (high_median, high_beta), (low_median, low_beta) = self.extremes
+        return {
+            "median": self.median,
+            "median_low": self.median_interval[0],
+            "median_high": self.median_interval[1],
+            **self._law_facts(),
+            "beta": _seen(self.beta),
+            "beta_low": self.beta_interval[0],
+            "beta_high": self.beta_interval[1],
+            "correlation": lognormal.correlation(self.samples),
+            "im": e.measure,
+            "unit": e.unit,
+            "state": e.state,
+            "name": e.name,
+            "method": self.method,
+            "records": self.records,
+            "records_are_one": self.records_are_one,
+            "warnings": self.warnings,
+            "runs": len(e.im),
+            "exceeded": e.count(EXCEEDED),
+            "undecided": e.count(OPEN),
+            "failed": e.count(FAILED),
+            "confidence": self.confidence,
+            "levels": list(self.levels),
+            "outside": self.outside,
+            "bracket": None if self.bracket is None else list(self.bracket),
+            "if_open_exceed": {"median": math.exp(high_median), "beta": _seen(high_beta)},
+            "if_open_do_not": {"median": math.exp(low_median), "beta": _seen(low_beta)},
+            "largest_distance": self.distance,
+            "p_value": self.p_value,
+            "sentence": self.sentence,
+            "points": [
+                {"im": x, "share": s, "low": a, "high": b, "records": n}
+                for x, s, a, b, n in zip(*(var.tolist() for var in vars(self.points).values()), strict=True)
+            ],
+        }
+
+
+def _seen(beta: float) -> float | None:
+    """β, if the runs show one."""
+    return beta if beta > lognormal.BETAS[0] * (1.0 + CLOSE) else None
+
+
+def between(low: float | None, high: float | None, unit: str = "-", digits: int = 4) -> str:
+    """Limits in words, with their unit; 0 and +inf, or None, where there are none."""
+    low, high = low or 0.0, math.inf if high is None else high
+    behind = "" if unit == "-" else f" {unit}"
+    if low > 0.0:
+        return (
+            f"{low:.{digits}g} to {high:.{digits}g}{behind}" if high < math.inf else f"{low:.{digits}g}{behind} or more"
+        )
+    return f"up to {high:.{digits}g}{behind}" if high < math.inf else "no limits known"
