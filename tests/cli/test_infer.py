@@ -163,6 +163,7 @@ def test_nothing_seen_leaves_the_prior(ruin, capsys):
         ({"low": "largest_slip = [0.03]"}, "a length and its sd"),
         ({"low": "largest_slip = [30, 1]"}, "offsets are in metres"),
         ({"high": "fell", "fell": "largest_slip = [0.01, 0.002]"}, "what fell has none"),
+        ({"high": "fell", "fell": "no_slip_above = 0.0"}, "what fell has none"),
         ({"low": "twist = [[1, 2.0, 1.0]]"}, "unknown key 'twist'"),
         ({"high": "leans"}, "allowed are stands, fell"),
         ({"more": "[survival]\nhazard = 'none.csv'\nsince = 1200\nuntil = 2020"}, "none.csv"),

@@ -79,7 +79,8 @@ class Observed:
     def __post_init__(self) -> None:
         check_choice("`state`", self.state, STATES, field="state")
         self._check_bodies()
-        given = [name for name in ("offsets", "twists", "no_slip_above", "largest_slip") if getattr(self, name)]
+        slips = ("offsets", "twists", "no_slip_above", "largest_slip")
+        given = [name for name in slips if getattr(self, name) not in (None, (), [])]
         if given and self.state != "stands":
             raise InputError(
                 f"state is {self.state!r}, and a slip or a twist is given: what fell has none; leave them out, or give "
