@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 from oracles.adaptive_beam import run_as
-from oracles.nodal_beam import nodal_matrices
 from scipy.integrate import quad
 from validation import overturning
 
@@ -17,6 +16,7 @@ from stylobate.models.rigid_beam.equations import BeamMatrices, tridiagonal
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import Motion
 from stylobate.simulate import simulate, simulate_iter
+from stylobate_studies.paper.nodal_beam import nodal_matrices
 
 pytestmark = pytest.mark.processor
 

@@ -3,7 +3,6 @@
 import math
 
 import numpy as np
-from oracles.nodal_beam import nodal_accelerations, rotation_rates
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
@@ -16,6 +15,7 @@ from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_block.model import RigidBlock
 from stylobate.motion import Motion
 from stylobate.simulate import simulate_many
+from stylobate_studies.paper.nodal_beam import nodal_accelerations, rotation_rates
 
 from .case import AtMost, Case, Near, collected
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from stylobate.analysis import verdicts as v
+from stylobate.analysis.fragility_checks import FEWEST
 from stylobate.analysis.studies import StudyResult
 from stylobate.column.presets import PRESETS
 
@@ -44,7 +45,7 @@ def motions_statement(result: StudyResult) -> Statement:
     peaks = {name: against(result, name, BEAM)[1] for name in PRESETS}
     records = len(result.plan.axes["motions"])
     return Statement(
-        "4, announced", "The rigid beam agrees with the DEM under real ground motions, too.",
+        "4 ¶2", "The rigid beam agrees with the DEM under real ground motions, too.",
         f"same verdict under {records} records at {len(LEVELS)} levels: "
         + ", ".join(f"{SHORT[name]} {percent(float(same.mean()))} of {len(same)}" for name, same in agree.items())
         + "; median ratio beam/DEM of the peaks where both rock and neither collapses: "
@@ -66,17 +67,19 @@ def company_statement(made: dict[str, Any]) -> Statement:
     safer = {name: columns[name]["against_alone"]["high"] < 0.0 for name in others}
     worse = [columns[name]["against_alone"]["low"] > 0.0 for name in others]
     verdict = judged(all(safer.values()), safer)
-    if verdict.kind == FAILS and not any(worse):
+    if made["records"] < FEWEST or (verdict.kind == FAILS and not any(worse)):
         verdict = Verdict(UNDECIDED)
     differences = ", ".join(_difference(name, columns[name]["against_alone"]) for name in others)
     return Statement(
-        "1", "Columns that stand free today are more prone to collapse than those that top beams connected.",
+        "1 ¶1", "Columns that stand free today are more prone to collapse than those that top beams connected.",
         f"columns that lose a drum, over {made['records']} records, two directions and {len(made['levels_m_s'])} levels: "
         f"{alone} {percent(columns[alone]['share'])}; beside that, in company under the same motions (95 %): {differences}",
         verdict,
-        f"Taken as: the interval of the difference lies below zero in all {len(others)} structures. That anything falls: "
+        f"Taken as: the interval of the difference lies below zero in all {len(others)} structures, from "
+        f"{FEWEST} records or "
+        "more. That anything falls: "
         + ", ".join(f"{name} {percent(anything[name]['share'])}" for name in columns) + ".",
-        "Nine records: the page on columns in company. Where stones strike one another, a fall is one draw of many.",
+        "Too few records: the page on columns in company. Where stones strike one another, a fall is one draw of many.",
     )  # fmt: skip
 
 

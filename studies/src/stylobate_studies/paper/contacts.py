@@ -84,7 +84,7 @@ def contacts_statement(found: Populations) -> Statement:
         for name, where in mean
     )
     return Statement(
-        "1", "Two-dimensional analyses are less sensitive to the contact parameters than three-dimensional ones.",
+        "1 ¶3", "Two-dimensional analyses are less sensitive to the contact parameters than three-dimensional ones.",
         f"mean change of the share of round columns that collapse in a cell, over {len(changed)} changes of a contact "
         f"parameter: {told}",
         judged(all(less.values()), less),
@@ -98,7 +98,7 @@ def time_statement(cost: Mapping[str, float]) -> Statement:
     """The sentence on the computing time of the plane."""
     plane, space = cost[DEM], cost[SPACE]
     return Statement(
-        "1", "Two-dimensional analyses are more time efficient than three-dimensional ones.",
+        "1 ¶3", "Two-dimensional analyses are more time efficient than three-dimensional ones.",
         f"two seconds of twelve drums by distinct elements, in batches on one core: plane {1e3 * plane:.1f} ms, space "
         f"{1e3 * space:.1f} ms",
         judged(plane < space), "Measured on the machine that wrote this table.",

@@ -52,7 +52,7 @@ def forces_statement() -> Statement:
         for name in PRESETS
     }
     return Statement(
-        "2.3", "Interface actions of the rigid block model can be compared directly with nodal forces of the rigid beam.",
+        "2.3 ¶2", "Interface actions of the rigid block model can be compared directly with nodal forces of the rigid beam.",
         f"shear; moment of all joints, root mean square of the difference from the rigid block over the block's, at "
         f"{FREQUENCY:g} Hz. " + " ".join(_told(a, {name: far[name, a] for name in PRESETS}) for a in (CLOSED, ROCKING)),
         judged(all(alike.values()), alike),

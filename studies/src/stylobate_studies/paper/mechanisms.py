@@ -91,7 +91,7 @@ def mechanisms_statement(counts: Mapping[str, Mapping[str, int]], opening: np.nd
         for label, by in counts.items()
     )
     return Statement(
-        "Abstract", "The DEM shows collapse mechanisms with large displacements of the blocks.",
+        "Abstract ¶2", "The DEM shows collapse mechanisms with large displacements of the blocks.",
         f"twelve drums, as the fall of each cell of the domain begins: {told}. Largest opening of a joint by then, distinct "
         f"elements: {percent(wide)} of the base width in the median",
         judged(wide > 0.1),

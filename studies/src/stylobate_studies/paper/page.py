@@ -19,7 +19,7 @@ from .cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH
 from .company.shares import KINDS, runs_in_words, share_rows, summary
 from .doubt import Doubt
 from .reading import percent, share
-from .sentences import FAILS, HOLDS, MEANINGS, PARTLY, UNDECIDED, Statement
+from .sentences import DONE, FAILS, HOLDS, MEANINGS, PARTLY, UNDECIDED, Statement
 from .space import space_rows
 from .statements import place
 from .study import PaperResults
@@ -82,16 +82,14 @@ def write_paper_page(
             for r in rows
         ],
         mark=2,
-        looks={HOLDS: "good", PARTLY: "fair", FAILS: "bad", UNDECIDED: "fair"},
+        looks={HOLDS: "good", PARTLY: "fair", FAILS: "bad", UNDECIDED: "fair", DONE: "good"},
     )
     models = Points(
         (
             "Rigid beam (paper): a chain of rigid beams with a moment–rotation law at each joint; no sliding, no "
             "loss at impact.",
-            "Rigid beam with sliding: the paper's announced next step; true shape of the drums, gravity in the "
-            "equations.",
-            "Rigid block: rigid blocks with one elastic–plastic interface per joint; the paper uses it for pushover "
-            "only.",
+            "Rigid beam with sliding: the paper's announced next step; true shape of the drums, gravity in the equations.",
+            "Rigid block: rigid blocks with one elastic–plastic interface per joint; the paper uses it for pushover only.",
             "Distinct elements (DEM): rigid drums on frictional contacts, stepped explicitly; the paper uses UDEC.",
         )
     )
@@ -160,10 +158,10 @@ def in_short(results: PaperResults, rows: Sequence[Statement]) -> list[str]:
         for name, label in product(NAMES, (BEAM, DEM))
     }
     return [
-        f"Of {len(rows)} checkable sentences of the paper {count[HOLDS]} hold, {count[PARTLY]} hold in part, "
+        f"Of {len(rows)} sentences, equations and figures of the paper {count[HOLDS]} hold, {count[PARTLY]} hold in part, "
         f"{count[FAILS]} do not hold"
         + (f" ({failed})" if failed else "")
-        + (f", and {count[UNDECIDED]} is undecided." if count[UNDECIDED] else "."),
+        + f"; undecided: {count[UNDECIDED]}; drawn or announced by it and done here: {count[DONE]}.",
         "Which column is the safer one depends on the model. Rigid beam: the monolith collapses in "
         f"{shares[MONOLITH, BEAM]} of all cells, the drums in {shares[DRUMS, BEAM]}. Distinct elements: "
         f"{shares[MONOLITH, DEM]} and {shares[DRUMS, DEM]}.",

@@ -147,7 +147,9 @@ def cost_piece(data: Path) -> dict[str, float]:
     place = data / "cost.json"
     if not is_ready(place):
         shaking = [harmonic(1.5, amplitude, 2.0) for amplitude in np.linspace(0.25, 0.3, 16) * g]
-        found = {label: min(_seconds(shaking, c.MODELS[label]) for _ in range(3)) for label in (c.BEAM, c.DEM)}
+        found = {
+            label: min(_seconds(shaking, c.MODELS[label]) for _ in range(3)) for label in (c.BEAM, c.BLOCKS, c.DEM)
+        }
         found[c.SPACE] = min(_seconds(shaking, c.POPULATIONS[c.SPACE], "circular") for _ in range(3))
         with replacing(place) as partial:
             partial.write_text(json.dumps(found), encoding="utf-8")

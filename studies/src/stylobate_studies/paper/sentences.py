@@ -6,15 +6,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
-HOLDS, PARTLY, FAILS, UNDECIDED = "holds", "holds in part", "does not hold", "undecided"
+HOLDS, PARTLY, FAILS, UNDECIDED, DONE = "holds", "holds in part", "does not hold", "undecided", "done here"
 
 #: Meanings of the verdicts, for the page and the documentation.
 MEANINGS = {
     HOLDS: "our value meets the criterion that the row states, with the choices of this study where the paper is silent",
-    PARTLY: "it does so for some value of a parameter that the paper leaves open, for one of the two columns, or by one "
-    "of two tests; the verdict names them",
+    PARTLY: "it does so for some value of a parameter that the paper leaves open, for one of the two columns, or by some "
+    "of several tests, or with a slip of print put right; the verdict names them",
     FAILS: "it does so for none of them",
-    UNDECIDED: "the interval of what is computed here holds both answers",
+    UNDECIDED: "the interval of what is computed here holds both answers, too few records are behind it, or "
+    "nothing that was "
+    "measured decides it",
+    DONE: "the paper draws or announces it; it is computed or drawn here, and nothing is printed that could be compared",
 }
 
 
@@ -39,7 +42,8 @@ class Statement:
     Parameters
     ----------
     section : str
-        Where the paper says it.
+        Where the paper says it: section and paragraph, the text behind an equation counted as one, equation and figure; or
+        another source.
     sentence : str
         What it says, in our words.
     ours : str
@@ -64,7 +68,9 @@ def judged(holds: bool, otherwise: Mapping[str, bool] | None = None) -> Verdict:
     if holds or not met:
         return Verdict(HOLDS if holds else FAILS)
     other = [name for name, value in (otherwise or {}).items() if not value]
-    named = "; ".join(met) if len(met) <= NAMED else "; ".join(met[:NAMED]) + " and others"
+    named = "; ".join(met)
     if len(met) + len(other) > NAMED:
+        few, sign = (other, "not ") if len(other) < len(met) else (met, "")
+        named = "; ".join(sign + one for one in few[:NAMED]) + (" and others" if len(few) > NAMED else "")
         return Verdict(PARTLY, f"{len(met)} of {len(met) + len(other)}, {named}")
     return Verdict(PARTLY, "; ".join((named, *(f"not {one}" for one in other))))

@@ -49,7 +49,7 @@ def space_statements(results: PaperResults) -> list[Statement]:
     )
     return [
         Statement(
-            "4", "With the circular section, rigid beam and rigid block give more accurate results, comparable with "
+            "4 ¶1", "With the circular section, rigid beam and rigid block give more accurate results, comparable with "
             "analyses in three dimensions, than the plane DEM with its rectangular section.",
             f"mean distance of the plane verdict from the share of round columns that collapse in space: {said}",
             judged(all(nearer.values()), nearer),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 
@@ -11,12 +12,14 @@ from .company.shares import summary
 from .conclusions import conclusions
 from .contacts import contacts_statement, time_statement
 from .drums import drum_statements
+from .equations import equation_statements
 from .forces import forces_statement
 from .mechanisms import mechanisms_statement, openings
 from .monolith import monolith_statements
 from .others import others_statements
 from .reading import Reader
 from .sentences import MEANINGS, Statement, Verdict
+from .shown import shown_statements
 from .space import space_statements
 from .statics import static_statements
 from .study import PaperResults
@@ -26,6 +29,8 @@ def statements(results: PaperResults) -> list[Statement]:
     """All checkable sentences by section; values and verdicts from the results."""
     r = Reader(results)
     rows = [
+        *equation_statements(),
+        *shown_statements(r),
         *monolith_statements(r),
         *static_statements(),
         *drum_statements(r),
@@ -39,7 +44,16 @@ def statements(results: PaperResults) -> list[Statement]:
         *([] if results.motions is None else [motions_statement(results.motions)]),
         *([] if results.company is None else [company_statement(summary(results.company))]),
     ]
-    return sorted(rows, key=lambda row: (not row.section[0].isdigit(), row.section[:3]))
+    return sorted(rows, key=lambda row: order(row.section))
+
+
+def order(section: str) -> tuple[int, float, int]:
+    """Place of a row: the abstract, sections with their paragraphs, other sources."""
+    part = re.match(r"(Abstract|\d(?:\.\d)?)(?: ¶(\d))?(?:,|$)", section)
+    if part is None:
+        return 2, 0.0, 0
+    number = 0.0 if part[1] == "Abstract" else float(part[1])
+    return int(number > 0.0), number, int(part[2] or 0)
 
 
 def place(section: str) -> str:
@@ -54,8 +68,9 @@ def statements_markdown(rows: Sequence[Statement], quick: bool) -> str:
         "# The paper, sentence by sentence",
         "",
         "Sentences of Baraldi, Sarhosis and Milani that can be checked, in our words, beside what this package "
-        "computes. Their equations and figures have no rows of their own yet. "
-        f"Written by `stylobate reproduce{' --quick' if quick else ''}`; nothing in it is edited by hand. "
+        "computes: section and paragraph (¶; text that goes on behind an equation counts as one), with the equations and "
+        f"figures that it speaks of. Written by `stylobate reproduce{' --quick' if quick else ''}`; nothing "
+        f"in it is edited by hand. "
         "Rows with another source than the paper's sections are what others found of columns in space.",
         "",
         *(f"- **{one}** ({count[one]}): {meaning}." for one, meaning in MEANINGS.items()),
