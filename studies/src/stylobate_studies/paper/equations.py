@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -163,7 +162,7 @@ def _stiffness() -> list[Statement]:
         ),
         Statement(
             "2.3 ¶1", "Degrees of freedom of the rigid block model are two translations and a rotation of each block.",
-            f"{moving} for twelve drums", judged(moving == 36), "",
+            f"{moving} for twelve drums", judged(moving == 36), "As many histories are recorded of each drum.",
         ),
         Statement(
             "2.3 ¶1, Eq. 8", "Interface actions grow by k_n A, k_s A and k_n I.",
@@ -297,7 +296,7 @@ def _depth(depth: float) -> float:
     return float(np.abs(_shaken(column, MODELS[DEM], 1.0, 0.3, 5.0).top_displacement).max())
 
 
-def _shaken(column: Column, model: Model, frequency: float, amplitude: float, length: float) -> Response[Any]:
+def _shaken(column: Column, model: Model, frequency: float, amplitude: float, length: float) -> Response:
     return simulate(column, harmonic(frequency, amplitude * g, length), model, output_interval=0.01)
 
 
