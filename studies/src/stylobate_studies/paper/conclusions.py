@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 
 from .cases import BEAM, BLOCKS, DEM, SHORT
 from .reading import Reader, first, in_g, percent
@@ -11,14 +11,14 @@ from .sentences import Statement, judged
 
 def conclusions(r: Reader) -> list[Statement]:
     """The sentences, in the order of the paper's text."""
-    sizes = {(name, label): r.unsafe(name, label) for name in PRESETS for label in (BEAM, BLOCKS, DEM)}
-    smaller = [sizes[name, BEAM] > sizes[name, DEM] for name in PRESETS]
-    low = [first(r.domain(name, label), high=1.0).min() for name in PRESETS for label in (BEAM, DEM)]
+    sizes = {(name, label): r.unsafe(name, label) for name in PAPER for label in (BEAM, BLOCKS, DEM)}
+    smaller = [sizes[name, BEAM] > sizes[name, DEM] for name in PAPER]
+    low = [first(r.domain(name, label), high=1.0).min() for name in PAPER for label in (BEAM, DEM)]
     between = [
         min(sizes[name, BEAM], sizes[name, DEM]) <= sizes[name, BLOCKS] <= max(sizes[name, BEAM], sizes[name, DEM])
-        for name in PRESETS
+        for name in PAPER
     ]
-    agree = [r.agreement(name) for name in PRESETS]
+    agree = [r.agreement(name) for name in PAPER]
     cost = r.results.cost
     return [
         Statement(
@@ -26,7 +26,7 @@ def conclusions(r: Reader) -> list[Statement]:
             f"same verdict: monolith {int(agree[0].sum())}, drums {int(agree[1].sum())} of {agree[0].size} cases each",
             judged(
                 min(one.mean() for one in agree) >= 0.8,
-                {f"{SHORT[name]}, {one.sum()} of {one.size}": bool(one.mean() >= 0.8) for name, one in zip(PRESETS, agree)},
+                {f"{SHORT[name]}, {one.sum()} of {one.size}": bool(one.mean() >= 0.8) for name, one in zip(PAPER, agree)},
             ),
             "Sufficient is taken as four verdicts in five.",
         ),
@@ -34,7 +34,7 @@ def conclusions(r: Reader) -> list[Statement]:
             "4", "The rigid beam has the smaller safe domain for both column types.",
             "unsafe share, rigid beam against DEM: "
             + "; ".join(
-                f"{SHORT[name]} {percent(sizes[name, BEAM])} against {percent(sizes[name, DEM])}" for name in PRESETS
+                f"{SHORT[name]} {percent(sizes[name, BEAM])} against {percent(sizes[name, DEM])}" for name in PAPER
             ),
             judged(all(smaller), dict(zip(SHORT.values(), smaller))), "Prisms of mean width, no loss at impact, no sliding.",
         ),
@@ -51,7 +51,7 @@ def conclusions(r: Reader) -> list[Statement]:
             "unsafe share of beam, blocks, DEM: "
             + "; ".join(
                 f"{SHORT[name]} " + ", ".join(percent(sizes[name, label]) for label in (BEAM, BLOCKS, DEM))
-                for name in PRESETS
+                for name in PAPER
             ),
             judged(all(between), dict(zip(SHORT.values(), between))),
             "The paper says it of the pushover (0.205 g between 0.16 g and the DEM); here of the harmonic tests that it "

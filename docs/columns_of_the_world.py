@@ -1,0 +1,125 @@
+"""The page on columns of the world: their figures, their sources, and the fragility of each, from one command.
+
+``python docs/columns_of_the_world.py OUT [plane|space]`` runs every column of the catalogue under the motions below, keeps the
+runs in OUT and resumes there, and writes ``docs/columns_of_the_world.md``. Not a part of the tests: some minutes of one core.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from pathlib import Path
+
+import stylobate as st
+from stylobate.analysis.fragility_curve import Fragility
+from stylobate.bibliography import bibliography
+from stylobate.column.catalogue import CATALOGUE, JOINT, KnownColumn
+from stylobate.column.presets import PAPER
+
+PAGE = Path(__file__).with_suffix(".md")
+
+#: Records that come with the package, as far as they are strong enough to be scaled.
+RECORDS = ("el-centro-1940", "hanmer-springs-2016", "san-francisco-1989")
+
+#: Frequencies of the near-fault pulses [Hz].
+PULSES = (0.25, 0.35, 0.5, 0.65, 0.8, 0.95, 1.1, 1.4, 1.8)
+
+#: PGV to which motions are scaled [m/s]; time after the motions [s].
+LEVELS, TAIL = (0.2, 0.4, 0.7, 1.1, 1.6, 2.4), 5.0
+
+#: What shakes along one line in space shakes across it by so much as well: nothing is that straight [-].
+ACROSS = 0.01
+
+
+def motions() -> list[st.Motion]:
+    """Twelve motions, each along x, with a hundredth of it across."""
+    along = [st.sample_motion(name) for name in RECORDS]
+    found = [st.Motion(one.dt, one.samples).replace(name=one.name) for one in along]
+    found += [st.mavroeidis_papageorgiou(f, 0.3 * st.g).replace(name=f"near-fault pulse {f:g} Hz") for f in PULSES]
+    return [one.replace(ay=ACROSS * one.samples) for one in found]
+
+
+def fragility_of(known: KnownColumn, folder: Path, where: str) -> tuple[Fragility | str, int]:
+    """Fragility of a column in PGV, or why there is none; and how many runs fell."""
+    model = st.DistinctElement3D() if where == "space" else st.DistinctElement2D()
+    shaking = motions() if where == "space" else [one.replace(ay=None) for one in motions()]
+    found = st.ida(
+        known.column, shaking, model, "pgv", levels=LEVELS, largest_factor=100.0, tail=TAIL, threads=1,
+        ledger=folder / "runs.sqlite",
+    )  # fmt: skip
+    fallen = int(found.table["collapsed"].fillna(0).sum())
+    try:
+        return st.fragility(st.evidence(found), method="runs"), fallen
+    except st.InputError as reason:
+        return str(reason), fallen
+
+
+def told(curve: Fragility | str) -> str:
+    """Median and its interval."""
+    if isinstance(curve, str):
+        return "no fragility goes through the runs"
+    low, high = curve.median_interval
+    end = "or more" if math.isinf(high) or high > 10.0 else f"to {high:.2f}"
+    beyond = f"> {LEVELS[-1]:g}" if curve.median > LEVELS[-1] else f"{curve.median:.2f}"
+    return f"{beyond} m/s ({low:.2f} {end})"
+
+
+def page(rows: list[str], where: str) -> str:
+    """The page as Markdown."""
+    runs = (len(RECORDS) + len(PULSES)) * len(LEVELS)
+    levels = ", ".join(f"{one:g}" for one in LEVELS)
+    text = f"""# Columns of the world
+
+{len(CATALOGUE) - len(PAPER)} columns that stand or stood, and the founding paper's two, as presets: each name works wherever a column is asked for.
+
+```
+stylobate columns --catalogue            # a table: what is measured, what is assumed
+stylobate columns segesta                # one of them, with the source of each figure
+stylobate run segesta --model dem3d --motion sample:el-centro-1940 --pga 0.4g
+stylobate columns segesta --out mine     # as a file to change
+```
+
+**Measured** is a figure that a source states, and which was read there; some sources are pages for travellers, or quote another
+that was not read, and say so. **Assumed** is everything else, here with an asterisk: an upper diameter by the taper of
+columns of its kind, a number of drums by their usual height, the density of the stone. All are taken as straight tapers without
+entasis or flutes, with drums of equal height that nothing ties together, free of what they carry or carried; joints have
+{JOINT.normal_stiffness:.1e} and {JOINT.shear_stiffness:.1e} N/m³ and tan φ = {JOINT.tan_phi:g}, an assumption for all. Where you know better, write
+a [column file](column_files.md): the height and the widths decide most, the number of drums next.
+
+The fragility is that of collapse, the median PGV with its interval of 95 % over motions, {"in space (`dem3d`)" if where == "space" else "in the plane (`dem2d`), where round columns stand more than in space ([](when_the_plane_suffices.md))"}: {len(RECORDS)} records and
+{len(PULSES)} near-fault pulses of {PULSES[0]:g} to {PULSES[-1]:g} Hz, each at {levels} m/s, {runs} runs for each column, followed for {TAIL:g} s more. This is a small
+size: the intervals say how little it tells, and a ranking of columns whose intervals overlap is none. Records are multiplied by
+much more than an earthquake would be. No column is judged by it at its site.
+
+```
+python docs/columns_of_the_world.py OUT {where}
+```
+
+| column | height m | below m | above m | drums | kg/m³ | median PGV (95 %) | collapses of {runs} |
+| --- | --- | --- | --- | --- | --- | --- | --- |
+"""
+    text += "\n".join(rows) + "\n\n## Figures and sources\n"
+    for known in CATALOGUE.values():
+        text += f"\n**{known.title}** (`{known.name}`)\n\n"
+        text += "".join(f"- {name.replace('_', ' ')}: {one.text}\n" for name, one in known.figures.items())
+    keys = dict.fromkeys(key for known in CATALOGUE.values() for key in known.sources)
+    text += "\n## Sources\n\n" + "".join(f"- {line}\n" for line in sorted(bibliography()[key].text for key in keys))
+    return text
+
+
+def main(out: str, where: str = "space") -> None:
+    """Run what is left of it, and write the page."""
+    began, rows = time.time(), []
+    (Path(out) / where).mkdir(parents=True, exist_ok=True)
+    for known in CATALOGUE.values():
+        curve, fallen = fragility_of(known, Path(out) / where, where)
+        figures = [known.figures[name] for name in ("height", "bottom_width", "top_width", "drums", "density")]
+        cells = [f"{one.value:.4g}" + ("" if one.measured else "\\*") for one in figures]
+        rows.append(f"| {' | '.join([f'`{known.name}`', *cells, told(curve), str(fallen)])} |")
+        print(f"{time.time() - began:.0f} s", rows[-1], curve if isinstance(curve, str) else "", flush=True)
+    PAGE.write_text(page(rows, where), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
