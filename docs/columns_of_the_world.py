@@ -7,7 +7,6 @@ of one core in space.
 
 from __future__ import annotations
 
-import math
 import sys
 import time
 from pathlib import Path
@@ -57,8 +56,9 @@ tan φ = {friction:g}, an assumption for all. Where you know better, write a [co
 
 The state is collapse, the intensity PGV, the interval one of 95 % over motions, computed {model}: {records} records
 and {pulses} near-fault pulses of {first:g} to {last:g} Hz, each at {levels} m/s; {runs} runs for each column,
-followed for {tail:g} s after the motion. That is a small size. Columns whose intervals overlap are not ranked by it,
-motions are multiplied by up to eleven for the upper levels, and no column is judged by it at its site.
+followed for {tail:g} s after the motion. That is a small size (nine minutes of one core). Columns whose intervals
+overlap are not ranked by it, motions are multiplied by up to eleven for the upper levels, and no column is judged by
+it at its site.
 
 ```
 python docs/columns_of_the_world.py OUT {where}
@@ -93,13 +93,13 @@ def fragility_of(known: KnownColumn, folder: Path, where: str) -> tuple[Fragilit
 
 
 def told(curve: Fragility | str) -> str:
-    """Median and its interval."""
+    """Median and its interval, as far as they lie within the levels."""
     if isinstance(curve, str):
         return "no fragility goes through the runs"
     low, high = curve.median_interval
-    end = "or more" if math.isinf(high) or high > 10.0 else f"to {high:.2f}"
-    beyond = f"> {LEVELS[-1]:g}" if curve.median > LEVELS[-1] else f"{curve.median:.2f}"
-    return f"{beyond} m/s ({low:.2f} {end})"
+    most = LEVELS[-1]  # what lies beyond is told by the shape of the curve, not by the runs
+    median, end = (f"> {most:g}" if value > most else f"{value:.2f}" for value in (curve.median, high))
+    return f"{median} m/s ({low:.2f} to {end})"
 
 
 def page(rows: list[str], where: str) -> str:
@@ -116,12 +116,12 @@ def page(rows: list[str], where: str) -> str:
         friction=JOINT.tan_phi, model=model, records=len(RECORDS), pulses=len(PULSES), first=PULSES[0], last=PULSES[-1],
         levels=levels, runs=runs, tail=TAIL, where=where,
     )  # fmt: skip
-    text = said + "\n".join(rows) + "\n\n## Figures and sources\n"
+    text = said + "\n".join(rows) + "\n\n## Figures\n"
     for known in CATALOGUE.values():
         text += f"\n**{known.title}** (`{known.name}`)\n\n"
         text += "".join(f"- {name.replace('_', ' ')}: {one.text}\n" for name, one in known.figures.items())
     keys = dict.fromkeys(key for known in CATALOGUE.values() for key in known.sources)
-    text += "\n## Sources\n\n" + "".join(f"- {line}\n" for line in sorted(bibliography()[key].text for key in keys))
+    text += "\n## Sources\n\n" + "\n\n".join(sorted(bibliography()[key].text for key in keys)) + "\n"
     return text
 
 

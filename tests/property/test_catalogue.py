@@ -48,7 +48,7 @@ def test_every_figure_is_sourced_or_said_to_be_assumed(name):
 
 
 def test_the_weight_of_pompeys_pillar_is_the_published_one():
-    """285 t in the source of its sizes (Wikipedia), which the computed frustum knows nothing of.
+    """285 t in the source of its sizes (G2Rail), which the computed frustum knows nothing of.
 
     Diameters are given to 0.1 m of 2.4 m (4 % of an end's area) and the density of granite to 5 %: 5 % of the mass.
     """

@@ -198,8 +198,8 @@ _KNOWN = (
     KnownColumn(
         "propylaea", "Propylaea, Athens, western portico (Doric)",
         _read(8.81, "dooge1908", f"8.81 m, {_WITH_CAPITAL}"),
-        _read(5.25 * FOOT, "penrose1851", "5¼ feet, nearly 29 feet being five and a half diameters; as quoted"),
-        _read(3.97 * FOOT, "penrose1851", "3.97 feet between the fillets, of the angle columns; as quoted"),
+        _read(5.25 * FOOT, "penrose", "5¼ feet, nearly 29 feet being five and a half diameters; as quoted"),
+        _read(3.97 * FOOT, "penrose", "3.97 feet between the fillets, of the angle columns; as quoted"),
         _equal(8.81, 1.6), _of_stone("marble", "marble of Pentelicon"),
     ),
     KnownColumn(
@@ -211,7 +211,7 @@ _KNOWN = (
     KnownColumn(
         "olympieion", "Temple of Olympian Zeus, Athens (Corinthian)",
         _read(57.0 * FOOT, "knowltonolympieion", "57 feet, base and capital in the taper; others state 16.8 to 18.8 m"),
-        _read(1.7, "trachtenberg1986", "about 1.7 m, as quoted; Godden states 6 ft 4 in (1.93 m)"),
+        _read(1.7, "balyolympieion", "about 1.7 m; the Godden collection states 6 ft 4 in (1.93 m)"),
         _roman_top(1.7), _read(12, "goddenslides", "twelve segments, counted on the fallen column", "-"),
         _of_stone("marble", "marble of Pentelicon"),
     ),
@@ -224,9 +224,9 @@ _KNOWN = (
     ),
     KnownColumn(
         "corinth", "Temple of Apollo, Corinth (Doric)",
-        _read(23.667 * FOOT, "edinburgh1830", "23 ft 8 in with the capital, and a fraction that cannot be read"),
-        _read(67.0 / 12.0 * FOOT, "edinburgh1830", "5 ft 7 in; a travel page states 1.8 m"),
-        _doric_top(1.702), _one_piece("edinburgh1830"), _of_stone("limestone", "poros"),
+        _read(23.667 * FOOT, "edinburghcorinth", "23 ft 8 in with the capital, and a fraction that cannot be read"),
+        _read(67.0 / 12.0 * FOOT, "edinburghcorinth", "5 ft 7 in; a travel page states 1.8 m"),
+        _doric_top(1.702), _one_piece("edinburghcorinth"), _of_stone("limestone", "poros"),
     ),
     KnownColumn(
         "segesta", "Temple of Segesta (Doric)",
@@ -271,19 +271,19 @@ _KNOWN = (
     ),
     KnownColumn(
         "marcus-aurelius", "Column of Marcus Aurelius, Rome, taken as solid",
-        _read(29.77, "platner1929", "100 Roman feet (29.77 m), shaft, torus and capital"),
-        _read(3.90, "platner1929", "3.90 m"),
+        _read(29.77, "lacuscurtius", "100 Roman feet (29.77 m), shaft, torus and capital"),
+        _read(3.90, "lacuscurtius", "3.90 m"),
         _read(3.76, "worldhistoryaurelius", "14 cm less than below"),
-        _read(17, "giuffre1996", "seventeen stones; Platner and Ashby count twenty-six rings in all", "-"),
+        _read(17, "giuffre1996", "seventeen stones; Lacus Curtius counts twenty-six rings in all", "-"),
         _of_stone("marble", "marble of Luni; the staircase inside is left out"),
         base=_assumed(1.754, "what the height leaves beside a shaft of 26.494 m and the capital"),
         capital=_read(1.522, "paulycentenaria", "1.522 m, measured by Calderini"),
     ),
     KnownColumn(
         "pompeys-pillar", "Pompey's Pillar, Alexandria, the shaft alone",
-        _read(20.46, "wikipediapompey", "20.46 m; pedestal, base and capital are left out"),
-        _read(2.71, "wikipediapompey", "2.71 m at the base"),
-        _read(2.4, "egypttours", "tapers from 2.7 to 2.4 m"), _one_piece("wikipediapompey"),
+        _read(20.46, "grailpompey", "20.46 m; pedestal, base and capital are left out"),
+        _read(2.71, "grailpompey", "2.71 m at the base"),
+        _read(2.4, "egypttours", "tapers from 2.7 to 2.4 m"), _one_piece("grailpompey"),
         _of_stone("granite", "granite of Aswan"),
     ),
     KnownColumn(
