@@ -260,6 +260,25 @@ def test_columns_lists_presets_and_writes_files_to_start_from(command, tmp_path)
     assert "static uplift" in command("columns", tmp_path / "paper-12-drums.toml")
 
 
+def test_columns_tell_what_is_measured_and_what_is_assumed(command, tmp_path, capsys):
+    told = command("columns", "--catalogue", "--json")["catalogue"]
+    assert [one["name"] for one in told] == list(PRESETS)
+    (one,) = command("columns", "sounion", "--catalogue", "--json")["catalogue"]
+    assert one["measured"] == ["height", "bottom_width", "top_width"]
+    assert one["assumed"] == ["drums", "density"]
+    assert one["figures"]["top_width"]["value"] == 0.79
+    table = command("columns", "--catalogue")
+    assert "12*" in next(line for line in table.splitlines() if line.split()[0] == "sounion")
+    shown = command("columns", "sounion")
+    assert "0.79 m (measured, Williams 2021)" in shown
+    assert "12 (assumed)" in shown
+    assert call(["columns", "sunion", "--catalogue"]) == 2
+    assert "did you mean sounion?" in capsys.readouterr().err
+    (tmp_path / "own.toml").write_text("")
+    assert call(["columns", str(tmp_path / "own.toml"), "--catalogue"]) == 2
+    assert "there is no column preset" in capsys.readouterr().err
+
+
 def test_columns_tell_what_their_links_hold(command, tmp_path):
     core = st.Core(axial_stiffness=1e7, axial_capacity=2e5, pretension=5e4)
     file = write_column(preset("paper-12-drums").replace(links=[core]), tmp_path / "core.toml")

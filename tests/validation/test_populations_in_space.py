@@ -8,7 +8,7 @@ from validation.in_space import plane, populations
 from validation.in_space.random_scenes import FAMILIES, scene, tumble, turned
 
 import stylobate as st
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 
 
 def test_turning_and_renumbering_change_no_more_verdicts_than_a_nudge():
@@ -35,7 +35,7 @@ def test_tumbles_account_for_their_energy():
 
 def test_collapses_of_the_gallery_account_for_their_energy():
     rows = populations.stored()["collapsing"]
-    assert len(rows) == len(list(plane.GALLERY.glob("*.toml"))) + len(PRESETS)
+    assert len(rows) == len(list(plane.GALLERY.glob("*.toml"))) + len(PAPER)
     for row in rows:
         assert not row["failed"], row
         assert row["missed"] < 0.01, row

@@ -46,6 +46,16 @@ class Reference:
         return int(self.fields["year"]) if "year" in self.fields else None
 
     @property
+    def cited(self) -> str:
+        """Author and year, as in a text."""
+        name = self.fields.get("shorttitle")
+        if name is not None:
+            return name if str(self.year) in name else f"{name} {self.year}"
+        families = [author.split(",")[0] for author in self.authors]
+        named = families[0] + (" et al." if len(families) > 2 else f" and {families[1]}" if len(families) > 1 else "")
+        return f"{named} {self.year}" if self.year else named
+
+    @property
     def bibtex(self) -> str:
         """The entry as in the file."""
         lines = [f"  {name} = {{{value}}},\n" for name, value in self.fields.items()]

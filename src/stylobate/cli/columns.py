@@ -12,6 +12,7 @@ from . import options as o
 if TYPE_CHECKING:
     from ..column import Column
     from ..column.as_found import FoundDrum
+    from ..column.catalogue import KnownColumn
     from ..column.links.placed import PlacedLink
     from ..column.structure import Structure
 
@@ -20,18 +21,21 @@ def columns(
     which: list[str] | None = o.argument(
         "[COLUMN]...", "Presets, or files of columns or assemblies; all presets by default.", None
     ),
+    catalogue: bool = o.option(None, "Presets in a table: what is measured of each, and what is assumed.", False),
     *,
     execution: o.Plain,
 ) -> None:
     """Presets, and properties of columns and assemblies.
 
-    With --out, writes columns as files to start from.
+    A preset by its name is shown with the source of every figure. With --out, writes columns as files to start from.
     """
     from ..column.assembly_files import load_structure
+    from ..column.catalogue import CATALOGUE
     from ..column.files import write_column
-    from ..column.presets import PRESETS
+    from ..column.presets import PRESETS, known_column
     from . import console
 
+    known = [known_column(name) for name in which or PRESETS] if catalogue else []
     chosen: list[Any] = [load_structure(name) for name in which or PRESETS]
     other = next((one for one in chosen if one.stack is None), None)
     if execution.out is not None and other is not None:
@@ -46,11 +50,54 @@ def columns(
     with execution.files("columns", *names) as files:
         if files.wanted:
             files += [write_column(one, files / name) for one, name in zip(chosen, names)]
-    if execution.emits({"columns": [_facts_of(one) for one in chosen], "files": files.names}):
+    listed = {"catalogue": [one.to_dict() for one in known]} if catalogue else {}
+    if execution.emits({"columns": [_facts_of(one) for one in chosen], **listed, "files": files.names}):
         return
-    for one in chosen:
-        console.say(one.name, _facts(one) if one.stack is not None else _assembled(one))
+    if catalogue:
+        _print_catalogue(known)
+    for name, one in zip(which or PRESETS, () if catalogue else chosen):
+        facts = _facts(one) if one.stack is not None else _assembled(one)
+        console.say(one.name, facts | (_sourced(CATALOGUE[name]) if which and name in CATALOGUE else {}))
     console.print_files(files)
+
+
+def _print_catalogue(known: list[KnownColumn]) -> None:
+    """A row for each column of the catalogue; a figure that is assumed has an asterisk."""
+    import pandas
+
+    from . import console
+
+    def shown(one: KnownColumn, name: str) -> str:
+        figure = one.figures[name]
+        return f"{figure.value:.4g}" + ("" if figure.measured else "*")
+
+    heads = {
+        "height": "height m",
+        "bottom_width": "below m",
+        "top_width": "above m",
+        "drums": "drums",
+        "density": "kg/m³",
+    }
+    rows = [
+        {"column": one.name} | {head: shown(one, name) for name, head in heads.items()} | {"what": one.title}
+        for one in known
+    ]
+    console.print_table(pandas.DataFrame(rows))
+    print(
+        "* assumed; all else is measured, as its source states it. Joints are assumed. Sources: stylobate columns NAME"
+    )
+
+
+def _sourced(known: KnownColumn) -> dict[str, str]:
+    """Figures of a preset with their sources, and the sources."""
+    from ..bibliography import bibliography
+
+    figures = {f"its {name.replace('_', ' ')}": one.text for name, one in known.figures.items()}
+    return (
+        {"what": known.title}
+        | figures
+        | {f"source {n}": bibliography()[key].text for n, key in enumerate(known.sources, 1)}
+    )
 
 
 def _facts_of(structure: Any) -> dict:

@@ -46,13 +46,7 @@ class Quantity:
     @property
     def cited(self) -> str:
         """Author and year of the source."""
-        entry = bibliography()[self.source]
-        name = entry.fields.get("shorttitle")
-        if name is not None:
-            return name if str(entry.year) in name else f"{name} {entry.year}"
-        families = [author.split(",")[0] for author in entry.authors]
-        named = families[0] + (" et al." if len(families) > 2 else f" and {families[1]}" if len(families) > 1 else "")
-        return f"{named} {entry.year}" if entry.year else named
+        return bibliography()[self.source].cited
 
 
 #: Parts of a joint that a material may know.

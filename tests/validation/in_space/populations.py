@@ -14,7 +14,7 @@ import numpy as np
 
 import stylobate as st
 from stylobate.column.assembly_files import load_structure
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.column.turning import matrix_of
 from stylobate.models.shared.ledger import TERMS, released, unaccounted
 from stylobate.models.space import assemblies
@@ -150,7 +150,7 @@ def size_of(vectors: np.ndarray) -> np.ndarray:
 
 def collapsing() -> Iterator[dict[str, Any]]:
     """Of every structure of the gallery and every preset, thrown over and followed until rest, what its ledger misses."""
-    for name in (*sorted(GALLERY.glob("*.toml")), *PRESETS):
+    for name in (*sorted(GALLERY.glob("*.toml")), *PAPER):
         structure = load_structure(name)
         flat = not isinstance(structure, st.SpatialAssembly)
         model = st.DistinctElement2D() if flat else st.DistinctElement3D()

@@ -9,7 +9,7 @@ import numpy as np
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.fragility_checks import FEWEST
 from stylobate.analysis.studies import StudyResult
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 
 from .cases import BEAM, DEM, SHORT
 from .motions import COMPARED, LEVELS, against, outcome_of
@@ -22,7 +22,7 @@ def motions_rows(result: StudyResult) -> tuple[tuple[str, ...], list[tuple[str, 
     header = ("column", "model", "runs", "collapsed", "stands", "undecided", "failed",
               "same verdict as distinct elements", "peak over theirs, median (range)")  # fmt: skip
     body = []
-    for name in PRESETS:
+    for name in PAPER:
         for label in COMPARED:
             verdicts, _ = outcome_of(result, name, label)
             counts = [str(int((verdicts == kind).sum())) for kind in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)]
@@ -37,19 +37,19 @@ def motions_rows(result: StudyResult) -> tuple[tuple[str, ...], list[tuple[str, 
 
 def motions_statement(result: StudyResult) -> Statement:
     """The announced tests of the rigid beam under real motions, judged as its harmonic tests are."""
-    agree = {name: against(result, name, BEAM)[0] for name in PRESETS}
+    agree = {name: against(result, name, BEAM)[0] for name in PAPER}
     enough = {
         f"{SHORT[name]}, {same.sum()} of {same.size}": len(same) > 0 and bool(same.mean() >= 0.8)
         for name, same in agree.items()
     }
-    peaks = {name: against(result, name, BEAM)[1] for name in PRESETS}
+    peaks = {name: against(result, name, BEAM)[1] for name in PAPER}
     records = len(result.plan.axes["motions"])
     return Statement(
         "4 ¶2", "The rigid beam agrees with the DEM under real ground motions, too.",
         f"same verdict under {records} records at {len(LEVELS)} levels: "
         + ", ".join(f"{SHORT[name]} {percent(float(same.mean()))} of {len(same)}" for name, same in agree.items())
         + "; median ratio beam/DEM of the peaks where both rock and neither collapses: "
-        + ", ".join(f"{SHORT[name]} {_middle(peaks[name])}" for name in PRESETS),
+        + ", ".join(f"{SHORT[name]} {_middle(peaks[name])}" for name in PAPER),
         judged(all(enough.values()), enough),
         "The paper announces these tests, and says nothing of how they come out. Taken as: four verdicts in five. Round "
         f"columns, records scaled to PGV {LEVELS[0]:g} to {LEVELS[-1]:g} m/s.",

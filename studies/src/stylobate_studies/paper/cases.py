@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stylobate.column import Column, preset
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.column.scatter import WITHIN, Scatter
 from stylobate.constants import g
 from stylobate.models.base import Model
@@ -26,7 +26,7 @@ AMPLITUDES = np.array([0.1, 0.2, 0.3, 0.4, 0.5]) * g
 #: Length of every motion, and the time after it in which most columns come to a verdict [s]; the paper prints neither.
 DURATION, TAIL = 10.0, 5.0
 
-MONOLITH, DRUMS = PRESETS
+MONOLITH, DRUMS = PAPER
 
 #: The columns, for people.
 SHORT = {MONOLITH: "monolith", DRUMS: "drums"}

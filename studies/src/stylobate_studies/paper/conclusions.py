@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.constants import g
 
 from .cases import BEAM, BLOCKS, DEM, MONOLITH, SHORT
@@ -12,14 +12,14 @@ from .sentences import Statement, judged
 
 def conclusions(r: Reader) -> list[Statement]:
     """The sentences, in the order of the paper's text."""
-    sizes = {(name, label): r.unsafe(name, label) for name in PRESETS for label in (BEAM, BLOCKS, DEM)}
-    smaller = [sizes[name, BEAM] > sizes[name, DEM] for name in PRESETS]
-    low = [first(r.domain(name, label), high=1.0).min() for name in PRESETS for label in (BEAM, DEM)]
+    sizes = {(name, label): r.unsafe(name, label) for name in PAPER for label in (BEAM, BLOCKS, DEM)}
+    smaller = [sizes[name, BEAM] > sizes[name, DEM] for name in PAPER]
+    low = [first(r.domain(name, label), high=1.0).min() for name in PAPER for label in (BEAM, DEM)]
     between = [
         min(sizes[name, BEAM], sizes[name, DEM]) <= sizes[name, BLOCKS] <= max(sizes[name, BEAM], sizes[name, DEM])
-        for name in PRESETS
+        for name in PAPER
     ]
-    agree = [r.agreement(name) for name in PRESETS]
+    agree = [r.agreement(name) for name in PAPER]
     cost = r.results.cost
     light = {label: cost[label] < min(0.02, cost[DEM]) for label in (BEAM, BLOCKS)}
     limits = {label: float(r.results.limits[MONOLITH, label].first_collapse[0] / g) for label in (BEAM, BLOCKS, DEM)}
@@ -30,7 +30,7 @@ def conclusions(r: Reader) -> list[Statement]:
             f"same verdict: monolith {int(agree[0].sum())}, drums {int(agree[1].sum())} of {agree[0].size} cases each",
             judged(
                 min(one.mean() for one in agree) >= 0.8,
-                {f"{SHORT[name]}, {one.sum()} of {one.size}": bool(one.mean() >= 0.8) for name, one in zip(PRESETS, agree)},
+                {f"{SHORT[name]}, {one.sum()} of {one.size}": bool(one.mean() >= 0.8) for name, one in zip(PAPER, agree)},
             ),
             "Sufficient is taken as four verdicts in five.",
         ),
@@ -38,7 +38,7 @@ def conclusions(r: Reader) -> list[Statement]:
             "4 ¶1, Figs. 6, 9", "The rigid beam has the smaller safe domain for both column types.",
             "unsafe share, rigid beam against DEM: "
             + "; ".join(
-                f"{SHORT[name]} {percent(sizes[name, BEAM])} against {percent(sizes[name, DEM])}" for name in PRESETS
+                f"{SHORT[name]} {percent(sizes[name, BEAM])} against {percent(sizes[name, DEM])}" for name in PAPER
             ),
             judged(all(smaller), dict(zip(SHORT.values(), smaller))), "Prisms of mean width, no loss at impact, no sliding.",
         ),
@@ -56,10 +56,10 @@ def conclusions(r: Reader) -> list[Statement]:
             "unsafe share of beam, blocks, DEM: "
             + "; ".join(
                 f"{SHORT[name]} " + ", ".join(percent(sizes[name, label]) for label in (BEAM, BLOCKS, DEM))
-                for name in PRESETS
+                for name in PAPER
             )
             + f"; monolith at 0.1 Hz {limits[BEAM]:.3f} g, {limits[BLOCKS]:.3f} g, {limits[DEM]:.3f} g",
-            judged(all(between) and static, {f"harmonic tests, {SHORT[name]}": one for name, one in zip(PRESETS, between)}
+            judged(all(between) and static, {f"harmonic tests, {SHORT[name]}": one for name, one in zip(PAPER, between)}
                    | {"monolith at 0.1 Hz, nearly statics": static}),
             "The paper says it of the pushover, and announces the harmonic tests.",
         ),

@@ -10,7 +10,7 @@ import numpy as np
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.campaign.campaign import Progress
 from stylobate.column import Column
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.constants import g
 from stylobate.percent import percent
 
@@ -48,7 +48,7 @@ def contacts_piece(
             data / slug("contacts", name, where, setting.replace("·", "times")), _changed(name, change),
             POPULATIONS[where], grid, COLUMNS, tail, threads, advance(f"contacts, {name}, {where}: {setting}"), ACROSS,
         )
-        for name in PRESETS
+        for name in PAPER
         for where in (PLANE, SPACE)
         for setting, change in SETTINGS.items()
     }  # fmt: skip
@@ -65,13 +65,13 @@ def contacts_statement(found: Populations) -> Statement:
     changed = [key for key in SETTINGS if key not in (SAME, NOTHING)]
     mean = {
         (name, where): float(np.mean([moved(found, name, where, key) for key in changed]))
-        for name in PRESETS
+        for name in PAPER
         for where in (PLANE, SPACE)
     }
     noise = {one: moved(found, *one, NOTHING) for one in mean}
     less = {
         SHORT[name]: mean[name, SPACE] - mean[name, PLANE] > max(noise[name, where] for where in (PLANE, SPACE))
-        for name in PRESETS
+        for name in PAPER
     }
     share = {key: one.mean for key, one in found.items()}
     told = "; ".join(

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from stylobate.column import Column, preset
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.constants import g
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.base import Model
@@ -36,10 +36,10 @@ def equation_statements() -> list[Statement]:
 
 
 def _beam() -> list[Statement]:
-    rotations, ground = zip(*(_nodes(name) for name in PRESETS), strict=True)
-    sums, right, loads = (max(values) for values in zip(*(_accelerations(name) for name in PRESETS), strict=True))
-    solved = {SHORT[name]: _solved(name) for name in PRESETS}
-    one, many = (preset(name).as_prism() for name in PRESETS)
+    rotations, ground = zip(*(_nodes(name) for name in PAPER), strict=True)
+    sums, right, loads = (max(values) for values in zip(*(_accelerations(name) for name in PAPER), strict=True))
+    solved = {SHORT[name]: _solved(name) for name in PAPER}
+    one, many = (preset(name).as_prism() for name in PAPER)
     drums = preset(DRUMS)
     width = max(abs(many.masses / (0.5 * (_faces(drums)[0] + _faces(drums)[1]) * drums.heights * 1600.0) - 1.0))
     return [

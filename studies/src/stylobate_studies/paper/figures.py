@@ -21,7 +21,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
     import numpy as np
 
     from stylobate import plots
-    from stylobate.column.presets import PRESETS
+    from stylobate.column.presets import PAPER
     from stylobate.constants import g
     from stylobate.report.page import Picture
 
@@ -40,7 +40,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
     shown = {
         section: [
             (TITLES[name], [(label, _seen(domain, label)) for label, domain in _of(results, name, section).items()])
-            for name in PRESETS
+            for name in PAPER
         ]
         for section in ("rectangular", "circular")
     }
@@ -103,7 +103,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
                 some.append(keep(f"figure-{number}-{section}", figure, caption))
     populations = [
         (TITLES[name], [(label, one) for (column, label), one in results.space.items() if column == name])
-        for name in PRESETS
+        for name in PAPER
     ]
     figure = p.draw_probability_panels(populations, "Round columns: which shaking brings them down?")
     many = results.grids.space_replicates
@@ -139,7 +139,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
     figure = p.draw_pushover_paths(paths, "Pushover of the rigid block model")
     sections[page.PUSHOVER] = [keep("pushover", figure, caption)]
     some = sections[page.OPEN] = []
-    for name in PRESETS:
+    for name in PAPER:
         first = {key: results.variants[name, key].first_collapse / g for key in results.grids.variants}
         frequencies = np.asarray(results.grids.variant_frequencies)
         figure = p.draw_sensitivity(first, frequencies, f"{TITLES[name]}: one parameter changed at a time")

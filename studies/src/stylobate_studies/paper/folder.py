@@ -13,7 +13,7 @@ import numpy as np
 from stylobate.atomic import replacing, set_aside
 from stylobate.campaign.ledger import refuse_former
 from stylobate.column import preset
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.errors import DamagedFileWarning, InputError
 from stylobate.kernels.jit import source_digest
 from stylobate.own_files import LIST, OwnFiles, guard_of
@@ -71,7 +71,7 @@ def claim(own: OwnFiles, grids: c.Grids) -> None:
         "kernels": source_digest(),
         "models": {label: [model.name, model.parameters()] for label, model in c.MODELS.items()},
         "variants": {name: [model.parameters(), change, time] for name, (_, model, change, time) in c.VARIANTS.items()},
-        "columns": {name: preset(name).digest for name in PRESETS},
+        "columns": {name: preset(name).digest for name in PAPER},
         "cases": [c.FREQUENCIES.tolist(), c.AMPLITUDES.tolist(), c.DURATION],
     }
     if own.kind != KIND:

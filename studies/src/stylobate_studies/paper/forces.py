@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from stylobate.column import preset
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.constants import g
 from stylobate.motion import harmonic
 from stylobate.percent import percent
@@ -45,16 +45,16 @@ def differences(name: str, amplitude: float) -> dict[str, dict[str, float]]:
 
 def forces_statement() -> Statement:
     """The sentence, at both amplitudes."""
-    far = {(name, a): differences(name, a) for name in PRESETS for a in (CLOSED, ROCKING)}
+    far = {(name, a): differences(name, a) for name in PAPER for a in (CLOSED, ROCKING)}
     alike = {
         f"{words}, {SHORT[name]}": all(max(one.values()) <= ALIKE for one in far[name, a].values())
         for a, words in ((CLOSED, "closed joints"), (ROCKING, "rocking"))
-        for name in PRESETS
+        for name in PAPER
     }
     return Statement(
         "2.3 ¶2", "Interface actions of the rigid block model can be compared directly with nodal forces of the rigid beam.",
         f"shear; moment of all joints, root mean square of the difference from the rigid block over the block's, at "
-        f"{FREQUENCY:g} Hz. " + " ".join(_told(a, {name: far[name, a] for name in PRESETS}) for a in (CLOSED, ROCKING)),
+        f"{FREQUENCY:g} Hz. " + " ".join(_told(a, {name: far[name, a] for name in PAPER}) for a in (CLOSED, ROCKING)),
         judged(all(alike.values()), alike),
         f"Taken as: within {percent(ALIKE)}. Means over 40 ms, from the motion of what stands on each joint. The beam's "
         "normal forces are those at rest. Once joints open the models move differently, and blows last milliseconds.",

@@ -8,7 +8,7 @@ import numpy as np
 
 from stylobate.analysis import verdicts as v
 from stylobate.column import preset
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.constants import g
 
 from .cases import BEAM, BLOCKS, DEM, DRUMS, MONOLITH, REFERENCE
@@ -81,7 +81,7 @@ def monolith_statements(r: Reader) -> list[Statement]:
 
 def _deformability(r: Reader) -> Statement:
     pairs = {
-        name: [r.results.variants[name, f"DEM, {one}"] for one in ("two points", "elastic blocks")] for name in PRESETS
+        name: [r.results.variants[name, f"DEM, {one}"] for one in ("two points", "elastic blocks")] for name in PAPER
     }
     same = [((a.verdicts == v.COLLAPSED) == (b.verdicts == v.COLLAPSED)).mean() for a, b in pairs.values()]
     shares = [[percent(share(one)) for one in pair] for pair in pairs.values()]

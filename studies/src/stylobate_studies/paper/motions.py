@@ -13,7 +13,7 @@ from stylobate.analysis import verdicts as v
 from stylobate.analysis.studies import StudyResult, run_study
 from stylobate.campaign.campaign import Progress
 from stylobate.campaign.cases import Study
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.errors import LeftOutWarning
 from stylobate.motion import Motion
 
@@ -31,7 +31,7 @@ COMPARED = {**MODELS, "distinct elements in space, both components": POPULATIONS
 
 def motions_piece(folder: Path, records: Sequence[Motion], threads: int, progress: Progress | None) -> StudyResult:
     """Both columns, round, by all models under records at all levels; resumes in its folder."""
-    columns = [paper_column(name, "circular") for name in PRESETS]
+    columns = [paper_column(name, "circular") for name in PAPER]
     study = Study(columns, records, list(COMPARED.values()), LEVELS, "pgv", tail=TAIL)
     folder.mkdir(exist_ok=True)
     with warnings.catch_warnings():
@@ -52,7 +52,7 @@ def against(result: StudyResult, name: str, label: str) -> tuple[np.ndarray, np.
 def outcome_of(result: StudyResult, name: str, label: str) -> tuple[np.ndarray, np.ndarray]:
     """Verdicts and peak displacements of the top [m] of a column by a model, in the order of motions and levels."""
     shape = result.plan.shape
-    model, column = list(COMPARED).index(label), PRESETS.index(name)
+    model, column = list(COMPARED).index(label), PAPER.index(name)
 
     def part(values: Any) -> np.ndarray:
         return np.asarray(values).reshape(shape)[model, column].ravel()

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 
 from . import cases as c
 from .literature import NUMBER, SHAKING, population_name
@@ -28,7 +28,7 @@ def others_statements(results: PaperResults) -> list[Statement]:
     spread = float(peaks.max() / peaks.min()) if len(peaks) else np.nan
     out = {name: planar[name] > 0.25 for name in found}
     small = {name: left[name] < 0.5 for name in found}
-    far = {name: _moved(results, name) for name in PRESETS}
+    far = {name: _moved(results, name) for name in PAPER}
     return [
         Statement(
             TESTS, "Planar shaking of a round column of drums goes out of its plane, triggered by imperfections.",
@@ -54,7 +54,7 @@ def others_statements(results: PaperResults) -> list[Statement]:
             "arXiv:0807.2101", "The smallest acceleration that overturns a single round body is nearly the same in the "
             "plane and in space.",
             "mean difference of the share that collapses, between space and its planar twin: "
-            + ", ".join(f"{c.SHORT[name]} {percent(far[name])}" for name in PRESETS),
+            + ", ".join(f"{c.SHORT[name]} {percent(far[name])}" for name in PAPER),
             judged(far[c.MONOLITH] < 0.05),
             "Taken as: less than 5 % for the monolith. Thresholds of columns of drums do move: they are less safe in space.",
         ),

@@ -7,7 +7,7 @@ import numpy as np
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.domain import Domain
 from stylobate.analysis.probability import SAFE, UNSAFE, CollapseProbability
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 
 from .cases import BEAM, BLOCKS, DEM, RIVALS, SHORT, SPACE
 from .reading import percent
@@ -34,18 +34,18 @@ def space_statements(results: PaperResults) -> list[Statement]:
     """The paper's sentence on circular sections (its section 4)."""
     far = {
         (name, *rival): distance(results.rivals[name, *rival], results.space[name, SPACE])
-        for name in PRESETS
+        for name in PAPER
         for rival in RIVALS
     }
     nearer = {
         f"{SHORT[name]}, {label}": far[name, label, "circular"] < far[name, DEM, "rectangular"]
-        for name in PRESETS
+        for name in PAPER
         for label in (BEAM, BLOCKS)
     }
     said = "; ".join(
         f"{SHORT[name]}: "
         + ", ".join(f"{label}, {section} {_share(far[name, label, section])}" for label, section in RIVALS)
-        for name in PRESETS
+        for name in PAPER
     )
     return [
         Statement(

@@ -11,7 +11,7 @@ from stylobate.analysis.limit_directions import limit_directions
 from stylobate.analysis.pushover import pushover
 from stylobate.column import Column, preset
 from stylobate.column.assembly import Assembly, Block
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.rigid_beam.model import RigidBeam
 
@@ -26,7 +26,7 @@ def static_values() -> dict[str, float]:
     ``work`` the part of the work to overturn that ξ = 0.9 takes away.
     """
     values = {"prism": limit_analysis(preset(MONOLITH).as_prism()).multiplier}
-    for name, section in product(PRESETS, ("rectangular", "circular")):
+    for name, section in product(PAPER, ("rectangular", "circular")):
         column = paper_column(name, section)
         values[f"limit, {name}, {section}"] = limit_analysis(column).multiplier
         values[f"pushover, {name}, {section}"] = pushover(column).collapse_multiplier
@@ -85,9 +85,9 @@ def static_statements() -> list[Statement]:
             "2.3 ¶2",
             "The rigid block model can consider quadrilateral or polygonal elements, and so the trapezoidal sections.",
             "limit analysis of the same stones as polygons of an assembly: "
-            + ", ".join(f"{SHORT[name]} {s[f'polygons, {name}']:.4f} g" for name in PRESETS)
+            + ", ".join(f"{SHORT[name]} {s[f'polygons, {name}']:.4f} g" for name in PAPER)
             + f"; as drums {limit[0]:.4f} g and {limit[1]:.4f} g",
-            judged(all(abs(s[f"polygons, {name}"] - one) < 1e-6 for name, one in zip(PRESETS, limit, strict=True))),
+            judged(all(abs(s[f"polygons, {name}"] - one) < 1e-6 for name, one in zip(PAPER, limit, strict=True))),
             "Blocks of an assembly are any convex polygons of up to 24 corners, from a file; `limit` and `dem2d` take them.",
         ),
         Statement(

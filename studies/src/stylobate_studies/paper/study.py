@@ -17,7 +17,7 @@ from stylobate.analysis.step_sensitivity import StepComparison, halved_step
 from stylobate.analysis.studies import StudyResult
 from stylobate.campaign.campaign import Progress
 from stylobate.column import preset
-from stylobate.column.presets import PRESETS
+from stylobate.column.presets import PAPER
 from stylobate.constants import g
 from stylobate.models.base import Model
 from stylobate.motion import Motion, harmonic
@@ -155,7 +155,7 @@ def run_study(
     check_folder(folder)
     with own_files(folder) as own:
         claim(own, grids)
-        spaces = (folder / "data" / slug("space", *one) / POPULATION for one in product(PRESETS, c.POPULATIONS))
+        spaces = (folder / "data" / slug("space", *one) / POPULATION for one in product(PAPER, c.POPULATIONS))
         with compiled_meanwhile(not all(map(is_ready, spaces))) as wait:
             return _pieces(folder, quick, grids, threads, report, wait, read)
 
@@ -179,10 +179,10 @@ def _pieces(
         tell(what, 0, 0)
         return lambda done, total: tell(what, done, total)
 
-    for name, label in product(PRESETS, (c.BEAM, c.DEM)):
+    for name, label in product(PAPER, (c.BEAM, c.DEM)):
         what = f"histories, {name}: {label}"
         pieces.histories[name, label] = histories_piece(data, name, label, grids.tail, count, advance(what))
-    for name in PRESETS:
+    for name in PAPER:
         for label, section in [(one, "rectangular") for one in c.MODELS] + [
             (one, "circular") for one in grids.circular
         ]:
@@ -222,7 +222,7 @@ def _pieces(
         )
     grid = (grids.space_frequencies, grids.space_amplitudes, c.DURATION)
     wait()  # for the compiler
-    for name in PRESETS:
+    for name in PAPER:
         for label, model in c.POPULATIONS.items():
             pieces.space[name, label] = population_piece(
                 data / slug("space", name, label), c.paper_column(name, "circular"), model, grid, grids.space_replicates,
@@ -240,7 +240,7 @@ def _pieces(
         pieces.motions = motions_piece(data / "motions", records, count, advance("real motions"))
         pieces.company = company_piece(data / "company", records, count, advance("columns in company"))
     pieces.cost = cost_piece(data)
-    for name, section in product(PRESETS, ("rectangular", "circular")):
+    for name, section in product(PAPER, ("rectangular", "circular")):
         pieces.paths[name, section] = pushover(c.paper_column(name, section))
     return pieces
 
