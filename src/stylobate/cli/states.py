@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
 from . import options as o
+from .design import WRITES, describe_design, write_design
 
 if TYPE_CHECKING:
-    import pandas
-
     from ..analysis.states import StateComparison
     from ..campaign.campaign import Campaign
     from ..column.structure import Structure
@@ -53,7 +52,7 @@ def states(
 
     Fragility curves under the same records with paired differences, and what the links bore.
     """
-    from ..analysis.design_values import design_values, worst_of
+    from ..analysis.design_values import design_values
     from ..analysis.limit_states import parse_state
     from ..analysis.states import compare_states
     from ..campaign.study_files import levels_of
@@ -75,7 +74,7 @@ def states(
     parse_state(state)
     measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
     suite = request.expand()
-    with execution.files("states", "states.csv", "links.csv", "design.csv", "states.json", "states", "design") as files:
+    with execution.files("states", "states.csv", "links.csv", "states.json", "states", *WRITES) as files:
         with files.campaign(campaign, in_folder=True) as asked:
             found = compare_states(
                 columns, suite.motions, how, sizes, measure, state=state, out=files.folder, campaign=asked
@@ -92,11 +91,8 @@ def states(
 
             files.table(found.table, "states.csv")
             files.table(found.links, "links.csv")
-            if len(designed):
-                files.table(designed, "design.csv")
             files.picture(plots.draw_states(found), "states")
-            if len(designed) and len(worst_of(designed)):
-                files.picture(plots.draw_design_values(designed), "design")
+            write_design(designed, files)
             what: dict[str, Any] = {"structures": list(columns.values()), "models": [how], "states": list(columns)}
             what |= {"motions": [how.taken(motion) for motion in suite.motions], "runs": found.table}
             what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": campaign.tail}
@@ -105,33 +101,10 @@ def states(
     if execution.emits(summary):
         return
     describe(found)
-    _describe_design(designed)
+    describe_design(designed)
     console.print_refused(suite.refused)
     if files:
         print(f"{len(files)} files in {execution.out}")
-
-
-def _describe_design(designed: pandas.DataFrame) -> None:
-    """Print the links used most of every state, and the clearance that layers need; nothing where there are none."""
-    import pandas
-
-    from ..analysis.design_values import clearances, worst_of
-    from . import console
-
-    if not len(designed):
-        return
-    words = "not exceeded under 84 % of the motions, with the 95 % interval over records."
-    if len(worst := worst_of(designed)):
-        print(f"Design values at the largest level: {words}")
-        some = worst.groupby("state", sort=False).head(6)
-        told: dict[str, Any] = {key: some[key] for key in ("state", "link", "quantity", "unit")}
-        told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
-        told |= {"over capacity": some["use_value_84"], "at most": some["use_high_84"]}
-        console.print_table(pandas.DataFrame(told), digits=3)
-    if len(wide := clearances(designed)):
-        print(f"Clearance that layers need at the largest level [m]: {words}")
-        told = {"state": wide["state"], "link": wide["link"], "84 %": wide["value_84"], "from": wide["low_84"]}
-        console.print_table(pandas.DataFrame(told | {"to": wide["high_84"]}), digits=3)
 
 
 def _twins(columns: dict[str, Structure], model: Model, campaign: Campaign) -> dict[str, Any]:
