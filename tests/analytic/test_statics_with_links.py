@@ -269,7 +269,12 @@ def test_cohesion_and_what_is_found_stand_in_both_ways_of_limit_analysis_in_spac
 
 @pytest.mark.parametrize(
     ("joint", "capacities", "share", "azimuth"),
-    [(ROUGH, [5.5e3], 0.0, 0.0), (ROUGH, [1e6], 0.95, 0.0), (SMOOTH, [1e6], 0.35, 90.0), (SMOOTH, [1e6, 1e4], 0.35, 0.0)],
+    [
+        (ROUGH, [5.5e3], 0.0, 0.0),
+        (ROUGH, [1e6], 0.95, 0.0),
+        (SMOOTH, [1e6], 0.35, 90.0),
+        (SMOOTH, [1e6, 1e4], 0.35, 0.0),
+    ],
 )
 def test_the_most_that_a_dowel_may_hold_in_space(joint, capacities, share, azimuth):
     """As in the plane, by hand: push and friction against it, (1/4 + μ) W, and the other dowel; it holds against the push.

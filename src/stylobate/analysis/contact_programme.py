@@ -196,10 +196,8 @@ class ContactProgramme:
             f"limit analysis in space did not come to an end: the bounds are {gap:.2g} g apart after {ROUNDS} rounds"
         )
 
-    def largest(
-        self, dead: np.ndarray, live: np.ndarray, multiplier: float, k: int
-    ) -> tuple[float, np.ndarray | None]:
-        """The most that a holder holds in any answer at a multiplier [g] or more [N], and where its upper body is pulled then.
+    def largest(self, dead: np.ndarray, live: np.ndarray, multiplier: float, k: int) -> tuple[float, np.ndarray | None]:
+        """The most that a holder holds in any answer at a multiplier [g] or more [N], and where it pulls its upper body.
 
         What it can hold in two directions makes a convex figure, which tangents enclose: in each direction the programme
         tells how far it reaches, and the farthest corner of the tangents is the next direction, until what is reached is as
@@ -239,9 +237,7 @@ class ContactProgramme:
                 break
         return -found.multiplier, found.rates  # pyright: ignore[reportPossiblyUnboundVariable]
 
-    def _solve(
-        self, dead: np.ndarray, live: np.ndarray | None, capacity: np.ndarray, aim: Aim | None = None
-    ) -> Solved:
+    def _solve(self, dead: np.ndarray, live: np.ndarray | None, capacity: np.ndarray, aim: Aim | None = None) -> Solved:
         """Largest multiplier, or force aimed at, with what there is; without a live load, minus the least not balanced."""
         from scipy.optimize import linprog
         from scipy.sparse import coo_array, csc_array, hstack

@@ -235,7 +235,9 @@ def link_forces(
     in space its direction."""
     most = np.full(len(links), math.nan) if largest is None else np.maximum(largest, np.abs(needed.least))
     ways = [None] * len(links) if towards is None else towards
-    told = zip(links, needed.least.tolist(), needed.yields.tolist(), needed.idle.tolist(), most.tolist(), ways, strict=True)
+    told = zip(
+        links, needed.least.tolist(), needed.yields.tolist(), needed.idle.tolist(), most.tolist(), ways, strict=True
+    )
     return tuple(LinkForce(link.name, link.action, least, link.capacity, *rest) for link, least, *rest in told)
 
 
