@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from ..models.base import Model
 
 
-def the_states(as_built: str | None, as_found: str | None, strengthened: list[str] | None) -> dict[str, str]:
+def the_states(
+    as_built: str | None, as_found: str | None, strengthened: list[str] | None, fewest: int = 2
+) -> dict[str, str]:
     """Columns to be compared, by label; those with a measure are called after their files."""
     found = {name: text for name, text in (("as built", as_built), ("as found", as_found)) if text is not None}
     for text in strengthened or ():
@@ -24,10 +26,38 @@ def the_states(as_built: str | None, as_found: str | None, strengthened: list[st
         if label in found:
             raise InputError(f"two of the states are called {label!r}; rename one of the files.", "states")
         found[label] = text
-    if len(found) < 2:
+    if len(found) < fewest:
         given = f"only the state {next(iter(found))!r} is given" if found else "no state is given"
         raise InputError(f"{given}; give two or more of --as-built, --as-found and --with.", "states")
     return found
+
+
+def the_candidates(
+    vary: list[str] | None, strengthened: list[str], columns: dict[str, Structure]
+) -> dict[str, Structure]:
+    """Columns with numbers as typed, ``kind.field=values``, in place of those of the one measure; none without."""
+    from ..analysis.vary import candidates
+    from ..motion.ranges import values_of
+
+    if not vary:
+        return {}
+    if len(strengthened) != 1:
+        raise InputError(f"--vary is for one measure, and {len(strengthened)} are given; give one --with.", "vary")
+
+    def number(text: str) -> float:
+        try:
+            return float(text)
+        except ValueError:
+            raise InputError(f"{text!r} is no number; write it in SI without a unit, such as 0.02.", "vary") from None
+
+    asked: dict[str, list[float]] = {}
+    for text in vary:
+        name, equals, values = text.partition("=")
+        if not equals or name in asked:
+            why = "is given twice" if equals else "has no values"
+            raise InputError(f"{name!r} of --vary {why}; write each once, such as dowel.diameter=0.02:0.06:5.", "vary")
+        asked[name] = values_of("vary", values, number, "0.02:0.06:5").tolist()
+    return candidates(columns[Path(strengthened[0]).stem], asked)
 
 
 def states(
@@ -38,6 +68,10 @@ def states(
     model: str = o.option("MODEL", "How it is computed.", "dem2d"),
     im: str | None = o.option("MEASURE", "Scale the records to it, such as pgv."),
     levels: str | None = o.option("A:A:N", "Its levels, such as 0.2m/s:1.6m/s:8."),
+    vary: list[str] | None = o.option(
+        "KIND.FIELD=A:B:N",
+        "Candidates for a number of the links [SI], such as dowel.diameter=0.02:0.06:5; may be repeated.",
+    ),
     state: str = o.option("STATE", "Limit state, such as collapse or top:0.35d.", "collapse"),
     *,
     population: o.Population,
@@ -53,8 +87,10 @@ def states(
     Fragility curves under the same records with paired differences, and what the links bore.
     """
     from ..analysis.design_values import design_values
+    from ..analysis.difference import NO_MEASURE
     from ..analysis.limit_states import parse_state
     from ..analysis.states import compare_states
+    from ..analysis.vary import best_of
     from ..campaign.study_files import levels_of
     from . import console
 
@@ -63,11 +99,13 @@ def states(
     sources = records or motions.motion
     if not (sources or motions.harmonic or motions.pulse or motions.synthetic):
         raise InputError("no record is given; name a folder of records, or files, before the options.", "records")
-    named = the_states(as_built, as_found, strengthened)
+    named = the_states(as_built, as_found, strengthened, 1 if vary else 2)
     how = o.the_model(model, settings, losses)
     campaign = execution.campaign(following, population)
     request = motions.request(motion=sources, separate=bool(sources))
     columns = {label: o.the_structure(text, project) for label, text in named.items()}
+    tried = the_candidates(vary, strengthened or [], columns)
+    columns = {label: one for label, one in columns.items() if not tried or label in NO_MEASURE} | tried
     if (im is None) != (levels is None):
         raise InputError("records are scaled by --im and --levels together; give both, such as --im pgv --levels "
                          "0.2m/s:1.6m/s:8.", "im")  # fmt: skip
@@ -86,6 +124,8 @@ def states(
             "refused": suite.refused,
             "files": [],
         }
+        best = best_of(found, list(tried), seed=campaign.seed) if tried else None
+        summary |= {} if best is None else {"best": best.summary()}
         if files.wanted:
             from .. import plots
 
@@ -102,6 +142,9 @@ def states(
         return
     describe(found)
     describe_design(designed)
+    if best is not None:
+        console.print_table(best.table, digits=3)
+        print(best.words)
     console.print_refused(suite.refused)
     if files:
         print(f"{len(files)} files in {execution.out}")

@@ -16,6 +16,7 @@ from . import numbers as n
 from .design import design_items
 from .page import Item, Note, Points, Rows
 from .pictures import kept
+from .tables import table
 
 #: Style of the notes on conclusions.
 LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
@@ -75,6 +76,9 @@ def states_items(result: Numbers) -> list[Item]:
     )
     if s["links"]:
         items.append(_links(s["links"]))
+    if best := s.get("best"):
+        keys = ("candidate", "share_low", "share_high", "use", "use_high", "difference_low", "difference_high", "alike")
+        items.append(table(best["candidates"], keys, best["words"]))
     return items + design_items(result.tables.get("design"), result.pictures)
 
 
