@@ -214,8 +214,10 @@ def test_the_moat_of_an_isolated_column_in_a_suite_is_its_largest_slip(tmp_path,
 
 
 def test_the_moat_of_an_isolator_is_twice_its_static_slip_under_a_sudden_push():
-    """Undamped, m ü + k u = −m a from rest has its peak 2 a m/k after half a period; friction of 0.001 takes 2 μ g of 2 a from
-    the first half cycle, (a − μ g): exact for a rigid block, whose joint is 1e4 times as stiff as the isolator."""
+    """Undamped, m ü + k u = −m a from rest has its peak 2 a m/k after half a period, friction μ takes 2 μ g m/k of it.
+
+    1e-3 is left for the joint's own spring, 1e4 times as stiff as the isolator, and the damping of its joint.
+    """
     slip, push, friction = 0.1, 0.5, 1e-3
     stiffness = BARE.mass * push / slip
     layer = st.Layer(joint=1, friction_coefficient=friction, shear_stiffness=stiffness)
@@ -223,5 +225,5 @@ def test_the_moat_of_an_isolator_is_twice_its_static_slip_under_a_sudden_push():
     motion = st.Motion(0.01, np.full(400, push), name="step")
     told = st.suite_table([isolated], [motion], st.DistinctElement2D(), threads=1).attrs["design_values"]
     (moat,) = clearances(pandas.DataFrame(told)).to_dict("records")
-    assert moat["value_84"] == pytest.approx(2.0 * (push - friction * st.g) * BARE.mass / stiffness, rel=0.01)
+    assert moat["value_84"] == pytest.approx(2.0 * (push - friction * st.g) * BARE.mass / stiffness, rel=1e-3)
     assert moat["high_84"] == math.inf  # one record
