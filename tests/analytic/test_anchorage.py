@@ -1,5 +1,7 @@
 """What the stone at an anchor bears: the formulas in round numbers, their limits, and what is refused."""
 
+import math
+
 import pytest
 
 import stylobate as st
@@ -26,6 +28,36 @@ def test_an_edge_twice_as_far_bears_more_and_a_longer_bar_than_twelve_diameters_
     assert st.stone_at_anchor(**GIVEN | {"edge": 0.2})["edge"] > 2.0 * st.stone_at_anchor(**GIVEN)["edge"]
     long, longer = (st.stone_at_anchor(**GIVEN | {"embedment": one})["edge"] for one in (0.24, 0.5))
     assert long == longer
+
+
+def test_a_thick_bar_counts_along_the_edge_for_eight_diameters_or_300_mm():
+    """EN 1992-4, 7.2.2.5: 12·24 = 288 mm, from there 300 mm up to 37.5 mm, then 8 d: what is longer bears no more."""
+    for diameter, length in ((0.024, 0.288), (0.03, 0.3), (0.05, 0.4)):
+        bars = (GIVEN | {"diameter": diameter, "embedment": one} for one in (0.99 * length, length, 2.0))
+        short, just, longer = (st.stone_at_anchor(**one)["edge"] for one in bars)
+        assert short < just == longer
+
+
+@pytest.mark.parametrize("strength", [20e6, 60e6])
+@pytest.mark.parametrize("diameter", [0.012, 0.02, 0.04])
+def test_another_code_comes_to_much_the_same(strength, diameter):
+    """ACI 318-19, 17.6.2 and 17.7.2, cracked, post-installed, in lb, inch and psi: N = 17 √f h^1.5 (7.11 in SI, to 7.7) and
+    V = min(7 (l/d)^0.2 √d, 9) √f c^1.5, l ≤ 8 d. Two fits to tests: 0.75 to 1.18 of it from 4 to 15 diameters of edge."""
+    inch, pound = 25.4e-3, 4.448222
+    root = math.sqrt(strength / (pound / inch**2))
+    for edge in (4.0 * diameter, 8.0 * diameter, 15.0 * diameter):
+        bar = {"diameter": diameter, "embedment": 8.0 * diameter, "edge": edge, "stone_strength": strength}
+        other = min(7.0 * 8.0**0.2 * math.sqrt(diameter / inch), 9.0) * root * (edge / inch) ** 1.5 * pound
+        assert st.stone_at_anchor(**bar, yield_strength=4e8)["edge"] == pytest.approx(other, rel=0.25)
+    far = st.stone_at_anchor(**GIVEN | {"edge": 1.0, "stone_strength": strength})["cone"]
+    assert 17.0 * root * (0.1 / inch) ** 1.5 * pound / far == pytest.approx(7.11 / 7.7, rel=2e-3)
+
+
+def test_bearing_is_a_hinge_in_the_bar_against_five_times_the_strength():
+    """V = √(2 q M) with q = 5.07 f d and M = d³ f_y/6 of the plastic section: 1.3 = √(5.07/3), three digits."""
+    d, f, f_y = 0.02, 25e6, 4e8
+    by_hinge = math.sqrt(2.0 * 5.07 * f * d * d**3 * f_y / 6.0)
+    assert st.stone_at_anchor(**GIVEN)["bearing"] == pytest.approx(by_hinge, rel=1e-3)
 
 
 @pytest.mark.parametrize(

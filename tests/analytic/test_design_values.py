@@ -9,7 +9,8 @@ import pandas
 import pytest
 
 import stylobate as st
-from stylobate.analysis.design_values import clearances, fractile, worst_of
+from stylobate.analysis.design_values import clearances, fractile, values_of_runs, worst_of
+from stylobate.campaign.twins import LAW
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 
@@ -93,7 +94,8 @@ def test_the_command_prints_writes_and_reports_them(tmp_path, capsys):
     asked = ["states", "--as-built", str(bare), "--with", str(dowelled), "--pulse", "ricker,0.4Hz,0.2g"]
     assert call([*asked, "--out", str(out)]) == 0
     said = capsys.readouterr().out
-    assert "Design values at the largest level" in said
+    assert "Design values: not exceeded under 84 %" in said
+    assert "the law of the joints is taken as known" in said
     assert "shear force" in said
     table = pandas.read_csv(out / "design.csv")
     told = json.loads((out / "states.json").read_text())["design_values"]
@@ -103,7 +105,7 @@ def test_the_command_prints_writes_and_reports_them(tmp_path, capsys):
     assert (out / "design.png").is_file()
     page = tmp_path / "page.html"
     assert call(["report", str(out), "--out", str(page)]) == 0
-    assert "Design values at the largest level" in page.read_text()
+    assert "Design values: what" in page.read_text()
 
 
 def test_a_layer_with_a_spring_needs_the_clearance_of_its_slip():
@@ -121,3 +123,107 @@ def test_a_layer_with_a_spring_needs_the_clearance_of_its_slip():
 def test_what_is_no_comparison_of_states_is_refused():
     with pytest.raises(st.InputError, match="found"):
         st.design_values(BARE)  # pyright: ignore[reportArgumentType]
+
+
+def runs_of(peaks, laws, records):
+    """Rows of runs with one dowel that bears these forces."""
+    rows = [
+        {"state": "dowelled", "im": 1.0, "record": record, "verdict": "stands", LAW: law, "link_broken_s": [None],
+         "link_peak_shear_n": [peak], "link_peak_tension_n": [0.0], "link_peak_slip_m": [peak / 1e8],
+         "link_peak_elongation_m": [0.0]}
+        for peak, law, record in zip(peaks, laws, records, strict=True)
+    ]  # fmt: skip
+    return pandas.DataFrame(rows)
+
+
+def test_intervals_hold_one_more_law_of_the_joints():
+    """All 200 records the same, so that they leave only the laws: 10, 20 and 40 N under three. ln q has mean ln 20 and
+    s = ln 2, and one more law lies within t(2) s √(1 + 1/3), t(2) = 4.302653 at 95 %: a factor of 2^4.968. Digits of t."""
+    laws = np.tile([1, 2, 3], 200)
+    runs = runs_of(np.array([10.0, 20.0, 40.0])[laws - 1], laws, np.repeat(np.arange(200), 3))
+    factor = 2.0 ** (4.302653 * math.sqrt(4.0 / 3.0))
+    slip = values_of_runs({"dowelled": DOWELLED}, runs).iloc[1]
+    assert (slip["quantity"], slip["laws"], slip["records"]) == ("slip", 3, 200)
+    assert slip["value_50"] == 20.0 / 1e8
+    # over records 50 % lie on the edge of nothing: 1/3 of them below, 2/3 up to the value
+    assert slip["high_50"] == pytest.approx(20.0 / 1e8 * factor, rel=1e-5)
+    assert slip["low_50"] == pytest.approx(20.0 / 1e8 / factor, rel=1e-5)
+    alone = values_of_runs({"dowelled": DOWELLED}, runs.drop(columns=LAW)).iloc[1]
+    assert (alone["laws"], alone["low_50"], alone["high_50"]) == (0, 20.0 / 1e8, 20.0 / 1e8)
+
+
+def test_limits_over_records_and_laws_add_by_their_squares_and_one_law_tells_nothing():
+    """Factors e^a over records and e^b over two laws make e^√(a² + b²), each by a table of one of them; digits of t(1)."""
+    x = np.exp(np.random.default_rng(1).normal(size=60))
+    records = np.tile(np.arange(60), 2)
+    both = values_of_runs({"dowelled": DOWELLED}, runs_of(np.append(x, 1.1 * x), np.repeat([1, 2], 60), records)).iloc[
+        1
+    ]
+    known = values_of_runs({"dowelled": DOWELLED}, runs_of(np.append(x, 1.1 * x), np.zeros(120), records)).iloc[1]
+    middle, far = math.log(math.sqrt(1.1)), 12.7062 * math.log(1.1) / math.sqrt(2.0) * math.sqrt(1.5)
+    q = fractile(x, x, np.arange(60), 0.84)[0] / 1e8
+    by_law = math.log(q) + middle + far - math.log(known["value_84"])
+    expected = math.hypot(by_law, math.log(known["high_84"] / known["value_84"]))
+    assert math.log(both["high_84"] / both["value_84"]) == pytest.approx(expected, rel=1e-4)
+    one = values_of_runs({"dowelled": DOWELLED}, runs_of(x, np.ones(60), np.arange(60))).iloc[1]
+    assert (one["low_84"], one["high_84"]) == (0.0, math.inf)
+
+
+def test_a_suite_and_models_tell_the_same_values_as_states(tmp_path, capsys, found):
+    """The same runs through three verbs, bit for bit; one motion leaves the upper limit at the capacity."""
+    motions = [st.ricker(frequency, st.g).scaled(0.3) for frequency in (0.3, 0.4, 0.5)]
+    model = st.DistinctElement2D()
+    told = st.suite_table([BARE, DOWELLED], motions, model, threads=1).attrs["design_values"]
+    expected = st.design_values(found)
+    expected = expected[expected["level"] == 0.3]
+    assert [one["value_84"] for one in told] == expected["value_84"].tolist()
+    assert [one["high_84"] for one in told] == expected["high_84"].tolist()
+    models = [model, st.DistinctElement2D(points=3)]
+    side = st.design_values(st.compare_models(DOWELLED, motions[0], models, labels=["a", "b"]))
+    assert side["state"].tolist() == ["a", "a", "b", "b"]
+    assert side["value_84"].tolist()[:2] == pytest.approx(
+        [0.2 * BARE.mass * st.g, 0.2 * BARE.mass * st.g / 1e8], rel=0.01
+    )
+    assert side["high_84"].tolist() == [1e4, math.inf] * 2
+    path, out = write_column(DOWELLED, tmp_path / "dowelled.toml"), tmp_path / "out"
+    line = ["compare", str(path), "--models", "dem2d,dem2d:points=3", "--pulse", "ricker,0.4Hz,0.3g", "--out", str(out)]
+    assert call(line) == 0
+    assert "Design values: not exceeded" in capsys.readouterr().out
+    assert (out / "design.csv").is_file()
+    page = tmp_path / "page.html"
+    assert call(["report", str(out), "--out", str(page)]) == 0
+    assert "Design values: what" in page.read_text()
+
+
+def test_the_moat_of_an_isolated_column_in_a_suite_is_its_largest_slip(tmp_path, capsys):
+    """One record: its slip is the value, and twins of the column move it; the command prints, writes and reports it."""
+    layer = st.Layer(joint=1, friction_coefficient=0.08, shear_stiffness=1e5)
+    path = write_column(BARE.replace(links=(layer,), name="isolated"), tmp_path / "isolated.toml")
+    line = ["suite", str(path), "sample:el-centro-1940", "--replicates", "3", "--threads", "1"]
+    out, page = tmp_path / "out", tmp_path / "page.html"
+    assert call([*line, "--out", str(out)]) == 0
+    assert "Clearance that layers need [m]: not exceeded" in capsys.readouterr().out
+    (told,) = clearances(pandas.DataFrame(json.loads((out / "suite.json").read_text())["design_values"])).to_dict(
+        "records"
+    )
+    assert (told["runs"], told["records"], told["laws"]) == (4, 1, 0)
+    own = json.loads((out / "suite.json").read_text())["runs"][0]["link_peak_slip_m"][0]
+    assert told["low_84"] <= own <= told["value_84"]
+    assert call(["report", str(out), "--out", str(page)]) == 0
+    assert "Clearance that layers need around the foot" in page.read_text()
+
+
+def test_the_moat_of_an_isolator_is_twice_its_static_slip_under_a_sudden_push():
+    """Undamped, m ü + k u = −m a from rest has its peak 2 a m/k after half a period, friction μ takes 2 μ g m/k of it.
+
+    1e-3 is left for the joint's own spring, 1e4 times as stiff as the isolator, and the damping of its joint.
+    """
+    slip, push, friction = 0.1, 0.5, 1e-3
+    stiffness = BARE.mass * push / slip
+    layer = st.Layer(joint=1, friction_coefficient=friction, shear_stiffness=stiffness)
+    isolated = BARE.replace(links=(layer,), name="isolated")
+    motion = st.Motion(0.01, np.full(400, push), name="step")
+    told = st.suite_table([isolated], [motion], st.DistinctElement2D(), threads=1).attrs["design_values"]
+    (moat,) = clearances(pandas.DataFrame(told)).to_dict("records")
+    assert moat["value_84"] == pytest.approx(2.0 * (push - friction * st.g) * BARE.mass / stiffness, rel=1e-3)
+    assert moat["high_84"] == math.inf  # one record

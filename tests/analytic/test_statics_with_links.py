@@ -267,6 +267,42 @@ def test_cohesion_and_what_is_found_stand_in_both_ways_of_limit_analysis_in_spac
             )
 
 
+@pytest.mark.parametrize(
+    ("joint", "capacities", "share", "azimuth"),
+    [
+        (ROUGH, [5.5e3], 0.0, 0.0),
+        (ROUGH, [1e6], 0.95, 0.0),
+        (SMOOTH, [1e6], 0.35, 90.0),
+        (SMOOTH, [1e6, 1e4], 0.35, 0.0),
+    ],
+)
+def test_the_most_that_a_dowel_may_hold_in_space(joint, capacities, share, azimuth):
+    """As in the plane, by hand: push and friction against it, (1/4 + μ) W, and the other dowel; it holds against the push.
+
+    It is looked for to 1e-3.
+    """
+    drum = st.Drum(4.0, 1.0, 1.0, 2500.0, "rectangular", 1.0)
+    dowels = [st.Dowel(shear_capacity=one, **DOWEL) for one in capacities]
+    (found,) = limit_directions(with_links(st.Column.of_drums([drum], joint), *dowels), [azimuth]).limits
+    assert found.multiplier == pytest.approx(0.25, rel=1e-6)
+    most = min(share * WEIGHT + sum(capacities[1:]), capacities[0]) if share else capacities[0]
+    assert found.links[0].largest == pytest.approx(most, rel=2e-3)
+    if share:
+        push = math.cos(math.radians(azimuth)), math.sin(math.radians(azimuth))
+        assert np.dot(found.links[0].towards[:2], push) == pytest.approx(-1.0, abs=1e-3)
+    assert [one.largest for one in found.links[1:]] == pytest.approx(capacities[1:], rel=2e-3)
+
+
+def test_the_most_that_a_tie_in_space_may_hold():
+    """At its capacity it pulls down along itself; pushed towards it, any tension would help to overturn: none, to 1e-5 W."""
+    tied = with_links(BLOCK, st.Tie(at=(-0.55, 0.0), axial_stiffness=1e8, axial_capacity=3e4))
+    (away,) = limit_directions(tied, [0.0]).limits
+    assert away.links[0].largest == pytest.approx(3e4, rel=1e-3)
+    assert away.links[0].towards == pytest.approx((0.0, 0.0, -1.0), abs=1e-9)
+    (to,) = limit_directions(tied, [180.0]).limits
+    assert to.links[0].largest < 1e-5 * WEIGHT
+
+
 def test_the_command_goes_all_round_a_column_with_links(tmp_path, capsys):
     tied = with_links(BLOCK, st.Tie(at=(-0.55, 0.0), axial_stiffness=1e8, axial_capacity=3e4))
     file = write_column(tied, tmp_path / "tied.toml")

@@ -331,7 +331,7 @@ def test_every_share_of_a_suite_has_its_interval_and_its_number():
            "twins_failed": 1, "collapse_interval_low": 0.12, "collapse_interval_high": 0.88}
         for k, end in enumerate(ends)
     ]  # fmt: skip
-    (sentence, look), items = _suite(SimpleNamespace(summary={"runs": runs}, pictures={}))
+    (sentence, look), items = _suite(SimpleNamespace(summary={"runs": runs}, pictures={}, tables={}))
     assert sentence == (
         "a collapses in 4 of 8 runs, and 1 more may, which are undecided: 50 to 63 % (95 % interval over 4 records: "
         "15 to 91 %)."

@@ -32,6 +32,9 @@ BALANCED = 1e-9
 #: By how much the work of a mechanism may differ from that of the multiplier [g].
 SLACK = 1e-7
 
+#: The most that a holder holds is found to this share of it, in so many directions at most.
+MOST_WITHIN, DIRECTIONS = 1e-3, 32
+
 #: A joint takes part in the mechanism with more than this share of the fastest one [-].
 MOVES = 1e-5
 
@@ -49,6 +52,18 @@ class Solved(NamedTuple):
 
 class InfeasibleError(StylobateError):
     """Nothing that joints and holders can bear carries the dead load."""
+
+
+class EndlessError(StylobateError):
+    """Nothing limits what is looked for."""
+
+
+class Aim(NamedTuple):
+    """The force of a holder along a direction of its axes, as large as it can be at a multiplier [g] or more."""
+
+    holder: int
+    way: np.ndarray
+    multiplier: float
 
 
 class ContactProgramme:
@@ -156,22 +171,60 @@ class ContactProgramme:
         """Of the holders [N]."""
         return np.array([holder.capacity for holder in self.holders])
 
-    def converged(self, dead: np.ndarray, live: np.ndarray, capacity: np.ndarray, enough: float = math.inf) -> Solved:
+    def converged(
+        self,
+        dead: np.ndarray,
+        live: np.ndarray,
+        capacity: np.ndarray,
+        enough: float = math.inf,
+        aim: Aim | None = None,
+    ) -> Solved:
         """The answer of the programme for capacities of the holders [N]: it grows until its bounds have met.
 
-        Or until the multiplier, of which it only knows more and more, is ``enough``.
+        Or until the multiplier, of which it only knows more and more, is ``enough``. With an aim the force of that holder is
+        made as large as it can be instead of the multiplier.
         """
         gap = math.inf
         for _ in range(ROUNDS):
-            found = self._solve(dead, live, capacity)
+            found = self._solve(dead, live, capacity, aim)
             if found.multiplier >= enough or self.cut:
                 return found
-            gap = self._grow(found, capacity)
-            if gap <= CLOSE * max(abs(found.multiplier), 1e-3):
+            gap = self._grow(found, capacity, aim)
+            if gap <= CLOSE * max(abs(found.multiplier), 1e-3) or (aim is not None and gap <= MOST_WITHIN * CLOSE):
                 return found
         raise StylobateError(
             f"limit analysis in space did not come to an end: the bounds are {gap:.2g} g apart after {ROUNDS} rounds"
         )
+
+    def largest(self, dead: np.ndarray, live: np.ndarray, multiplier: float, k: int) -> tuple[float, np.ndarray | None]:
+        """The most that a holder holds in any answer at a multiplier [g] or more [N], and where it pulls its upper body.
+
+        What it can hold in two directions makes a convex figure, which tangents enclose: in each direction the programme
+        tells how far it reaches, and the farthest corner of the tangents is the next direction, until what is reached is as
+        far but for :data:`MOST_WITHIN`. Infinite, without a direction, where nothing limits it.
+        """
+        one, capacity = self.holders[k], self.capacities
+        count = one.axes.shape[1]
+        ways = [np.ones(1)] if count == 1 else [_way(0.5 * math.pi * i) for i in range(4)]
+        reach: list[tuple[np.ndarray, float]] = []
+        best = np.zeros(count)
+        try:
+            while ways and len(reach) < DIRECTIONS:
+                way = ways.pop()
+                force = self.held_by(self.converged(dead, live, capacity, aim=Aim(k, way, multiplier)).forces, k)
+                best = force if np.linalg.norm(force) > np.linalg.norm(best) else best
+                reach.append((way, float(way @ force)))
+                size = float(np.linalg.norm(best))
+                if size >= one.capacity * (1.0 - MOST_WITHIN):
+                    break
+                if not ways and count == 2:
+                    corner = max(_corners(reach), key=np.linalg.norm)
+                    far = float(np.linalg.norm(corner))
+                    ways = [corner / far] if far > size * (1.0 + MOST_WITHIN) + MOST_WITHIN * 1e-3 * self.weight else []
+        except EndlessError:
+            return math.inf, None
+        size = float(np.linalg.norm(best))
+        return size, one.axes @ best / size if size > 0.0 else None
 
     def unbalanced(self, dead: np.ndarray) -> tuple[float, np.ndarray]:
         """How much of a load the joints cannot carry, over the weight, and velocities of what moves so, shape (n, 6)."""
@@ -184,8 +237,8 @@ class ContactProgramme:
                 break
         return -found.multiplier, found.rates  # pyright: ignore[reportPossiblyUnboundVariable]
 
-    def _solve(self, dead: np.ndarray, live: np.ndarray | None, capacity: np.ndarray) -> Solved:
-        """Largest multiplier with what there is; without a live load, minus the least that is not balanced."""
+    def _solve(self, dead: np.ndarray, live: np.ndarray | None, capacity: np.ndarray, aim: Aim | None = None) -> Solved:
+        """Largest multiplier, or force aimed at, with what there is; without a live load, minus the least not balanced."""
         from scipy.optimize import linprog
         from scipy.sparse import coo_array, csc_array, hstack
 
@@ -201,9 +254,14 @@ class ContactProgramme:
         known = self._matrix()
         strength = coo_array((np.ones(len(held)), (row[owner[held]], held)), (len(bounded), size + extra))
         free = (None, None) if live is not None else (0.0, None)
+        cost = np.append(np.zeros(size), np.full(extra, -1.0 if live is not None else 1.0))
+        if aim is not None:
+            free, cost = (aim.multiplier, None), np.zeros(size + extra)
+            for i in np.flatnonzero(owner == aim.holder):
+                cost[i] = -float(self.ways[i] @ aim.way)
         for presolve in (True, False):  # on a face of many answers HiGHS may come to no end with its presolve
             found = linprog(
-                np.append(np.zeros(size), np.full(extra, -1.0 if live is not None else 1.0)),
+                cost,
                 A_ub=strength if len(bounded) else None,
                 b_ub=capacity[bounded] / self.weight if len(bounded) else None,
                 A_eq=hstack((known, last), "csc"),
@@ -214,6 +272,8 @@ class ContactProgramme:
             )
             if found.status in (0, 3):
                 break
+        if found.status == 3 and aim is not None:
+            raise EndlessError(f"nothing limits what {self.holders[aim.holder].name!r} holds")
         if found.status == 3:
             endless = [holder.name for holder in self.holders if holder.capacity == math.inf]
             if not endless:
@@ -300,8 +360,8 @@ class ContactProgramme:
             self.velocity(holder.upper, holder.high, rates) - self.velocity(holder.lower, holder.low, rates)
         )
 
-    def _grow(self, solved: Solved, capacity: np.ndarray) -> float:
-        """Add what the mechanism works against; how far the multiplier may be below the largest one, at most [g]."""
+    def _grow(self, solved: Solved, capacity: np.ndarray, aim: Aim | None = None) -> float:
+        """Add what the mechanism works against; how far what is looked for may be below the largest, at most [g]."""
         most = 1.0 + float(capacity[np.isfinite(capacity)].sum()) / self.weight
         gap, rates, prices = 0.0, solved.rates, solved.prices
         for rim in self.rims:
@@ -313,6 +373,8 @@ class ContactProgramme:
             if holder.axes.shape[1] == 1:
                 continue
             speed = self._strain_rate(holder, rates)
+            if aim is not None and aim.holder == k:
+                speed = speed - aim.way
             size = float(np.hypot(*speed))
             short = size - prices[k]
             if short > 0.0 and size > 0.0:
@@ -367,11 +429,21 @@ class ContactProgramme:
 
     def held(self, forces: np.ndarray) -> np.ndarray:
         """Size of what each holder holds [N], shape (holders,)."""
-        found = np.zeros((len(self.holders), 2))
-        owner = np.array(self.owner[: len(forces)])
-        for i in np.flatnonzero((owner >= 0) & (forces > 0.0)):
-            found[owner[i], : len(self.ways[i])] += forces[i] * self.ways[i]
-        return np.hypot(*found.T) * self.weight
+        return np.array([float(np.linalg.norm(self.held_by(forces, k))) for k in range(len(self.holders))])
+
+    def held_by(self, forces: np.ndarray, k: int) -> np.ndarray:
+        """Force of a holder on its upper body along its axes [N]."""
+        found = np.zeros(self.holders[k].axes.shape[1])
+        for i in np.flatnonzero(np.array(self.owner[: len(forces)]) == k):
+            found += forces[i] * self.ways[i]
+        return found * self.weight
+
+
+def _corners(reach: list[tuple[np.ndarray, float]]) -> list[np.ndarray]:
+    """Corners of the figure that tangents enclose, each across a direction and so far along it."""
+    turned = sorted(reach, key=lambda one: math.atan2(*one[0][::-1]))
+    pairs = zip(turned, [*turned[1:], turned[0]], strict=True)
+    return [np.linalg.solve(np.array([a, b]), (far, away)) for (a, far), (b, away) in pairs]
 
 
 def _way(angle: float) -> Any:

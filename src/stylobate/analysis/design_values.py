@@ -1,16 +1,21 @@
-"""Design values of a measure: what every link bears and moves, with fractiles over records and their intervals."""
+"""Design values of a measure: what every link bears and moves, not exceeded by a share of the records, with intervals."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..campaign.twins import LAW
 from ..column.links.placed import PlacedLink
+from ..column.structure import Structure
 from ..errors import check_kind
 from . import verdicts as v
+from .compare import Comparison
 from .states import StateComparison
+from .unknown_law import few_laws, limits_under_another_law
 
 if TYPE_CHECKING:
     import pandas
@@ -44,21 +49,23 @@ QUANTITIES = (
 )
 
 
-def design_values(found: StateComparison, confidence: float = 0.95) -> pandas.DataFrame:
+def design_values(found: StateComparison | Comparison, confidence: float = 0.95) -> pandas.DataFrame:
     """Peak force, slip and elongation of every link over records and twins, level by level, with utilisation.
 
     Parameters
     ----------
-    found : StateComparison
-        As of :func:`stylobate.compare_states`.
+    found : StateComparison or Comparison
+        As of :func:`stylobate.compare_states`; or of :func:`stylobate.compare_models`, whose models are the states then and
+        whose one motion leaves every upper limit open. Those of a suite are told by ``stylobate.suite_table`` itself.
     confidence : float
         Of the intervals.
 
     Returns
     -------
     pandas.DataFrame
-        One row per state, level, link with its ``kind``, and quantity: ``unit``, ``runs``, ``records``, ``gone`` (runs that
-        collapse or lose the link) and ``undecided``; for 50, 84 and 95 %, ``value_84`` with ``low_84`` and ``high_84``, the
+        One row per state, level (1 of motions as they are), link with its ``kind``, and quantity: ``unit``, ``runs``,
+        ``records``, ``laws`` of the joints (0: taken as known), ``gone`` (runs that collapse or lose the link) and
+        ``undecided``; for 50, 84 and 95 %, ``value_84`` with ``low_84`` and ``high_84``, the
         value that this share of the motions does not exceed and its interval; ``capacity``, and ``use_value_84`` with
         ``use_low_84`` and ``use_high_84``, the same over it. Infinite: beyond all that was computed; NaN where there is no
         capacity.
@@ -70,17 +77,40 @@ def design_values(found: StateComparison, confidence: float = 0.95) -> pandas.Da
     An undecided run counts with its peaks so far in the value and the lower limit, and as a collapse in the upper one.
     Every record counts once, however many twins it has. The interval holds the values x for which Wilson's interval of the
     share of records that stay below x holds the fractile: with n records the upper limit of 84 % is finite from 21 of
-    them on, n/(n + z²) ≥ 0.84.
+    them on, n/(n + z²) ≥ 0.84. Where twins have several laws of the joints the interval holds one more of them, see
+    :func:`_with_laws`.
+    """
+    check_kind("found", found, (StateComparison, Comparison), allowed="a comparison of states or of models")
+    if isinstance(found, StateComparison):
+        return values_of_runs(dict(zip(found.labels, found.columns, strict=True)), found.table, confidence)
+    table = found.table.rename(columns={"model": "state"})
+    table["verdict"] = [v.verdict(row) for row in table.to_dict("records")]
+    stood = {label: one.structure for label, one in zip(found.labels, found.responses, strict=True)}
+    return values_of_runs(stood, table.assign(im=1.0, record=""), confidence)
+
+
+def values_of_runs(
+    stood: Mapping[str, Structure], runs: pandas.DataFrame, confidence: float = 0.95
+) -> pandas.DataFrame:
+    """The table of :func:`design_values` of any runs.
+
+    Parameters
+    ----------
+    stood : mapping of str to Structure
+        By state.
+    runs : pandas.DataFrame
+        One row per run: ``state``, ``im`` (its level), ``record``, ``verdict``, what links measure, and, where it varies,
+        ``law_of_joints`` from 1, 0 where it is that of the structure itself.
+    confidence : float
     """
     import pandas
 
-    check_kind("found", found, StateComparison)
     rows: list[dict[str, Any]] = []
-    for label, structure in zip(found.labels, found.columns, strict=True):
+    for label, structure in stood.items():
         links = [link for link in structure.placed_links if link.acts]
-        table: Any = found.table[found.table["state"] == label]
-        if not links or QUANTITIES[0].key not in table:
+        if not links or QUANTITIES[0].key not in runs:
             continue
+        table: Any = runs[runs["state"] == label]
         table = table[table["verdict"].isin((v.STANDS, v.COLLAPSED, v.UNDECIDED))]
         sizes = np.round(table["im"].to_numpy(dtype=float), DIGITS)
         for level in np.unique(sizes).tolist():
@@ -93,6 +123,9 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
     """The rows of one state at one level."""
     said = table["verdict"].to_numpy(dtype=str)
     owner = np.unique(table["record"].to_numpy(dtype=str), return_inverse=True)[1]
+    law = (
+        np.nan_to_num(table[LAW].to_numpy(dtype=float)).astype(int) if LAW in table else np.zeros(len(table), dtype=int)
+    )
     broken = np.array([[one is not None for one in run] for run in table["link_broken_s"]])
     rows = []
     for k, link in enumerate(links):
@@ -107,16 +140,89 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
             high = np.where(said == v.UNDECIDED, most, low)
             row: dict[str, Any] = {
                 "link": link.name, "kind": link.kind, "quantity": one.name, "unit": one.unit, "runs": len(table),
-                "records": int(owner.max()) + 1, "gone": int(gone.sum()), "undecided": int((said == v.UNDECIDED).sum()),
+                "records": int(owner.max()) + 1, "laws": len(np.unique(law[law > 0])),
+                "gone": int(gone.sum()), "undecided": int((said == v.UNDECIDED).sum()),
                 "capacity": limit,
             }  # fmt: skip
             for share in FRACTILES:
-                told = [min(x, most) for x in fractile(low, high, owner, share, confidence)]
+                told = fractile(low, high, owner, share, confidence)
+                told = [min(x, most) for x in _with_laws(told, low, high, owner, law, share, confidence)]
                 use = [x / limit if math.isfinite(limit) else math.nan for x in told]
                 for name, values in (("", told), ("use_", use)):
                     row |= {f"{name}{which}_{100 * share:g}": x for which, x in zip(WHICH, values, strict=True)}
             rows.append(row)
     return rows
+
+
+def _with_laws(
+    told: tuple[float, float, float],
+    low: np.ndarray,
+    high: np.ndarray,
+    owner: np.ndarray,
+    law: np.ndarray,
+    share: float,
+    confidence: float,
+) -> tuple[float, float, float]:
+    """A fractile with limits that hold one more law of the joints, where runs are of several.
+
+    Every law g has its own fractile q_g over the same records. ln q of one more lies within t(G − 1) s √(1 + 1/G) of their
+    mean; how far that is from the value and how far the limit over records is are added as independent errors are, by their
+    squares. A law under which the link bears nothing leaves the lower limit at 0, one beyond all that was computed the upper
+    one open, and fewer than two laws both.
+    """
+    groups = np.unique(law[law > 0])
+    if not len(groups):
+        return told
+
+    def of_laws(values: np.ndarray) -> np.ndarray:
+        each = []
+        for one in groups:
+            mine = law == one
+            number = np.unique(owner[mine], return_inverse=True)[1]
+            each.append(fractile(values[mine], values[mine], number, share)[0])
+        return np.array(each)
+
+    def limit(values: np.ndarray, end: int) -> float:
+        if len(groups) > 1 and (values == values[0]).all():
+            return float(values[0])
+        with np.errstate(divide="ignore"):
+            return _exp(limits_under_another_law(np.log(values), confidence)[end])
+
+    value, lower, upper = told
+    below, above = limit(of_laws(low), 0), limit(of_laws(high), 1)
+    if value == 0.0 or math.isinf(value):  # it has no middle to go from: the wider of both
+        return value, min(lower, below), max(upper, above)
+    return value, value / _together(value, lower, below), value * _together(value, upper, above)
+
+
+def _together(value: float, *limits: float) -> float:
+    """By which factor independent errors to these limits on one side of a value take it off together."""
+    logs = [math.inf if x in (0.0, math.inf) else abs(math.log(x / value)) for x in limits]
+    return _exp(math.hypot(*logs))
+
+
+def _exp(value: float) -> float:
+    """Power of e, infinite where it is too large for a number."""
+    return math.inf if value > 700.0 else math.exp(value)
+
+
+def basis_of(values: pandas.DataFrame) -> str:
+    """What the intervals hold, in words.
+
+    Parameters
+    ----------
+    values : pandas.DataFrame
+        As of :func:`design_values`.
+    """
+    laws = max(values["laws"].tolist(), default=0) if "laws" in values else 0
+    if not laws:
+        return "over records; the law of the joints is taken as known"
+    return "over records and one more law of the joints" + (f"; {few}" if (few := few_laws(laws)) else "")
+
+
+def where(values: pandas.DataFrame) -> str:
+    """At which level values are told that are those of the largest one; empty where there is only one."""
+    return " at the largest level" if len(set(values["level"])) > 1 else ""
 
 
 def worst_of(values: pandas.DataFrame, share: float = 0.84) -> pandas.DataFrame:
@@ -132,7 +238,9 @@ def worst_of(values: pandas.DataFrame, share: float = 0.84) -> pandas.DataFrame:
         Fractile [-].
     """
     key = f"use_value_{100 * share:g}"
-    known: Any = values[values[key].notna()]
+    known: Any = values[values[key].notna()] if len(values) else values
+    if not len(known):
+        return known
     known = _at_largest_level(known)
     known = known.assign(most=known.groupby(["state", "link"])[key].transform("max"))
     known = known.sort_values(["state", "most", "link", key], ascending=[True, False, True, False], kind="stable")
@@ -147,6 +255,8 @@ def clearances(values: pandas.DataFrame) -> pandas.DataFrame:
     values : pandas.DataFrame
         As of :func:`design_values`.
     """
+    if not len(values):
+        return values
     layers: Any = values[(values["kind"] == "layer") & (values["quantity"] == "slip")]
     return _at_largest_level(layers)
 

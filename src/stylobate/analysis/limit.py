@@ -63,7 +63,10 @@ class LinkForce:
     idle : bool
         Whether it need not act; all links that are idle may be left out together.
     largest : float
-        The most that it holds in any answer [N], infinite where nothing limits it; NaN where it is not computed, in space.
+        The most that it holds in any answer [N], infinite where nothing limits it; NaN where it is not computed, in space in
+        other directions than the weakest.
+    towards : (float, float, float), optional
+        In space, the direction of the largest force on the part above, a unit vector along x, y, z.
     """
 
     name: str
@@ -73,6 +76,7 @@ class LinkForce:
     yields: bool
     idle: bool
     largest: float = math.nan
+    towards: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -224,10 +228,16 @@ def limit_analysis(
     return _result(stack, lower, upper, forces, rates / control, multipliers / control, facets, shown, links)
 
 
-def link_forces(links: Sequence[Any], needed: Needed, largest: np.ndarray | None = None) -> tuple[LinkForce, ...]:
-    """Demand on the links of a programme, which have a name, an action and a capacity; the most of it [N] where known."""
+def link_forces(
+    links: Sequence[Any], needed: Needed, largest: np.ndarray | None = None, towards: Sequence[Any] | None = None
+) -> tuple[LinkForce, ...]:
+    """Demand on the links of a programme, which have a name, an action and a capacity; the most of it [N] where known, and
+    in space its direction."""
     most = np.full(len(links), math.nan) if largest is None else np.maximum(largest, np.abs(needed.least))
-    told = zip(links, needed.least.tolist(), needed.yields.tolist(), needed.idle.tolist(), most.tolist(), strict=True)
+    ways = [None] * len(links) if towards is None else towards
+    told = zip(
+        links, needed.least.tolist(), needed.yields.tolist(), needed.idle.tolist(), most.tolist(), ways, strict=True
+    )
     return tuple(LinkForce(link.name, link.action, least, link.capacity, *rest) for link, least, *rest in told)
 
 

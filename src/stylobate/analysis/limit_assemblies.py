@@ -93,8 +93,11 @@ class AssemblyProgramme:
                 f"{'begins' if len(names) == 1 else 'begin'} to move; correct its geometry or its friction."
             )
 
-    def solve(self, azimuth: float) -> DirectionLimit:
-        """The limit of horizontal forces in proportion to mass towards an azimuth [degrees]."""
+    def solve(self, azimuth: float, largest: bool = False) -> DirectionLimit:
+        """The limit of horizontal forces in proportion to mass towards an azimuth [degrees].
+
+        With ``largest`` also the most that every link holds then.
+        """
         angle, programme = azimuth * DEGREE, self.programme
         push = np.array([math.cos(angle), math.sin(angle), 0.0])
         live = programme.body_force(push)
@@ -113,7 +116,7 @@ class AssemblyProgramme:
             found.multiplier + 0.0,
             joint + 1,
             mode,
-            demand(programme, self.dead, live, found),
+            demand(programme, self.dead, live, found, largest),
             between=tuple(self.structure.bodies[i].name for i in between),
             moving=tuple(self._who(rates)),
             upper_bound=slides or twists,

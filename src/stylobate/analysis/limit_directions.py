@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -77,13 +77,22 @@ def limit_directions(structure: Structure, azimuths: Sequence[float] | None = No
     if not asked or not np.isfinite(asked).all():
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
     if column is None:
-        known = AssemblyProgramme(stands)
-        return LimitByDirection(tuple(known.solve(one) for one in asked), "xyz")
+        return _with_largest(AssemblyProgramme(stands).solve, asked)
     if not column.links:
         return LimitByDirection(tuple(limit_in_space(column, one) for one in asked), "xyz")
     column.must_carry_on_whole_faces("limit analysis in space")
     programme = SpaceProgramme(column)  # what it learns in one direction serves the next
-    return LimitByDirection(tuple(DirectionLimit(one, *programme.solve(one)) for one in asked), "xyz")
+    return _with_largest(lambda one, largest: DirectionLimit(one, *programme.solve(one, largest)), asked)
+
+
+def _with_largest(solve: Callable[[float, bool], DirectionLimit], asked: Sequence[float]) -> LimitByDirection:
+    """All directions; in the weakest one also the most that links hold."""
+    found = LimitByDirection(tuple(solve(one, False) for one in asked), "xyz")
+    weakest = found.weakest
+    if not weakest.links:
+        return found
+    told = solve(weakest.azimuth, True)
+    return LimitByDirection(tuple(told if one is weakest else one for one in found.limits), "xyz")
 
 
 def _in_plane(column: Column, direction: float, loads: dict[str, Any]) -> DirectionLimit:

@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..models.rigid_block.stack_links import APART, LINE, SHEAR, Hold, holds
 from .contact_programme import MOVES, ContactProgramme, InfeasibleError, Solved
 from .contact_rims import Holder, Rim
-from .least_forces import Borne, needed_forces
+from .least_forces import SAME, Borne, needed_forces
 from .limit import LinkForce, link_forces
 
 
@@ -74,8 +74,11 @@ class SpaceProgramme:
         frame = at.frame[link.joint - 1]
         return Holder(hold.name, hold.action, *bodies, upper, upper, held_along(hold, frame), hold.capacity)
 
-    def solve(self, azimuth: float) -> SpaceLimit:
-        """The multiplier of horizontal forces in proportion to mass towards an azimuth [degrees]."""
+    def solve(self, azimuth: float, largest: bool = False) -> SpaceLimit:
+        """The multiplier of horizontal forces in proportion to mass towards an azimuth [degrees].
+
+        With ``largest`` also the most that every link holds then, in the column's own axes.
+        """
         angle, programme = azimuth * DEGREE, self.programme
         push = base_axes(self.column).T @ (math.cos(angle), math.sin(angle), 0.0)
         live = programme.body_force(push)
@@ -84,7 +87,7 @@ class SpaceProgramme:
         sizes = programme.movements(found.rates)
         joint = int(np.argmax(sizes.max(axis=1) > MOVES * sizes.max()))
         mode = ("rocking", "sliding", "twisting")[int(np.argmax(sizes[joint]))]
-        return SpaceLimit(found.multiplier + 0.0, joint + 1, mode, demand(programme, self.dead, live, found))
+        return SpaceLimit(found.multiplier + 0.0, joint + 1, mode, demand(programme, self.dead, live, found, largest))
 
 
 def held_along(hold: Hold, frame: np.ndarray) -> np.ndarray:
@@ -94,7 +97,9 @@ def held_along(hold: Hold, frame: np.ndarray) -> np.ndarray:
     return frame[:, 2:] if hold.action == APART else -frame[:, 2:]
 
 
-def demand(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, found: Solved) -> tuple[LinkForce, ...]:
+def demand(
+    programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, found: Solved, largest: bool = False
+) -> tuple[LinkForce, ...]:
     """Action of the links at the multiplier of an answer, for these loads.
 
     Parameters
@@ -104,6 +109,8 @@ def demand(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, foun
     dead, live : array
         Over the weight, shape (6 n,).
     found : Solved
+    largest : bool
+        Whether to look for the most that each holds as well.
     """
     links = [k for k, holder in enumerate(programme.holders) if holder.name]
     if not links:
@@ -124,4 +131,10 @@ def demand(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, foun
             return Borne(-math.inf, none, none, found.forces)
 
     needed = needed_forces(bear, every[links], borne(found))
-    return link_forces([programme.holders[k] for k in links], needed)
+    told = [programme.holders[k] for k in links]
+    if not largest:
+        return link_forces(told, needed)
+    least = found.multiplier - SAME * max(abs(found.multiplier), 1e-3)
+    most = [programme.largest(dead, live, least, k) for k in links]
+    towards = [None if way is None else tuple(way.tolist()) for _, way in most]
+    return link_forces(told, needed, np.array([size for size, _ in most]), towards)

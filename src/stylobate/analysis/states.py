@@ -201,7 +201,7 @@ def compare_states(
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
     differences = tuple(
-        _with_undecided(told[first], one, curves[first], curve, samples, seed, confidence)
+        with_undecided(told[first], one, curves[first], curve, samples, seed, confidence)
         for first, one, curve in zip(compared.values(), told[1:], curves[1:], strict=True)
     )
     side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records, told[0].laws))
@@ -224,7 +224,7 @@ def _curve(one: Evidence, samples: int, seed: int, confidence: float) -> Fragili
         return None
 
 
-def _with_undecided(
+def with_undecided(
     first: Evidence,
     other: Evidence,
     first_curve: Fragility | None,

@@ -20,6 +20,7 @@ from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
 from ..motion.orientation import record_of
+from .design_values import values_of_runs
 from .difference import caveat
 from .directions import direction_of
 from .population import Population
@@ -94,7 +95,8 @@ def suite_table(
         ``stylobate run``, the factor by which the record was multiplied, and its intensity measures along x, with
         those that relate it to the column (:data:`INTENSITIES`); an assembly has no slenderness. With twins, the probability
         of collapse with its interval, and what 16, 50 and 84 % of them do not exceed; ``attrs["twins"]`` tells by column how
-        they differ.
+        they differ. Where links act, ``attrs["design_values"]`` has the rows of :func:`stylobate.design_values`, over all
+        runs and twins.
 
     Raises
     ------
@@ -126,7 +128,9 @@ def suite_table(
     cases += [Case(twin, motion) for some in drawn for motion in motions for twin in some.columns]
     request = Request.of(cases, Hasher(model, campaign.options), share_of(motions, campaign.whole))
     found = run_all(request, campaign)
+    linked: list[dict[str, Any]] = []
     for i, (case, row, line) in enumerate(zip(cases[:own], found, rows, strict=False)):
+        of_twins: list[dict[str, Any]] = []
         if row is not None:
             line |= row | {"verdict": verdict(row), "model": model.name}
             if (width := case.column.base_width) is not None:
@@ -135,7 +139,14 @@ def suite_table(
             some = drawn[i // len(motions)]
             of_twins = [one for one in found[own + i * number : own + (i + 1) * number] if one is not None]
             line |= Population(some, tuple(of_twins)).columns
+            of_twins = [one | some.law_of(k) for k, one in enumerate(of_twins)]
+        if case.column.links:
+            own_run = [row] if row is not None else []
+            named = {"state": case.column.name, "im": 1.0, "record": line["record"]}
+            linked += [one | named | {"verdict": verdict(one)} for one in own_run + of_twins]
     table = pandas.DataFrame(rows)
+    values = values_of_runs({one.name: one for one in stands}, pandas.DataFrame(linked))
+    table.attrs["design_values"] = values.to_dict("records")
     table.attrs["doubt"] = caveat(stands, model)
     table.attrs["twins"] = {one.name: {"words": some.words, **some.facts} for one, some in zip(stands, drawn)}
     return table

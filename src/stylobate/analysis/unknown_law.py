@@ -77,15 +77,39 @@ def under_another_law(values: np.ndarray, samples: int, rng: np.random.Generator
     -------
     array, shape (samples,)
     """
+    freedom, below, above = _foretold(values)
+    draws = rng.standard_t(freedom, samples)
+    return draws * np.where(draws > 0.0, above, below)
+
+
+def limits_under_another_law(values: np.ndarray, confidence: float = 0.95) -> tuple[float, float]:
+    """Limits of what one more law comes to: the mean of what is finite, less and more what :func:`under_another_law` draws.
+
+    Parameters
+    ----------
+    values : array, shape (G,)
+        As there.
+    confidence : float
+    """
+    from scipy.special import stdtrit
+
+    freedom, below, above = _foretold(values)
+    far, known = float(stdtrit(freedom, 0.5 + 0.5 * confidence)), values[np.isfinite(values)]
+    middle = float(known.mean()) if len(known) else 0.0
+    return middle - far * below, middle + far * above
+
+
+def _foretold(values: np.ndarray) -> tuple[int, float, float]:
+    """Degrees of freedom of what one more law comes to, and its spread s √(1 + 1/G) to below and to above the mean."""
     known = values[np.isfinite(values)]
-    draws = rng.standard_t(max(len(known) - 1, 1), samples)
     if len(known) < 2:
-        return np.copysign(np.inf, draws)
-    draws *= known.std(ddof=1) * np.sqrt(1.0 + 1.0 / len(known))
+        return 1, np.inf, np.inf
+    spread = float(known.std(ddof=1) * np.sqrt(1.0 + 1.0 / len(known)))
     told_by_none = np.isnan(values).any()
-    draws[(draws > 0.0) & (told_by_none or np.isposinf(values).any())] = np.inf
-    draws[(draws < 0.0) & (told_by_none or np.isneginf(values).any())] = -np.inf
-    return draws
+    below, above = (
+        np.inf if told_by_none or end.any() else spread for end in (np.isneginf(values), np.isposinf(values))
+    )
+    return len(known) - 1, below, above
 
 
 def few_laws(number: int) -> str:

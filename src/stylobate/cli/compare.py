@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
 from . import options as o
+from .design import WRITES, describe_design, write_design
 
 if TYPE_CHECKING:
     from .files import Files
@@ -37,7 +38,10 @@ def compare(
 
     States of one column, as built, as found and with a measure, are compared by 'stylobate states'.
     """
+    import pandas
+
     from ..analysis.compare import compare_domains, compare_models
+    from ..analysis.design_values import design_values
     from ..analysis.difference import caveat
     from ..motion.orientation import keep_axes
     from ..motion.ranges import amplitude_range, frequency_range
@@ -53,6 +57,7 @@ def compare(
     chosen = o.the_models([_chosen(name, names, settings) for name in names], losses)
     result: dict[str, Any] = {"models": names, "doubt": caveat([stone], *chosen)}
     facts: dict[str, str] = {}
+    designed = pandas.DataFrame()
     what: dict[str, Any] = {"structures": [stone], "models": chosen, "labels": names, "tail_s": campaign.tail}
     if over_domain:
         if frequencies is None or amplitudes is None:
@@ -78,12 +83,14 @@ def compare(
             raise InputError("--dask is for domains, and one motion is run here; leave it out.", "dask")
         shaking = motions.request().motion(stone.frequency_parameter)
         each = [f"response-{_stem(name)}.nc" for name in names]
-        with execution.files("compare", "comparison.csv", "comparison", *each) as files:
+        with execution.files("compare", "comparison.csv", "comparison", *WRITES, *each) as files:
             places = [files / one for one in each] if files.wanted else []
             with files.campaign(campaign.of_runs, "models") as asked:
                 comparison = compare_models(stone, shaking, chosen, labels=names, files=places, campaign=asked)
+            designed = design_values(comparison)
             if files.wanted:
                 _write_histories(comparison, files, places)
+                write_design(designed, files)
                 files.asked(**what, motions=[shaking])
         runs = [
             response.summary() | {"left_out": o.input_facts(one.taken(shaking))["left_out"]}
@@ -91,7 +98,7 @@ def compare(
         ]
         shared = keep_axes(shaking, "".join(one.axes for one in chosen))  # what some of the models take
         table, facts = comparison.table, o.input_lines(shared)
-        result |= o.input_facts(shared) | {"runs": runs}
+        result |= o.input_facts(shared) | {"runs": runs, "design_values": designed.to_dict("records")}
     result["files"] = files.names
     if execution.emits(result):
         return
@@ -103,6 +110,7 @@ def compare(
     else:
         told = table.drop(columns="bodies", errors="ignore")  # each has measures of its own, which the files hold
         console.print_side_by_side(told)
+        describe_design(designed)
     console.print_files(files)
 
 

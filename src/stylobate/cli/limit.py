@@ -183,6 +183,7 @@ def link_rows(links: Sequence[LinkForce]) -> list[dict]:
             "action": link.action,
             "force_n": link.force,
             "largest_force_n": None if math.isnan(link.largest) else link.largest,
+            "largest_force_towards": None if link.towards is None else list(link.towards),
             "capacity_n": link.capacity,
             "yields": link.yields,
             "need_not_act": link.idle,

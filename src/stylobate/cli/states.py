@@ -7,17 +7,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
 from . import options as o
+from .design import WRITES, describe_design, write_design
 
 if TYPE_CHECKING:
-    import pandas
-
     from ..analysis.states import StateComparison
     from ..campaign.campaign import Campaign
     from ..column.structure import Structure
     from ..models.base import Model
 
 
-def the_states(as_built: str | None, as_found: str | None, strengthened: list[str] | None) -> dict[str, str]:
+def the_states(
+    as_built: str | None, as_found: str | None, strengthened: list[str] | None, fewest: int = 2
+) -> dict[str, str]:
     """Columns to be compared, by label; those with a measure are called after their files."""
     found = {name: text for name, text in (("as built", as_built), ("as found", as_found)) if text is not None}
     for text in strengthened or ():
@@ -25,10 +26,38 @@ def the_states(as_built: str | None, as_found: str | None, strengthened: list[st
         if label in found:
             raise InputError(f"two of the states are called {label!r}; rename one of the files.", "states")
         found[label] = text
-    if len(found) < 2:
+    if len(found) < fewest:
         given = f"only the state {next(iter(found))!r} is given" if found else "no state is given"
         raise InputError(f"{given}; give two or more of --as-built, --as-found and --with.", "states")
     return found
+
+
+def the_candidates(
+    vary: list[str] | None, strengthened: list[str], columns: dict[str, Structure]
+) -> dict[str, Structure]:
+    """Columns with numbers as typed, ``kind.field=values``, in place of those of the one measure; none without."""
+    from ..analysis.vary import candidates
+    from ..motion.ranges import values_of
+
+    if not vary:
+        return {}
+    if len(strengthened) != 1:
+        raise InputError(f"--vary is for one measure, and {len(strengthened)} are given; give one --with.", "vary")
+
+    def number(text: str) -> float:
+        try:
+            return float(text)
+        except ValueError:
+            raise InputError(f"{text!r} is no number; write it in SI without a unit, such as 0.02.", "vary") from None
+
+    asked: dict[str, list[float]] = {}
+    for text in vary:
+        name, equals, values = text.partition("=")
+        if not equals or name in asked:
+            why = "is given twice" if equals else "has no values"
+            raise InputError(f"{name!r} of --vary {why}; write each once, such as dowel.diameter=0.02:0.06:5.", "vary")
+        asked[name] = values_of("vary", values, number, "0.02:0.06:5").tolist()
+    return candidates(columns[Path(strengthened[0]).stem], asked)
 
 
 def states(
@@ -39,6 +68,10 @@ def states(
     model: str = o.option("MODEL", "How it is computed.", "dem2d"),
     im: str | None = o.option("MEASURE", "Scale the records to it, such as pgv."),
     levels: str | None = o.option("A:A:N", "Its levels, such as 0.2m/s:1.6m/s:8."),
+    vary: list[str] | None = o.option(
+        "KIND.FIELD=A:B:N",
+        "Candidates for a number of the links [SI], such as dowel.diameter=0.02:0.06:5; may be repeated.",
+    ),
     state: str = o.option("STATE", "Limit state, such as collapse or top:0.35d.", "collapse"),
     *,
     population: o.Population,
@@ -53,9 +86,11 @@ def states(
 
     Fragility curves under the same records with paired differences, and what the links bore.
     """
-    from ..analysis.design_values import design_values, worst_of
+    from ..analysis.design_values import design_values
+    from ..analysis.difference import NO_MEASURE
     from ..analysis.limit_states import parse_state
     from ..analysis.states import compare_states
+    from ..analysis.vary import best_of
     from ..campaign.study_files import levels_of
     from . import console
 
@@ -64,18 +99,20 @@ def states(
     sources = records or motions.motion
     if not (sources or motions.harmonic or motions.pulse or motions.synthetic):
         raise InputError("no record is given; name a folder of records, or files, before the options.", "records")
-    named = the_states(as_built, as_found, strengthened)
+    named = the_states(as_built, as_found, strengthened, 1 if vary else 2)
     how = o.the_model(model, settings, losses)
     campaign = execution.campaign(following, population)
     request = motions.request(motion=sources, separate=bool(sources))
     columns = {label: o.the_structure(text, project) for label, text in named.items()}
+    tried = the_candidates(vary, strengthened or [], columns)
+    columns = {label: one for label, one in columns.items() if not tried or label in NO_MEASURE} | tried
     if (im is None) != (levels is None):
         raise InputError("records are scaled by --im and --levels together; give both, such as --im pgv --levels "
                          "0.2m/s:1.6m/s:8.", "im")  # fmt: skip
     parse_state(state)
     measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
     suite = request.expand()
-    with execution.files("states", "states.csv", "links.csv", "design.csv", "states.json", "states", "design") as files:
+    with execution.files("states", "states.csv", "links.csv", "states.json", "states", *WRITES) as files:
         with files.campaign(campaign, in_folder=True) as asked:
             found = compare_states(
                 columns, suite.motions, how, sizes, measure, state=state, out=files.folder, campaign=asked
@@ -87,16 +124,15 @@ def states(
             "refused": suite.refused,
             "files": [],
         }
+        best = best_of(found, list(tried), seed=campaign.seed) if tried else None
+        summary |= {} if best is None else {"best": best.summary()}
         if files.wanted:
             from .. import plots
 
             files.table(found.table, "states.csv")
             files.table(found.links, "links.csv")
-            if len(designed):
-                files.table(designed, "design.csv")
             files.picture(plots.draw_states(found), "states")
-            if len(designed) and len(worst_of(designed)):
-                files.picture(plots.draw_design_values(designed), "design")
+            write_design(designed, files)
             what: dict[str, Any] = {"structures": list(columns.values()), "models": [how], "states": list(columns)}
             what |= {"motions": [how.taken(motion) for motion in suite.motions], "runs": found.table}
             what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": campaign.tail}
@@ -105,33 +141,13 @@ def states(
     if execution.emits(summary):
         return
     describe(found)
-    _describe_design(designed)
+    describe_design(designed)
+    if best is not None:
+        console.print_table(best.table, digits=3)
+        print(best.words)
     console.print_refused(suite.refused)
     if files:
         print(f"{len(files)} files in {execution.out}")
-
-
-def _describe_design(designed: pandas.DataFrame) -> None:
-    """Print the links used most of every state, and the clearance that layers need; nothing where there are none."""
-    import pandas
-
-    from ..analysis.design_values import clearances, worst_of
-    from . import console
-
-    if not len(designed):
-        return
-    words = "not exceeded under 84 % of the motions, with the 95 % interval over records."
-    if len(worst := worst_of(designed)):
-        print(f"Design values at the largest level: {words}")
-        some = worst.groupby("state", sort=False).head(6)
-        told: dict[str, Any] = {key: some[key] for key in ("state", "link", "quantity", "unit")}
-        told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
-        told |= {"over capacity": some["use_value_84"], "at most": some["use_high_84"]}
-        console.print_table(pandas.DataFrame(told), digits=3)
-    if len(wide := clearances(designed)):
-        print(f"Clearance that layers need at the largest level [m]: {words}")
-        told = {"state": wide["state"], "link": wide["link"], "84 %": wide["value_84"], "from": wide["low_84"]}
-        console.print_table(pandas.DataFrame(told | {"to": wide["high_84"]}), digits=3)
 
 
 def _twins(columns: dict[str, Structure], model: Model, campaign: Campaign) -> dict[str, Any]:

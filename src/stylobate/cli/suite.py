@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from ..percent import percent
 from . import options as o
+from .design import WRITES, describe_design, write_design
 
 #: Columns of the table that are printed.
 SHOWN = (
@@ -46,6 +47,8 @@ def suite(
     A table of outcomes and of measures of the records; with --out, a figure of the peak response against one of them. With
     --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
+    import pandas
+
     from ..analysis.directions import compass_of_shares, harm_words, worst
     from ..analysis.population import CHANCE, chance_words
     from ..analysis.suite import check_measure, suite_shares, suite_table
@@ -61,7 +64,7 @@ def suite(
         raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.", "also")
     how = o.the_model(model, settings, losses)
     records = motions.request(motion=sources, separate=True).expand()
-    with execution.files("suite", "suite.csv", "suite.json", "suite", "directions") as files:
+    with execution.files("suite", "suite.csv", "suite.json", "suite", "directions", *WRITES) as files:
         with files.campaign(campaign) as asked:
             table = suite_table(stones, records.motions, how, campaign=asked)
         turned = any(
@@ -77,7 +80,9 @@ def suite(
             "refused": records.refused,
             "model": how.name,
             "doubt": table.attrs["doubt"],
+            "design_values": table.attrs["design_values"],
         }
+        designed = pandas.DataFrame(table.attrs["design_values"])
         if twins := table.attrs["twins"]:
             result |= {"replicates": campaign.replicates, "twins": twins}
         compass = compass_of_shares(result["runs"])
@@ -88,6 +93,7 @@ def suite(
             from .. import plots
 
             files.table(table, "suite.csv")
+            write_design(designed, files)
             files.json(result, "suite.json")
             files.picture(plots.draw_suite(table, against), "suite")
             if swept and len(compass.bearings) > 1:
@@ -104,6 +110,7 @@ def suite(
         shown = rows.filter(list(SHOWN))
         shown = shown.rename(columns={"chance": CHANCE}) if any(shown["chance"]) else shown.drop(columns="chance")
         console.print_table(shown, digits=3)
+    describe_design(designed)
     for name, drawn in twins.items():
         print(f"{drawn['like']} like {name}: {drawn['words']}")
     if swept and result["worst"] is not None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from ..analysis.design_values import worst_of
+from ..analysis.design_values import basis_of, worst_of
 from .style import CYCLE, GREY, WIDTH, page, plain, styled
 
 if TYPE_CHECKING:
@@ -50,7 +50,9 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     labels = [f"{plain(link)}, {quantity}" for link, quantity in zip(shown["link"], shown["quantity"], strict=True)]
     axes.set_yticks(np.arange(len(shown))[::-1], labels)
     axes.set(xlim=(0.0, far), ylim=(-0.6, len(shown) - 0.4))
-    axes.set_xlabel("over capacity [-]: not exceeded under 84 % of the motions,\nand its 95 % interval over records")
+    axes.set_xlabel(
+        "over capacity [-]: not exceeded under 84 % of the motions, and its 95 % interval\n" + basis_of(values)
+    )
     for state in states:
         axes.plot([], [], color=looks[state], marker="o", label=plain(state))
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=min(len(states), 3), fontsize=8, frameon=False)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..analysis.design_values import worst_of
 from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER
 from ..analysis.evidence import evidence
 from ..analysis.fragility_checks import FEWEST
@@ -14,8 +13,10 @@ from ..percent import percents
 from ..response.links import YIELDS
 from ..results import Numbers
 from . import numbers as n
+from .design import design_items
 from .page import Item, Note, Points, Rows
 from .pictures import kept
+from .tables import table
 
 #: Style of the notes on conclusions.
 LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
@@ -75,7 +76,10 @@ def states_items(result: Numbers) -> list[Item]:
     )
     if s["links"]:
         items.append(_links(s["links"]))
-    return items + _design(result)
+    if best := s.get("best"):
+        keys = ("candidate", "share_low", "share_high", "use", "use_high", "difference_low", "difference_high", "alike")
+        items.append(table(best["candidates"], keys, best["words"]))
+    return items + design_items(result.tables.get("design"), result.pictures)
 
 
 def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
@@ -129,42 +133,6 @@ def _links(links: list[dict[str, Any]]) -> Rows:
     left_out = f" The first {MOST} of {len(links)}; links.csv holds all." if len(links) > MOST else ""
     return Rows(header, body, BORE + left_out, numbers=True)
 
-
-def _design(result: Numbers) -> list[Item]:
-    """Design values of the links that are used most, and their picture."""
-    values = result.tables.get("design")
-    if values is None or not len(values) or not len(worst := worst_of(values)):
-        return []
-    header = [
-        "state",
-        "link",
-        "quantity",
-        "unit",
-        "84 %",
-        "from",
-        "to",
-        "over capacity",
-        "at most",
-        "runs",
-        "undecided",
-    ]
-    keys = ("state", "link", "quantity", "unit", "value_84", "low_84", "high_84", "use_value_84", "use_high_84", "runs",
-            "undecided")  # fmt: skip
-    body = [[n.plain(one[key]) for key in keys] for one in worst.head(MOST).to_dict("records")]
-    pictures = kept(
-        result.pictures,
-        "design",
-        "Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all that ran.",
-    )
-    return [Rows(header, body, DESIGN, numbers=True), *pictures]
-
-
-#: Caption of the table of design values.
-DESIGN = (
-    "Design values at the largest level: what 84 % of the motions do not exceed, its 95 % interval over records, and both "
-    "over the capacity; links used most come first. inf: beyond all that was computed, because runs "
-    "collapse or lose the link, or there are fewer than 21 records. design.csv holds every level, quantity, and 50 and 95 %."
-)
 
 #: Caption of the table of links.
 BORE = (

@@ -52,7 +52,7 @@ KEYS = {
 TABLES = {
     Kind.CRITICAL: ("critical",),
     Kind.STATES: ("states", "design"),
-    Kind.SUITE: ("suite",),
+    Kind.SUITE: ("suite", "design"),
     Kind.IDA: ("capacities", "fractiles", "measures"),
     Kind.RISK: ("risk",),
     Kind.SURVIVAL: ("survival", "hazard"),
@@ -63,7 +63,7 @@ TABLES = {
 #: Further files by kind, a picture by its name without an ending, besides the one that is called after the kind.
 FURTHER = {
     Kind.CRITICAL: ("probability", "directions"),
-    Kind.SUITE: ("directions",),
+    Kind.SUITE: ("directions", "design"),
     Kind.LIMIT: ("directions",),
     Kind.IDA: ("measures",),
     Kind.RUNS: ("directions",),
@@ -201,7 +201,8 @@ def _read_comparison(place: Path) -> Comparison:
     table = _table(place / "comparison.csv")
     files = sorted(path.name for path in place.glob("response-*.nc"))
     responses = {name.removeprefix("response-").removesuffix(".nc"): load_response(place / name) for name in files}
-    names = ["comparison.csv", "comparison", *files, *(path.name for path in sorted(place.glob("domain-*.nc")))]
+    names = ["comparison.csv", "comparison", "design.csv", "design", *files]
+    names += [path.name for path in sorted(place.glob("domain-*.nc"))]
     return Comparison(**_common(place, Kind.COMPARE, "compare", names, {}), table=table, responses=responses)
 
 

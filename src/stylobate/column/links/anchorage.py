@@ -9,8 +9,12 @@ from ...errors import InputError, check_range
 #: k of the cone (EN 1992-4, 7.2.1.4, post-installed) and of the edge (7.2.2.5), cracked and not; in N and mm.
 CONE, EDGE = {True: 7.7, False: 11.0}, {True: 1.7, False: 2.4}
 
-#: An edge is far from a cone from so many embedments on, and a bar counts along the edge for so many diameters (EN 1992-4).
-FAR, LONGEST = 1.5, 12.0
+#: An edge is far from a cone from so many embedments on (EN 1992-4).
+FAR = 1.5
+
+#: A bar counts along the edge for so many diameters; one thicker than so much [mm] for so many, or so much [mm]
+#: (EN 1992-4, 7.2.2.5).
+LONGEST, THICK, LONGEST_OF_THICK = 12.0, 24.0, (8.0, 300.0)
 
 #: Allowed range of each input, in SI.
 RANGES = {
@@ -59,12 +63,14 @@ def stone_at_anchor(
     Notes
     -----
     All three were measured on concrete. Of stone they are an estimate: bedding planes and veins are not in them, they have
-    no partial factors, and an anchor that matters is to be tested in the stone itself. With mm and MPa:
+    no partial factors, and an anchor that matters is to be tested in the stone itself. The cone is that of a fastener that
+    bears at its end: of a straight bar that only adheres it is an upper bound, as it may be pulled out of its grout first.
+    How each constant was checked is told on the page on strengthening. With mm and MPa:
 
     * cone, EN 1992-4, 7.2.1.4: N = k √f_c h^1.5, times (c + 1.5 h)/(3 h) and 0.7 + 0.3 c/(1.5 h) where the edge is nearer
       than 1.5 h; other edges and anchors are far;
     * edge, EN 1992-4, 7.2.2.5: V = k d^α l^β √f_c c^1.5 with α = 0.1 √(l/c), β = 0.1 (d/c)^0.2, l the embedment, at most
-      12 d; the stone is at least 1.5 c thick and wide;
+      12 d, of bars beyond 24 mm at most the larger of 8 d and 300 mm; the stone is at least 1.5 c thick and wide;
     * bearing with a hinge in the bar, CEB-FIP Model Code 1990 after Rasmussen (1963), without eccentricity:
       V = 1.3 d² √(f_c f_y), at most A f_y/√3, far from any edge and with an embedment that lets the hinge form.
     """
@@ -87,7 +93,7 @@ def stone_at_anchor(
             f"edge is {c:g} mm and half the diameter {0.5 * d:g} mm: the anchor is not in the stone.", "edge"
         )
     near = min(c / (FAR * h), 1.0)
-    length = min(h, LONGEST * d)
+    length = min(h, LONGEST * d if d <= THICK else max(LONGEST_OF_THICK[0] * d, LONGEST_OF_THICK[1]))
     return {
         "cone": CONE[cracked] * math.sqrt(strength) * h**1.5 * 0.5 * (1.0 + near) * (0.7 + 0.3 * near),
         "edge": EDGE[cracked] * d ** (0.1 * math.sqrt(length / c)) * length ** (0.1 * (d / c) ** 0.2)

@@ -1,0 +1,207 @@
+"""The best of a few numbers of a measure: candidates under the same records, and those not to be told from the best."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..column.structure import Structure
+from ..errors import InputError, check_kind
+from ..response.links import AT_CAPACITY
+from .design_values import basis_of, design_values, worst_of
+from .evidence import evidence
+from .fragility import SAMPLES
+from .fragility_checks import FEWEST
+from .side_by_side import shares
+from .states import StateComparison, with_undecided
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Fields of a placed link by which candidates must differ: how it looks and how it finds its hole again is too little.
+HELD = (
+    "shear_stiffness", "shear_capacity", "axial_stiffness", "axial_capacity", "clearance", "damping", "lift", "pretension",
+    "ultimate_slip", "ultimate_elongation", "bed_stiffness", "failure",
+)  # fmt: skip
+
+#: Most candidates: each is run under all records, levels and twins.
+MOST = 64
+
+
+def candidates(column: Structure, vary: Mapping[str, Sequence[float]]) -> dict[str, Structure]:
+    """The column with each combination of the numbers of its links.
+
+    Parameters
+    ----------
+    column : Column
+        With the measure.
+    vary : mapping of str to sequence of float
+        Values [SI] by ``kind.field``, such as ``dowel.diameter``: all links of that kind take them.
+
+    Returns
+    -------
+    dict of str to Column
+        By the numbers in words.
+
+    Raises
+    ------
+    InputError
+        A kind that the column does not have, what is no number of it, a value that the kind refuses, numbers that change
+        nothing because others are given beside them, or more than 64 candidates.
+    """
+    stack = check_kind("column", column, Structure).stack
+    if stack is None:
+        raise InputError(
+            f"numbers of links are varied of columns, and {column.name!r} is {column.described}; write a file for each "
+            "candidate and compare them as states.",
+            "vary",
+        )
+    if not vary:
+        raise InputError("no number is varied; give one, such as dowel.diameter.", "vary")
+    kinds = sorted({link.kind for link in stack.links})
+    for name in vary:
+        kind, _, field = name.partition(".")
+        if kind not in kinds:
+            known = ", ".join(kinds) or "none"
+            raise InputError(f"{name!r} is varied, and {column.name!r} has no link {kind!r}; it has {known}.", "vary")
+        one = next(link for link in stack.links if link.kind == kind)
+        numbers = [f.name for f in dataclasses.fields(one) if "float" in str(f.type) and "tuple" not in str(f.type)]
+        if field not in numbers:
+            raise InputError(f"{name!r} is no number of a {kind}; those are {', '.join(numbers)}.", "vary")
+    every = list(itertools.product(*vary.values()))
+    if not 2 <= len(every) <= MOST:
+        raise InputError(f"{len(every)} candidates are asked for; allowed are from 2 to {MOST}.", "vary")
+    found: dict[str, Structure] = {}
+    for values in every:
+        told = {name: float(value) for name, value in zip(vary, values, strict=True)}
+        links = [
+            dataclasses.replace(
+                link, **{k.partition(".")[2]: x for k, x in told.items() if k.split(".")[0] == link.kind}
+            )
+            for link in stack.links
+        ]
+        found[", ".join(f"{name}={value:g}" for name, value in told.items())] = stack.replace(links=tuple(links))
+    if len({_held(one) for one in found.values()}) < len(every):
+        raise InputError(
+            f"two of the candidates by {' and '.join(vary)} are the same: a value is given twice, or what the links hold is "
+            "given beside it and does not follow from it; leave that out of the file.",
+            "vary",
+        )
+    return found
+
+
+def _held(column: Structure) -> tuple[Any, ...]:
+    """What the links of a column do, in numbers."""
+    friction: Any = column.stack.friction if column.stack is not None else ()
+    return (*np.asarray(friction).tolist(), *(getattr(link, name) for link in column.placed_links for name in HELD))
+
+
+@dataclass(frozen=True)
+class Best:
+    """The best of some candidates, as far as these records tell.
+
+    Parameters
+    ----------
+    best : str or None
+        Label of the smallest share of runs that exceed the limit state, undecided ones counted in, of those whose links stay
+        below their capacity; the first of equal ones. None where all reach it.
+    alike : tuple of str
+        Candidates that cannot be told from it, itself among them.
+    table : pandas.DataFrame
+        One row per candidate: ``candidate``, ``share_low`` and ``share_high`` (undecided out and in),
+        ``interval_low`` and ``interval_high``, ``use`` and ``use_high`` of its links (84 %, largest level), ``within``
+        its capacity; ``difference_low`` and ``difference_high`` of its share from that of the best; ``alike``.
+    runs, records : int
+    words : str
+        What it comes to, in sentences.
+    """
+
+    best: str | None
+    alike: tuple[str, ...]
+    table: pandas.DataFrame
+    runs: int
+    records: int
+    words: str
+
+    def summary(self) -> dict[str, Any]:
+        """Under the names of the JSON object of ``stylobate states``."""
+        rows = self.table.astype(object).where(self.table.notna(), None).to_dict("records")
+        said = {"best": self.best, "alike": list(self.alike), "runs": self.runs, "records": self.records}
+        return said | {"words": self.words, "candidates": rows}
+
+
+def best_of(
+    found: StateComparison, labels: Sequence[str], *, samples: int = SAMPLES, seed: int = 0, confidence: float = 0.95
+) -> Best:
+    """The best of candidates that were run as states, and the set of those that cannot be told from it.
+
+    Parameters
+    ----------
+    found : StateComparison
+        The same records, levels and twins for all.
+    labels : sequence of str
+        States that are candidates.
+    samples, seed, confidence
+        Of the bootstrap over records.
+
+    Notes
+    -----
+    A candidate is told from the best where the interval of the paired difference of their shares does not hold zero. Which
+    one is best is itself chance, so that the intervals are those of all pairs of K candidates together: each has the
+    confidence 1 − (1 − c)/(K (K − 1)/2) (Bonferroni). Nothing is told of fewer than ten records.
+    """
+    import pandas
+
+    check_kind("found", found, StateComparison)
+    if unknown := [label for label in labels if label not in found.labels]:
+        raise InputError(f"no state is called {unknown[0]!r}; there are {', '.join(found.labels)}.", "labels")
+    table: Any = found.table
+    told = {
+        label: evidence(table[table["state"] == label], None, found.state, label, doubt=found.doubt) for label in labels
+    }
+    first = next(iter(told.values()))
+    designed = design_values(found)
+    most: Any = worst_of(designed)
+    rows = []
+    for share in shares({label: one.codes for label, one in told.items()}, first.records, first.laws):
+        mine = most[most["state"] == share.label] if len(most) else most
+        use, use_high = (float(mine[key].max()) if len(mine) else 0.0 for key in ("use_value_84", "use_high_84"))
+        rows.append({
+            "candidate": share.label, "share_low": share.low, "share_high": share.high, "interval_low": share.interval[0],
+            "interval_high": share.interval[1], "use": use, "use_high": use_high, "within": use < AT_CAPACITY,
+        })  # fmt: skip
+    within = [row for row in rows if row["within"] and np.isfinite(row["share_high"])]
+    best = min(within, key=lambda row: row["share_high"])["candidate"] if within else None
+    pairs = len(labels) * (len(labels) - 1) // 2
+    each, records = 1.0 - (1.0 - confidence) / max(pairs, 1), len(np.unique(first.records))
+    for row in rows:
+        low = high = 0.0
+        if best is not None and row["candidate"] != best:
+            difference = with_undecided(told[best], told[row["candidate"]], None, None, samples, seed, each)
+            low, high = difference.share_low, difference.share_high
+        row |= {"difference_low": low, "difference_high": high}
+        row["alike"] = best is not None and row["within"] and (records < FEWEST or not low > 0.0)
+    alike = tuple(row["candidate"] for row in rows if row["alike"])
+    sure = all(row["use_high"] < AT_CAPACITY for row in rows if row["alike"])
+    words = f"{_words(best, alike, len(labels), records, found.state)} {len(found.table)} runs; {100 * confidence:g} % "
+    words += f"intervals for all pairs together, {basis_of(designed) if len(designed) else 'over records'}."
+    if best is not None and not sure:
+        words += " That the links stay below their capacity is not sure: the upper limit of their use reaches it."
+    return Best(best, alike, pandas.DataFrame(rows), len(found.table), records, words)
+
+
+def _words(best: str | None, alike: Sequence[str], number: int, records: int, state: str) -> str:
+    """What the comparison comes to."""
+    if best is None:
+        return f"All {number} candidates come to the capacity of a link under 16 % of the motions or more: none is allowed."
+    few = f"; nothing is told from fewer than {FEWEST} records" if records < FEWEST else ""
+    said = f"Least {state} of {number} candidates: {best}"
+    others = len(alike) - 1
+    if not others:
+        return f"{said}; the others are worse or not within their capacity."
+    return f"{said}; {others} more cannot be told from it under {records} record{'s' * (records != 1)}{few}."

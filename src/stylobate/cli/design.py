@@ -1,0 +1,47 @@
+"""Design values of links, as commands write and print them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pandas
+
+    from .files import Files
+
+#: What it writes: a table and a picture.
+WRITES = ("design.csv", "design")
+
+
+def write_design(values: pandas.DataFrame, files: Files) -> None:
+    """Write the table, and the picture of the links that have a capacity; nothing where there are no links."""
+    from .. import plots
+    from ..analysis.design_values import worst_of
+
+    if len(values):
+        files.table(values, WRITES[0])
+    if len(worst_of(values)):
+        files.picture(plots.draw_design_values(values), WRITES[1])
+
+
+def describe_design(values: pandas.DataFrame) -> None:
+    """Print the links used most of every state, and the clearance that layers need; nothing where there are none."""
+    import pandas
+
+    from ..analysis.design_values import basis_of, clearances, where, worst_of
+    from . import console
+
+    if not len(values):
+        return
+    words = f"{where(values)}: not exceeded under 84 % of the motions, with the 95 % interval {basis_of(values)}."
+    if len(worst := worst_of(values)):
+        print(f"Design values{words}")
+        some = worst.groupby("state", sort=False).head(6)
+        told: dict[str, Any] = {key: some[key] for key in ("state", "link", "quantity", "unit")}
+        told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
+        told |= {"over capacity": some["use_value_84"], "at most": some["use_high_84"]}
+        console.print_table(pandas.DataFrame(told), digits=3)
+    if len(wide := clearances(values)):
+        print(f"Clearance that layers need [m]{words}")
+        told = {"state": wide["state"], "link": wide["link"], "84 %": wide["value_84"], "from": wide["low_84"]}
+        console.print_table(pandas.DataFrame(told | {"to": wide["high_84"]}), digits=3)

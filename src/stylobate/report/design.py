@@ -1,0 +1,60 @@
+"""Design values of links in a report: those used most, the room that layers need, and their picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..analysis.design_values import basis_of, clearances, where, worst_of
+from . import numbers as n
+from .page import Item, Rows
+from .pictures import kept
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Most rows of a table.
+MOST = 40
+
+#: Columns of the tables, by heading; clearances go without the last two of what has a capacity.
+SHOWN = {
+    "state": "state", "link": "link", "quantity": "quantity", "unit": "unit", "84 %": "value_84", "from": "low_84",
+    "to": "high_84", "runs": "runs", "undecided": "undecided", "over capacity": "use_value_84", "at most": "use_high_84",
+}  # fmt: skip
+
+
+def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> list[Item]:
+    """Tables and picture of design values; nothing where there are none.
+
+    Parameters
+    ----------
+    values : pandas.DataFrame or None
+        As of :func:`stylobate.design_values`, or read from ``design.csv``.
+    pictures : dict of str to path
+        Of the folder.
+    """
+    if values is None or not len(values):
+        return []
+    meant = f"what 84 % of the motions do not exceed, and its 95 % interval {basis_of(values)}."
+    open_ = (
+        "inf: beyond all that was computed, because runs collapse or lose the link, or there are fewer than 21 records."
+    )
+    items: list[Item] = []
+    if len(worst := worst_of(values)):
+        caption = (
+            f"Design values{where(values)}: {meant} Both also over the capacity; links used most come first. {open_} "
+        )
+        items.append(_rows(worst, SHOWN, caption + "design.csv holds every level, quantity, and 50 and 95 %."))
+        caption = (
+            "Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all "
+        )
+        items += kept(pictures, "design", caption + "that ran.")
+    if len(wide := clearances(values)):
+        caption = f"Clearance that layers need around the foot{where(values)}: {meant} {open_}"
+        items.append(_rows(wide, dict(list(SHOWN.items())[:-2]), caption))
+    return items
+
+
+def _rows(values: pandas.DataFrame, shown: dict[str, str], caption: str) -> Rows:
+    body = [[n.plain(one[key]) for key in shown.values()] for one in values.head(MOST).to_dict("records")]
+    return Rows(list(shown), body, caption, numbers=True)
