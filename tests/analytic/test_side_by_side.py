@@ -14,7 +14,7 @@ from stylobate.analysis.fragility import fragility
 from stylobate.analysis.fragility_checks import FEWEST
 from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 from stylobate.analysis.side_by_side import codes_of, median_words, shares
-from stylobate.analysis.states import _with_undecided
+from stylobate.analysis.states import with_undecided
 from stylobate.analysis.suite import suite_table
 from stylobate.analysis.verdicts import VERDICTS, wilson_interval
 
@@ -26,7 +26,7 @@ def runs(name, *codes):
 
 
 def difference(first, other):
-    return _with_undecided(first, other, None, None, 200, 0, 0.95)
+    return with_undecided(first, other, None, None, 200, 0, 0.95)
 
 
 def test_runs_that_one_state_leaves_open_do_not_turn_the_comparison_round():

@@ -205,6 +205,10 @@ def test_an_elevation_has_its_own_labels_until_the_next_is_known(open_page):
     expect(elevation).to_have_class("elevation")
     expect(page.locator("#column-facts")).to_contain_text("5 m")
     assert elevation.evaluate("canvas => canvas.toDataURL()") != before
+    page.unroute("**/api/column")
+    page.fill('[data-field="found.1.offset"]', "99")  # refused: nothing of the last column passes for its own
+    expect(elevation).to_have_class("elevation past")
+    expect(page.locator("#column-facts")).to_be_empty()
     assert "?" not in page.url  # the token is kept in a cookie alone
 
 
@@ -225,7 +229,7 @@ def seen(page):
 def test_a_run_in_space_and_its_film_by_keyboard_alone(open_page):
     page, expect = open_page(1440), playwright.expect
     tab_to(page, "[data-field=preset]")
-    page.keyboard.type("paper-mono")
+    page.keyboard.press("ArrowUp")  # to the preset before, paper-monolithic
     expect(page.locator('[data-field="drum.2.height"]')).to_have_count(0)
     tab_to(page, '[data-field="drum.1.height"]')
     page.keyboard.press("Control+A")

@@ -83,7 +83,8 @@ def test_no_difference_is_told_where_there_is_none():
 @pytest.mark.parametrize(("safe", "verdict"), [(NAMES[1:], HOLDS), (NAMES[1:2], PARTLY), (NAMES[:1], FAILS)])
 def test_the_sentence_holds_as_far_as_intervals_tell(safe, verdict):
     made = shares.summary(made_up(lambda name, record, level: name not in safe and level > 0.5))
-    assert announced.company_statement(made).verdict.kind == verdict
+    assert announced.company_statement(made | {"records": 10}).verdict.kind == verdict
+    assert announced.company_statement(made).verdict.kind == UNDECIDED  # nine records
 
 
 def test_a_difference_is_of_pairs_that_both_have_a_verdict():

@@ -37,7 +37,11 @@ def film(response: Response) -> dict[str, Any]:
     rate = min(BEST, max(LEAST, MOST / (len(response.bodies.shown) * length)))
     scene = film_of(response, OBLIQUE)
     wanted = frame_indices(response.time, min(rate, 4900.0 / length), 1.0)
-    indices = np.unique(np.append(wanted, len(response.time) - 1))
+    # A film is coarser than what is recorded: the largest displacement and openings are states of it, too.
+    h = response.histories
+    sizes = [h.opening] if h.top is None else [h.opening, np.hypot(*h.top.T) if h.top.ndim == 2 else np.abs(h.top)]
+    largest = [np.nan_to_num(values).argmax(axis=0) for values in sizes if values.size]
+    indices = np.unique(np.concatenate([wanted, *map(np.ravel, largest), [len(response.time) - 1]]))
     return {
         "sentence": in_page_words(response.sentence),
         "film": film_data(scene, indices, least=SHAPE),

@@ -11,6 +11,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -111,7 +112,7 @@ class Workshop:
         with self._lock:
             if len(self._queue) >= WAIT:
                 raise InputError(f"{len(self._queue)} jobs are waiting; cancel some, or wait until they are done.")
-            job = Job(secrets.token_hex(6), self.folder, kind, title, commands, asked)
+            job = Job(secrets.token_hex(6), self.folder, kind, self._unlike(title), commands, asked)
             job.folder = self.folder / job.id
             job.folder.mkdir()
             try:
@@ -124,6 +125,11 @@ class Workshop:
         self._enqueue(job)
         self._make_room()
         return job
+
+    def _unlike(self, title: str) -> str:
+        """The title, with a number where jobs at hand have it already."""
+        taken = {job.title for job in self.jobs.values()}
+        return next(one for k in count(1) if (one := title if k == 1 else f"{title} ({k})") not in taken)
 
     def again(self, job: Job, commands: list[list[str]] | None = None) -> None:
         """Do a job once more, in its folder: one that was stopped goes on where it was."""

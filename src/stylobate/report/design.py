@@ -37,14 +37,15 @@ def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> 
         return []
     meant = f"what 84 % of the motions do not exceed, and its 95 % interval {basis_of(values)}."
     open_ = (
-        "inf: beyond all that was computed, because runs collapse or lose the link, or there are fewer than 21 records."
+        "Where it says inf, it is beyond all that was computed, because runs collapse or lose the link, or there are "
+        "fewer than 21 records."
     )
     items: list[Item] = []
     if len(worst := worst_of(values)):
         caption = (
             f"Design values{where(values)}: {meant} Both also over the capacity; links used most come first. {open_} "
         )
-        items.append(_rows(worst, SHOWN, caption + "design.csv holds every level, quantity, and 50 and 95 %."))
+        items.append(_rows(worst, SHOWN, caption + "The file design.csv holds every level, quantity, and 50 and 95 %."))
         caption = (
             "Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all "
         )

@@ -78,6 +78,7 @@ function latestCheck() {
       mark(panel, found);
       const faulty = /^(?:drum|found|override)\.(\d+)\./.exec(found.field || "");
       described = null;
+      fill(find("#column-facts", panel));  // those of another column say nothing of this one
       paint(faulty ? +faulty[1] : 0);
     } else {
       mark(panel, null);
@@ -97,7 +98,7 @@ function paint(faulty = 0) {
   drawn = described || drawn;
   if (state.assembly) assembly.draw(canvas);
   else if (drawn) hit = drawElevation(canvas, drawn, { chosen, faulty });
-  canvas.classList.toggle("past", Boolean(described) && described.table !== state.column && !state.assembly);
+  canvas.classList.toggle("past", Boolean(drawn) && drawn.table !== state.column && !state.assembly);
 }
 
 function summary(f) {

@@ -156,7 +156,7 @@ function verdict(r, words) {
 function measures(r) {
   const whole = r.peak_top_displacement_m !== undefined;  // a column; of an assembly its blocks are told
   return facts([
-    r.collapse_time_s !== null && ["collapse certain at", `${number(r.collapse_time_s)} s`], whole ? ["peak top displacement", length(r.peak_top_displacement_m)] : ["peak displacement", length(r.peak_displacement_m)],
+    r.collapse_time_s !== null && ["collapse certain at", `${number(r.collapse_time_s)} s`], whole ? [r.collapse_time_s === null ? "peak top displacement" : "peak top displacement until then", length(r.peak_top_displacement_m)] : ["peak displacement", length(r.peak_displacement_m)],
     whole ? r.residual_top_displacement_m !== null && ["residual", length(r.residual_top_displacement_m)] : r.residual_displacement_m !== null && ["residual", length(r.residual_displacement_m)],
     (r.fallen || []).length > 0 && ["fallen", r.fallen.join(", ")], r.peak_tilt_rad !== undefined && ["peak tilt", `${number(r.peak_tilt_rad)} rad`],
     r.peak_tilt_rad === undefined && ["peak rotation", `${number(r.peak_rotation_rad)} rad`], ["peak joint opening", length(r.peak_joint_opening_m)],
