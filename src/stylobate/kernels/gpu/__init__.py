@@ -1,0 +1,1 @@
+"""Kernels for graphics cards: indices, barriers and sums around the laws that the loops over lanes call."""
