@@ -33,8 +33,8 @@ def load_column(text: str | Path) -> Column:
     if Path(name).exists() or name.endswith(".toml"):
         return read_column(name)
     raise InputError(
-        f"there is no column preset or file {name!r}; {suggest(name, PRESETS)}presets are {', '.join(PRESETS)}, a column "
-        "file is TOML."
+        f"there is no column preset or file {name!r}; {suggest(name, PRESETS)}presets are {', '.join(PRESETS)}; a "
+        "column file is TOML."
     )
 
 
