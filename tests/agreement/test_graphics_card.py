@@ -72,9 +72,7 @@ def test_the_batches_fall_rock_slide_and_end_early(batches):
     assert all(len({one["steps"] for one in found["card"]}) > 1 for found in batches.values())
 
 
-@pytest.mark.skipif(
-    importlib.util.find_spec("numba_cuda") is None, reason="numba-cuda is not installed"
-)
+@pytest.mark.skipif(importlib.util.find_spec("numba_cuda") is None, reason="numba-cuda is not installed")
 def test_the_kernel_compiles_for_a_card_that_is_not_there():
     done = subprocess.run([sys.executable, "-c", PTX], capture_output=True, text=True, check=False)
     if "NvvmSupportError" in done.stderr:

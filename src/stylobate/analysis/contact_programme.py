@@ -29,11 +29,8 @@ ROUNDS, CLOSE = 60, 1e-7
 #: What is left over of all weight where bodies stand [-].
 BALANCED = 1e-9
 
-#: By how much the work of a mechanism may differ from that of the multiplier [g].
-SLACK = 1e-7
-
-#: The most that a holder holds is found to this share of it, in so many directions at most.
-MOST_WITHIN, DIRECTIONS = 1e-3, 32
+#: The most that a holder holds is found to this share of it [-].
+MOST_WITHIN = 1e-3
 
 #: A joint takes part in the mechanism with more than this share of the fastest one [-].
 MOVES = 1e-5
@@ -149,7 +146,7 @@ class ContactProgramme:
         points, count = CUT if self.cut else (POINTS, WAYS)
         for rim in self.rims:
             first = 0.0 if self.cut else math.atan2(*(rim.frame.T @ push)[1::-1])
-            ways = [_way(first + 2.0 * math.pi * k / count) for k in range(count)]
+            ways = [pointing(first + 2.0 * math.pi * k / count) for k in range(count)]
             corners = rim.corners
             if corners is None:
                 corners = rim.places(first + 2.0 * math.pi * np.arange(points) / points)
@@ -162,7 +159,7 @@ class ContactProgramme:
                 continue
             first = math.atan2(*(holder.axes.T @ push)[::-1])
             for i in range(count):
-                self.hold(k, _way(first + 2.0 * math.pi * i / count))
+                self.hold(k, pointing(first + 2.0 * math.pi * i / count))
 
     # -- what is borne -------------------------------------------------------------------------------------------------
 
@@ -196,36 +193,6 @@ class ContactProgramme:
             f"limit analysis in space did not come to an end: the bounds are {gap:.2g} g apart after {ROUNDS} rounds"
         )
 
-    def largest(self, dead: np.ndarray, live: np.ndarray, multiplier: float, k: int) -> tuple[float, np.ndarray | None]:
-        """The most that a holder holds in any answer at a multiplier [g] or more [N], and where it pulls its upper body.
-
-        What it can hold in two directions makes a convex figure, which tangents enclose: in each direction the programme
-        tells how far it reaches, and the farthest corner of the tangents is the next direction, until what is reached is as
-        far but for :data:`MOST_WITHIN`. Infinite, without a direction, where nothing limits it.
-        """
-        one, capacity = self.holders[k], self.capacities
-        count = one.axes.shape[1]
-        ways = [np.ones(1)] if count == 1 else [_way(0.5 * math.pi * i) for i in range(4)]
-        reach: list[tuple[np.ndarray, float]] = []
-        best = np.zeros(count)
-        try:
-            while ways and len(reach) < DIRECTIONS:
-                way = ways.pop()
-                force = self.held_by(self.converged(dead, live, capacity, aim=Aim(k, way, multiplier)).forces, k)
-                best = force if np.linalg.norm(force) > np.linalg.norm(best) else best
-                reach.append((way, float(way @ force)))
-                size = float(np.linalg.norm(best))
-                if size >= one.capacity * (1.0 - MOST_WITHIN):
-                    break
-                if not ways and count == 2:
-                    corner = max(_corners(reach), key=np.linalg.norm)
-                    far = float(np.linalg.norm(corner))
-                    ways = [corner / far] if far > size * (1.0 + MOST_WITHIN) + MOST_WITHIN * 1e-3 * self.weight else []
-        except EndlessError:
-            return math.inf, None
-        size = float(np.linalg.norm(best))
-        return size, one.axes @ best / size if size > 0.0 else None
-
     def unbalanced(self, dead: np.ndarray) -> tuple[float, np.ndarray]:
         """How much of a load the joints cannot carry, over the weight, and velocities of what moves so, shape (n, 6)."""
         capacity = self.capacities
@@ -251,7 +218,7 @@ class ContactProgramme:
         each = np.eye(6 * self.n)
         last = csc_array(np.hstack((each, -each)) if live is None else live[:, None])
         extra = 2 * len(each) if live is None else 1
-        known = self._matrix()
+        known = self.matrix()
         strength = coo_array((np.ones(len(held)), (row[owner[held]], held)), (len(bounded), size + extra))
         free = (None, None) if live is not None else (0.0, None)
         cost = np.append(np.zeros(size), np.full(extra, -1.0 if live is not None else 1.0))
@@ -295,64 +262,13 @@ class ContactProgramme:
         multiplier = float(found.x[-1]) if live is not None else -float(found.x[size:].sum())
         return Solved(multiplier, found.x[:size], rates, prices)
 
-    def _matrix(self) -> Any:
+    def matrix(self) -> Any:
         """All that can act as columns, shape (6 n, columns)."""
         from scipy.sparse import csc_array
 
         pointer = np.cumsum([0, *(len(row) for row in self.rows)])
         entries = np.concatenate(self.columns), np.concatenate(self.rows)
         return csc_array((*entries, pointer), (6 * self.n, len(self.rows)))
-
-    def gentlest(self, dead: np.ndarray, live: np.ndarray, found: Solved) -> np.ndarray:
-        """Velocities of the mechanism of a multiplier in which joints slip and twist least, shape (n, 6).
-
-        Where several do the same work the one that a solver hands out is any of them; of what holds bodies it is that one.
-        """
-        from scipy.optimize import linprog
-        from scipy.sparse import csr_array, eye_array, hstack, vstack
-
-        if self.holders:
-            return found.rates
-        known, moves = self._matrix().T, self._moves()
-        count = 3 * len(self.rims)
-        each = eye_array(count)
-        power = hstack((csr_array(-dead[None]), csr_array((1, count))))
-        rows = vstack(
-            (
-                hstack((-known, csr_array((len(self.rows), count)))),
-                hstack((moves, -each)),
-                hstack((-moves, -each)),
-                power,
-            )
-        )
-        bound = np.append(np.zeros(len(self.rows) + 2 * count), found.multiplier + SLACK)
-        size = 6 * self.n
-        solved = linprog(
-            np.append(np.zeros(size), np.ones(count)),
-            A_ub=rows.tocsr(),
-            b_ub=bound,
-            A_eq=hstack((csr_array(live[None]), csr_array((1, count))), "csr"),
-            b_eq=[1.0],
-            bounds=[(None, None)] * size + [(0.0, None)] * count,
-            method="highs",
-        )
-        return solved.x[:size].reshape(-1, 6) if solved.status == 0 else found.rates
-
-    def _moves(self) -> Any:
-        """What makes slips along both axes of the joints and twists at their edge of velocities, shape (3 joints, 6 n)."""
-        from scipy.sparse import csr_array
-
-        out = np.zeros((3 * len(self.rims), 6 * self.n))
-        for j, rim in enumerate(self.rims):
-            for body, sign in ((rim.upper, 1.0), (rim.lower, -1.0)):
-                if body < 0:
-                    continue
-                part = slice(6 * body, 6 * body + 6)
-                arm = rim.in_space(rim.middle) - self.centroids[body]
-                for k, way in enumerate(rim.frame.T[:2]):
-                    out[3 * j + k, part] = sign * np.append(way, np.cross(arm, way) / self.length)
-                out[3 * j + 2, 6 * body + 3 : 6 * body + 6] = sign * rim.half / self.length * rim.frame[:, 2]
-        return csr_array(out)
 
     def _strain_rate(self, holder: Holder, rates: np.ndarray) -> np.ndarray:
         """Velocity of the upper end of a holder from its lower one, along its axes."""
@@ -439,12 +355,6 @@ class ContactProgramme:
         return found * self.weight
 
 
-def _corners(reach: list[tuple[np.ndarray, float]]) -> list[np.ndarray]:
-    """Corners of the figure that tangents enclose, each across a direction and so far along it."""
-    turned = sorted(reach, key=lambda one: math.atan2(*one[0][::-1]))
-    pairs = zip(turned, [*turned[1:], turned[0]], strict=True)
-    return [np.linalg.solve(np.array([a, b]), (far, away)) for (a, far), (b, away) in pairs]
-
-
-def _way(angle: float) -> Any:
+def pointing(angle: float) -> Any:
+    """Unit vector at an angle [rad], shape (2,)."""
     return np.array([math.cos(angle), math.sin(angle)])

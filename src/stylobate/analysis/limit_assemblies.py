@@ -15,6 +15,7 @@ from .contact_programme import ContactProgramme
 from .contact_rims import Holder, Rim
 from .limit import DirectionLimit
 from .limit_with_links import demand, held_along
+from .programme_choices import gentlest
 
 #: What moves with more than this share of the fastest takes part in the mechanism [-].
 MOVES = 1e-3
@@ -102,7 +103,7 @@ class AssemblyProgramme:
         push = np.array([math.cos(angle), math.sin(angle), 0.0])
         live = programme.body_force(push)
         found = programme.converged(self.dead, live, programme.capacities)
-        rates = programme.gentlest(self.dead, live, found)
+        rates = gentlest(programme, self.dead, live, found)
         sizes = programme.movements(rates)
         active = np.flatnonzero(sizes.max(axis=1) > MOVES * sizes.max())
         joint = int(min(active, key=lambda k: (round(float(programme.rims[k].origin[2]), 6), k)))

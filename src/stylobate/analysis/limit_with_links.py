@@ -16,6 +16,7 @@ from .contact_programme import MOVES, ContactProgramme, InfeasibleError, Solved
 from .contact_rims import Holder, Rim
 from .least_forces import SAME, Borne, needed_forces
 from .limit import LinkForce, link_forces
+from .programme_choices import largest_held
 
 
 class SpaceLimit(NamedTuple):
@@ -135,6 +136,6 @@ def demand(
     if not largest:
         return link_forces(told, needed)
     least = found.multiplier - SAME * max(abs(found.multiplier), 1e-3)
-    most = [programme.largest(dead, live, least, k) for k in links]
+    most = [largest_held(programme, dead, live, least, k) for k in links]
     towards = [None if way is None else tuple(way.tolist()) for _, way in most]
     return link_forces(told, needed, np.array([size for size, _ in most]), towards)
