@@ -1,10 +1,12 @@
-# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
+# make install | demo | test | test-cpus | test-pythons | test-gpu | test-wheel | wheel | ptx | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
 STAMP := .venv/.installed
 DOCS_STAMP := .venv/.installed-docs
 PEERS_STAMP := .venv-peers/.installed
+PTX_STAMP := .venv-ptx/.installed
+GPU_STAMP := .venv/.installed-gpu
 PIP := $(BIN)/python -m pip --disable-pip-version-check -qq
 UV_VERSION := 0.13.8
 LOCK := .venv-lock/bin/uv pip compile -q --universal --python-version 3.11 --generate-hashes \
@@ -18,7 +20,7 @@ endif
 # What is imported is compiled when it is first imported, and kept: a tenth of what is installed.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
+.PHONY: install demo test test-cpus test-pythons test-gpu ptx wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
 
 install: $(STAMP)
 	@:
@@ -46,6 +48,25 @@ test-cpus: install
 # Demonstration and tests with every supported Python found here, and with the oldest requirements; ARGS="--only 3.13".
 test-pythons: install
 	@$(BIN)/python .ci/pythons.py $(ARGS)
+
+$(GPU_STAMP): requirements/gpu.lock $(STAMP)
+	@echo "Installing what reaches graphics cards into .venv"
+	@$(PIP) install --require-hashes -r requirements/gpu.lock
+	@touch $@
+
+# The tests that need a graphics card, which the others go without.
+test-gpu: $(GPU_STAMP)
+	@$(BIN)/python -m pytest -n 0 -m gpu -rs $(ARGS)
+
+$(PTX_STAMP): requirements/ptx.lock
+	@echo "Installing the compiler for graphics cards into .venv-ptx"
+	@[ -x .venv-ptx/bin/python ] || $(PYTHON) -m venv .venv-ptx
+	@.venv-ptx/bin/python -m pip --disable-pip-version-check -qq install --no-deps --require-hashes -r requirements/ptx.lock
+	@touch $@
+
+# The kernels for graphics cards, where they are not there from these sources; no card is needed. KERNELS="plane rim" for some.
+ptx: $(PTX_STAMP)
+	@PYTHONPATH=src .venv-ptx/bin/python -m stylobate.kernels.gpu.build $(KERNELS)
 
 wheel: install
 	@rm -rf dist build/wheel
@@ -120,9 +141,11 @@ lock:
 	    --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
 	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra app requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
 	$(LOCK) --no-deps requirements/peers.in -o requirements/peers.lock > /dev/null
+	$(LOCK) --extra gpu -c requirements/base.lock pyproject.toml -o requirements/gpu.lock > /dev/null
+	$(LOCK) --no-deps -c requirements/base.lock requirements/ptx.in -o requirements/ptx.lock > /dev/null
 	@! grep -n -e '://' -e '^ *--\(extra-\)\?index' -e '--find-links' requirements/*.lock || \
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }
 
 clean:
-	rm -rf .venv .venv-lock .venv-pythons .venv-peers build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	rm -rf .venv .venv-lock .venv-pythons .venv-peers .venv-ptx src/stylobate/kernels/gpu/built build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
 	find src studies tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

@@ -13,12 +13,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .column.structure import Structure
-from .errors import InputError, check_all, check_kind, check_range
+from .errors import InputError, check_all, check_choice, check_kind, check_range
+from .kernels.gpu import driver
 from .models.base import Case, Cases, Model, RunOptions, duration
 from .models.shared.quiet import expected_length
 from .models.start import Start, Toss
 from .motion import Motion
 from .response import Measures, Response
+from .response.measures import CPU, DEVICES, GPU
 from .response.rows import Rows
 from .version import __version__
 
@@ -149,6 +151,7 @@ def simulate_iter(
     until_rest: bool = False,
     quiet: float = 0.0,
     threads: int | None = None,
+    device: str = CPU,
 ) -> Generator[tuple[int, Measures], None, None]:
     """Run many cases; yields (index, measures) as they finish, in any order.
 
@@ -162,10 +165,14 @@ def simulate_iter(
         Share of what opens a joint below which the lead-in and the end of a motion are not stepped [-]; 0 steps all of it.
     threads : int, optional
         All cores by default.
+    device : {"cpu", "gpu"}
+        ``gpu`` lets the graphics card of this machine step the columns for which it has kernels, and threads the rest:
+        ``Measures.computed_by`` says which. Other last digits than by ``cpu``.
     """
     options = run_options(tail, until_end=until_end, until_rest=until_rest, quiet=quiet)
+    check_choice("`device`", device, DEVICES)
     check_cases(cases, model, options)
-    yield from run_checked(cases, model, options, threads)
+    yield from (run_on_card if device == GPU else run_checked)(cases, model, options, threads)
 
 
 def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> None:
@@ -194,6 +201,31 @@ def run_checked(
     yield from model.run_many(cases, options, count)
 
 
+def run_on_card(
+    cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None = None
+) -> Generator[tuple[int, Measures], None, None]:
+    """As :func:`run_checked`, by the graphics card of this machine as far as it has kernels; says how many it has not.
+
+    Raises
+    ------
+    InputError
+        There is no card that can be used.
+    StylobateError
+        It computes otherwise than the processor, or has failed on the way.
+    """
+    finished = left = 0
+    for index, measures in model.run_on_card(driver.the_card(), cases, options, thread_count(threads)):
+        finished += 1
+        left += measures.computed_by == CPU
+        yield index, measures
+    if left:
+        logging.getLogger("stylobate").info(
+            "%d of %d runs were computed by the processor: the graphics card has no kernel for what they need.",
+            left,
+            finished,
+        )
+
+
 def simulate_many(
     column: Structure | Sequence[Structure],
     motions: Sequence[Motion],
@@ -202,6 +234,7 @@ def simulate_many(
     tail: float = 0.0,
     until_end: bool = False,
     threads: int | None = None,
+    device: str = CPU,
 ) -> pandas.DataFrame:
     """Shake many columns many times; histories are not kept.
 
@@ -215,6 +248,8 @@ def simulate_many(
         As in :func:`simulate`.
     threads : int, optional
         All cores by default.
+    device : {"cpu", "gpu"}
+        As in :func:`simulate_iter`; the column ``computed_by`` says what computed a run.
 
     Returns
     -------
@@ -232,7 +267,7 @@ def simulate_many(
     started = time.perf_counter()
     cases = Cases(len(columns), lambda number: Case(columns[number], motions[number]))
     rows = Rows(len(cases))
-    for index, measures in simulate_iter(cases, model, tail=tail, until_end=until_end, threads=threads):
+    for index, measures in simulate_iter(cases, model, tail=tail, until_end=until_end, threads=threads, device=device):
         rows[index] = measures.row()
     wall = (time.perf_counter() - started) / max(1, len(cases))
     return rows.table().assign(wall_s=wall, model=model.name, version=__version__)
@@ -307,6 +342,7 @@ def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) ->
         "until_decided": options.until_decided,
         "output_interval_s": options.output_interval,
         "quiet_share": options.quiet,
+        "computed_by": CPU,
         "python": platform.python_version(),
         "machine": platform.machine(),
     }

@@ -13,8 +13,20 @@ from stylobate.cli.main import call
 
 COLUMN = st.preset("paper-monolithic")
 GRID = COLUMN, st.HousnerBlock(), [1.0], [2.0, 4.0], 2.0
-ALL = ["replicates", "scatter", "seed", "tail", "whole", "threads", "dask", "progress", "ledger"]
-SINES = ["tail", "threads", "dask", "progress", "ledger"]
+ALL = [
+    "replicates",
+    "scatter",
+    "seed",
+    "tail",
+    "whole",
+    "threads",
+    "dask",
+    "device",
+    "mix_devices",
+    "progress",
+    "ledger",
+]
+SINES = ["tail", "threads", "dask", "device", "mix_devices", "progress", "ledger"]
 TAKEN = {
     st.suite_table: ALL,
     st.ida: ALL,
@@ -27,7 +39,7 @@ TAKEN = {
     st.compare_states: ALL[:-1],
     st.compare_models: ["tail", "whole", "progress", "ledger"],
     st.certainty: [one for one in ALL if one != "whole"],
-    st.run_study: ["threads", "dask", "progress"],
+    st.run_study: ["threads", "dask", "device", "mix_devices", "progress"],
     st.Study: ["replicates", "scatter", "seed", "tail", "whole"],
 }
 

@@ -94,7 +94,7 @@ class DomainComparison:
         return pandas.DataFrame(rows)
 
 
-@campaigning(Fields, but=("replicates", "scatter", "seed", "threads", "dask"))
+@campaigning(Fields, but=("replicates", "scatter", "seed", "threads", "dask", "device", "mix_devices"))
 def compare_models(
     column: Structure,
     motion: Motion,

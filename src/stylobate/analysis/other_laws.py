@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..campaign.campaign import Campaign
@@ -92,7 +92,7 @@ def other_laws(response: Response, motion: Motion, model: Model, campaign: Campa
         return None
     others = dict(_companions(column, model))
     options = run_options(campaign.tail, quiet=response.provenance["quiet_share"])
-    alone = Campaign(threads=campaign.threads, dask=campaign.dask, tail=campaign.tail)
+    alone = replace(campaign.of_computing, progress=None, ledger=None, tail=campaign.tail)
     rows = batch([Case(one, motion) for one in others.values()], column, model, alone, options)
     own = v.COLLAPSED if response.collapsed else v.STANDS if response.decided else v.UNDECIDED
     return OtherLaws(own, {law: v.verdict(row) for law, row in zip(others, rows, strict=True)})

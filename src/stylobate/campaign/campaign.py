@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any, TypedDict, TypeVar
 
 from ..column.scatter import Scatter
-from ..errors import InputError, as_typed, check_range, check_whole
+from ..errors import InputError, as_typed, check_choice, check_range, check_whole
 from ..models.base import RunOptions
+from ..response.measures import CPU, DEVICES, GPU
 from .ledger import RUNS_FILE
 
 #: Many runs go on until their verdicts are certain.
@@ -31,6 +32,8 @@ class Computing(TypedDict, total=False):
     tail: float
     threads: int | None
     dask: str | None
+    device: str
+    mix_devices: bool
     progress: Progress | None
     ledger: str | Path | None
 
@@ -69,6 +72,11 @@ class Campaign:
         All cores by default.
     dask : str, optional
         Scheduler of a Dask cluster that computes instead, such as ``tcp://10.0.0.1:8786``; ``local`` starts workers here.
+    device : {"cpu", "gpu"}
+        ``gpu`` lets the graphics card of this machine step the columns for which it has kernels, and processors the rest.
+        Its last digits are its own, and so may be a verdict near the border.
+    mix_devices : bool
+        Go on from finished runs that another kind of device has computed; by default they are refused.
     progress : callable, optional
         Called with (finished, all).
     ledger : path, optional
@@ -88,6 +96,8 @@ class Campaign:
     whole: bool = False
     threads: int | None = None
     dask: str | None = None
+    device: str = CPU
+    mix_devices: bool = False
     progress: Progress | None = None
     ledger: str | Path | None = None
 
@@ -102,6 +112,11 @@ class Campaign:
         check_range("`tail`", self.tail, 0.0, 1e4, unit="s")
         if not isinstance(self.whole, bool):
             raise InputError(f"`whole` is {as_typed(self.whole)}; allowed is True or False.", "whole")
+        check_choice("`device`", self.device, DEVICES)
+        if self.device == GPU and self.dask is not None:
+            raise InputError("`dask` and a `device` of gpu are both given; give one of the two.", "device")
+        if not isinstance(self.mix_devices, bool):
+            raise InputError(f"`mix_devices` is {as_typed(self.mix_devices)}; allowed is True or False.", "mix_devices")
         if not (self.progress is None or callable(self.progress)):
             raise InputError(
                 f"progress is {as_typed(self.progress)}; allowed is a function of two numbers.", "progress"
@@ -119,7 +134,7 @@ class Campaign:
     @property
     def of_runs(self) -> Campaign:
         """What it says of the runs themselves."""
-        return replace(self, **dict.fromkeys(COMPUTING))
+        return replace(self, **{name: getattr(USUAL, name) for name in COMPUTING})
 
     @property
     def of_computing(self) -> Campaign:
@@ -141,7 +156,7 @@ class Campaign:
 
 
 #: Fields that say where runs are computed and kept, and who is told.
-COMPUTING = ("threads", "dask", "progress", "ledger")
+COMPUTING = ("threads", "dask", "device", "mix_devices", "progress", "ledger")
 
 #: How runs are made where nothing is asked for.
 USUAL = Campaign()

@@ -16,7 +16,10 @@ Finished = Generator[tuple[int, Measures], None, None]
 
 
 class Executor(Protocol):
-    """Executors of runs; the same cases give the same measures, to the bit, with any."""
+    """Executors of runs; the same cases give the same measures, to the bit, with any that computes by processors.
+
+    A graphics card contracts and orders other sums: ``Measures.computed_by`` tells its runs.
+    """
 
     def __call__(self, cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None) -> Finished:
         """Run all cases, which were checked; closing what is returned stops it."""

@@ -13,14 +13,17 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import InputError
+from ..kernels.gpu import driver
 from ..models.base import Case, Cases, Model, RunOptions
 from ..own_files import digest as digest_of_file
+from ..response.measures import CPU, GPU
 from ..response.rows import Rows
-from ..simulate import check_cases
+from ..simulate import check_cases, run_on_card
 from .campaign import USUAL, Campaign, Progress
 from .cluster import on_cluster
 from .digests import Digests, Hasher
-from .executor import executor
+from .executor import computed_by, executor
 from .ledger import Ledger, finished_runs_in, rows_in
 
 #: Cases that run together: their numbers, their model, and how they are run.
@@ -115,15 +118,19 @@ class Runs:
         self.made = self.kept = 0
         self._book: Ledger | None = None
         self._waiting = waiting
-        self._cluster, self._on_cluster = ExitStack(), False
+        self._cluster, self._elsewhere = ExitStack(), False
 
     def open(self, *requests: Request) -> None:
         """Refuse or warn of requests, and only then take hold of the cluster and of the ledger."""
         for request in requests:
             request.check()
-        if self.campaign.dask is not None and not self._on_cluster:
+        if self.campaign.dask is not None and not self._elsewhere:
             self._cluster.enter_context(on_cluster(self.campaign.dask, self.campaign.threads, _log.info))
-            self._on_cluster = True
+            self._elsewhere = True
+        if self.campaign.device == GPU and not self._elsewhere:
+            driver.the_card()
+            self._cluster.enter_context(computed_by(run_on_card))
+            self._elsewhere = True
         if self._book is None and self.path is not None:
             self._book = Ledger(self.path, self._waiting)
 
@@ -142,6 +149,8 @@ class Runs:
         digests = request.digests
         todo = np.ones(len(digests), dtype=bool)
         for number, row in self._known(digests):
+            if not self.campaign.mix_devices:
+                self._refuse_other_device(request, number, row.get("computed_by", CPU))
             todo[number] = False
             self.kept += 1
             yield number, row
@@ -200,6 +209,29 @@ class Runs:
         for number, row in _in_threads(make, sorted(todo), threads):
             files = {"files": {name: self._sum_of(name) for name in row["files"]}} if "files" in row else {}
             yield from self._keep(digests, number, row | files)
+
+    def _refuse_other_device(self, request: Request, number: int, by: str) -> None:
+        """Refuse a finished run that another kind of device has computed than computes now.
+
+        Processors may have computed for a card: what it has no kernel for.
+
+        Raises
+        ------
+        InputError
+            It is such a run.
+        """
+        if by.partition(" ")[0] == self.campaign.device:
+            return
+        if self.campaign.device == GPU:
+            model = next(model for numbers, model, _ in request.groups if number in numbers)
+            if not model.on_card(driver.the_card(), request.cases[number].column):
+                return
+        raise InputError(
+            f"{self.path} keeps finished runs of this request that were computed by {by}, and `device` is "
+            f"{self.campaign.device}: their last digits differ, and near the border so may verdicts. Choose another folder, "
+            f"or give `mix_devices` to go on from them.",
+            "device",
+        )
 
     def _known(self, digests: Digests) -> Iterator[tuple[int, dict[str, Any]]]:
         if self.path is not None:

@@ -79,8 +79,7 @@ def compare(
         table = domains.table
         result |= {"domains": [domain.summary() for domain in domains.domains], "differences": table.to_dict("records")}
     else:
-        if execution.dask is not None:
-            raise InputError("--dask is for domains, and one motion is run here; leave it out.", "dask")
+        execution.refuse_for_one("is for domains, and one motion is run here; leave it out.")
         shaking = motions.request().motion(stone.frequency_parameter)
         each = [f"response-{_stem(name)}.nc" for name in names]
         with execution.files("compare", "comparison.csv", "comparison", *WRITES, *each) as files:

@@ -26,7 +26,7 @@ def convert(
     fixed: list[str] | None = o.option("NAME", "A stone that moves with the ground; may be repeated."),
     compas: str = o.option("dem|assembly", "Package of COMPAS that .json is written for.", "dem"),
     *,
-    execution: Annotated[o.Execution, o.But("threads", "dask", "out")],
+    execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")],
 ) -> None:
     """Models of other tools to files, and back.
 

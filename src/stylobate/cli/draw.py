@@ -16,7 +16,7 @@ def draw(
     column: o.StructureName,
     out: Path = o.option("FILE", "The picture: .png, .svg or .pdf; a file there is replaced.", ...),
     *,
-    execution: Annotated[o.Execution, o.But("threads", "dask", "out")],
+    execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")],
 ) -> None:
     """Elevations from two sides, the plan, and the plan of every joint.
 

@@ -14,7 +14,7 @@ def export(
     at: str | None = o.option("TIME", "One instant, such as 3.2s; .vtu and .obj need it."),
     rate: str | None = o.option("N", "Instants a second; 30 if not given, of .csv all.", flag="--fps"),
     *,
-    execution: Annotated[o.Execution, o.But("threads", "dask", "out")],
+    execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")],
 ) -> None:
     """Write a response for other tools.
 

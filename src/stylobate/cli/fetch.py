@@ -25,7 +25,7 @@ def fetch(
     before: str = o.option("TIME", "Begin before the time of origin.", "10s"),
     lasts: str = o.option("TIME", "Length of the records.", "120s"),
     *,
-    execution: Annotated[o.Execution, o.But("threads", "dask")],
+    execution: Annotated[o.Execution, o.But(*o.COMPUTING)],
 ) -> None:
     """Accelerograms of an earthquake from a data centre (needs the extra seismology).
 

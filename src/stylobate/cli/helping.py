@@ -12,7 +12,7 @@ RARE = frozenset({
     "across", "synthetic", "unit", "dt", "component", "azimuth", "azimuths", "signs", "condition", "vertical", "whole",
     "until_end", "output_interval", "settings", "losses", "project", "scatter", "motion_scatter", "seed", "pictures",
     "half_step",
-    "threads", "dask",
+    "threads", "dask", "device", "mix_devices",
 })  # fmt: skip
 
 #: Options that fit on a screen with their help.

@@ -180,6 +180,8 @@ class Execution(Group):
 
     threads: str | None = option("N", "Threads to use; all cores by default.")
     dask: str | None = option("ADDRESS|local", "Compute on a Dask cluster: its scheduler, or local for workers here.")
+    device: str = option("cpu|gpu", "Let the graphics card of this machine compute what it has kernels for.", "cpu")
+    mix_devices: bool = option(None, "Go on from finished runs that another kind of device has computed.", False)
     out: Path | None = option("DIR", "Folder for files and figures; without it none are written.")
     as_json: bool = option(
         None, "Print one JSON object on standard output, and nothing else there.", False, flag="--json"
@@ -199,7 +201,14 @@ class Execution(Group):
             )
         for group in groups:
             fields |= group.fields
-        return Campaign(threads=None if self.threads is None else int(self.threads), dask=self.dask, **fields)
+        threads = None if self.threads is None else int(self.threads)
+        return Campaign(threads=threads, dask=self.dask, device=self.device, mix_devices=self.mix_devices, **fields)
+
+    def refuse_for_one(self, why: str) -> None:
+        """Refuse what computes many runs beside threads where there is one; ``why`` in words that follow the option."""
+        for name, wanted in (("dask", self.dask is not None), ("device", self.device != "cpu")):
+            if wanted:
+                raise InputError(f"--{name} {why}", name)
 
     @property
     def count(self) -> int:
@@ -223,8 +232,12 @@ class Execution(Group):
         return self.as_json
 
 
+#: Options that say what computes many runs besides threads, and what computes any.
+CAMPAIGNS = "dask", "device", "mix_devices"
+COMPUTING = "threads", *CAMPAIGNS
+
 #: Of commands whose runs are no campaign.
-Plain = Annotated[Execution, But("dask")]
+Plain = Annotated[Execution, But(*CAMPAIGNS)]
 
 
 def the_column(name: str, project: str | None = None) -> Column:

@@ -92,8 +92,7 @@ def sequence(
         if not execution.emits(summary):
             describe_counts(told)
         return
-    if execution.dask is not None:
-        raise InputError("--dask computes many runs, and this is one; leave it out, or give --until-fall.", "dask")
+    execution.refuse_for_one("computes many runs, and this is one; leave it out, or give --until-fall.")
     options: dict[str, Any] = {"rest": pause, "repeat": times, "until_end": until_end}
     options["output_interval"] = parse_time(output_interval)
     if given or not until_end:

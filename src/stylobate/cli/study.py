@@ -56,7 +56,7 @@ def run(
     print(f"{len(files)} files in {out}: {', '.join(table.name for table in tables)}, histories of {histories} runs")
 
 
-def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But("threads", "dask", "out")]) -> None:
+def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")]) -> None:
     """State of a study, which may be running."""
     from ..analysis.studies import StudyResult
     from ..campaign.ledger import RUNS_FILE
@@ -80,7 +80,7 @@ def export(
     directory: StudyFolder,
     to: Path = o.option("FILE", "Table to write: .parquet or .csv.", ...),
     *,
-    execution: Annotated[o.Execution, o.But("threads", "dask", "out")],
+    execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")],
 ) -> None:
     """Write the table of a study, one row per finished case; of one that is not finished as well."""
     from ..analysis.studies import StudyResult, write_table

@@ -6,7 +6,7 @@ import dataclasses
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
 from ..response.words import round_in_the_plane
 from .start import Start, Toss
+
+if TYPE_CHECKING:
+    from ..kernels.gpu.card import Device
 
 #: Larger accelerations are rejected as non-physical; numbers would overflow [m/s²].
 LARGEST_ACCELERATION = 1e6
@@ -203,6 +206,18 @@ class Model:
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs; yields (index of the case, measures) as they finish, in any order."""
         raise NotImplementedError
+
+    def run_on_card(
+        self, device: Device, cases: Sequence[Case], options: RunOptions, threads: int
+    ) -> Iterator[tuple[int, Measures]]:
+        """As :meth:`run_many`, where a graphics card steps what it has kernels for, and threads the rest; all of it here."""
+        del device
+        return self.run_many(cases, options, threads)
+
+    def on_card(self, device: Device, column: Any) -> bool:
+        """Whether a graphics card steps runs of what stands."""
+        del device, column
+        return False
 
     def parameters(self) -> dict[str, Any]:
         """All parameters as plain values, for provenance."""

@@ -11,6 +11,9 @@ from .collapse import Collapse
 from .links import LinkMeasures, row_of
 from .residuals import Residuals, no_residuals
 
+#: Kinds of devices that compute runs, the usual one first.
+DEVICES = CPU, GPU = "cpu", "gpu"
+
 
 @dataclass(frozen=True)
 class SpaceMeasures:
@@ -158,6 +161,8 @@ class Measures:
         Of the links that act, in the column's order.
     residuals : Residuals, optional
         Joint by joint and body by body; None where the model does not tell.
+    computed_by : str
+        The kind of processor that has stepped it: ``cpu``, or ``gpu`` with the card in parentheses.
     """
 
     outcome: Outcome
@@ -178,6 +183,7 @@ class Measures:
     stepped: tuple[float, float, float] | None = None
     links: tuple[LinkMeasures, ...] = ()
     residuals: Residuals | None = None
+    computed_by: str = CPU
 
     def __eq__(self, other: object) -> bool:
         """Equal to the bit, one missing number (NaN) like another; left alone, Python 3.13 tells NaN from NaN."""
@@ -209,6 +215,7 @@ class Measures:
             "energy_imbalance": float(self.energy_imbalance),
             "time_step_s": float(self.time_step),
             "steps": int(self.steps),
+            "computed_by": self.computed_by,
             "reason": self.reason,
         }
         if self.blocks is not None:  # an assembly has no top

@@ -53,7 +53,7 @@ def share_out(e, f, u, v, l):
 
 
 @law
-def press(e, f, o, u, v, p, l):
+def press(e, f, o, sums, u, v, p, l):
     """Adds corner p: its force and its moment about the middle of the face below, as yet in the axes of the drum below."""
     w = e.w
     damped = e.d.shape[0] > 1
@@ -72,12 +72,12 @@ def press(e, f, o, u, v, p, l):
         kn, ks, beta, 0.0, e.mu[l], e.co[l] * share, dt,
     )  # fmt: skip
     e.s[3 * p, l], e.s[3 * p + 1, l], e.s[3 * p + 2, l] = sx, sy, sz
-    o.shear[l] -= work
+    sums.shear[l] -= work
     e.en[l] -= 0.5 * normal * min(gap, 0.0)
     fx, fy, fz = normal * nx + sx, normal * ny + sy, normal * nz + sz
     if damped:
         gx, gy, gz = gx + push * nx, gy + push * ny, gz + push * nz
-        o.visc[l] -= (
+        sums.visc[l] -= (
             0.5 * dt * ((gx + e.d[3 * p, l]) * vx + (gy + e.d[3 * p + 1, l]) * vy + (gz + e.d[3 * p + 2, l]) * vz)
         )
         e.d[3 * p, l], e.d[3 * p + 1, l], e.d[3 * p + 2, l] = gx, gy, gz
@@ -109,6 +109,16 @@ def put_down(e, f, u, v, l):
 
 
 @law
+def corner_joint(e, f, o, sums, u, v, l):
+    """Forces at t_n of a joint of rectangular faces in one lane; ``sums`` takes the work of its springs and dashpots."""
+    meet(e, u, v, l)
+    share_out(e, f, u, v, l)
+    for p in range(u.px.shape[0]):
+        press(e, f, o, sums, u, v, p, l)
+    put_down(e, f, u, v, l)
+
+
+@law
 def on_corners(e, f, o, u, v):
     """Forces at t_n of a joint of rectangular faces in all lanes: lanes inside, points outside, so that both are vectors."""
     lanes = range(o.dt.shape[0])
@@ -118,6 +128,6 @@ def on_corners(e, f, o, u, v):
         share_out(e, f, u, v, l)
     for p in range(u.px.shape[0]):
         for l in lanes:
-            press(e, f, o, u, v, p, l)
+            press(e, f, o, o, u, v, p, l)
     for l in lanes:
         put_down(e, f, u, v, l)

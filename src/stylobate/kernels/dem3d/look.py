@@ -1,9 +1,10 @@
-"""Looks between chunks of steps: peaks, collapses, ends of runs; axes are renormalised."""
+"""Looks between chunks of steps: the ground ahead, peaks, collapses, ends of runs; axes are renormalised."""
 
 import math
 
+from ..ground import sample
 from ..jit import kernel, law, long_law, strict
-from ..run_codes import FAILED, RUNNING, SUPPORT_MARGIN
+from ..run_codes import CHUNK, FAILED, RUNNING, SUPPORT_MARGIN
 from ..shared.overturning import going_and_lost
 from .pose import cross, faces, in_body, in_space, lean
 from .support import (
@@ -27,16 +28,45 @@ ON_EDGE = 0.1
 UPRIGHT = 1e-3
 
 
+@long_law
+def ground_at(g, f, running, k, l):
+    """Acceleration of the base at step k of the chunk, in its own axes; none where no run goes on."""
+    a = g.a
+    if running:
+        place = (f.step[l] + k) * f.ratio[l]
+        last, factor = f.last[l], f.factor[l]
+        x = factor * sample(f.x[l], last, place)
+        y = factor * sample(f.y[l], last, place) if f.y[l] != 0 else 0.0
+        z = factor * sample(f.z[l], last, place) if f.z[l] != 0 else 0.0
+        for c in range(3):
+            a[c, l] = f.r[3 * c, l] * x + f.r[3 * c + 1, l] * y + f.r[3 * c + 2, l] * z
+    else:
+        for c in range(3):
+            a[c, l] = 0.0
+
+
+@kernel
+def fill_ground(ground, feed, watch):
+    """Acceleration of the base for the next chunk, each lane from its own motion."""
+    for l in range(watch[0].status.shape[0]):
+        for k in range(CHUNK + 1):
+            ground_at(ground[k], feed[0], watch[0].status[l] == RUNNING, k, l)
+
+
+@strict
+def lose(u, w, l):
+    """A lane has failed in which a body is not anywhere, or far away."""
+    size = abs(u.x[l]) + abs(u.y[l]) + abs(u.z[l]) + abs(u.wx[l]) + abs(u.wy[l]) + abs(u.wz[l])
+    lost = w.status[l] == RUNNING and not (size < FAR)
+    w.status[l] = FAILED if lost else w.status[l]
+
+
 @strict
 def check_finite(body, watch):
     """Lanes whose state is not finite, or that are far away, have failed."""
-    w = watch[0]
     for i in range(1, body.shape[0]):
-        u = body[i]
-        for l in range(u.x.shape[0]):
-            size = abs(u.x[l]) + abs(u.y[l]) + abs(u.z[l]) + abs(u.wx[l]) + abs(u.wy[l]) + abs(u.wz[l])
-            lost = w.status[l] == RUNNING and not (size < FAR)
-            w.status[l] = FAILED if lost else w.status[l]
+        for l in range(watch[0].status.shape[0]):
+            lose(body[i], watch[0], l)
 
 
 @law

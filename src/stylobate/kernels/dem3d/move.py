@@ -91,8 +91,11 @@ def half_about_i(u, l, lx, ly, lz, time):
 
 
 @law
-def drift(u, e, a, o, g, l):
-    """Motion of a body from t_n to t_{n+1} under two loads at t_n, as their upper and their lower body."""
+def drift(u, e, a, o, sums, g, l):
+    """Motion of a body from t_n to t_{n+1} under two loads at t_n, as their upper and their lower body.
+
+    ``sums`` takes what its dampers take out, and its momentum: the lane's own record, or one of the body's own.
+    """
     dt = o.dt[l]
     free = o.free[l]
     im, m = u.im[l], u.m[l]
@@ -119,7 +122,7 @@ def drift(u, e, a, o, g, l):
         px, py, pz = px + vx, py + vy, pz + vz
         hx, hy, hz = hx + lx, hy + ly, hz + lz
         twice = m * (px * px + py * py + pz * pz) + twice_kinetic(u, l, hx, hy, hz)
-        o.visc[l] += 0.25 * alpha * dt * twice
+        sums.visc[l] += 0.25 * alpha * dt * twice
     else:
         vx, vy, vz = vx + ax * dt, (vy + ay * dt) * free, vz + az * dt
         lx, ly, lz = (lx + mx * dt) * free, ly + my * dt, (lz + mz * dt) * free
@@ -128,9 +131,9 @@ def drift(u, e, a, o, g, l):
     u.x[l] += vx * dt
     u.y[l] += vy * dt
     u.z[l] += vz * dt
-    o.p[0, l] += m * vx
-    o.p[1, l] += m * vy
-    o.p[2, l] += m * vz
+    sums.p[0, l] += m * vx
+    sums.p[1, l] += m * vy
+    sums.p[2, l] += m * vz
     rotate(u, l, lx, ly, lz, dt)
 
 
@@ -175,16 +178,22 @@ def rotate(u, l, lx, ly, lz, dt):
 def drift_in_lanes(u, e, a, o, g):
     """:func:`drift` in all lanes: of records that the compiler is told to be apart, whichever they are."""
     for l in range(u.x.shape[0]):
-        drift(u, e, a, o, g, l)
+        drift(u, e, a, o, o, g, l)
 
 
 @law
-def work_done(o, g, h, l):
+def no_momentum(sums, l):
+    """Begins the sum of momenta of a step."""
+    sums.p[0, l] = sums.p[1, l] = sums.p[2, l] = 0.0
+
+
+@law
+def add_work(o, sums, g, h, l):
     """Adds the work of the body force −m a over a step by the trapezoidal rule.  # Eq. (D5)"""
     power = 0.0
     for c in range(3):
-        power += (g.a[c, l] + h.a[c, l]) * o.p[c, l]
-    o.work[l] -= 0.5 * power * o.dt[l]
+        power += (g.a[c, l] + h.a[c, l]) * sums.p[c, l]
+    sums.work[l] -= 0.5 * power * o.dt[l]
 
 
 @apart
@@ -194,13 +203,13 @@ def move_all(body, load, span, touch, lane, ground, k):
     g, h = ground[k], ground[k + 1]
     lanes = range(o.dt.shape[0])
     for l in lanes:
-        o.p[0, l] = o.p[1, l] = o.p[2, l] = 0.0
+        no_momentum(o, l)
     for i in range(1, body.shape[0]):
         u = body[i]
         e, a = two_loads(i, load, span, touch)
         drift_in_lanes(u, e, a, o, g)
     for l in lanes:
-        work_done(o, g, h, l)
+        add_work(o, o, g, h, l)
 
 
 @apart

@@ -65,6 +65,9 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
     pair span touch           contacts of bodies, see shared/records.py: joints first, then links
 """
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 
 from ..run_codes import LANES
@@ -84,12 +87,18 @@ CORNERS = 4
 PEAKS = ("top", "topx", "topy", "open", "turn", "lean", "spin")
 
 
+#: Fields of so many rows of lanes, by their names.
+Fields = Callable[..., list[tuple]]
+
+
 def fields(names: str, *rows: int, kind: type = np.float64, lanes: int = LANES) -> list[tuple]:
     """Fields of so many rows of lanes."""
     return [(name, kind, (*rows, lanes)) for name in names.split()]
 
 
-def types(face: str, damped: bool = False, rolling: bool = False, linked: bool = False) -> dict[str, np.dtype]:
+def types(
+    face: str, damped: bool = False, rolling: bool = False, linked: bool = False, lanes: int = LANES
+) -> dict[str, np.dtype]:
     """Record types by their names in ``STATE`` (``shared/frame.py``).
 
     They tell what is computed: each loop is compiled for what is used. A body with corners may have three different moments
@@ -102,33 +111,35 @@ def types(face: str, damped: bool = False, rolling: bool = False, linked: bool =
         faces; or one body on its vertices.
     damped, rolling, linked : bool
         Whether there are dashpots, resistance to rolling, links.
+    lanes : int
     """
     corners = CORNERS if face in ("corner", "vertex") else 1
     axes = " ".join(f"{axis}{c}" for axis in "ijk" for c in "xyz")
-    link, hold = link_types(LANES)
+    link, hold = link_types(lanes)
+    some = partial(fields, lanes=lanes)
     return {
         "body": np.dtype(
-            fields(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ax ay az ht rb rt tx ty")
-            + fields("f mo", 3)
-            + fields("px py pz", corners)
+            some(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ax ay az ht rb rt tx ty")
+            + some("f mo", 3)
+            + some("px py pz", corners)
         ),
-        "joint": vertex_type() if face == "vertex" else joint_type(face, damped),
-        "load": np.dtype(fields("f up lo", 3)),
-        "link": link if linked else np.dtype(fields("none")),
+        "joint": vertex_type(some) if face == "vertex" else joint_type(face, damped, some),
+        "load": np.dtype(some("f up lo", 3)),
+        "link": link if linked else np.dtype(some("none")),
         "bond": BOND_TYPE,
         "lane": np.dtype(
-            fields("dt pivot free work shear visc")
-            + fields("g p", 3)
-            + fields("damp", 3 if damped else 1)
-            + fields("roll", 2 if rolling else 1)
-            + (vertex_fields() if face == "vertex" else [])
+            some("dt pivot free work shear visc")
+            + some("g p", 3)
+            + some("damp", 3 if damped else 1)
+            + some("roll", 2 if rolling else 1)
+            + (vertex_fields(some) if face == "vertex" else [])
         ),
-        "ground": np.dtype(fields("a", 3)),
-        "feed": np.dtype(fields("x y z last step end", kind=np.int64) + fields("ratio factor") + fields("r", 9)),
+        "ground": np.dtype(some("a", 3)),
+        "feed": np.dtype(some("x y z last step end", kind=np.int64) + some("ratio factor") + some("r", 9)),
         "watch": np.dtype(
-            fields("status follow when which parted about", kind=np.int64)
-            + fields("amax vmax sx sy wmax wide ex ey tw going m x y z px py")
-            + fields(" ".join(PEAKS) + " k" + " k".join(PEAKS))
+            some("status follow when which parted about", kind=np.int64)
+            + some("amax vmax sx sy wmax wide ex ey tw going m x y z px py")
+            + some(" ".join(PEAKS) + " k" + " k".join(PEAKS))
         ),
         "hold": hold,
         "pair": PAIR_TYPE,
@@ -137,32 +148,32 @@ def types(face: str, damped: bool = False, rolling: bool = False, linked: bool =
     }
 
 
-def joint_type(face: str, damped: bool) -> np.dtype:
-    """Record type of a joint between faces."""
+def joint_type(face: str, damped: bool, some: Fields) -> np.dtype:
+    """Record type of a joint between faces; ``some`` as :func:`fields`, for a number of lanes."""
     cornered = face == "corner"
     dashpots = (3 * CORNERS if cornered else 6) if damped else 1
     own = {
-        "chip": fields("chip", CHIPS),
-        "bed": fields("chip ring", 1),
-        "ring": fields("chip", 1) + fields("ring", RINGS),
-        "corner": fields("chip", 1) + fields("w", SHARED),
+        "chip": some("chip", CHIPS),
+        "bed": some("chip ring", 1),
+        "ring": some("chip", 1) + some("ring", RINGS),
+        "corner": some("chip", 1) + some("w", SHARED),
     }
     return np.dtype(
-        fields("kn ks co mu t kf kt en ox oy ot tw")
-        + fields("s", 3 * CORNERS if cornered else 3)
-        + fields("d", dashpots)
-        + own.get(face, fields("chip", 1))
+        some("kn ks co mu t kf kt en ox oy ot tw")
+        + some("s", 3 * CORNERS if cornered else 3)
+        + some("d", dashpots)
+        + own.get(face, some("chip", 1))
     )
 
 
-def vertex_type() -> np.dtype:
+def vertex_type(some: Fields) -> np.dtype:
     """Record type of a vertex of a specimen, see ``vertices.py``."""
-    return np.dtype(fields("x y z kn ks rest") + fields("s d", 3))
+    return np.dtype(some("x y z kn ks rest") + some("s d", 3))
 
 
-def vertex_fields() -> list[tuple]:
+def vertex_fields(some: Fields) -> list[tuple]:
     """Fields that a lane has besides, of a specimen, see ``vertices.py``."""
-    return fields("mu lost reach above en st count") + fields("near", MOST_ROWS // LANES)
+    return some("mu lost reach above en st count") + some("near", MOST_ROWS // LANES)
 
 
 #: Most rows of vertices that a body may have.

@@ -41,8 +41,11 @@ def resistance(rolling, pressing, dx, dy, dz, ox, oy, oz, u, v, l, dt):
 
 
 @law
-def on_face(pressure_of, e, f, o, u, v, l):
-    """Forces at t_n of a joint of round faces under a law of pressure; brings its memory from t_{n−1} to t_n."""
+def on_face(pressure_of, e, f, o, sums, u, v, l):
+    """Forces at t_n of a joint of round faces under a law of pressure; brings its memory from t_{n−1} to t_n.
+
+    ``sums`` takes the work of its springs and dashpots: the lane's own record, or one in which each joint adds for itself.
+    """
     zx, zy, zz = v.kx[l], v.ky[l], v.kz[l]
     nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
     rx, ry, rz, cx, cy, cz = faces(u, v, l)
@@ -54,11 +57,11 @@ def on_face(pressure_of, e, f, o, u, v, l):
     pressing, spread, closed, torsion, middle, pressure, elastic = pressure_of(
         e, o, u, v, l, leaning, way, (cx, cy, cz), velocity, spin
     )
-    rub(e, f, o, u, v, l, pressing, spread, closed, torsion, face, middle, velocity, spin, pressure, elastic)
+    rub(e, f, o, sums, u, v, l, pressing, spread, closed, torsion, face, middle, velocity, spin, pressure, elastic)
 
 
 @law
-def rub(e, f, o, u, v, l, pressing, spread, closed, torsion, face, middle, velocity, spin, pressure, elastic):
+def rub(e, f, o, sums, u, v, l, pressing, spread, closed, torsion, face, middle, velocity, spin, pressure, elastic):
     """Adds friction to the pressure of a joint and puts the sum on the two drums.
 
     Vectors, beside those of a law of pressure: ``face`` from the upper centroid to the middle of its face, and that middle
@@ -99,7 +102,7 @@ def rub(e, f, o, u, v, l, pressing, spread, closed, torsion, face, middle, veloc
     arm = torsion[1] * math.sqrt(spread)
     keep, less = returned(qx * qx + qy * qy + qz * qz, twist * twist, limit, limit * arm * o.pivot[l], kf, kt)
     qx, qy, qz, twist = qx * keep, qy * keep, qz * keep, twist * less
-    o.shear[l] -= 0.5 * dt * ((sx + qx) * ax + (sy + qy) * ay + (sz + qz) * az + (old + twist) * turning)
+    sums.shear[l] -= 0.5 * dt * ((sx + qx) * ax + (sy + qy) * ay + (sz + qz) * az + (old + twist) * turning)
     e.s[0, l], e.s[1, l], e.s[2, l] = in_body(v, l, qx, qy, qz)
     e.t[l] = twist
     e.kf[l] = kf
@@ -123,7 +126,7 @@ def rub(e, f, o, u, v, l, pressing, spread, closed, torsion, face, middle, veloc
             ix, iy, iz = ix + ax, iy + ay, iz + az
         qx, qy, qz, twist = qx + gx, qy + gy, qz + gz, twist + turn
         ax, ay, az = cross(ox, oy, oz, cx, cy, cz)
-        o.visc[l] -= (
+        sums.visc[l] -= (
             0.5
             * dt
             * (

@@ -5,9 +5,7 @@ functions chosen by them here are compiled with what they are chosen for. Each t
 joints of all lanes.
 """
 
-from ..ground import sample
 from ..jit import apart, chosen, kernel, law, long_law, strict
-from ..run_codes import CHUNK, RUNNING
 from ..shared.frame import run_chunks
 from ..shared.links import add_to_ledger
 from ..shared.records import (
@@ -30,7 +28,7 @@ from . import vertices
 from .beds import disc_beds, ring_beds
 from .corners import on_corners
 from .links import add_links, look_at_all, look_for_slack
-from .look import check_finite, column_state, look_at_column
+from .look import check_finite, column_state, fill_ground, look_at_column
 from .move import gather_all, kinetic_and_gravitational, move_all, stored_in_faces
 from .rims import chipped_rims, whole_rims
 from .round_faces import on_face
@@ -49,7 +47,7 @@ def round_joints(pressure_of, body, joint, load, pair, lane):
         e = joint[q]
         f = load[q]
         for l in range(o.dt.shape[0]):
-            on_face(pressure_of, e, f, o, u, v, l)
+            on_face(pressure_of, e, f, o, o, u, v, l)
 
 
 @apart
@@ -156,31 +154,6 @@ def ledger_of_links(link, bond, l, out):
     if rows(link, "none"):
         return lambda link, bond, l, out: None
     return lambda link, bond, l, out: add_to_ledger(link, bond, l, out)
-
-
-@long_law
-def base_acceleration(f, ground, running, l):
-    """Acceleration of the base for the next chunk in a lane, in the axes of the base, from the lane's own motion."""
-    for k in range(CHUNK + 1):
-        a = ground[k].a
-        if running:
-            place = (f.step[l] + k) * f.ratio[l]
-            last, factor = f.last[l], f.factor[l]
-            x = factor * sample(f.x[l], last, place)
-            y = factor * sample(f.y[l], last, place) if f.y[l] != 0 else 0.0
-            z = factor * sample(f.z[l], last, place) if f.z[l] != 0 else 0.0
-            for c in range(3):
-                a[c, l] = f.r[3 * c, l] * x + f.r[3 * c + 1, l] * y + f.r[3 * c + 2, l] * z
-        else:
-            for c in range(3):
-                a[c, l] = 0.0
-
-
-@kernel
-def fill_ground(ground, feed, watch):
-    """Acceleration of the base for the next chunk."""
-    for l in range(watch[0].status.shape[0]):
-        base_acceleration(feed[0], ground, watch[0].status[l] == RUNNING, l)
 
 
 @long_law

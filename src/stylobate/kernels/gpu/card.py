@@ -1,45 +1,61 @@
-"""Records of blocks of lanes on a graphics card: what is brought there, what is fetched, and why there may be no card.
-
-The only file beside the kernels of this room that knows the compiler for graphics cards.
-"""
+"""Records of blocks of lanes on a graphics card: what is brought there, what is fetched, launches of the kernel."""
 
 from __future__ import annotations
 
-import importlib.util
-from collections.abc import Mapping
-from typing import Any
+import weakref
+from typing import Any, Protocol
 
 import numpy as np
-from numba import config, cuda
 
-from .column import kernel_for, site_type
+from ..run_codes import CHUNK
+from .kinds import ARGUMENTS, Types, kinds, site_type
 
-#: Most threads of a block, and the shared memory that every card has for one [bytes].
-THREADS, SHARED = 1024, 48 * 1024
-
-#: Lanes of a block on the card, most first: as many as fit.
-LANES_OF_BLOCK = (8, 4, 2, 1)
+#: Records of lanes that the kernel changes; those of sites come first among its arguments.
+OF_LANES = ("lane", "feed", "watch")
 
 
-def without_card() -> str:
-    """Why no graphics card computes here, in words; empty if one does."""
-    if not config.ENABLE_CUDASIM and importlib.util.find_spec("numba_cuda") is None:
-        return "numba-cuda, which compiles for them, is not installed"
-    return "" if cuda.is_available() else "no NVIDIA card with its driver is found"
+class Device(Protocol):
+    """A card, or what stands for one: see :class:`stylobate.kernels.gpu.driver.Card`."""
+
+    name: str
+    shared: int
+
+    def kernel(self, name: str, shared: int) -> tuple[Any, int]:
+        """A kernel, and its most threads of a block."""
+        ...
+
+    def room(self, size: int) -> int:
+        """Address of new memory."""
+        ...
+
+    def free(self, address: int) -> None:
+        """Give memory back."""
+        ...
+
+    def bring(self, address: int, array: np.ndarray) -> None:
+        """Copy an array to the card."""
+        ...
+
+    def fetch(self, address: int, array: np.ndarray) -> None:
+        """Copy from the card into an array."""
+        ...
+
+    def launch(self, kernel: Any, blocks: int, threads: int, shared: int, numbers: list[int]) -> None:
+        """Run a kernel, and wait for its end."""
+        ...
 
 
-def card_name() -> str:
-    """The card that computes, in words."""
-    device = cuda.get_current_device()
-    name = device.name.decode() if isinstance(device.name, bytes) else str(device.name)
-    return f"{name} (sm_{device.compute_capability[0]}{device.compute_capability[1]})"
+def shared_memory(types: Types, drums: int) -> int:
+    """Memory that a block of columns of so many drums takes beside that of the ground [bytes]."""
+    return site_type(types).itemsize * (drums + 1)
 
 
-def fits(types: Mapping[str, np.dtype], drums: int) -> bool:
-    """Whether a block of columns of so many drums, of these types of records, fits on any card."""
-    lanes = types["watch"]["status"].shape[0]
-    ground = (types["ground"].itemsize) * 64  # more than a chunk of steps has
-    return lanes * drums <= THREADS and site_type(types).itemsize * (drums + 1) + ground <= SHARED
+def fits(device: Device, name: str, drums: int) -> bool:
+    """Whether columns of so many drums fit on a card, with the kernel of a name."""
+    types = kinds()[name]
+    threads = types["watch"]["status"].shape[0] * drums
+    room = shared_memory(types, drums) + types["ground"].itemsize * (CHUNK + 1)
+    return room <= device.shared and threads <= device.kernel(name, shared_memory(types, drums))[1]
 
 
 class CardRecords:
@@ -47,22 +63,33 @@ class CardRecords:
 
     Parameters
     ----------
-    types : mapping of str to dtype
-        Of the records by their names, with the lanes of a block on the card.
+    device : Device
+    name : str
+        Of the kernel.
     drums : int
     blocks : int
     """
 
-    def __init__(self, types: Mapping[str, np.dtype], drums: int, blocks: int) -> None:
-        site = site_type(types)
-        self.lanes, self.drums, self.blocks = types["watch"]["status"].shape[0], drums, blocks
-        self.here = {name: np.zeros(blocks, types[name]) for name in ("lane", "feed", "watch")}
-        self.here = {"site": np.zeros((blocks, drums + 1), site)} | self.here
+    def __init__(self, device: Device, name: str, drums: int, blocks: int) -> None:
+        types = kinds()[name]
+        self.device, self.drums, self.blocks = device, drums, blocks
+        self.lanes = types["watch"]["status"].shape[0]
+        self.here = {"site": np.zeros((blocks, drums + 1), site_type(types))}
+        self.here |= {record: np.zeros(blocks, types[record]) for record in OF_LANES}
         self.here["watch"]["status"] = -1  # not running
-        self.there = {name: cuda.to_device(array) for name, array in self.here.items()}
-        self.kernel = kernel_for(types)
-        self.shared = site.itemsize * (drums + 1)
-        self.samples: dict[int, tuple[np.ndarray, Any]] = {}
+        self.there = {record: device.room(array.nbytes) for record, array in self.here.items()}
+        for record, array in self.here.items():
+            device.bring(self.there[record], array)
+        self.shared = shared_memory(types, drums)
+        self.kernel, _ = device.kernel(name, self.shared)
+        nothing = np.zeros(0, types["hold"])
+        self.numbers = [
+            number
+            for record in ("site", *ARGUMENTS)
+            for number in _described(self.here.get(record, nothing), self.there.get(record, 0))
+        ]
+        self.samples: dict[int, tuple[np.ndarray, int]] = {}
+        weakref.finalize(self, _give_back, device, self.there, self.samples).atexit = False
 
     def address(self, samples: np.ndarray | None) -> int:
         """Address on the card of the samples of a motion, which are brought there once; 0 for none."""
@@ -70,12 +97,15 @@ class CardRecords:
             return 0
         key = samples.ctypes.data  # of no other samples as long as these are held
         if key not in self.samples:
-            self.samples[key] = samples, cuda.to_device(samples)
-        return int(self.samples[key][1].__cuda_array_interface__["data"][0])
+            place = self.device.room(samples.nbytes)
+            self.device.bring(place, np.ascontiguousarray(samples))
+            self.samples[key] = samples, place
+        return self.samples[key][1]
 
     def forget_samples(self, but: set[int]) -> None:
         """Clear away samples of motions, but those that start here at some addresses."""
-        self.samples = {key: kept for key, kept in self.samples.items() if key in but}
+        for key in [key for key in self.samples if key not in but]:
+            self.device.free(self.samples.pop(key)[1])
 
     def fields(self, record: str, blocks: slice, part: str = "") -> np.ndarray:
         """Numbers of some blocks here, a view of shape (blocks, rows, fields × lanes); of sites those of one part."""
@@ -89,14 +119,30 @@ class CardRecords:
 
     def bring(self, blocks: slice) -> None:
         """Bring some blocks to the card as they are here."""
-        for name, array in self.there.items():
-            array[blocks].copy_to_device(self.here[name][blocks])
+        for record in self.there:
+            self.device.bring(*self._place(record, blocks))
 
     def fetch(self, blocks: slice, *records: str) -> None:
         """Fetch some records of some blocks as they are on the card."""
-        for name in records:
-            self.here[name][blocks] = self.there[name][blocks].copy_to_host()
+        for record in records:
+            self.device.fetch(*self._place(record, blocks))
+
+    def _place(self, record: str, blocks: slice) -> tuple[int, np.ndarray]:
+        array = self.here[record]
+        return self.there[record] + (blocks.start or 0) * array.strides[0], array[blocks]
 
     def advance(self, chunks: int) -> None:
         """Advance all lanes by so many chunks of steps, or to the end of their runs."""
-        self.kernel[self.blocks, self.lanes * self.drums, 0, self.shared](*self.there.values(), chunks)
+        threads = self.lanes * self.drums
+        self.device.launch(self.kernel, self.blocks, threads, self.shared, [*self.numbers, chunks])
+
+
+def _described(array: np.ndarray, address: int) -> list[int]:
+    """What a kernel is handed of an array: nobody who counts its holders, nor its parent; size, address, shape, strides."""
+    return [0, 0, array.size, array.dtype.itemsize, address, *array.shape, *array.strides]
+
+
+def _give_back(device: Device, there: dict[str, int], samples: dict[int, tuple[np.ndarray, int]]) -> None:
+    """Give the memory of the card back."""
+    for address in (*there.values(), *(place for _, place in samples.values())):
+        device.free(address)

@@ -29,9 +29,9 @@ def base_acceleration(f, l, place):
 
 
 @law
-def ground_at(g, f, w, k, l):
+def ground_at(g, f, running, k, l):
     """Acceleration of the base at step k of the chunk; none where no run goes on."""
-    if w.status[l] == RUNNING:
+    if running:
         g.ax[l], g.az[l] = base_acceleration(f, l, (f.step[l] + k) * f.ratio[l])
     else:
         g.ax[l] = 0.0
@@ -44,7 +44,7 @@ def fill_ground(ground, feed, watch):
     f = feed[0]
     for l in range(f.x.shape[0]):
         for k in range(CHUNK + 1):
-            ground_at(ground[k], f, watch[0], k, l)
+            ground_at(ground[k], f, watch[0].status[l] == RUNNING, k, l)
 
 
 @strict
@@ -200,6 +200,23 @@ def observe(body, joint, lane, feed, watch, hold, drums):
             look_at_joint(u, v, e, o, f, w, j, l)
     for l in range(lanes):
         keep_peaks(w, l)
+
+
+@law
+def look_at_lane(body, joint, o, f, w, hold, l):
+    """Look at the column in one lane: as :func:`check_finite` and :func:`observe` look at all of them."""
+    drums = joint.shape[0]
+    for i in range(1, drums + 1):
+        lose(body[i], w, l)
+    look_at_top(body[drums], o, w, l)
+    for i in range(1, drums + 1):
+        straighten_one(body[i], l)
+    for i in range(1, drums + 1):
+        look_at_drum(body[i], w, l)
+    for j in range(drums):
+        w.held[l] = hold[j].moment[l] if j < hold.shape[0] else 0.0
+        look_at_joint(body[j + 1], body[j], joint[j], o, f, w, j, l)
+    keep_peaks(w, l)
 
 
 @strict

@@ -10,6 +10,12 @@ from .records import FEED, GROUND, LANE, WATCH
 
 
 @law
+def goes_on(w, l):
+    """Whether the run of a lane goes on."""
+    return w.status[l] == RUNNING
+
+
+@law
 def go_on(f, w, l):
     """A run that goes on is a chunk further."""
     if w.status[l] == RUNNING:

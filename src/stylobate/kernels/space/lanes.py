@@ -10,9 +10,8 @@ The frame of the run finds lane, ground, feed and watch where they are in the st
 
 import math
 
-from ..dem3d.look import straighten
+from ..dem3d.look import fill_ground, straighten
 from ..dem3d.move import twice_kinetic
-from ..dem3d.step import fill_ground
 from ..ground import BEFORE, sample
 from ..jit import apart, kernel, law, strict
 from ..run_codes import CHUNK, FAILED, RUNNING

@@ -6,7 +6,7 @@ the workspaces of a contact, of a joint and of a search, and the links; see ``re
 
 import math
 
-from ..dem3d.step import base_acceleration
+from ..dem3d.look import ground_at
 from ..jit import kernel, strict
 from ..run_codes import CHUNK, FAILED
 from ..shared.links import add_to_ledger
@@ -93,7 +93,8 @@ def advance(state, chunks):
     body, _, _, _, _, _, _, _, _, _, _, now_, feed, ground, _, _, _, ties = state
     now = now_[0]
     for _ in range(chunks):
-        base_acceleration(feed[0], ground, feed[0].last[0] > 0, 0)
+        for k in range(CHUNK + 1):
+            ground_at(ground[k], feed[0], feed[0].last[0] > 0, k, 0)
         for k in range(CHUNK):
             now.kick = 0.5 * (now.last + now.dt)
             forces(state)

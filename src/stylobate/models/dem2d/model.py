@@ -25,14 +25,12 @@ from ..drums.links import link_stiffness, with_links
 from ..drums.losses import LossyDrums
 from ..drums.records import Packed
 from ..plane.assemblies import expected_step, measures_of_assemblies, run_assembly
-from ..plane.card import CardLanes
 from ..plane.columns import ColumnLanes
 from ..plane.found_start import found_start
 from ..plane.laws import Types, point_law
 from ..plane.loose import Contacts
 from ..plane.packing import joint_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
-from ..shared.lanes import run_alike
 from ..shared.opening import Opening, opening
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
@@ -130,24 +128,11 @@ class DistinctElement2D(LossyDrums):
         """A block of lanes for columns of a kind."""
         return ColumnLanes(self.record_types(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
 
-    def card_types(self, kind: Topology) -> Types | None:
-        """Types of the records on a graphics card; None if they do not take columns of a kind: linked, or large."""
-        if kind.links or not kind.stack:
-            return None
-        from ...kernels.gpu.card import LANES_OF_BLOCK, fits
+    def card_kernel(self, kind: Topology) -> str | None:
+        """Of columns without links on two contact points a joint."""
+        from ...kernels.gpu.kinds import POINTS, plane_kernel
 
-        several = (point_law(self.points, self.damped, lanes, False) for lanes in LANES_OF_BLOCK)
-        return next((types for types in several if fits(types, kind.stack)), None)
-
-    def run_on_card(self, cases: Sequence[Case], options: RunOptions) -> Iterator[tuple[int, Measures]]:
-        """As :meth:`run_many`, where a graphics card takes the steps; of columns of a kind that has :meth:`card_types`."""
-
-        def lanes(kind: Topology) -> CardLanes:
-            types = self.card_types(kind)
-            assert types is not None
-            return CardLanes(types, lambda: self.block_for(kind, options), len(cases))
-
-        return run_alike(lambda case: self.kind(case.column), lanes, cases, 1)
+        return plane_kernel(self.damped) if kind.stack and not kind.links and self.points == POINTS else None
 
     def pack(self, column: Column) -> Packed:
         """A column as the engine wants it, settled if asked for."""

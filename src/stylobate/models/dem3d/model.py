@@ -361,6 +361,14 @@ class DistinctElement3D(LossyDrums):
         bodies, cost = Stack(planar=self.planar, pivots=self.pivot_friction < 1.0), self.cost(kind.rows)
         return SpaceBlock(self.records(kind), bodies, self.pack, options, cost, planar=self.planar)
 
+    def card_kernel(self, kind: Kind) -> str | None:
+        """Of columns without links on whole rims, or on corners."""
+        from ...kernels.gpu.kinds import FACES as COMPILED
+        from ...kernels.gpu.kinds import space_kernel
+
+        face = FACES.get(kind.section, kind.law)
+        return space_kernel(face, kind.damped, kind.rolls) if face in COMPILED and not kind.topology.links else None
+
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
         return 4.5 * super().cost(drums)

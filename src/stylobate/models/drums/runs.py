@@ -89,6 +89,10 @@ class LaneRuns:
         """The collapse of a lane."""
         raise NotImplementedError
 
+    def collect(self, lane: int) -> Measures:
+        """Measures of a lane whose run is over."""
+        raise NotImplementedError
+
     def lost(self, collapse: Collapse, column: Any) -> str:
         """Fallen bodies, and their places, in words."""
         return f"{what_is_lost(collapse, column.n)}, to the {collapse.side}"

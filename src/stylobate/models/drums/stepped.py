@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any, ClassVar
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...column import Column
 from ...errors import check_range
@@ -13,11 +14,14 @@ from ...motion import Motion
 from ...outcome import Outcome
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
-from ..shared.lanes import Riders, run_alike
+from ..shared.lanes import LaneBlock, Riders, run_alike
 from ..shared.soft_joints import check_sinking, check_step_resolves
 from ..shared.stable_step import chosen_step, whole_steps
 from .bodies import Topology
 from .histories import histories
+
+if TYPE_CHECKING:
+    from ...kernels.gpu.card import Device
 
 #: Largest share of the stable step at which columns alike are computed in one step: joints 2.8 times as stiff bear it.
 SAFE_FACTOR = 0.6
@@ -74,6 +78,11 @@ class SteppedDrums(Model):
     def block_for(self, kind: Any, options: RunOptions) -> Any:
         """A block of lanes for columns of a kind."""
         raise NotImplementedError
+
+    def card_kernel(self, kind: Any) -> str | None:
+        """Name of the kernel for graphics cards that steps columns of a kind; None where there is none."""
+        del kind
+        return None
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]; a batch shares it among its lanes."""
@@ -159,3 +168,39 @@ class SteppedDrums(Model):
         return run_alike(
             lambda case: self.kind(case.column), lambda kind: self.block_for(kind, options), cases, threads
         )
+
+    def run_on_card(
+        self, device: Device, cases: Sequence[Case], options: RunOptions, threads: int
+    ) -> Iterator[tuple[int, Measures]]:
+        """As :meth:`run_many`, where a graphics card steps what it has kernels for, and threads the rest."""
+        if len(cases) and cases[0].column.stack is None:
+            return self.run_many(cases, options, threads)
+
+        def lanes(kind: Any) -> LaneBlock:
+            name = self._kernel_on(device, kind)
+            if name is None:
+                return self.block_for(kind, options)
+            from .card import CardLanes
+
+            return CardLanes(device, name, partial(self.block_for, kind, options), len(cases))
+
+        return run_alike(
+            lambda case: self.kind(case.column),
+            lanes,
+            cases,
+            lambda kind: threads if self._kernel_on(device, kind) is None else 1,
+        )
+
+    def on_card(self, device: Device, column: Any) -> bool:
+        """Whether a graphics card steps runs of what stands: of columns without links for which it has kernels."""
+        return column.stack is not None and self._kernel_on(device, self.kind(column.stack)) is not None
+
+    def _kernel_on(self, device: Device, kind: Any) -> str | None:
+        """Name of the kernel by which a card steps columns of a kind; None if it does not."""
+        name = self.card_kernel(kind)
+        if name is None:
+            return None
+        from .card_check import usable
+
+        drums = kind.stack if isinstance(kind, Topology) else kind.topology.stack
+        return name if usable(device, name, drums, type(self)) else None

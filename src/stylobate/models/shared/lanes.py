@@ -116,7 +116,10 @@ Key = TypeVar("Key", bound=Hashable)
 
 
 def run_alike(
-    key: Callable[[Case], Key], make_block: Callable[[Key], LaneBlock], cases: Iterable[Case], threads: int
+    key: Callable[[Case], Key],
+    make_block: Callable[[Key], LaneBlock],
+    cases: Iterable[Case],
+    threads: int | Callable[[Key], int],
 ) -> Iterator[tuple[int, Measures]]:
     """Run cases of several kinds, those of one kind together; yields as :func:`run_lanes` does.
 
@@ -128,7 +131,8 @@ def run_alike(
         A block for cases of a kind.
     cases : iterable of Case
         Asked for one by one, :data:`WINDOW` ahead of the runs at most.
-    threads : int
+    threads : int or callable
+        For all kinds, or for one.
     """
     lost: list[tuple[int, Measures]] = []
 
@@ -148,7 +152,8 @@ def run_alike(
                     yield kind, index, case
 
     for kind, some in itertools.groupby(kinds(), key=operator.itemgetter(0)):
-        yield from run_lanes(lambda kind=kind: make_block(kind), (one[1:] for one in some), threads, numbered=True)
+        count = threads(kind) if callable(threads) else threads
+        yield from run_lanes(lambda kind=kind: make_block(kind), (one[1:] for one in some), count, numbered=True)
     yield from lost
 
 

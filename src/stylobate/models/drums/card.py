@@ -1,16 +1,20 @@
-"""Columns in the plane whose steps a graphics card takes; how runs begin, end and what they come to is in ``columns.py``."""
+"""Columns whose steps a graphics card takes; how runs begin, end and what they come to is in the blocks of their engine."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...kernels.run_codes import RUNNING
 from ...response import Measures
 from ..base import Case
-from .columns import ColumnLanes
-from .laws import Types
+from .runs import LaneRuns
+
+if TYPE_CHECKING:
+    from ...kernels.gpu.card import Device
 
 #: Chunks of steps of a launch: some tens of milliseconds, for which Ctrl-C and runs that have ended wait.
 CHUNKS_PER_LAUNCH = 500
@@ -26,27 +30,30 @@ class CardLanes:
 
     Parameters
     ----------
-    types : mapping of str to dtype
-        Of the records on the card, with fewer lanes to a block than here: a power of two.
+    device : Device
+    name : str
+        Of the kernel.
     make : callable
-        A block here.
+        A block here, of columns that the kernel is for.
     runs : int
         How many runs there are, at most.
     """
 
-    def __init__(self, types: Types, make: Callable[[], ColumnLanes], runs: int) -> None:
+    def __init__(self, device: Device, name: str, make: Callable[[], LaneRuns], runs: int) -> None:
         from ...kernels.gpu.card import CardRecords
+        from ...kernels.gpu.kinds import lanes_of
 
         first = make()
         self.each = first.lanes
         count = -(-min(max(runs, 1), MOST_LANES) // self.each)
         self.blocks = [first, *(make() for _ in range(count - 1))]
         self.lanes = count * self.each
-        self.parts = self.each // types["watch"]["status"].shape[0]
-        self.card = CardRecords(types, first.records.topology.stack, count * self.parts)
+        drums, self.parts = first.arrays.topology.stack, self.each // lanes_of(name)
+        self.card = CardRecords(device, name, drums, count * self.parts)
         self.known = set(range(count))  # blocks whose records here are as on the card, or newer
         self.changed: set[int] = set()  # blocks that are newer here
         self.running = np.zeros((count, self.each), dtype=bool)
+        self.computed_by = f"gpu ({device.name})"
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
@@ -77,9 +84,9 @@ class CardLanes:
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run has ended; the lane is free afterwards."""
         block, own = self._at_hand(lane)
-        return block.collect(own)
+        return replace(block.collect(own), computed_by=self.computed_by)
 
-    def _at_hand(self, lane: int) -> tuple[ColumnLanes, int]:
+    def _at_hand(self, lane: int) -> tuple[LaneRuns, int]:
         """The block of a lane, as it is on the card, and the place of the lane in it."""
         number, own = divmod(lane, self.each)
         if number not in self.known:
@@ -91,36 +98,37 @@ class CardLanes:
         return slice(number * self.parts, (number + 1) * self.parts)
 
     def _bring(self, number: int) -> None:
-        block, card, there = self.blocks[number], self.card, self._on_card(number)
+        rows, card, there = self.blocks[number].arrays.rows, self.card, self._on_card(number)
         for name in ("body", "joint"):
             fields = card.fields("site", there, name)
-            fields[...] = self._in_parts(block.records.rows[name], fields.shape)
+            fields[...] = self._in_parts(rows[name], fields.shape)
         for name in ("lane", "feed", "watch"):
             fields = card.fields(name, there)
-            fields[...] = self._in_parts(block.records.rows[name], fields.shape)
+            fields[...] = self._in_parts(rows[name], fields.shape)
         feed = card.here["feed"][there]
-        for lane, case in enumerate(block.cases):
+        for lane, case in enumerate(self.blocks[number].cases):
             if case is not None:
                 part, own = divmod(lane, self.each // self.parts)
-                feed["x"][part, own] = card.address(case.motion.samples)
-                feed["z"][part, own] = card.address(case.motion.z_samples)
+                for name, samples in _components(case).items():
+                    if name in (feed.dtype.names or ()):
+                        feed[name][part, own] = card.address(samples)
         card.bring(there)
         if len(card.samples) > 4 * self.lanes:
             card.forget_samples(self._in_use())
 
     def _in_use(self) -> set[int]:
-        motions = [case.motion for block in self.blocks for case in block.cases if case is not None]
-        both = [samples for one in motions for samples in (one.samples, one.z_samples)]
-        return {samples.ctypes.data for samples in both if samples is not None}
+        cases = [case for block in self.blocks for case in block.cases if case is not None]
+        every = [samples for case in cases for samples in _components(case).values()]
+        return {samples.ctypes.data for samples in every if samples is not None}
 
     def _fetch(self, number: int) -> None:
-        block, card, there = self.blocks[number], self.card, self._on_card(number)
+        arrays, card, there = self.blocks[number].arrays, self.card, self._on_card(number)
         card.fetch(there, "site", "lane", "feed")
         for name in ("body", "joint"):
-            block.records.rows[name][...] = self._in_rows(card.fields("site", there, name))
+            arrays.rows[name][...] = self._in_rows(card.fields("site", there, name))
         for name in ("lane", "watch"):
-            block.records.rows[name][...] = self._in_rows(card.fields(name, there))
-        block.records.feed["step"][0] = card.here["feed"]["step"][there].ravel()
+            arrays.rows[name][...] = self._in_rows(card.fields(name, there))
+        arrays.feed["step"][0] = card.here["feed"]["step"][there].ravel()
 
     def _in_parts(self, rows: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
         """Rows of fields over the lanes of a block, as blocks on the card hold them."""
@@ -130,3 +138,9 @@ class CardLanes:
         """The other way round."""
         own = self.each // self.parts
         return fields.reshape(self.parts, fields.shape[1], -1, own).transpose(1, 2, 0, 3).reshape(-1, self.each)
+
+
+def _components(case: Case) -> dict[str, np.ndarray | None]:
+    """Samples of the motion of a case by their axes."""
+    motion = case.motion
+    return {"x": motion.samples, "y": motion.y_samples, "z": motion.z_samples}

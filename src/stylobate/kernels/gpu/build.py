@@ -1,0 +1,34 @@
+"""Builds the kernels for graphics cards as PTX, where numba-cuda and NVVM are installed: ``make ptx``. No card is needed."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+from ...atomic import replacing
+from .kinds import FOLDER, OLDEST, kinds, missing, stamp
+
+
+def build(*names: str) -> None:
+    """Build kernels that are not there from these sources; all of them, or those that are named."""
+    import numba.cuda.dispatcher as dispatcher
+
+    from .column import compiled
+
+    class Card:
+        """The card that laws ask for when they are compiled into a kernel, whatever that is compiled for."""
+
+        compute_capability = OLDEST
+
+    dispatcher.get_current_device = Card
+    FOLDER.mkdir(exist_ok=True)
+    for name in [name for name in missing() if not names or name in names]:
+        started = time.monotonic()
+        text = compiled(kinds()[name])
+        with replacing(FOLDER / f"{name}.ptx") as partial:
+            partial.write_text(f"{stamp()}\n{text}")
+        print(f"{name}: {len(text) // 1024} kB in {time.monotonic() - started:.0f} s", flush=True)
+
+
+if __name__ == "__main__":
+    build(*sys.argv[1:])

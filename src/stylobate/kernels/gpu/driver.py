@@ -1,0 +1,149 @@
+"""The graphics card of this machine, by the driver's own interface (``cuda-bindings``): memory, kernels, launches."""
+
+from __future__ import annotations
+
+import ctypes
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ...errors import InputError, StylobateError
+
+#: What to do where there is no card.
+INSTEAD = "use a machine with an NVIDIA card made for computing (A100, H100 and the like), or leave `device` out"
+
+
+class Card:
+    """A graphics card.
+
+    Attributes
+    ----------
+    name : str
+        The card and the interface of its driver, in words.
+    shared : int
+        Memory that the threads of a block may share [bytes].
+
+    Raises
+    ------
+    InputError
+        There is no card, or it is too old.
+    """
+
+    def __init__(self) -> None:
+        from .kinds import OLDEST
+
+        try:
+            from cuda.bindings import driver
+        except ImportError as error:
+            raise InputError(
+                f"`device` is gpu, and cuda-bindings, by which cards are reached, cannot be loaded ({error}); install "
+                "stylobate[gpu], or leave `device` out.",
+                "device",
+            ) from None
+        self._cuda = driver
+        try:
+            self._ask(driver.cuInit(0))
+            (count,) = self._ask(driver.cuDeviceGetCount())
+        except (RuntimeError, StylobateError) as error:  # the first where the driver is not there at all
+            raise InputError(
+                f"`device` is gpu, and the driver of NVIDIA cards does not answer ({error}); {INSTEAD}.", "device"
+            ) from None
+        if not count:
+            raise InputError(f"`device` is gpu, and no NVIDIA card is found; {INSTEAD}.", "device")
+        (device,) = self._ask(driver.cuDeviceGet(0))
+        asked = driver.CUdevice_attribute
+        capability = tuple(
+            self._ask(driver.cuDeviceGetAttribute(one, device))[0]
+            for one in (
+                asked.CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR,
+                asked.CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR,
+            )
+        )
+        (name,) = self._ask(driver.cuDeviceGetName(128, device))
+        (version,) = self._ask(driver.cuDriverGetVersion())
+        words = bytes(name).split(b"\0")[0].decode()
+        if capability < OLDEST:
+            raise InputError(
+                f"`device` is gpu, and {words} has compute capability {capability[0]}.{capability[1]}; allowed is "
+                f"{OLDEST[0]}.{OLDEST[1]} or newer: {INSTEAD}.",
+                "device",
+            )
+        self.name = f"{words}, sm_{capability[0]}{capability[1]}, CUDA {version // 1000}.{version % 1000 // 10}"
+        optin = asked.CU_DEVICE_ATTRIBUTE_MAX_SHARED_MEMORY_PER_BLOCK_OPTIN
+        (self.shared,) = self._ask(driver.cuDeviceGetAttribute(optin, device))
+        (self._context,) = self._ask(driver.cuDevicePrimaryCtxRetain(device))
+
+    def kernel(self, name: str, shared: int) -> tuple[Any, int]:
+        """A kernel by its name, for blocks that share so much memory [bytes], and the most threads of a block."""
+        from .kinds import ENTRY, text_of
+
+        driver = self._current()
+        text = text_of(name).encode() + b"\0"
+        try:
+            (module,) = self._ask(driver.cuModuleLoadData(text))
+        except StylobateError as error:
+            raise InputError(
+                f"`device` is gpu, and the driver of {self.name} does not take the kernel {name!r} ({error}); take a newer "
+                "driver, or leave `device` out.",
+                "device",
+            ) from None
+        (found,) = self._ask(driver.cuModuleGetFunction(module, ENTRY.encode()))
+        asked = driver.CUfunction_attribute
+        self._ask(driver.cuFuncSetAttribute(found, asked.CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES, shared))
+        (most,) = self._ask(driver.cuFuncGetAttribute(asked.CU_FUNC_ATTRIBUTE_MAX_THREADS_PER_BLOCK, found))
+        return found, most
+
+    def room(self, size: int) -> int:
+        """Address of new memory [bytes] on the card."""
+        (address,) = self._ask(self._current().cuMemAlloc(max(size, 1)))
+        return int(address)
+
+    def free(self, address: int) -> None:
+        """Give memory back."""
+        self._ask(self._current().cuMemFree(address))
+
+    def bring(self, address: int, array: np.ndarray) -> None:
+        """Copy an array, which is one piece of memory, to an address on the card."""
+        self._ask(self._current().cuMemcpyHtoD(address, array.ctypes.data, array.nbytes))
+
+    def fetch(self, address: int, array: np.ndarray) -> None:
+        """Copy from an address on the card into an array, which is one piece of memory."""
+        self._ask(self._current().cuMemcpyDtoH(array.ctypes.data, address, array.nbytes))
+
+    def launch(self, kernel: Any, blocks: int, threads: int, shared: int, numbers: list[int]) -> None:
+        """Run a kernel with numbers of 64 bits as its arguments, and wait for its end."""
+        driver = self._current()
+        types = tuple(ctypes.c_int64 for _ in numbers)
+        self._ask(driver.cuLaunchKernel(kernel, blocks, 1, 1, threads, 1, 1, shared, 0, (tuple(numbers), types), 0))
+        self._ask(driver.cuCtxSynchronize())
+
+    def _current(self) -> Any:
+        """The driver, with this card as that of the calling thread."""
+        self._ask(self._cuda.cuCtxSetCurrent(self._context))
+        return self._cuda
+
+    def _ask(self, answer: tuple[Any, ...]) -> tuple[Any, ...]:
+        """What the driver has answered behind its code for success.
+
+        Raises
+        ------
+        StylobateError
+            It has not succeeded.
+        """
+        code, *rest = answer
+        if int(code) != 0:
+            raise StylobateError(f"the graphics card has failed: {getattr(code, 'name', code)}")
+        return tuple(rest)
+
+
+@cache
+def the_card() -> Card:
+    """The card of this machine.
+
+    Raises
+    ------
+    InputError
+        The extra ``gpu`` is not installed, or there is no card.
+    """
+    return Card()

@@ -1,0 +1,107 @@
+"""Kernels for graphics cards by their names: what columns each is for, and the files in which they are delivered.
+
+A file holds a kernel as PTX, which the driver of a card compiles for it; its first line tells the sources of the kernels
+from which it was built (``build.py``). One of other sources is not used: there is one law.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from ...errors import InputError
+from ..dem3d import records as in_space
+from ..jit import source_digest
+from ..plane import records as in_plane
+from .laws import laws_for
+
+#: Compute capability of the oldest cards for which kernels are built.
+OLDEST = (8, 0)
+
+#: Name of a kernel within its file; records that it takes after those of sites, in its order, and how many numbers it is
+#: handed in all: two addresses, the size, that of an element and where it starts of each array, its shape and its strides;
+#: and the number of chunks.
+ENTRY = "advance"
+ARGUMENTS = ("lane", "feed", "watch", "hold")
+NUMBERS = 9 + 7 * len(ARGUMENTS) + 1
+
+#: Lanes of a block: as many as keep a column of a dozen drums within the shared memory that every card has for one.
+PLANE_LANES, SPACE_LANES = 8, 4
+
+#: Contact points of a joint in the plane, and faces of drums in space, for which there are kernels.
+POINTS, FACES = 2, ("rim", "corner")
+
+#: Folder of the files.
+FOLDER = Path(__file__).parent / "built"
+
+#: Record types of an engine by their names.
+Types = Mapping[str, np.dtype]
+
+
+def plane_kernel(damped: bool) -> str:
+    """Name of the kernel for columns in the plane."""
+    return "plane-damped" if damped else "plane"
+
+
+def space_kernel(face: str, damped: bool, rolling: bool) -> str:
+    """Name of the kernel for drums in space on faces of a kind (:func:`stylobate.kernels.dem3d.records.types`)."""
+    return face + ("-rolling" if rolling else "-damped" if damped else "")
+
+
+@cache
+def kinds() -> dict[str, Types]:
+    """Record types of every kernel that is built, by its name."""
+    found: dict[str, Types] = {}
+    for damped in (False, True):
+        joint = in_plane.point_joint(POINTS, damped, PLANE_LANES)
+        found[plane_kernel(damped)] = in_plane.types(joint, damped, POINTS, PLANE_LANES, False)
+        for face in FACES:
+            found[space_kernel(face, damped, False)] = in_space.types(face, damped, lanes=SPACE_LANES)
+    found[space_kernel("rim", True, True)] = in_space.types("rim", True, True, lanes=SPACE_LANES)
+    return found
+
+
+def lanes_of(name: str) -> int:
+    """Lanes of a block of the kernel of a name."""
+    return kinds()[name]["watch"]["status"].shape[0]
+
+
+def site_type(types: Types) -> np.dtype:
+    """Record of a body, with the joint and the load over it and what they sum up, from the types of an engine's records."""
+    lanes = types["watch"]["status"].shape
+    sums = [(name, np.float64, lanes) for name in ("work", "shear", "visc")]
+    sums += [(name, np.float64, (*rows, *lanes)) for name, rows in laws_for(types).momentum]
+    return np.dtype([(name, types[name]) for name in ("body", "joint", "load")] + [("sums", np.dtype(sums))])
+
+
+def stamp() -> str:
+    """First line of a file that was built from these sources."""
+    return f"// kernels of stylobate, built from sources {source_digest()}"
+
+
+def missing() -> Iterator[str]:
+    """Names of kernels of which there is no file from these sources."""
+    for name in kinds():
+        place = FOLDER / f"{name}.ptx"
+        if not place.is_file() or place.read_text().partition("\n")[0] != stamp():
+            yield name
+
+
+def text_of(name: str) -> str:
+    """A kernel as PTX.
+
+    Raises
+    ------
+    InputError
+        It was not built, or from other sources.
+    """
+    if name in missing():
+        raise InputError(
+            f"`device` is gpu, and the kernel {name!r} for graphics cards was not built from the sources of this "
+            "installation; take a wheel, or run `make ptx` in the source tree, or leave `device` out.",
+            "device",
+        )
+    return (FOLDER / f"{name}.ptx").read_text()
