@@ -169,6 +169,13 @@ def test_limits_over_records_and_laws_add_by_their_squares_and_one_law_tells_not
     assert (one["low_84"], one["high_84"]) == (0.0, math.inf)
 
 
+def test_a_limit_a_thousand_times_off_is_none():
+    """Two laws of 1 and 2 N: t(1) takes ln q off by 12.7062·ln 2/√2·√1.5 = 7.63, a factor of 2050."""
+    laws = np.tile([1, 2], 100)
+    slip = values_of_runs({"dowelled": DOWELLED}, runs_of(1.0 * laws, laws, np.repeat(np.arange(100), 2))).iloc[1]
+    assert (slip["value_95"], slip["low_95"], slip["high_95"]) == (2.0 / 1e8, 0.0, math.inf)
+
+
 def test_a_suite_and_models_tell_the_same_values_as_states(tmp_path, capsys, found):
     """The same runs through three verbs, bit for bit; one motion leaves the upper limit at the capacity."""
     motions = [st.ricker(frequency, st.g).scaled(0.3) for frequency in (0.3, 0.4, 0.5)]

@@ -26,6 +26,9 @@ FRACTILES = (0.5, 0.84, 0.95)
 #: What is told of each: itself, and the limits of its interval.
 WHICH = ("value", "low", "high")
 
+#: A limit that is farther from its value than by this factor is none.
+FARTHEST = 1e3
+
 #: Levels that agree to so many decimals are one.
 DIGITS = 9
 
@@ -168,7 +171,7 @@ def _with_laws(
     Every law g has its own fractile q_g over the same records. ln q of one more lies within t(G − 1) s √(1 + 1/G) of their
     mean; how far that is from the value and how far the limit over records is are added as independent errors are, by their
     squares. A law under which the link bears nothing leaves the lower limit at 0, one beyond all that was computed the upper
-    one open, and fewer than two laws both.
+    one open, and fewer than two laws both; so does a limit a thousand times off.
     """
     groups = np.unique(law[law > 0])
     if not len(groups):
@@ -198,7 +201,8 @@ def _with_laws(
 def _together(value: float, *limits: float) -> float:
     """By which factor independent errors to these limits on one side of a value take it off together."""
     logs = [math.inf if x in (0.0, math.inf) else abs(math.log(x / value)) for x in limits]
-    return _exp(math.hypot(*logs))
+    far = math.hypot(*logs)
+    return math.inf if far > math.log(FARTHEST) else math.exp(far)
 
 
 def _exp(value: float) -> float:
