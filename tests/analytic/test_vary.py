@@ -75,7 +75,7 @@ def test_no_candidate_is_best_where_all_reach_their_capacity(found):
 
 
 def test_a_candidate_that_may_stay_below_its_capacity_is_in_the_set_and_not_the_best(found):
-    """Of 6 kN in 6 of 30 records, a share of 0.2 that chance may make of 0.16: by Wilson 0.095 to 0.373; in 20 it may not."""
+    """Of 6 kN in 6 of 30 records, which chance may make of 16 %: by Wilson 0.095 to 0.373; in 20 it may not."""
     for number, alike in (
         (6, ["dowel.shear_capacity=3000", "dowel.shear_capacity=6000"]),
         (20, ["dowel.shear_capacity=3000"]),

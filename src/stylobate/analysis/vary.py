@@ -211,8 +211,8 @@ def best_of(
     -----
     A candidate is told from the best where the interval of the paired difference of their shares does not hold zero. Which
     one is best is itself chance, so that the intervals are those of all pairs of K candidates together: each has the
-    confidence 1 − (1 − c)/(K (K − 1)/2) (Bonferroni). Nothing is told of fewer than ten records. A candidate whose links come
-    to their capacity in these runs, but need not under others, is not the best one and stays in the set.
+    confidence 1 − (1 − c)/(K (K − 1)/2) (Bonferroni). Nothing is told of fewer than ten records. A candidate whose links
+    come to their capacity in these runs, but need not under others, is not the best one and stays in the set.
     """
     import pandas
 
@@ -224,7 +224,7 @@ def best_of(
         label: evidence(table[table["state"] == label], None, found.state, label, doubt=found.doubt) for label in labels
     }
     first = next(iter(told.values()))
-    designed = design_values(found)
+    designed = design_values(found, instants=False)
     most: Any = worst_of(designed)
     rows = []
     for share in shares({label: one.codes for label, one in told.items()}, first.records, first.laws):
@@ -232,7 +232,8 @@ def best_of(
         use, use_low, use_high = (float(mine[f"use_{one}_84"].max()) if len(mine) else 0.0 for one in WHICH)
         rows.append({
             "candidate": share.label, "share_low": share.low, "share_high": share.high, "interval_low": share.interval[0],
-            "interval_high": share.interval[1], "use": use, "use_low": use_low, "use_high": use_high, "within": use < AT_CAPACITY,
+            "interval_high": share.interval[1], "use": use, "use_low": use_low, "use_high": use_high,
+            "within": use < AT_CAPACITY,
         })  # fmt: skip
     within = [row for row in rows if row["within"] and np.isfinite(row["share_high"])]
     best = min(within, key=lambda row: row["share_high"])["candidate"] if within else None

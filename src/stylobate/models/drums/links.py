@@ -174,9 +174,11 @@ def with_links(added: LinkStiffness, omega: float, stiffness_damping: float) -> 
 
 
 def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
-    """Forces, slips and elongations of all links of a lane now, in the order of histories, shape (4, m)."""
-    shear = np.hypot(records["fx"][:, lane], records["fy"][:, lane])
-    return np.stack((shear, *(records[name][:, lane] for name in ("ft", "slip", "long"))))
+    """Forces, slips, elongations and directions of all links of a lane now, in the order of histories, shape (5, m)."""
+    fx, fy = records["fx"][:, lane], records["fy"][:, lane]
+    return np.stack(
+        (np.hypot(fx, fy), *(records[name][:, lane] for name in ("ft", "slip", "long")), np.arctan2(fy, fx))
+    )
 
 
 def link_measures(links: Sequence[PlacedLink], records: Any, lane: int, step: float) -> tuple[LinkMeasures, ...]:
