@@ -13,6 +13,7 @@ from stylobate.analysis.design_values import clearances, fractile, values_of_run
 from stylobate.campaign.twins import LAW
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
+from stylobate.models.drums.links import link_histories
 
 SMOOTH = st.Joint(1e9, 5e8, friction_coefficient=0.1)
 BARE = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0)], SMOOTH, name="bare")
@@ -197,6 +198,19 @@ def test_only_a_run_that_stands_or_is_open_tells_an_instant(found):
     assert set(st.design_values(fell)["record_84"]) == {None}
     assert st.design_values(fell)["instant_84_s"].isna().all()
     assert st.design_values(found, instants=False)["instant_84_s"].isna().all()
+
+
+def test_the_instant_of_a_peak_between_recorded_states_is_that_of_the_peak():
+    """Recorded shear 1, 3, 2, 2 N, of which 5 N were reached between the third and the fourth state: not at the second."""
+    rows = {"shear": [1, 3, 2, 2], "tension": [0] * 4, "slip": [0] * 4, "elongation": [0] * 4}
+    rows |= {"angle": [0.0, 0.1, 0.2, 0.3], "peak": [1, 3, 3, 5], "pull": [0] * 4}
+    states = [{"links": np.array(one, dtype=float)[:, None]} for one in zip(*rows.values(), strict=True)]
+    held = link_histories(states)
+    assert held is not None
+    assert held.reached is not None
+    assert held.reached.tolist() == [[3], [0]]
+    assert held.angle is not None
+    assert held.angle[:, 0].tolist() == rows["angle"]
 
 
 def test_a_limit_a_thousand_times_off_is_none():

@@ -156,12 +156,14 @@ def _tell_instants(rows: list[dict[str, Any]], links: list[PlacedLink], again: C
 
 
 def _instant(response: Response, k: int, link: PlacedLink, quantity: str) -> dict[str, float]:
-    """When the force of link k is largest in the recorded states of a run, and the azimuth of shear."""
+    """When the force of link k is largest in a run, by its recorded states, and the azimuth of shear about then."""
     held = response.histories.links
     if held is None:
         return {}
     shear = quantity == QUANTITIES[0].name
-    at = int(np.argmax((held.shear if shear else held.tension)[:, k]))
+    force = (held.shear if shear else held.tension)[:, k]
+    at = int(np.argmax(force) if held.reached is None else held.reached[0 if shear else 1, k])
+    at = max((at, max(at - 1, 0)), key=force.__getitem__)  # the larger one of the states on either side of the peak
     told = {"instant_84_s": float(response.time[at])}
     if shear and held.angle is not None:
         angle = float(held.angle[at, k])

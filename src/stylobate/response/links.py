@@ -36,6 +36,9 @@ class LinkHistories:
     angle : array, optional
         Direction of the shear force on the body above [rad], shape (T, m): from the first towards the second direction in
         which the link slips, which turn with the body below. Older files have none.
+    reached : array of int, optional
+        Number of the first recorded state that comes after the largest shear force, and after the largest tension, of all
+        steps, shape (2, m); known of a run just made.
     """
 
     shear: np.ndarray
@@ -43,6 +46,7 @@ class LinkHistories:
     slip: np.ndarray
     elongation: np.ndarray
     angle: np.ndarray | None = None
+    reached: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
