@@ -200,7 +200,8 @@ def link_histories(states: Sequence[dict[str, Any]]) -> LinkHistories | None:
     if "links" not in states[0]:
         return None
     *told, peak, pull = np.array([state["links"] for state in states]).transpose(1, 0, 2)
-    return LinkHistories(*told, np.array([np.argmax(one >= one[-1], axis=0) for one in (peak, pull)]))
+    reached = np.array([np.argmax(one >= one[-1], axis=0) for one in (peak, pull)])
+    return LinkHistories(*told, reached=reached)
 
 
 def with_link_histories(found: Histories, states: Sequence[dict[str, Any]]) -> Histories:
