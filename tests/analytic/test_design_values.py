@@ -13,6 +13,7 @@ from stylobate.analysis.design_values import clearances, fractile, values_of_run
 from stylobate.campaign.twins import LAW
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
+from stylobate.models.drums.links import link_histories
 
 SMOOTH = st.Joint(1e9, 5e8, friction_coefficient=0.1)
 BARE = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0)], SMOOTH, name="bare")
@@ -167,6 +168,56 @@ def test_limits_over_records_and_laws_add_by_their_squares_and_one_law_tells_not
     assert math.log(both["high_84"] / both["value_84"]) == pytest.approx(expected, rel=1e-4)
     one = values_of_runs({"dowelled": DOWELLED}, runs_of(x, np.ones(60), np.arange(60))).iloc[1]
     assert (one["low_84"], one["high_84"]) == (0.0, math.inf)
+
+
+@pytest.mark.parametrize("azimuth", [30.0, 200.0])
+def test_the_peak_of_a_dowel_acts_with_the_ground_at_its_largest_acceleration(azimuth):
+    """A slow pulse along an azimuth: the dowel pulls the block along with the ground, at the middle of the pulse. It turns
+    there as cos, so that ringing of 1 % (of V, 2 μg of 3 a) takes the instant off by its root over 2π f, 0.05 s; the block
+    only slides, so that 0.01° is rounding of the joint's friction."""
+    pulse, way = st.ricker(0.4, 0.3 * st.g), math.radians(azimuth)
+    shaken = st.Motion(pulse.dt, math.cos(way) * pulse.acceleration, math.sin(way) * pulse.acceleration, name="pulse")
+    strong = BARE.replace(links=(dataclasses.replace(DOWEL, shear_capacity=1e5),), name="strong")
+    told = st.suite_table([strong, BARE], [shaken.scaled(0.9), shaken], st.DistinctElement3D(), threads=1)
+    force, slip = told.attrs["design_values"]
+    assert force["azimuth_84_deg"] == pytest.approx(azimuth, abs=0.01)
+    middle = int(np.argmax(pulse.acceleration)) * pulse.dt
+    assert force["instant_84_s"] == pytest.approx(middle, abs=0.05)
+    assert force["value_84"] == pytest.approx(0.2 * BARE.mass * st.g, rel=0.01)
+    assert math.isnan(slip["instant_84_s"])
+
+
+def test_only_a_run_that_stands_or_is_open_tells_an_instant(found):
+    """In the plane the dowel pulls towards x, 0°; where the value is that of a collapse, nothing is told."""
+    values = st.design_values(found)
+    forces = values[values["quantity"] == "shear force"].set_index("level")
+    assert forces.loc[0.3, "azimuth_84_deg"] == 0.0
+    assert forces.loc[0.3, "record_84"] in set(found.table["record"])
+    assert math.isnan(forces.loc[0.2, "instant_84_s"])  # only at the largest level
+    fell = dataclasses.replace(found, table=found.table.assign(verdict="collapsed"))
+    assert set(st.design_values(fell)["record_84"]) == {None}
+    assert st.design_values(fell)["instant_84_s"].isna().all()
+    assert st.design_values(found, instants=False)["instant_84_s"].isna().all()
+
+
+def test_the_instant_of_a_peak_between_recorded_states_is_that_of_the_peak():
+    """Recorded shear 1, 3, 2, 2 N, of which 5 N were reached between the third and the fourth state: not at the second."""
+    rows = {"shear": [1, 3, 2, 2], "tension": [0] * 4, "slip": [0] * 4, "elongation": [0] * 4}
+    rows |= {"angle": [0.0, 0.1, 0.2, 0.3], "peak": [1, 3, 3, 5], "pull": [0] * 4}
+    states = [{"links": np.array(one, dtype=float)[:, None]} for one in zip(*rows.values(), strict=True)]
+    held = link_histories(states)
+    assert held is not None
+    assert held.reached is not None
+    assert held.reached.tolist() == [[3], [0]]
+    assert held.angle is not None
+    assert held.angle[:, 0].tolist() == rows["angle"]
+
+
+def test_a_limit_a_thousand_times_off_is_none():
+    """Two laws of 1 and 2 N: t(1) takes ln q off by 12.7062·ln 2/√2·√1.5 = 7.63, a factor of 2050."""
+    laws = np.tile([1, 2], 100)
+    slip = values_of_runs({"dowelled": DOWELLED}, runs_of(1.0 * laws, laws, np.repeat(np.arange(100), 2))).iloc[1]
+    assert (slip["value_95"], slip["low_95"], slip["high_95"]) == (2.0 / 1e8, 0.0, math.inf)
 
 
 def test_a_suite_and_models_tell_the_same_values_as_states(tmp_path, capsys, found):

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -12,6 +13,7 @@ from ..campaign.twins import LAW
 from ..column.links.placed import PlacedLink
 from ..column.structure import Structure
 from ..errors import check_kind
+from ..response.response import Response
 from . import verdicts as v
 from .compare import Comparison
 from .states import StateComparison
@@ -25,6 +27,15 @@ FRACTILES = (0.5, 0.84, 0.95)
 
 #: What is told of each: itself, and the limits of its interval.
 WHICH = ("value", "low", "high")
+
+#: Time between the states among which the instant of a peak is sought [s].
+FINE = 0.002
+
+#: A force has an azimuth with at least this share of it level [-].
+LEVEL = 1e-6
+
+#: A limit that is farther from its value than by this factor is none.
+FARTHEST = 1e3
 
 #: Levels that agree to so many decimals are one.
 DIGITS = 9
@@ -49,7 +60,9 @@ QUANTITIES = (
 )
 
 
-def design_values(found: StateComparison | Comparison, confidence: float = 0.95) -> pandas.DataFrame:
+def design_values(
+    found: StateComparison | Comparison, confidence: float = 0.95, *, instants: bool = True
+) -> pandas.DataFrame:
     """Peak force, slip and elongation of every link over records and twins, level by level, with utilisation.
 
     Parameters
@@ -59,6 +72,8 @@ def design_values(found: StateComparison | Comparison, confidence: float = 0.95)
         whose one motion leaves every upper limit open. Those of a suite are told by ``stylobate.suite_table`` itself.
     confidence : float
         Of the intervals.
+    instants : bool
+        Whether to compute the runs that govern at the largest level once more, to tell when and where to their force acts.
 
     Returns
     -------
@@ -68,7 +83,10 @@ def design_values(found: StateComparison | Comparison, confidence: float = 0.95)
         ``undecided``; for 50, 84 and 95 %, ``value_84`` with ``low_84`` and ``high_84``, the
         value that this share of the motions does not exceed and its interval; ``capacity``, and ``use_value_84`` with
         ``use_low_84`` and ``use_high_84``, the same over it. Infinite: beyond all that was computed; NaN where there is no
-        capacity.
+        capacity. ``record_84`` is the record of the run whose force or way ``value_84`` is, None where that is none that
+        stands or is open. Of forces at the largest level ``instant_84_s``, when it acts in that run [s], and of shear
+        ``azimuth_84_deg``, where it pushes the body above in plan, from x towards y, as seen from the body below; NaN where
+        it is not told.
 
     Notes
     -----
@@ -82,15 +100,19 @@ def design_values(found: StateComparison | Comparison, confidence: float = 0.95)
     """
     check_kind("found", found, (StateComparison, Comparison), allowed="a comparison of states or of models")
     if isinstance(found, StateComparison):
-        return values_of_runs(dict(zip(found.labels, found.columns, strict=True)), found.table, confidence)
+        again = partial(found.response, output_interval=FINE) if instants else None
+        return values_of_runs(dict(zip(found.labels, found.columns, strict=True)), found.table, confidence, again)
     table = found.table.rename(columns={"model": "state"})
     table["verdict"] = [v.verdict(row) for row in table.to_dict("records")]
     stood = {label: one.structure for label, one in zip(found.labels, found.responses, strict=True)}
-    return values_of_runs(stood, table.assign(im=1.0, record=""), confidence)
+    return values_of_runs(stood, table.assign(im=1.0, record=""), confidence, found.responses.__getitem__)
 
 
 def values_of_runs(
-    stood: Mapping[str, Structure], runs: pandas.DataFrame, confidence: float = 0.95
+    stood: Mapping[str, Structure],
+    runs: pandas.DataFrame,
+    confidence: float = 0.95,
+    again: Callable[[int], Response] | None = None,
 ) -> pandas.DataFrame:
     """The table of :func:`design_values` of any runs.
 
@@ -102,6 +124,8 @@ def values_of_runs(
         One row per run: ``state``, ``im`` (its level), ``record``, ``verdict``, what links measure, and, where it varies,
         ``law_of_joints`` from 1, 0 where it is that of the structure itself.
     confidence : float
+    again : callable, optional
+        The run of a row with its histories; without it no instants are told.
     """
     import pandas
 
@@ -116,7 +140,37 @@ def values_of_runs(
         for level in np.unique(sizes).tolist():
             told = _of_level(table[sizes == level], links, confidence)
             rows += [{"state": label, "level": level} | one for one in told]
+        if again is not None and len(sizes):
+            _tell_instants([row for row in rows if (row["state"], row["level"]) == (label, sizes.max())], links, again)
+    for row in rows:
+        del row["run"], row["place"]
     return pandas.DataFrame(rows)
+
+
+def _tell_instants(rows: list[dict[str, Any]], links: list[PlacedLink], again: Callable[[int], Response]) -> None:
+    """Adds to the forces of one state at one level when and where to they act; every run is made once."""
+    forces = [row for row in rows if row["run"] is not None and row["unit"] == "N" and row["value_84"] > 0.0]
+    governing = {run: again(run) for run in sorted({row["run"] for row in forces})}
+    for row in forces:
+        row |= _instant(governing[row["run"]], row["place"], links[row["place"]], row["quantity"])
+
+
+def _instant(response: Response, k: int, link: PlacedLink, quantity: str) -> dict[str, float]:
+    """When the force of link k is largest in a run, by its recorded states, and the azimuth of shear about then."""
+    held = response.histories.links
+    if held is None:
+        return {}
+    shear = quantity == QUANTITIES[0].name
+    force = (held.shear if shear else held.tension)[:, k]
+    at = int(np.argmax(force) if held.reached is None else held.reached[0 if shear else 1, k])
+    at = max((at, max(at - 1, 0)), key=force.__getitem__)  # the larger one of the states on either side of the peak
+    told = {"instant_84_s": float(response.time[at])}
+    if shear and held.angle is not None:
+        angle = float(held.angle[at, k])
+        x, y, _ = math.cos(angle) * np.array(link.frame[0]) + math.sin(angle) * np.array(link.frame[1])
+        if math.hypot(x, y) > LEVEL:
+            told["azimuth_84_deg"] = math.degrees(math.atan2(y, x)) % 360.0
+    return told
 
 
 def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[dict[str, Any]]:
@@ -142,7 +196,8 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
                 "link": link.name, "kind": link.kind, "quantity": one.name, "unit": one.unit, "runs": len(table),
                 "records": int(owner.max()) + 1, "laws": len(np.unique(law[law > 0])),
                 "gone": int(gone.sum()), "undecided": int((said == v.UNDECIDED).sum()),
-                "capacity": limit,
+                "capacity": limit, "record_84": None, "instant_84_s": math.nan, "azimuth_84_deg": math.nan,
+                "run": None, "place": k,
             }  # fmt: skip
             for share in FRACTILES:
                 told = fractile(low, high, owner, share, confidence)
@@ -150,6 +205,9 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
                 use = [x / limit if math.isfinite(limit) else math.nan for x in told]
                 for name, values in (("", told), ("use_", use)):
                     row |= {f"{name}{which}_{100 * share:g}": x for which, x in zip(WHICH, values, strict=True)}
+            alike = np.flatnonzero((peak == row["value_84"]) & ~gone)
+            if len(alike):
+                row |= {"run": int(table.index[alike[0]]), "record_84": str(table["record"].iloc[alike[0]])}
             rows.append(row)
     return rows
 
@@ -168,7 +226,7 @@ def _with_laws(
     Every law g has its own fractile q_g over the same records. ln q of one more lies within t(G − 1) s √(1 + 1/G) of their
     mean; how far that is from the value and how far the limit over records is are added as independent errors are, by their
     squares. A law under which the link bears nothing leaves the lower limit at 0, one beyond all that was computed the upper
-    one open, and fewer than two laws both.
+    one open, and fewer than two laws both; so does a limit a thousand times off.
     """
     groups = np.unique(law[law > 0])
     if not len(groups):
@@ -198,7 +256,8 @@ def _with_laws(
 def _together(value: float, *limits: float) -> float:
     """By which factor independent errors to these limits on one side of a value take it off together."""
     logs = [math.inf if x in (0.0, math.inf) else abs(math.log(x / value)) for x in limits]
-    return _exp(math.hypot(*logs))
+    far = math.hypot(*logs)
+    return math.inf if far > math.log(FARTHEST) else math.exp(far)
 
 
 def _exp(value: float) -> float:

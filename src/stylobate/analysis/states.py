@@ -21,6 +21,7 @@ from ..motion.intensity_specs import IntensityMeasure
 from ..notebook import Shown
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
+from ..response.response import Response
 from .difference import Difference, caveat, doubt, reference
 from .evidence import Evidence, evidence, intervals, medians_by_law
 from .fragility import SAMPLES, fragility
@@ -30,7 +31,7 @@ from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
 from .lognormal import bootstrap, falls, fit
 from .paired import levels_of, median_ends, share_limits, unseen
 from .side_by_side import Share, shares
-from .studies import StudyResult, run_study
+from .studies import StudyResult, histories_of, run_study
 from .unknown_law import few_laws, under_another_law
 
 if TYPE_CHECKING:
@@ -61,6 +62,8 @@ class StateComparison(Shown):
         Of every state, of the runs that could be computed for all of them.
     state : str
         The limit state.
+    study : Study
+        Of the runs.
     doubt : str
         What stands before any advice, because of the model; empty where nothing does.
     """
@@ -73,7 +76,13 @@ class StateComparison(Shown):
     differences: tuple[Difference, ...]
     shares: tuple[Share, ...]
     state: str
+    study: Study
     doubt: str = ""
+
+    def response(self, row: int, output_interval: float = 0.01) -> Response:
+        """The run of a row of the table once more, with histories that are so far apart [s]."""
+        number = int(np.flatnonzero(self.result.rows.made)[row])
+        return histories_of(self.study, number, output_interval=output_interval)
 
     @property
     def links(self) -> pandas.DataFrame:
@@ -208,7 +217,7 @@ def compare_states(
     before = doubt(labels, named, model) if study.of_one_law else ""
     if told[0].laws is not None and (few := few_laws(len(np.unique(told[0].laws)))):
         before = f"{before} {few[:1].upper()}{few[1:]}.".lstrip()
-    return StateComparison(labels, named, result, table, curves, differences, side_by_side, state, before)
+    return StateComparison(labels, named, result, table, curves, differences, side_by_side, state, study, before)
 
 
 def _blank(states: Sequence[Structure], model: Model) -> dict:

@@ -173,11 +173,11 @@ def run_study(
     return StudyResult(plan, rows, time.perf_counter() - started, runs.made)
 
 
-def histories_of(study: Study, number: int) -> Response:
-    """A case of a study once more, with its histories."""
+def histories_of(study: Study, number: int, **options: Any) -> Response:
+    """A case of a study once more, with its histories; further options are those of ``simulate``."""
     column, motion = study.case(number)
     tail, quiet = study.campaign.tail, share_of([motion], study.campaign.whole)
-    return simulate(column, motion, study.model_of(number), tail=tail, quiet=quiet, until_decided=True)
+    return simulate(column, motion, study.model_of(number), tail=tail, quiet=quiet, until_decided=True, **options)
 
 
 def keep_histories(

@@ -20,7 +20,9 @@ from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
 from ..motion.orientation import record_of
-from .design_values import values_of_runs
+from ..response.response import Response
+from ..simulate import simulate
+from .design_values import FINE, values_of_runs
 from .difference import caveat
 from .directions import direction_of
 from .population import Population
@@ -129,23 +131,32 @@ def suite_table(
     request = Request.of(cases, Hasher(model, campaign.options), share_of(motions, campaign.whole))
     found = run_all(request, campaign)
     linked: list[dict[str, Any]] = []
+    of_linked: list[Case] = []
     for i, (case, row, line) in enumerate(zip(cases[:own], found, rows, strict=False)):
         of_twins: list[dict[str, Any]] = []
+        twins = slice(own + i * number, own + (i + 1) * number)
         if row is not None:
             line |= row | {"verdict": verdict(row), "model": model.name}
             if (width := case.column.base_width) is not None:
                 line["peak_top_over_base_width"] = row["peak_top_displacement_m"] / width
         if drawn:
             some = drawn[i // len(motions)]
-            of_twins = [one for one in found[own + i * number : own + (i + 1) * number] if one is not None]
+            of_twins = [one for one in found[twins] if one is not None]
             line |= Population(some, tuple(of_twins)).columns
             of_twins = [one | some.law_of(k) for k, one in enumerate(of_twins)]
         if case.column.links:
             own_run = [row] if row is not None else []
             named = {"state": case.column.name, "im": 1.0, "record": line["record"]}
             linked += [one | named | {"verdict": verdict(one)} for one in own_run + of_twins]
+            of_linked += [cases[k] for k in (i, *range(twins.start, twins.stop)) if found[k] is not None]
     table = pandas.DataFrame(rows)
-    values = values_of_runs({one.name: one for one in stands}, pandas.DataFrame(linked))
+
+    def again(row: int) -> Response:
+        case, quiet = of_linked[row], share_of([of_linked[row].motion], campaign.whole)
+        fine: Any = {"output_interval": FINE, "until_decided": True, "tail": campaign.tail, "quiet": quiet}
+        return simulate(case.column, case.motion, model, **fine)
+
+    values = values_of_runs({one.name: one for one in stands}, pandas.DataFrame(linked), again=again)
     table.attrs["design_values"] = values.to_dict("records")
     table.attrs["doubt"] = caveat(stands, model)
     table.attrs["twins"] = {one.name: {"words": some.words, **some.facts} for one, some in zip(stands, drawn)}

@@ -40,6 +40,7 @@ def describe_design(values: pandas.DataFrame) -> None:
         told: dict[str, Any] = {key: some[key] for key in ("state", "link", "quantity", "unit")}
         told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
         told |= {"over capacity": some["use_value_84"], "at most": some["use_high_84"]}
+        told |= {"at [s]": some["instant_84_s"], "towards [°]": some["azimuth_84_deg"]}
         console.print_table(pandas.DataFrame(told), digits=3)
     if len(wide := clearances(values)):
         print(f"Clearance that layers need [m]{words}")

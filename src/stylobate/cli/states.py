@@ -70,7 +70,8 @@ def states(
     levels: str | None = o.option("A:A:N", "Its levels, such as 0.2m/s:1.6m/s:8."),
     vary: list[str] | None = o.option(
         "KIND.FIELD=A:B:N",
-        "Candidates for a number of the links [SI], such as dowel.diameter=0.02:0.06:5; may be repeated.",
+        "Candidates for a number or place of the links [SI], such as dowel.diameter=0.02:0.06:5 or dowel.at.x=0,0.1; may be "
+        "repeated.",
     ),
     state: str = o.option("STATE", "Limit state, such as collapse or top:0.35d.", "collapse"),
     *,

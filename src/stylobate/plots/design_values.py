@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+import textwrap
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
@@ -13,6 +15,9 @@ from .style import CYCLE, GREY, WIDTH, page, plain, styled
 if TYPE_CHECKING:
     import pandas
 
+#: Most letters of a line beneath the axis.
+NARROW = 62
+
 #: Most rows in a picture, as many of every state.
 MOST = 24
 
@@ -21,7 +26,8 @@ MOST = 24
 def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure | None = None) -> Figure:
     """Links at the largest level, those used most: a dot, its 95 % interval, and capacity at 1.
 
-    An arrow: the upper limit is beyond all that was computed; without a dot, so is the value itself.
+    Under its name a force has the instant of the run that governs, and a shear force its azimuth, from x towards y. An
+    arrow: the upper limit is beyond all that was computed; without a dot, so is the value itself.
 
     Parameters
     ----------
@@ -32,7 +38,8 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     """
     found = worst_of(values)
     shown = found.groupby("state", sort=False).head(max(MOST // max(len(set(found["state"])), 1), 1))
-    figure = page(figure, (WIDTH, 1.5 + 0.27 * len(shown)))
+    labels = [f"{plain(row['link'])}, {row['quantity']}{_acts(row)}" for row in shown.to_dict("records")]
+    figure = page(figure, (WIDTH, 1.7 + 0.27 * sum(1 + one.count("\n") for one in labels)))
     axes = figure.subplots()
     value, low, high = (shown[f"use_{which}_84"].to_numpy(dtype=float) for which in ("value", "low", "high"))
     ends = np.concatenate((value, low, high, [1.0]))
@@ -47,14 +54,20 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
         if np.isfinite(value[k]):
             axes.plot(value[k : k + 1], [place], color=color, marker="o", markersize=5.0)
     axes.axvline(1.0, color=GREY, linewidth=1.6, zorder=0)
-    labels = [f"{plain(link)}, {quantity}" for link, quantity in zip(shown["link"], shown["quantity"], strict=True)]
     axes.set_yticks(np.arange(len(shown))[::-1], labels)
     axes.set(xlim=(0.0, far), ylim=(-0.6, len(shown) - 0.4))
-    axes.set_xlabel(
-        "over capacity [-]: not exceeded under 84 % of the motions, and its 95 % interval\n" + basis_of(values)
-    )
+    meant = f"over capacity [-]: not exceeded under 84 % of the motions, and its 95 % interval {basis_of(values)}"
+    axes.set_xlabel(textwrap.fill(meant, NARROW))
     for state in states:
         axes.plot([], [], color=looks[state], marker="o", label=plain(state))
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=min(len(states), 3), fontsize=8, frameon=False)
     axes.grid(True, axis="x")
     return figure
+
+
+def _acts(row: dict[str, Any]) -> str:
+    """When and where to a force acts in the run that governs; empty where it is not told."""
+    instant, azimuth = (row.get(key, math.nan) for key in ("instant_84_s", "azimuth_84_deg"))
+    if not math.isfinite(instant):
+        return ""
+    return f"\n{f'towards {azimuth:.0f}° ' if math.isfinite(azimuth) else ''}at {instant:.2f} s"

@@ -19,8 +19,11 @@ MOST = 40
 #: Columns of the tables, by heading; clearances go without the last two of what has a capacity.
 SHOWN = {
     "state": "state", "link": "link", "quantity": "quantity", "unit": "unit", "84 %": "value_84", "from": "low_84",
-    "to": "high_84", "runs": "runs", "undecided": "undecided", "over capacity": "use_value_84", "at most": "use_high_84",
+    "to": "high_84", "undecided": "undecided", "over capacity": "use_value_84", "at most": "use_high_84",
 }  # fmt: skip
+
+#: The same of when and where to a force acts, which older tables do not tell.
+ACTS = {"at [s]": "instant_84_s", "towards [°]": "azimuth_84_deg"}
 
 
 def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> list[Item]:
@@ -45,7 +48,12 @@ def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> 
         caption = (
             f"Design values{where(values)}: {meant} Both also over the capacity; links used most come first. {open_} "
         )
-        items.append(_rows(worst, SHOWN, caption + "The file design.csv holds every level, quantity, and 50 and 95 %."))
+        caption += "The file design.csv holds every level, quantity, and 50 and 95 %."
+        acts = ACTS if set(ACTS.values()) <= set(worst) else {}
+        if acts:
+            caption += " Forces are told at an instant of the run that governs; shear pushes the body above "
+            caption += "towards an azimuth."
+        items.append(_rows(worst, SHOWN | acts, caption))
         caption = (
             "Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all "
         )

@@ -64,6 +64,10 @@ _REST = {
     "link_tension": ("N", "tension of the link, along it or against the opening of its joint"),
     "link_slip": ("m", "slip of the joint at the link's place"),
     "link_elongation": ("m", "elongation of the link, or lift of the joint at its place"),
+    "link_angle": (
+        "rad",
+        "direction of link_shear on the body above, from the first to the second way of slip of the link",
+    ),
 }
 _MEANINGS = _BODY | _REST
 
@@ -188,7 +192,8 @@ def _recorded(response: Recorded, of: str) -> list[tuple[str, tuple[str, ...], n
     if h.base is not None and h.top is not None:
         found += [("base_displacement", along, h.base), ("top_displacement", along, h.top)]
     if h.links is not None:
-        found += [(f"link_{name}", ("time", "link"), getattr(h.links, name)) for name in LINKS]
+        named = [*LINKS, *(["angle"] if h.links.angle is not None else [])]
+        found += [(f"link_{name}", ("time", "link"), getattr(h.links, name)) for name in named]
     ground = ("time",) if h.dims == "xz" else ("time", "axis")
     found += [
         ("ground_acceleration", ground, h.ground_acceleration),
@@ -244,7 +249,8 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
     steps, energy = len(data["time"]), _energy(data)
     velocities = "body_velocity", "body_angular_velocity"
     moving = {field: get(name) for field, name in zip(("velocity", "spin"), velocities) if name in data}
-    links = LinkHistories(*(get(f"link_{name}") for name in LINKS)) if "link_shear" in data else None
+    held = [get(f"link_{name}") for name in (*LINKS, "angle") if f"link_{name}" in data]
+    links = LinkHistories(*held) if held else None
     bodies = len(structure.shapes)
     for values in moving.values():
         _check(values, (steps, bodies, 3))

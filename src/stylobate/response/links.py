@@ -33,12 +33,20 @@ class LinkHistories:
         Of the joint at the link's place since the start [m], shape (T, m); 0 of ties and cores.
     elongation : array
         Of a line, or lift of the joint at the link's place, since the start [m], shape (T, m).
+    angle : array, optional
+        Direction of the shear force on the body above [rad], shape (T, m): from the first towards the second direction in
+        which the link slips, which turn with the body below. Older files have none.
+    reached : array of int, optional
+        Number of the first recorded state that comes after the largest shear force, and after the largest tension, of all
+        steps, shape (2, m); known of a run just made.
     """
 
     shear: np.ndarray
     tension: np.ndarray
     slip: np.ndarray
     elongation: np.ndarray
+    angle: np.ndarray | None = None
+    reached: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

@@ -46,7 +46,7 @@ def link_from_dict(fields: Mapping[str, Any]) -> Link:
         return _made(kind, KINDS)(**place, numbers=Numbers(**values))
     made = _made(kind, COLUMN_KINDS)
     values = {name: value for name, value in values.items() if value is not None}
-    known = {field.name for field in dataclasses.fields(made)} - {"between", "numbers"}
+    known = {field.name for field in dataclasses.fields(made)} - {"between", "numbers", "made"}
     _refuse_unknown(kind, values, known)
     return made(**values)
 

@@ -27,7 +27,9 @@ _LIES: dict[str, Lies] = {}
 Mark = Literal["stroke", "anchor", "line", "sheet"]
 
 #: Keys of the place of a link; the first five in a column alone.
-PLACES = ("joint", "from_drum", "to_drum", "from_height", "to_height", "at", "to", "name", "between", "numbers")
+PLACES = (
+    "joint", "from_drum", "to_drum", "from_height", "to_height", "at", "to", "name", "between", "numbers", "made",
+)  # fmt: skip
 
 
 class Site(NamedTuple):
@@ -118,6 +120,8 @@ class Link:
         Names of the two bodies of an assembly that it links; ``ground`` is the ground.
     numbers : Numbers, optional
         What it holds, where that is known: of a link of an assembly that is made, :meth:`in_numbers`.
+    made : Link, optional
+        The same link of material and size, of which these numbers are.
 
     Class attributes: ``kind``, its name in files; ``law``, the name of the law by which it acts, which models and statics
     take or refuse; ``lies`` and ``mark``.
@@ -133,6 +137,7 @@ class Link:
     name: str = ""
     between: tuple[str, str] | None = None
     numbers: Numbers | None = None
+    made: Link | None = dataclasses.field(default=None, compare=False, repr=False)
 
     def __init_subclass__(cls) -> None:
         """A kind that names no law has one of its own, which nobody takes until its name is added there."""
@@ -195,7 +200,7 @@ class Link:
             raise InputError(f"a {self.kind} is between no bodies; give between = ['a', 'b'], two names.", "between")
         at, to = self.ends
         site = Site() if self.lies == "joint" else Site(length_of(self.kind, at, to))
-        return self.restated(self.held(site), at=at, to=to, name=self.name, between=self.between)
+        return self.restated(self.held(site), at=at, to=to, name=self.name, between=self.between, made=self)
 
     def restated(self, numbers: Numbers, **place: Any) -> Self:
         """A link of this kind between two bodies that holds so much; ``to`` is kept where the kind has two ends."""

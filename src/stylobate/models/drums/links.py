@@ -174,9 +174,10 @@ def with_links(added: LinkStiffness, omega: float, stiffness_damping: float) -> 
 
 
 def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
-    """Forces, slips and elongations of all links of a lane now, in the order of histories, shape (4, m)."""
-    shear = np.hypot(records["fx"][:, lane], records["fy"][:, lane])
-    return np.stack((shear, *(records[name][:, lane] for name in ("ft", "slip", "long"))))
+    """Forces, slips, elongations and directions of all links of a lane now, in the order of histories, and their largest
+    shear and tension so far, shape (7, m)."""
+    fx, fy, *rest = (records[name][:, lane] for name in ("fx", "fy", "ft", "slip", "long", "peak", "pull"))
+    return np.stack((np.hypot(fx, fy), *rest[:3], np.arctan2(fy, fx), *rest[3:]))
 
 
 def link_measures(links: Sequence[PlacedLink], records: Any, lane: int, step: float) -> tuple[LinkMeasures, ...]:
@@ -198,7 +199,9 @@ def link_histories(states: Sequence[dict[str, Any]]) -> LinkHistories | None:
     """Histories of the links, where the states of a run hold them."""
     if "links" not in states[0]:
         return None
-    return LinkHistories(*np.array([state["links"] for state in states]).transpose(1, 0, 2))
+    *told, peak, pull = np.array([state["links"] for state in states]).transpose(1, 0, 2)
+    reached = np.array([np.argmax(one >= one[-1], axis=0) for one in (peak, pull)])
+    return LinkHistories(*told, reached=reached)
 
 
 def with_link_histories(found: Histories, states: Sequence[dict[str, Any]]) -> Histories:
