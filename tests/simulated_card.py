@@ -25,6 +25,7 @@ from stylobate.models.drums import card_check
 from stylobate.models.start import Start
 
 simulator.FakeWithinKernelCUDAArray = lambda fake: fake._ary  # laws take records as they are, not in its wrapping
+lanes.THREADS = 1  # the simulator has one card, which does one thing at a time
 sys.setswitchinterval(1e-5)  # its threads wait for one another in loops
 kinds.PLANE_LANES = kinds.SPACE_LANES = 2  # so that a block is half empty, and others are all
 for module in (column, laws):
@@ -53,13 +54,16 @@ class Simulated:
     def free(self, address: int) -> None:
         del self.held[address]
 
-    def bring(self, address: int, array: np.ndarray) -> None:
+    def queue(self) -> None:
+        pass
+
+    def bring(self, address: int, array: np.ndarray, queue: None) -> None:
         ctypes.memmove(address, array.ctypes.data, array.nbytes)
 
-    def fetch(self, address: int, array: np.ndarray) -> None:
+    def fetch(self, address: int, array: np.ndarray, queue: None) -> None:
         ctypes.memmove(array.ctypes.data, address, array.nbytes)
 
-    def launch(self, kernel: Any, blocks: int, threads: int, shared: int, numbers: list[int]) -> None:
+    def launch(self, kernel: Any, blocks: int, threads: int, shared: int, numbers: list[int], queue: None) -> None:
         """Takes the numbers apart as the compiled kernel does: they stand for arrays by their layout alone."""
         assert len(numbers) == kinds.NUMBERS
         *rest, chunks = numbers

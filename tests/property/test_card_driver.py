@@ -11,6 +11,7 @@ import pytest
 
 import stylobate as st
 from stylobate.kernels.gpu import card, driver, kinds
+from stylobate.kernels.run_codes import ENDED, RUNNING
 
 
 class Code(IntEnum):
@@ -54,7 +55,9 @@ class Driver(types.SimpleNamespace):
         self.cuFuncSetAttribute = lambda function, which, value: (self.set.update({which: value}), (ok,))[1]
         self.cuFuncGetAttribute = lambda which, function: (ok, numbers[which])
         self.cuLaunchKernel = lambda *given: (self.launched.append(given), (launch,))[1]
-        self.cuCtxSynchronize = lambda: (ok,)
+        self.CUstream_flags = types.SimpleNamespace(CU_STREAM_NON_BLOCKING=1)
+        self.cuStreamCreate = lambda flags: (ok, "queue")
+        self.cuStreamSynchronize = lambda queue: (ok,)
 
     def cuCtxSetCurrent(self, context):
         self.current[threading.get_ident()] = context
@@ -70,11 +73,13 @@ class Driver(types.SimpleNamespace):
         del self.memory[address]
         return (Code.CUDA_SUCCESS,)
 
-    def cuMemcpyHtoD(self, there, here, size):
+    def cuMemcpyHtoDAsync(self, there, here, size, queue):
+        assert queue == "queue"
         ctypes.memmove(there, here, size)
         return (Code.CUDA_SUCCESS,)
 
-    def cuMemcpyDtoH(self, here, there, size):
+    def cuMemcpyDtoHAsync(self, here, there, size, queue):
+        assert queue == "queue"
         ctypes.memmove(here, there, size)
         return (Code.CUDA_SUCCESS,)
 
@@ -140,22 +145,47 @@ def test_a_launch_that_fails_is_no_result(drive):
         records.advance(10)
 
 
-def test_records_travel_whole_and_block_by_block(drive):
+def test_records_are_brought_before_a_launch_and_fetched_once_a_run_has_ended(drive):
     made = drive()
     records = card.CardRecords(driver.Card(), "rim", 3, 5)
     random = np.random.default_rng(1)
     for array in records.here.values():
         array.view(np.uint8)[...] = random.integers(0, 255, array.view(np.uint8).shape)
+    records.here["watch"]["status"] = RUNNING
     before = {name: array.copy() for name, array in records.here.items()}
-    records.bring(slice(1, 3))
-    for array in records.here.values():
-        array.view(np.uint8)[...] = 0
-    records.fetch(slice(1, 3), "site", "watch")
-    for name in ("site", "watch"):
-        assert records.here[name][1:3].tobytes() == before[name][1:3].tobytes()
-        assert not records.here[name][[0, 3, 4]].view(np.uint8).any()
-    assert not records.here["lane"].view(np.uint8).any()
-    assert set(records.there.values()) == set(made.memory)
+
+    def on_card(name):
+        memory = made.memory[records.there[name]]
+        return memory.view(before[name].dtype).reshape(before[name].shape)
+
+    records.advance(10)
+    assert all(on_card(name).tobytes() == before[name].tobytes() for name in before)
+    on_card("site")["body"]["x"] += 1.0
+    records.advance(10)
+    assert records.here["site"].tobytes() == before["site"].tobytes(), "no run has ended"
+    made.cuLaunchKernel = lambda *_: (on_card("watch")["status"].__setitem__((2, 1), ENDED), (Code.CUDA_SUCCESS,))[1]
+    records.advance(10)
+    assert records.here["watch"]["status"][2, 1] == ENDED
+    assert records.here["site"].tobytes() == on_card("site").tobytes() != before["site"].tobytes()
+
+
+def test_views_are_of_the_numbers_of_every_lane(drive):
+    drive()
+    records = card.CardRecords(driver.Card(), "rim", 3, 5)
+    records.here["site"]["body"]["x"][4, 2, 1] = 7.0
+    records.here["site"]["joint"]["mu"][4, 2, 1] = 8.0
+    records.here["watch"]["when"][4, 1] = 9
+    views = records.views()
+    names = {name: kinds.kinds()["rim"][name] for name in views}
+    first = {
+        name: [field[1] // 8 // kinds.SPACE_LANES for field in dtype.fields.values()] for name, dtype in names.items()
+    }
+    place = {name: dict(zip(dtype.names, first[name], strict=True)) for name, dtype in names.items()}
+    assert views["body"].shape[0] == 4
+    assert views["joint"].shape[0] == 3
+    assert views["body"][2, place["body"]["x"], 4, 1].view(float) == 7.0
+    assert views["joint"][2, place["joint"]["mu"], 4, 1].view(float) == 8.0
+    assert views["watch"][0, place["watch"]["when"], 4, 1] == 9
 
 
 def test_a_launch_is_told_every_array_as_compiled_code_takes_it(drive):
@@ -164,7 +194,7 @@ def test_a_launch_is_told_every_array_as_compiled_code_takes_it(drive):
     records.advance(7)
     (function, blocks, _, _, threads, _, _, shared, stream, (values, kinds_of), extra), *_ = made.launched
     assert function == (kinds.text_of("rim").encode() + b"\0", b"advance")
-    assert (blocks, threads, stream, extra) == (5, 3 * kinds.SPACE_LANES, 0, 0)
+    assert (blocks, threads, stream, extra) == (5, 3 * kinds.SPACE_LANES, "queue", 0)
     assert shared == made.set["DYNAMIC"] == records.here["site"].itemsize * 4
     assert len(values) == len(kinds_of) == kinds.NUMBERS
     site = records.here["site"]

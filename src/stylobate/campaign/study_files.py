@@ -225,8 +225,8 @@ def _in_sequence(table: SequenceTable, parts: Sequence[Suite]) -> list[Motion]:
 def _of_grid(path: str | Path) -> Study:
     grid = read_grid(path)
     motions = []
-    for frequency, amplitude in product(grid.frequencies, grid.amplitudes):
-        unit = harmonic(float(frequency), 1.0, grid.duration)
+    units = [harmonic(float(frequency), 1.0, grid.duration) for frequency in grid.frequencies]
+    for (frequency, unit), amplitude in product(zip(grid.frequencies, units), grid.amplitudes):
         name = f"{frequency:.4g} Hz, {amplitude / g:.4g} g"  # a motion of its own, no copy of a record
         motions.append(unit.replace(factor=unit.factor * float(amplitude), name=name))
     return Study([grid.column], motions, [grid.model], campaign=Campaign(tail=grid.tail))

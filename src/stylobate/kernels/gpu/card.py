@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..run_codes import CHUNK
+from ..run_codes import CHUNK, FREE, RUNNING
 from .kinds import ARGUMENTS, Types, kinds, site_type
 
 #: Records of lanes that the kernel changes; those of sites come first among its arguments.
@@ -32,15 +32,19 @@ class Device(Protocol):
         """Give memory back."""
         ...
 
-    def bring(self, address: int, array: np.ndarray) -> None:
+    def queue(self) -> Any:
+        """A queue of what the card is asked for, one after the other; others go on beside it."""
+        ...
+
+    def bring(self, address: int, array: np.ndarray, queue: Any) -> None:
         """Copy an array to the card."""
         ...
 
-    def fetch(self, address: int, array: np.ndarray) -> None:
+    def fetch(self, address: int, array: np.ndarray, queue: Any) -> None:
         """Copy from the card into an array."""
         ...
 
-    def launch(self, kernel: Any, blocks: int, threads: int, shared: int, numbers: list[int]) -> None:
+    def launch(self, kernel: Any, blocks: int, threads: int, shared: int, numbers: list[int], queue: Any) -> None:
         """Run a kernel, and wait for its end."""
         ...
 
@@ -76,10 +80,9 @@ class CardRecords:
         self.lanes = types["watch"]["status"].shape[0]
         self.here = {"site": np.zeros((blocks, drums + 1), site_type(types))}
         self.here |= {record: np.zeros(blocks, types[record]) for record in OF_LANES}
-        self.here["watch"]["status"] = -1  # not running
+        self.here["watch"]["status"] = FREE
         self.there = {record: device.room(array.nbytes) for record, array in self.here.items()}
-        for record, array in self.here.items():
-            device.bring(self.there[record], array)
+        self.queue = device.queue()
         self.shared = shared_memory(types, drums)
         self.kernel, _ = device.kernel(name, self.shared)
         nothing = np.zeros(0, types["hold"])
@@ -89,6 +92,7 @@ class CardRecords:
             for number in _described(self.here.get(record, nothing), self.there.get(record, 0))
         ]
         self.samples: dict[int, tuple[np.ndarray, int]] = {}
+        self.changed = True
         weakref.finalize(self, _give_back, device, self.there, self.samples).atexit = False
 
     def address(self, samples: np.ndarray | None) -> int:
@@ -98,7 +102,7 @@ class CardRecords:
         key = samples.ctypes.data  # of no other samples as long as these are held
         if key not in self.samples:
             place = self.device.room(samples.nbytes)
-            self.device.bring(place, np.ascontiguousarray(samples))
+            self.device.bring(place, np.ascontiguousarray(samples), self.queue)
             self.samples[key] = samples, place
         return self.samples[key][1]
 
@@ -107,34 +111,39 @@ class CardRecords:
         for key in [key for key in self.samples if key not in but]:
             self.device.free(self.samples.pop(key)[1])
 
-    def fields(self, record: str, blocks: slice, part: str = "") -> np.ndarray:
-        """Numbers of some blocks here, a view of shape (blocks, rows, fields × lanes); of sites those of one part."""
-        array = self.here[record][blocks]
-        bits = array.view(np.int64).reshape(len(array), -1, array.dtype.itemsize // 8)
-        if not part:
-            return bits
-        kind, first = array.dtype.fields[part][:2]
-        rows = bits[:, : self.drums] if part == "joint" else bits
-        return rows[..., first // 8 : (first + kind.itemsize) // 8]
-
-    def bring(self, blocks: slice) -> None:
-        """Bring some blocks to the card as they are here."""
-        for record in self.there:
-            self.device.bring(*self._place(record, blocks))
-
-    def fetch(self, blocks: slice, *records: str) -> None:
-        """Fetch some records of some blocks as they are on the card."""
-        for record in records:
-            self.device.fetch(*self._place(record, blocks))
-
-    def _place(self, record: str, blocks: slice) -> tuple[int, np.ndarray]:
-        array = self.here[record]
-        return self.there[record] + (blocks.start or 0) * array.strides[0], array[blocks]
+    def views(self) -> dict[str, np.ndarray]:
+        """Numbers of bodies, joints and lanes here, as bits; each of shape (rows, fields, blocks, lanes)."""
+        found = {}
+        for record in ("body", "joint", *OF_LANES):
+            array = self.here["site" if record in ("body", "joint") else record]
+            bits = array.view(np.int64).reshape(self.blocks, -1, array.dtype.itemsize // 8)
+            if record in ("body", "joint"):
+                kind, first = (array.dtype.fields or {})[record][:2]
+                rows = self.drums + (record == "body")
+                bits = bits[:, :rows, first // 8 : (first + kind.itemsize) // 8]
+            fields = bits.reshape(self.blocks, bits.shape[1], -1, self.lanes)
+            assert np.shares_memory(fields, array)
+            found[record] = fields.transpose(1, 2, 0, 3)
+        return found
 
     def advance(self, chunks: int) -> None:
-        """Advance all lanes by so many chunks of steps, or to the end of their runs."""
-        threads = self.lanes * self.drums
-        self.device.launch(self.kernel, self.blocks, threads, self.shared, [*self.numbers, chunks])
+        """Advance all lanes by so many chunks of steps, or to the end of their runs.
+
+        What has been changed here since the last launch is brought before, and what the card has made of it is fetched once
+        the run in some lane has ended.
+        """
+        device, queue = self.device, self.queue
+        if self.changed:
+            for record, array in self.here.items():
+                device.bring(self.there[record], array, queue)
+            self.changed = False
+        running = self.here["watch"]["status"] == RUNNING
+        device.launch(self.kernel, self.blocks, self.lanes * self.drums, self.shared, [*self.numbers, chunks], queue)
+        device.fetch(self.there["watch"], self.here["watch"], queue)
+        if (self.here["watch"]["status"] == RUNNING)[running].all():
+            return
+        for record in ("site", "lane", "feed"):
+            device.fetch(self.there[record], self.here[record], queue)
 
 
 def _described(array: np.ndarray, address: int) -> list[int]:

@@ -103,20 +103,30 @@ class Card:
         """Give memory back."""
         self._ask(self._current().cuMemFree(address))
 
-    def bring(self, address: int, array: np.ndarray) -> None:
+    def queue(self) -> Any:
+        """A queue of what the card is asked for, one after the other; others go on beside it."""
+        driver = self._current()
+        (found,) = self._ask(driver.cuStreamCreate(driver.CUstream_flags.CU_STREAM_NON_BLOCKING))
+        return found
+
+    def bring(self, address: int, array: np.ndarray, queue: Any) -> None:
         """Copy an array, which is one piece of memory, to an address on the card."""
-        self._ask(self._current().cuMemcpyHtoD(address, array.ctypes.data, array.nbytes))
+        driver = self._current()
+        self._ask(driver.cuMemcpyHtoDAsync(address, array.ctypes.data, array.nbytes, queue))
+        self._ask(driver.cuStreamSynchronize(queue))
 
-    def fetch(self, address: int, array: np.ndarray) -> None:
+    def fetch(self, address: int, array: np.ndarray, queue: Any) -> None:
         """Copy from an address on the card into an array, which is one piece of memory."""
-        self._ask(self._current().cuMemcpyDtoH(array.ctypes.data, address, array.nbytes))
+        driver = self._current()
+        self._ask(driver.cuMemcpyDtoHAsync(array.ctypes.data, address, array.nbytes, queue))
+        self._ask(driver.cuStreamSynchronize(queue))
 
-    def launch(self, kernel: Any, blocks: int, threads: int, shared: int, numbers: list[int]) -> None:
+    def launch(self, kernel: Any, blocks: int, threads: int, shared: int, numbers: list[int], queue: Any) -> None:
         """Run a kernel with numbers of 64 bits as its arguments, and wait for its end."""
         driver = self._current()
         types = tuple(ctypes.c_int64 for _ in numbers)
-        self._ask(driver.cuLaunchKernel(kernel, blocks, 1, 1, threads, 1, 1, shared, 0, (tuple(numbers), types), 0))
-        self._ask(driver.cuCtxSynchronize())
+        self._ask(driver.cuLaunchKernel(kernel, blocks, 1, 1, threads, 1, 1, shared, queue, (tuple(numbers), types), 0))
+        self._ask(driver.cuStreamSynchronize(queue))
 
     def _current(self) -> Any:
         """The driver, with this card as that of the calling thread."""

@@ -176,19 +176,19 @@ class SteppedDrums(Model):
         if len(cases) and cases[0].column.stack is None:
             return self.run_many(cases, options, threads)
 
+        from .card import THREADS, CardLanes
+
         def lanes(kind: Any) -> LaneBlock:
             name = self._kernel_on(device, kind)
             if name is None:
                 return self.block_for(kind, options)
-            from .card import CardLanes
-
             return CardLanes(device, name, partial(self.block_for, kind, options), len(cases))
 
         return run_alike(
             lambda case: self.kind(case.column),
             lanes,
             cases,
-            lambda kind: threads if self._kernel_on(device, kind) is None else 1,
+            lambda kind: threads if self._kernel_on(device, kind) is None else THREADS,
         )
 
     def on_card(self, device: Device, column: Any) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Annotated
 
 from stylobate.cli import options as o
 
@@ -10,7 +11,7 @@ from stylobate.cli import options as o
 def bench(
     full: bool = o.option(None, "Also time the domains of 768 cells, and Dask workers.", False),
     *,
-    execution: o.Plain,
+    execution: Annotated[o.Execution, o.But("dask", "mix_devices")],
 ) -> None:
     """Speed on this machine, beside the same step in native code."""
     from stylobate.cli import console
@@ -19,7 +20,7 @@ def bench(
 
     with execution.files("bench", "bench.json") as files:
         told = (lambda _: None) if execution.as_json else partial(print, flush=True)
-        found = measure(execution.count, full=full, say=told)
+        found = measure(execution.count, full=full, device=execution.device, say=told)
         if files.wanted:
             files.json(found, "bench.json")
     if not execution.emits(found | {"files": files.names}):

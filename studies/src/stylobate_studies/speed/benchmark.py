@@ -11,6 +11,7 @@ import tempfile
 import time
 from collections import deque
 from collections.abc import Callable
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -22,12 +23,14 @@ from stylobate.campaign.executor import executor
 from stylobate.column import Column, preset
 from stylobate.constants import g
 from stylobate.errors import StylobateError
+from stylobate.kernels.gpu.driver import the_card
 from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.drums.stepped import SteppedDrums
 from stylobate.motion import Motion, harmonic
+from stylobate.response.measures import CPU, GPU
 from stylobate.simulate import run_options, simulate, simulate_many, thread_count
 
 from .assemblies import assemblies
@@ -66,7 +69,11 @@ def native_reference(source: str, folder: str | Path) -> Path | None:
 
 
 def bench(
-    threads: int | None = None, *, full: bool = False, say: Callable[[str], None] = lambda _: None
+    threads: int | None = None,
+    *,
+    full: bool = False,
+    device: str = CPU,
+    say: Callable[[str], None] = lambda _: None,
 ) -> dict[str, Any]:
     """Time the kernel, one run, threads against each other, and (``full``) the domain of 768 cells of ten seconds, and Dask
     workers against threads.
@@ -78,6 +85,8 @@ def bench(
     full : bool
         Also the domain of the 12-drum column, 24 × 32 cells, and what as many Dask workers on this machine do in the time of
         the threads.
+    device : {"cpu", "gpu"}
+        ``gpu``: also runs per second of the graphics card of this machine, end to end, beside those of the threads.
     say : callable
         Takes a line of progress.
 
@@ -89,6 +98,8 @@ def bench(
     """
     count = thread_count(threads)
     column, model = preset("paper-12-drums"), DistinctElement2D()
+    if device == GPU:
+        the_card()  # refused before anything is measured
     out: dict[str, Any] = {"threads": count, "cpu": cpu_name()}
     say("kernel and native reference")
     out |= _kernel(model, column, Motion(1.0, np.array([2.0, 2.0])), "native_dem2d.cpp", model.points)
@@ -118,7 +129,25 @@ def bench(
             )
         say(f"{count} threads against {count} Dask workers")
         out["dask_throughput"] = _on_workers(column, model, count)
+    if device == GPU:
+        say(f"the graphics card against {count} threads")
+        out |= _on_card(count)
     return out
+
+
+def _on_card(count: int) -> dict[str, Any]:
+    """Runs per second of twelve drums for ten seconds, by the card and by threads, from motions to a table."""
+    column = preset("paper-12-drums")
+    found: dict[str, Any] = {"gpu": the_card().name}
+    of_plane, of_space = (column, DistinctElement2D()), (_round(column), DistinctElement3D())
+    for name, (stone, model), runs in (("plane", of_plane, 20_000), ("space", of_space, 8_000)):
+        units = [harmonic(f, 1.0, 10.0) for f in np.linspace(0.33, 4.0, 64)]
+        cells = [units[k % 64].scaled((0.05 + 0.55 * k / runs) * g) for k in np.random.default_rng(1).permutation(runs)]
+        simulate_many(stone, cells[:256], model, device=GPU)
+        found[f"gpu_{name}_runs_per_s"] = runs / _timed(partial(simulate_many, stone, cells, model, device=GPU))
+        some = cells[: 16 * count]
+        found[f"cpu_{name}_runs_per_s"] = len(some) / _timed(partial(simulate_many, stone, some, model, threads=count))
+    return found
 
 
 def _on_workers(column: Column, model: SteppedDrums, count: int) -> float | None:
