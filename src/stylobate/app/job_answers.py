@@ -28,7 +28,7 @@ from .assemblies import assembly_of
 from .cells import new_cells
 from .curves import curves
 from .folder import RECORDS
-from .job import Job
+from .job import FILM, Job
 from .records import Records
 from .ruins import ruin_of
 from .workshop import Workshop
@@ -152,7 +152,7 @@ class JobAnswers:
 
     async def film(self, request: Request) -> Response:
         """The film of a run."""
-        path = self._job(request, "film").folder / "film.json"
+        path = self._job(request, "film").folder / FILM
         return FileResponse(path, media_type="application/json") if path.is_file() else missing("film")
 
     async def cells(self, request: Request) -> Response:

@@ -300,8 +300,8 @@ class Workshop:
             job.what = what["what"]
             self._changed(job)
             return False
-        if "film" in what:
-            job.filmed = True
+        if "film" in what or "grown" in what:
+            job.filmed, job.grown = job.filmed or "film" in what, job.grown + ("grown" in what)
             self._changed(job)
             return False
         if "code" not in what:

@@ -88,10 +88,12 @@ export async function hear(news) {
     Object.entries((analysis || {}).refused || {}).map(([name, why]) => el("p", { class: "warning" }, named(`${name} was left out: ${why}`))),
     (job.warnings || []).map(one => el("p", { class: "warning" }, named(one))), analysis && !isOpen(job) && run.files(job),
   ].flat());
-  if (card.isConnected) return;
-  const figures = el("div", { class: "figures" });
-  fill(place, card, figures);
-  if (!isOpen(job)) curves.show(figures, job.id).catch(error => notice(error.error || String(error)));
+  let figures = find(".figures", place);
+  if (!card.isConnected || !figures) fill(place, card, figures = el("div", { class: "figures" }));
+  const key = `${job.id} ${job.state} ${job.grown}`;
+  if (figures.dataset.key === key || job.state === "waiting") return;
+  figures.dataset.key = key;  // the last points of a job, and whether it goes on
+  curves.show(figures, job.id).catch(error => notice(error.error || String(error)));
 }
 // Beyond the levels that were run only their bound is known of a median.
 const known = ({ median, outside, levels: [low, high] }) => !outside ? number(median) : median > high ? `> ${number(high)}` : `≤ ${number(low)}`;
