@@ -162,7 +162,7 @@ def test_the_whole_story(open_page, tmp_path):
 @pytest.mark.parametrize("width", [1440, 390])
 def test_every_part_fits_and_can_be_read(open_page, width):
     page = open_page(width)
-    for tab in ("column", "motion", "run", "domain", "fragility", "ruin", "jobs"):
+    for tab in ("column", "motion", "run", "domain", "fragility", "analyses", "jobs"):
         page.click(f"[data-tab={tab}]")
         playwright.expect(page.locator(f"#{tab} h1")).to_be_visible()
         assert page.evaluate("document.documentElement.scrollWidth") <= width, tab

@@ -26,7 +26,7 @@ OPTION = re.compile(r"(?<![\w-])--[a-z]")
         ("a states no unit: `unit='g'`, or gal.", "a states no unit: “Unit” g, or gal."),
         ("state it: `dt=0.01`.", "state it: “Step” 0.01s."),
         ("`scale` and `pga` are both given.", "“scale” and “Scale to a peak of” are both given."),
-        ("give `files=FILE`, or several `azimuths`.", "give “Record”, or several “Azimuth”."),
+        ("give `files=FILE`, or several `azimuths`.", "give “Record”, or several “Directions”."),
         ("take it off (`condition='baseline'`).", "take it off."),
         ("bottom_width of a drum is -1 m.", "bottom width of a drum is -1 m."),
         ("far from rest; go on with --tail 5s.", "far from rest; go on with “Tail after the motion” 5s."),

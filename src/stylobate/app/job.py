@@ -30,7 +30,7 @@ class Job:
     id : str
     folder : Path
     kind : str
-        ``run``, ``critical``, ``domain``, ``ida``, ``infer`` or ``report``.
+        ``run``, ``critical``, ``domain``, ``ida``, ``report``, or one of :data:`~stylobate.app.forms.FORMS`.
     title : str
         What it computes, in a line.
     commands : list of list of str

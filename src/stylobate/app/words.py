@@ -11,6 +11,7 @@ from typing import Any
 
 from ..column import tables
 from ..errors import reworded
+from .forms import FORMS
 
 #: Label of a field of the page, by the option of the command line that it stands for; the scripts of the page take
 #: them from here.
@@ -36,10 +37,14 @@ LABELS = {
     "im": "Intensity",
     "runs": "Runs of a record",
     "state": "Limit state",
+    "hazard": "Hazard curve",
 }
 
+#: The same with the fields of analyses.
+ALL_LABELS = {box.option: box.label.partition(" [")[0] for form in FORMS.values() for box in form.boxes} | LABELS
+
 #: Parameters that are not called after the option that gives them.
-_OPTIONS = {"files": "motion", "azimuths": "azimuth"}
+_OPTIONS = {"files": "motion", "hazards": "hazard"}
 
 #: Keys of a column file of several words, which are so many words on the page.
 _TABLES = [var for var in vars(tables).values() if isinstance(var, type) and issubclass(var, tables.Table)]
@@ -88,8 +93,8 @@ def warned(doubts: Sequence[warnings.WarningMessage]) -> list[str]:
 
 
 def _kept(aside: re.Match[str]) -> str:
-    return aside[0] if all(option in LABELS for option in _OPTION.findall(aside[1])) else ""
+    return aside[0] if all(option in ALL_LABELS for option in _OPTION.findall(aside[1])) else ""
 
 
 def _named(option: re.Match[str]) -> str:
-    return f"“{LABELS.get(option[1], option[1].replace('-', ' '))}”"
+    return f"“{ALL_LABELS.get(option[1], option[1].replace('-', ' '))}”"

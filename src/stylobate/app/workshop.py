@@ -28,7 +28,7 @@ WAIT, KEEP = 50, 300
 LOG = "worker.log"
 
 #: Kinds of jobs that can be stopped and go on later where they were.
-LONG = ("domain", "ida", "critical", "infer")
+LONG = ("domain", "ida", "critical", "directions", "compare", "infer")
 
 #: Time between two looks at an idle process, and at one that is ending [s].
 LOOK, PAUSE = 0.5, 0.02

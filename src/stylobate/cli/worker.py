@@ -131,13 +131,16 @@ def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
 
 
 def viewer(job: dict[str, Any], command: Sequence[str], tell: Callable[..., None]) -> Callable[[Any], None] | None:
-    """What sees what a command has come to: a film is made of a run, and of an analysis its points so far."""
+    """What sees what a command has come to: a film is made of one run, and of an analysis its points so far."""
     if command[0] == "ida":
         states = (
             one.removeprefix("--state=") for line in job["commands"] for one in line if one.startswith("--state=")
         )
         return growing(job["id"], next(states, "collapse"), tell)
-    return partial(make_film, job["id"], tell) if command[0] in ("run", "sequence") else None
+    one = command[0] == "sequence" or (
+        command[0] == "run" and not any(word.startswith("--azimuths") for word in command)
+    )
+    return partial(make_film, job["id"], tell) if one else None
 
 
 def growing(job: str, state: str, tell: Callable[..., None]) -> Callable[[Callable[[], Ida]], None]:

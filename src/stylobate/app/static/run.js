@@ -16,10 +16,10 @@ export const MODELS = [
   ["housner", "housner", "Housner's rocking block: the column as one rigid body."],
 ];
 
-let panel, player = null, plots = [], loaded = "", followed = null, data = null;
+let panel, player = null, plots = [], loaded = "", followed = null, data = null, round = null;
 
-export function start(place) {
-  panel = place;
+export function start(place, fromAllDirections) {
+  panel = place; round = fromAllDirections;
   listen(keys => {
     if (["model", "replicates", "tail", "motion", "column", "settings", "assembly"].some(key => keys.has(key))) renderAsked();
     if (keys.has("job")) show();
@@ -46,7 +46,8 @@ function renderAsked() {
       field(`${labels.tail} [s]`, el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
     twins && el("p", { class: "hint" }, `How sure the verdict is: ${state.assembly ? "assemblies" : "columns"} that differ by what nobody has measured.`),
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: go }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")),
-    critical());
+    critical(),
+    el("div", { class: "row" }, el("button", { type: "button", onclick: () => round() }, "From all directions"), el("small", { class: "hint" }, "twelve, in space: which does most harm")));
   if (had) { const again = find(`[data-field="${had}"]`, place); if (again) { again.focus(); if (again.setSelectionRange) again.setSelectionRange(99, 99); } }
 }
 
@@ -129,13 +130,13 @@ function waiting(job) {
 }
 
 function said(job) {
-  const place = find("#run-said", panel), result = job.state === "done" && job.kind === "run" && job.results && job.results[0];
+  const place = find("#run-said", panel), result = job.state === "done" && ["run", "sequence"].includes(job.kind) && job.results && job.results[0];
   place.hidden = false;
   if (result) place.dataset.key = "";
   tell(place, job, () => [
     el("p", { class: "hint" }, job.title),
     result && verdict(result, data && loaded === job.id ? data.sentence : ""),
-    result && !result.decided && result.outcome !== "failed" && el("div", { class: "row" },
+    result && job.kind === "run" && !result.decided && result.outcome !== "failed" && el("div", { class: "row" },
       el("button", { type: "button", onclick: () => { change({ tail: String((Number(state.tail) || 0) + 5) }); go(); } }, "Go on for 5 s more")),
     result && measures(result), warnings(job.warnings), job.state === "done" && files(job),
   ].flat());
