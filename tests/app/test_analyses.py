@@ -60,7 +60,7 @@ def test_what_is_no_ruin_is_said_at_its_field(fresh, wanted, old, new, why):
     refused = fresh.post("/api/jobs", json=wanted | {"ruin": RUIN.replace(old, new)})
     assert refused.status_code == 422
     assert why in refused.json()["error"]
-    assert refused.json()["field"] == "ruin"
+    assert refused.json()["field"].partition(".")[0] == "ruin"
     assert "/tmp" not in refused.json()["error"]
 
 

@@ -77,12 +77,23 @@ export function mark(panel, error) {
   const control = error.field && (place(error.field) || (error.field.includes(".") && place(error.field.replace(/\.[^.]*$/, ""))));
   const said = el("p", { class: "error", role: "alert", id: "error-" + panel.id, "data-made": "error" }, error.error[0].toUpperCase() + error.error.slice(1));
   if (!control) { (find("[data-errors]", panel) || panel).append(said); return; }
+  const line = control.matches("textarea") && /\.(\d+)$/.exec(error.field);
+  control.style.setProperty("--line", line ? line[1] : -99);
+  if (line) said.append(" ", el("button", { type: "button", onclick: () => goTo(control, +line[1]) }, `Line ${line[1]}`));
   control.setAttribute("aria-invalid", "true"); control.setAttribute("aria-describedby", said.id);
   const hidden = control.closest("details:not([open])");
   if (hidden) hidden.open = true;
   const row = control.closest("table.drums tr");
   if (row) row.after(el("tr", { "data-made": "error" }, el("td", { colspan: 9 }, said)));
   else (control.closest(".field, .slider") || control).after(said);
+}
+
+// Goes to a line of a text that is edited, and selects it.
+function goTo(box, line) {
+  const lines = box.value.split("\n"), before = lines.slice(0, line - 1).join("\n").length + (line > 1);
+  box.focus();
+  box.setSelectionRange(before, before + (lines[line - 1] || "").length);
+  box.scrollTop = box.scrollHeight * Math.max(0, line - 4) / lines.length;
 }
 
 export function save(name, content) {
