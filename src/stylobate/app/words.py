@@ -51,6 +51,9 @@ _TABLES = [var for var in vars(tables).values() if isinstance(var, type) and iss
 _KEYS = re.compile(rf"\b(?:{'|'.join({key for table in _TABLES for key in table.model_fields if '_' in key})})\b")
 
 _OPTION = re.compile(r"(?<![\w-])--([a-z](?:[a-z-]*[a-z])?)(?: [A-Z]{2,}(?:\.\w+)?\b)?")
+#: Where the command line explains itself.
+_HELP = re.compile(r"; see 'stylobate[^']*'")
+
 _ASIDE = re.compile(r"\s*\(([^()]*(?<![\w-])--[a-z][^()]*)\)")
 
 
@@ -65,7 +68,8 @@ def in_page_words(said: Any) -> Any:
     """
     if isinstance(said, str):
         said = reworded(said, lambda name: "--" + _OPTIONS.get(name, name).replace("_", "-"))
-        said = _OPTION.sub(_named, _ASIDE.sub(_kept, said)) if "--" in said else said
+        if "--" in said:
+            said = _OPTION.sub(_named, _ASIDE.sub(_kept, _HELP.sub("", said))).replace("'“", "“").replace("”'", "”")
         return _KEYS.sub(lambda key: key[0].replace("_", " "), said)
     if isinstance(said, dict):
         return {key: in_page_words(value) for key, value in said.items()}

@@ -78,7 +78,7 @@ export function mark(panel, error) {
   const said = el("p", { class: "error", role: "alert", id: "error-" + panel.id, "data-made": "error" }, error.error[0].toUpperCase() + error.error.slice(1));
   if (!control) { (find("[data-errors]", panel) || panel).append(said); return; }
   const line = control.matches("textarea") && /\.(\d+)$/.exec(error.field);
-  control.style.setProperty("--line", line ? line[1] : -99);
+  if (control.matches("textarea")) control.style.backgroundPosition = `0 calc(.4rem + ${line ? line[1] - 1 : -99} * 1.45em)`;
   if (line) said.append(" ", el("button", { type: "button", onclick: () => goTo(control, +line[1]) }, `Line ${line[1]}`));
   control.setAttribute("aria-invalid", "true"); control.setAttribute("aria-describedby", said.id);
   const hidden = control.closest("details:not([open])");
