@@ -18,6 +18,7 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 
 from ..column.files import write_column
+from ..column.presets import PRESETS, preset
 from ..column.structure import Structure
 from ..column.toml import checked
 from ..errors import InputError
@@ -127,7 +128,7 @@ class JobAnswers:
             if tables is not None:
                 (folder / STUDY).write_text(tomli_w.dumps(tables), encoding="utf-8")
 
-        stands = stone.name if stone is not None else source.title if source is not None else "table of runs"
+        stands = _called(stone) if stone is not None else source.title if source is not None else "table of runs"
         title = _title(asked, stands, self.records)
         job = await run_in_threadpool(self.workshop.submit, asked.kind, title, lines, body, prepare)
         return Answer(self._shown(job), 201)
@@ -275,6 +276,11 @@ class JobAnswers:
 
     def _shown(self, job: Job, whole: bool = False) -> dict[str, Any]:
         return job.to_dict(whole) | {"place": self.workshop.place(job)}
+
+
+def _called(stone: Structure) -> str:
+    """The name of what stands; a preset that was changed is told from what it was."""
+    return f"{stone.name}, changed" if stone.name in PRESETS and preset(stone.name).digest != stone.digest else stone.name
 
 
 def _copy_result(source: Path, target: Path) -> None:

@@ -1,13 +1,13 @@
 // Analyses: a form for each, made from what the page knows of it, and its answer in words, a table and pictures.
 
 import { get, post } from "./api.js";
-import { el, facts, field, fill, find, labels, mark, notice, number, save, select, warnings } from "./dom.js";
+import { el, facts, field, fill, find, labels, mark, notice, number, redraw, save, select, warnings } from "./dom.js";
 import * as jobs from "./jobs.js";
 import * as motion from "./motion.js";
 import { isOpen, tell } from "./news.js";
 import * as records from "./records.js";
 import * as run from "./run.js";
-import { change, listen, state } from "./state.js";
+import { called, change, listen, state } from "./state.js";
 
 let panel, forms, typing = false;
 
@@ -48,15 +48,15 @@ export function start(place, about) {
 
 function render() {
   const place = find("#analyses-asked", panel);
-  const about = [takes("column") && (state.assembly ? "the assembly" : (state.column || {}).name || "column"), takes("model") && !form().boxes.some(one => one.option === "model") && state.model,
+  const about = [takes("column") && called(), takes("model") && !form().boxes.some(one => one.option === "model") && state.model,
     takes("motion", "round") && motion.words(), takes("motions") && (state.analysis.records.length ? `${state.analysis.records.length} records` : motion.words())].filter(Boolean);
-  records.redraw(place, () => fill(place,
+  redraw(place,
     field("Analysis", select(Object.entries(forms).map(([key, one]) => [key, one.title]), state.analysis.kind, kind => set({ kind }), { "data-field": "analysis" })),
     el("p", { class: "hint" }, form().lead), about.length > 0 && el("p", { class: "hint" }, about.join(" · ")),
     takes("ruin") && ruinFile(), takes("source") && source(), takes("hazard", "hazards") && hazards(),
     takes("motions") && records.pick(() => state.analysis.records, chosen => set({ records: chosen }), true),
     el("div", { class: "row" }, form().boxes.map(boxed)),
-    el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: () => go() }, "Compute"))));
+    el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: () => go() }, "Compute")));
 }
 
 function boxed(box) {

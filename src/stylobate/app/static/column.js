@@ -2,7 +2,7 @@
 
 import * as assembly from "./assembly.js";
 import { check as ask, latest, postText, upload } from "./api.js";
-import { choice, el, facts, field, fill, find, later, length, mark, notice, number, save, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, later, length, mark, notice, number, redraw, save, select, warnings } from "./dom.js";
 import { drawElevation } from "./elevation.js";
 import { change, listen, state } from "./state.js";
 
@@ -113,7 +113,7 @@ function render() {
   if (!table) return;
   const files = el("input", { type: "file", accept: ".toml", hidden: true, "data-upload": "column", onchange: event => open(event.target.files[0]) });
   if (state.assembly) { assembly.render(panel, files); return; }
-  fill(panel,
+  redraw(panel,
     el("h1", {}, "Column"),
     el("p", { class: "lead" }, "What stands: a preset, a file of a column or of an assembly of blocks, or drum by drum. The elevation follows as you type."),
     el("div", { class: "sheet" },

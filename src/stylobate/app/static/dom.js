@@ -23,6 +23,39 @@ export function fill(element, ...children) {
   return element;
 }
 
+// Draws a form anew, and leaves where its list stood and what had the focus. A list of choices that has it stays where it is:
+// taken out for a moment, it would forget the letters that were typed in it.
+export function redraw(place, ...children) {
+  const list = find(".pick", place), down = list ? list.scrollTop : 0, active = place.contains(document.activeElement) ? document.activeElement : null;
+  const ends = active && active.type === "text" ? [active.selectionStart, active.selectionEnd] : null;
+  const fresh = fill(el("div"), ...children), one = active && find(same(active), fresh);
+  if (one && one.tagName === "SELECT" && texts(one) === texts(active)) {
+    active.value = one.value; active.onchange = one.onchange;
+    graft(place, fresh, active, one);
+  } else {
+    fill(place, ...fresh.childNodes);
+    if (one) one.focus();
+    if (one && ends && one.type === "text") one.setSelectionRange(...ends);
+  }
+  const again = find(".pick", place);
+  if (again) again.scrollTop = down;
+}
+const texts = select => [...select.options || []].map(option => option.value).join("\n");
+function same(active) {
+  const name = ["key", "field"].find(one => active.dataset[one]);
+  if (name) return `[data-${name}="${CSS.escape(active.dataset[name])}"]`;
+  return active.type === "radio" ? `input[name="${CSS.escape(active.name)}"][value="${CSS.escape(active.value)}"]` : ":not(*)";
+}
+// What lies around an element is put in the place of what lay around another one, which stays.
+function graft(old, fresh, stays, one) {
+  if (old === stays) return;
+  const [kept, come] = [[old, stays], [fresh, one]].map(([parent, inner]) => [...parent.childNodes].find(node => node.contains(inner)));
+  const list = [...fresh.childNodes], k = list.indexOf(come);
+  for (const node of [...old.childNodes]) if (node !== kept) node.remove();
+  kept.before(...list.slice(0, k)); kept.after(...list.slice(k + 1));
+  graft(kept, come, stays, one);
+}
+
 // A labelled control.
 export const field = (label, control, ...more) => el("label", { class: "field" }, el("span", {}, label), control, ...more);
 

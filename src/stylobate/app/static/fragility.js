@@ -2,12 +2,12 @@
 
 import { get, post } from "./api.js";
 import * as curves from "./curves.js";
-import { choice, el, facts, field, fill, find, labels, mark, notice, number, select } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, mark, notice, number, redraw, select } from "./dom.js";
 import { isOpen, tell } from "./news.js";
 import * as motion from "./motion.js";
 import * as records from "./records.js";
 import * as run from "./run.js";
-import { change, listen, state } from "./state.js";
+import { called, change, listen, state } from "./state.js";
 
 const MEASURES = [["pgv", "peak velocity"], ["pga", "peak acceleration"], ["sa:1.0s", "spectral acceleration at 1 s"], ["avgsa", "average spectral acceleration"]];
 const STATES = [["collapse", "collapse"], ["top:0.35d", "top moves 0.35 d"], ["drums:0.01d", "drums shift 0.01 d"]];
@@ -31,13 +31,13 @@ const set = changes => change({ fragility: { ...state.fragility, ...changes } })
 
 function render() {
   const s = state.fragility, place = find("#fragility-asked", panel);
-  records.redraw(place, () => fill(place, el("p", { class: "hint" }, `${state.assembly ? "The assembly" : (state.column || {}).name || "column"} · ${state.model}`),
+  redraw(place, el("p", { class: "hint" }, `${called()} · ${state.model}`),
     records.pick(() => state.fragility.records, chosen => set({ records: chosen })),
     el("div", { class: "row" }, field(labels.im, select(MEASURES, s.im, im => set({ im }), { "data-field": "im" })),
       field(labels.runs, el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", oninput: event => { typing = true; set({ runs: event.target.value.trim() }); typing = false; } })),
       field(`${labels.unit}, where a file states none`, select(motion.UNITS.map(one => [one, one || "as stated"]), s.unit, unit => set({ unit }), { "data-field": "unit" }))),
     choice("state", labels.state, limits(), wanted(), one => set({ state: one })),
-    el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records${s.records.length < 10 ? "; a fragility takes ten" : ""}`))));
+    el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records${s.records.length < 10 ? "; a fragility takes ten" : ""}`)));
 }
 
 async function go() {
@@ -61,6 +61,7 @@ export async function hear(news) {
   let card = find(".card[data-key]", place);
   if (!card || !isOpen(job)) card = el("div", { class: "card", "data-key": "" });
   tell(card, job, () => [
+    el("p", { class: "hint" }, job.title),
     curve && el("p", { class: "verdict" }, records.named(curve.sentence)),
     curve && facts([["median", `${known(curve)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
       ["from", `${curve.runs} runs of ${curve.records} records`], ["undecided", curve.undecided || ""], ["failed", curve.failed || ""]]),

@@ -10,7 +10,7 @@ import * as jobs from "./jobs.js";
 import * as motion from "./motion.js";
 import * as records from "./records.js";
 import * as run from "./run.js";
-import { change, followAddress, listen, read, state } from "./state.js";
+import { change, followAddress, known, listen, read, state } from "./state.js";
 
 const TABS = ["column", "motion", "run", "domain", "fragility", "analyses", "jobs"];
 
@@ -49,6 +49,7 @@ async function begin() {
   showTab();
   const [about, kept] = await Promise.all([get("/api/about"), get("/api/records")]);
   Object.assign(labels, about.labels);
+  known(about);
   if (!state.column) state.column = structuredClone(about.presets[state.preset] || Object.values(about.presets)[0]);
   listen(keys => {
     if (keys.has("tab")) { showTab(); }

@@ -2,7 +2,7 @@
 
 import { check as question, latest } from "./api.js";
 import { dial } from "./dial.js";
-import { choice, el, facts, field, fill, find, labels, later, mark, number, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, later, mark, number, redraw, select, warnings } from "./dom.js";
 import { BLUE, GREY, INK, plot } from "./plot.js";
 import * as records from "./records.js";
 import { change, changeMotion, listen, state } from "./state.js";
@@ -122,7 +122,7 @@ function render() {
   left.ondragover = event => { event.preventDefault(); left.classList.add("drop"); };
   left.ondragleave = () => left.classList.remove("drop");
   left.ondrop = event => { event.preventDefault(); left.classList.remove("drop"); take([...event.dataTransfer.files]); };
-  fill(panel,
+  redraw(panel,
     el("h1", {}, "Motion"), el("p", { class: "lead" }, "What shakes the base: along x in the plane; in space along y and upward too."),
     el("div", { class: "sheet left" },
       el("div", {}, left,

@@ -1,7 +1,7 @@
 // Records: samples and what was uploaded, in one list for all parts of the page that shake with them.
 
 import { remove, upload } from "./api.js";
-import { el, find, notice } from "./dom.js";
+import { el, notice } from "./dom.js";
 
 let samples = [], uploaded = [];
 
@@ -49,16 +49,6 @@ export function pick(get, set, ordered = false) {
     el("ul", { class: "pick" }, list.map(([id, name, about]) => el("li", {}, el("label", { title: about }, el("input", { type: "checkbox", checked: chosen.includes(id), "data-key": id, onchange: tick(id) }), name),
       ordered && chosen.includes(id) && el("small", {}, `${chosen.indexOf(id) + 1}.`)))),
   ];
-}
-
-// Draws a form anew, and leaves where the list stood and what had the focus.
-export function redraw(place, make) {
-  const list = find(".pick", place), down = list ? list.scrollTop : 0, active = place.contains(document.activeElement) ? document.activeElement.dataset : {};
-  make();
-  const again = find(".pick", place), key = ["key", "field"].find(one => active[one]);
-  if (again) again.scrollTop = down;
-  const one = key && find(`[data-${key}="${CSS.escape(active[key])}"]`, place);
-  if (one) one.focus();
 }
 
 // Files have names of their own here; people know them by those that they had.

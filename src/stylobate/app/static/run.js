@@ -2,11 +2,11 @@
 
 import { get, post } from "./api.js";
 import * as curves from "./curves.js";
-import { choice, el, facts, field, fill, find, labels, later, length, mark, notice, number, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, later, length, mark, notice, number, redraw, select, warnings } from "./dom.js";
 import * as motion from "./motion.js";
 import { isOpen, tell } from "./news.js";
 import { BLUE, CYCLE, INK, moving, plot } from "./plot.js";
-import { change, listen, state } from "./state.js";
+import { called, change, listen, state } from "./state.js";
 
 export const MODELS = [
   ["dem2d", "dem2d", "Distinct elements in the plane: rigid drums that rock, slide and fall."],
@@ -34,10 +34,10 @@ export function start(place, fromAllDirections) {
 function stop() { if (player && find("#play", panel) && find("#play", panel).textContent === "Pause") player.toggle(); }
 
 function renderAsked() {
-  const column = state.column || {}, about = MODELS.find(one => one[0] === state.model), twins = !state.assembly || state.model === "dem3d";
-  find("#run-case", panel).textContent = `${state.assembly ? "The assembly" : `${column.name || "column"}, ${(column.drum || []).length} drums`} · ${motion.words()}`;
-  const place = find("#run-asked", panel), had = document.activeElement && document.activeElement.dataset.field;
-  fill(place,
+  const about = MODELS.find(one => one[0] === state.model), twins = !state.assembly || state.model === "dem3d";
+  find("#run-case", panel).textContent = `${called()}${state.assembly ? "" : `, ${((state.column || {}).drum || []).length} drums`} · ${motion.words()}`;
+  const place = find("#run-asked", panel);
+  redraw(place,
     field(labels.model, select(MODELS.filter(([key]) => !state.assembly || key === state.model).map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
     el("p", { class: "hint" }, about ? about[2] : ""),
     state.model === "dem3d" && !state.assembly && choice("law", "Contact in space", [["rim", "rim"], ["bed", "bed"]], state.settings.law || "rim", law => change({ settings: { ...state.settings, law } })),
@@ -48,7 +48,6 @@ function renderAsked() {
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: go }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")),
     critical(),
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => round() }, "From all directions"), el("small", { class: "hint" }, "twelve, in space: which does most harm")));
-  if (had) { const again = find(`[data-field="${had}"]`, place); if (again) { again.focus(); if (again.setSelectionRange) again.setSelectionRange(99, 99); } }
 }
 
 // The smallest amplitude of this motion that brings the column down.

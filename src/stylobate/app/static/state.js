@@ -17,6 +17,14 @@ const ADDRESSED = ["tab", "job", "domainJob", "fragilityJob", "analysisJob"];
 
 // Texts of files stay out of the address: hazard curves by name, and a table of runs.
 export const state = { ...structuredClone(START), hazards: {}, table: null };
+// What stands, in words: a preset that was changed is told from what it was.
+let presets = {};
+export const known = about => { presets = about.presets; };
+export function called() {
+  const { name = "column" } = state.column || {};
+  return state.assembly ? "the assembly" : `${name}${presets[name] && JSON.stringify(presets[name]) !== JSON.stringify(state.column) ? ", changed" : ""}`;
+}
+
 const listeners = [];
 export const listen = hear => { listeners.push(hear); };
 
