@@ -4,7 +4,7 @@ import json
 import tomllib
 
 import pytest
-from page_server import ended
+from page_server import HAZARD, RUNS, ended
 
 from stylobate.app.forms import FORMS
 from stylobate.cli.main import call
@@ -64,12 +64,9 @@ def test_what_is_no_ruin_is_said_at_its_field(fresh, wanted, old, new, why):
     assert "/tmp" not in refused.json()["error"]
 
 
-#: The motion of a job, hazard curves by the names of their files, and runs of ten records, one stronger than the other.
+#: The motion of a job, and hazard curves by the names of their files.
 SINE = "--harmonic=1Hz,0.3g,2s"
-HAZARDS = {"site A.csv": "pgv_m_s,annual_rate\n0.01,1.0\n0.1,0.02\n1,2e-4\n10,1e-6\n"}
-TABLE = "record,im,collapsed\n" + "".join(
-    f"r{k},{x},{int(x > 0.5 + 0.05 * k)}\n" for k in range(10) for x in (0.4, 0.8, 1.2)
-)
+HAZARDS = {"site A.csv": HAZARD}
 
 
 @pytest.mark.parametrize(
@@ -99,12 +96,12 @@ TABLE = "record,im,collapsed\n" + "".join(
         ),
         (
             "risk",
-            {"table": TABLE, "hazards": HAZARDS, "options": {"im": " pgv "}},
+            {"table": RUNS, "hazards": HAZARDS, "options": {"im": " pgv "}},
             "risk runs.csv '--hazard=hazards/site A.csv' --im=pgv",
         ),
         (
             "survival",
-            {"table": TABLE, "hazards": {"../../a.csv": "", ".b": ""}, "options": {"age": "2400"}},
+            {"table": RUNS, "hazards": {"../../a.csv": "", ".b": ""}, "options": {"age": "2400"}},
             "survival runs.csv --hazard=hazards/_.._a.csv --hazard=hazards/b --age=2400y",
         ),
     ],
@@ -138,7 +135,7 @@ def test_an_analysis_is_a_command_line(fresh, asked, kind, more, line):
     ids=str,
 )
 def test_an_analysis_that_lacks_something_is_refused(fresh, asked, change, why, field):
-    refused = fresh.post("/api/jobs", json=asked | {"kind": "risk", "table": TABLE, "hazards": HAZARDS} | change)
+    refused = fresh.post("/api/jobs", json=asked | {"kind": "risk", "table": RUNS, "hazards": HAZARDS} | change)
     assert refused.status_code == 422
     assert why in refused.json()["error"]
     assert refused.json()["field"] == field
@@ -149,7 +146,7 @@ def test_every_field_and_answer_of_a_form_is_one_of_its_command(tmp_path, capsys
     """Options that the commands know; keys that their JSON objects have, and pictures that they write."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "hazard.csv").write_text(HAZARDS["site A.csv"])
-    (tmp_path / "runs.csv").write_text(TABLE)
+    (tmp_path / "runs.csv").write_text(RUNS)
     (tmp_path / "ruin.toml").write_text(RUIN.replace("column.toml", "pompeys-pillar").replace("200", "100"))
     column, motion = ["paper-monolithic"], ["--harmonic=1Hz,0.3g,1s"]
     lines = {

@@ -9,6 +9,7 @@ import warnings
 from pathlib import Path
 
 import pytest
+from page_server import HAZARD, RUNS
 
 import stylobate
 from stylobate.app.job import Job
@@ -134,11 +135,6 @@ def test_the_form_of_a_column_knows_every_kind_of_link_by_what_it_has():
         assert shown[kind] | more[kind] <= fields & words
         assert not shown[kind] & more[kind]
 
-
-HAZARD = "pgv_m_s,annual_rate\n0.01,1.0\n0.1,0.02\n1,2e-4\n10,1e-6\n"
-RUNS = "record,im,collapsed\n" + "".join(
-    f"r{k},{x},{int(x > 0.5 + 0.05 * k)}\n" for k in range(10) for x in (0.4, 0.8, 1.2)
-)
 
 #: Bad input of every kind of job: what it has instead of good input.
 ODD = {
