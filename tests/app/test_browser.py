@@ -316,7 +316,7 @@ def test_an_assembly_and_links_through_the_page(open_page, tmp_path):
 def test_an_assembly_in_space_from_its_file_to_its_film_and_its_critical_amplitude(open_page):
     page, expect = open_page(1440), playwright.expect
     page.set_input_files("[data-upload=column]", str(STATUE))
-    expect(page.locator("#column-facts")).to_contain_text("statue")
+    expect(page.locator("#column-facts")).to_contain_text("statue", timeout=60_000)
     painted = "one => new Set(one.getContext('2d').getImageData(0, 0, one.width, one.height).data).size"
     until(lambda: page.locator("canvas.elevation").evaluate(painted) > 20)
     page.click("[data-tab=motion]")
