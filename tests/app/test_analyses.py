@@ -82,7 +82,6 @@ HAZARDS = {"site A.csv": HAZARD}
             {"options": {"models": "dem2d,housner"}},
             f"compare column.toml {SINE} --models=dem2d,housner --tail=1s",
         ),
-        ("compare", {"options": {"models": ""}}, f"compare column.toml {SINE} --tail=1s"),
         (
             "sequence",
             {"options": {"repeat": "2", "rest": "5", "unit": "g"}},
@@ -92,17 +91,17 @@ HAZARDS = {"site A.csv": HAZARD}
             "sequence",
             {"options": {"unit": "g"}, "records": ["sample:el-centro-1940", "sample:waipukurau-2018"]},
             "sequence column.toml --model=dem2d --set=points=2 --motion=sample:el-centro-1940 "
-            "--motion=sample:waipukurau-2018 --unit=g",
+            "--motion=sample:waipukurau-2018 --repeat=2 --rest=30s --unit=g",
         ),
         (
             "risk",
-            {"table": RUNS, "hazards": HAZARDS, "options": {"im": " pgv "}},
-            "risk runs.csv '--hazard=hazards/site A.csv' --im=pgv",
+            {"table": RUNS, "hazards": HAZARDS, "options": {"im": " pgv ", "state": "top:1d"}},
+            "risk runs.csv '--hazard=hazards/site A.csv' --state=top:1d --im=pgv",
         ),
         (
             "survival",
             {"table": RUNS, "hazards": {"../../a.csv": "", ".b": ""}, "options": {"age": "2400"}},
-            "survival runs.csv --hazard=hazards/_.._a.csv --hazard=hazards/b --age=2400y",
+            "survival runs.csv --hazard=hazards/_.._a.csv --hazard=hazards/b --age=2400y --state=collapse",
         ),
     ],
 )
@@ -121,6 +120,11 @@ def test_an_analysis_is_a_command_line(fresh, asked, kind, more, line):
     ("change", "why", "field"),
     [
         ({"options": {"out": "/tmp/x"}}, "has no field 'out'", None),
+        (
+            {"kind": "directions", "options": {"azimuths": " "}},
+            "“Directions [°]” is empty; give it, such as 0:330",
+            "azimuths",
+        ),
         ({"hazards": {}}, "0 hazard curves are open; risk takes one", "hazard"),
         ({"hazards": {"a.csv": "", "b.csv": ""}}, "2 hazard curves are open", "hazard"),
         (

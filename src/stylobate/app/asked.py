@@ -141,10 +141,13 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
 def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) -> list[str]:
     """The command line of an analysis: what it takes of the page, and what its fields hold."""
     takes, boxes = form.takes, {box.option: box for box in form.boxes}
-    given = {name: text.strip() for name, text in asked.options.items() if text.strip()}
-    unknown = next((name for name in given if name not in boxes), None)
+    unknown = next((name for name in asked.options if name not in boxes), None)
     if unknown is not None:
         raise InputError(f"{form.title!r} has no field {unknown!r}; reload the page.")
+    given = {name: asked.options.get(name, box.start).strip() for name, box in boxes.items()}
+    empty = next((box for name, box in boxes.items() if box.start and not given[name]), None)
+    if empty is not None:
+        raise InputError(f"“{empty.label}” is empty; give it, such as {empty.start}.", empty.option.replace("-", "_"))
     line = [form.command]
     if "ruin" in takes:
         line.append(RUIN)
@@ -169,7 +172,7 @@ def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) 
                 f"{number} hazard curves are open; {form.title.lower()} takes {wanted}: open its file.", "hazard"
             )
         line += [f"--hazard={HAZARDS}/{name}" for name in hazard_files(asked)]
-    line += _options(**{name: text + boxes[name].unit for name, text in given.items()})
+    line += _options(**{name: text and text + boxes[name].unit for name, text in given.items()})
     return [*line, *form.fixed, *_options(tail=asked.tail if "tail" in takes else None), f"--out={RESULT}"]
 
 

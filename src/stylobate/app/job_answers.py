@@ -280,7 +280,9 @@ class JobAnswers:
 
 def _called(stone: Structure) -> str:
     """The name of what stands; a preset that was changed is told from what it was."""
-    return f"{stone.name}, changed" if stone.name in PRESETS and preset(stone.name).digest != stone.digest else stone.name
+    return (
+        f"{stone.name}, changed" if stone.name in PRESETS and preset(stone.name).digest != stone.digest else stone.name
+    )
 
 
 def _copy_result(source: Path, target: Path) -> None:
