@@ -70,8 +70,8 @@ def measure(page: Page, address: str, runs: int) -> None:
     told("from a click to the film, twelve drums for ten seconds with fifteen columns like it", found)
 
     page.click("[data-tab=domain]")
-    page.fill('#domain [data-field="fn"]', "24")
-    page.fill('#domain [data-field="an"]', "32")
+    page.fill('#domain [data-field="frequencies.number"]', "24")
+    page.fill('#domain [data-field="amplitudes.number"]', "32")
     page.click("text=Map it")
     until(page, "parseFloat(document.querySelector('#domain-said .sentence')?.textContent) > 50")
     page.locator("#domain canvas").focus()

@@ -49,3 +49,23 @@ def browser():
     """Path of Chromium; None where there is none."""
     found = (shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome"))
     return next((path for path in found if path), None)
+
+
+#: Ratio of the luminances of text and what is behind it, at least (WCAG 2.2, AA): of text, and of large text; and what tells
+#: what of a page is fainter.
+AA, AA_LARGE = 4.5, 3.0
+FAINT = (Path(__file__).parent / "app" / "contrast.js").read_text(encoding="utf-8")
+
+#: A hazard curve, and runs of ten records, one stronger than the other.
+HAZARD = "pgv_m_s,annual_rate\n0.01,1.0\n0.1,0.02\n1,2e-4\n10,1e-6\n"
+RUNS = "record,im,collapsed\n" + "".join(
+    f"r{k},{x},{int(x > 0.5 + 0.05 * k)}\n" for k in range(10) for x in (0.4, 0.8, 1.2)
+)
+
+
+def until(holds, limit=15.0):
+    """Wait until something holds."""
+    end = time.monotonic() + limit
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.05)

@@ -1,13 +1,10 @@
 """The whole story of the page in a real browser: edit, upload, run, watch, cancel, map, on a desk and on a phone."""
 
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-from page_server import REAL, browser, served
-
-from stylobate.app.keys import Keys
+from page_server import AA, AA_LARGE, FAINT, browser, until
 
 playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
 pytestmark = [
@@ -15,70 +12,8 @@ pytestmark = [
     pytest.mark.slow,
 ]
 
-#: Ratio of the luminances of text and what is behind it, at least (WCAG 2.2, AA): of text, and of large text.
-AA, AA_LARGE = 4.5, 3.0
-
-#: What lets the browser in.
-KEYS = Keys()
-
-#: Tells what of a page is fainter than that.
-FAINT = Path(__file__).with_name("contrast.js").read_text(encoding="utf-8")
-
-
-@pytest.fixture(scope="module")
-def site(tmp_path_factory):
-    with served(tmp_path_factory.mktemp("page"), REAL, KEYS) as client:
-        yield str(client.base_url).rstrip("/")
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    with playwright.sync_playwright() as engine:
-        found = engine.chromium.launch(executable_path=browser(), args=["--no-sandbox", "--disable-gpu"])
-        yield found
-        found.close()
-
-
-@pytest.fixture
-def open_page(chromium, site):
-    """Opens the page at a width; afterwards nothing has been complained of, and nothing asked of another machine."""
-    opened, said, asked = [], [], []
-
-    def opening(width, height=900):
-        page = chromium.new_page(viewport={"width": width, "height": height})
-        page.set_default_timeout(15_000)
-        page.on("console", lambda one: said.append(one.text) if one.type in ("error", "warning") else None)
-        page.on("pageerror", lambda one: said.append(str(one)))
-        page.on(
-            "response",
-            lambda one: (
-                said.append(f"{one.status} {one.url} {one.request.post_data} {one.text()}")
-                if one.status >= 400
-                else None
-            ),
-        )
-        page.on("request", lambda one: asked.append(one.url))
-        page.goto(site + KEYS.printed("/"))
-        page.wait_for_selector("html[data-ready]")
-        opened.append(page)
-        return page
-
-    yield opening
-    for page in opened:
-        page.close()
-    assert said == []
-    assert [one for one in asked if not one.startswith((site, "data:", "blob:"))] == []
-
-
 #: An assembly in space.
 STATUE = Path(__file__).parents[2] / "gallery" / "assemblies" / "statue.toml"
-
-
-def until(holds, limit=15.0):
-    end = time.monotonic() + limit
-    while not holds():
-        assert time.monotonic() < end
-        time.sleep(0.05)
 
 
 def test_the_whole_story(open_page, tmp_path):
@@ -162,7 +97,7 @@ def test_the_whole_story(open_page, tmp_path):
 @pytest.mark.parametrize("width", [1440, 390])
 def test_every_part_fits_and_can_be_read(open_page, width):
     page = open_page(width)
-    for tab in ("column", "motion", "run", "domain", "fragility", "ruin", "jobs"):
+    for tab in ("column", "motion", "run", "domain", "fragility", "analyses", "jobs"):
         page.click(f"[data-tab={tab}]")
         playwright.expect(page.locator(f"#{tab} h1")).to_be_visible()
         assert page.evaluate("document.documentElement.scrollWidth") <= width, tab
@@ -381,13 +316,13 @@ def test_an_assembly_and_links_through_the_page(open_page, tmp_path):
 def test_an_assembly_in_space_from_its_file_to_its_film_and_its_critical_amplitude(open_page):
     page, expect = open_page(1440), playwright.expect
     page.set_input_files("[data-upload=column]", str(STATUE))
-    expect(page.locator("#column-facts")).to_contain_text("statue")
+    expect(page.locator("#column-facts")).to_contain_text("statue", timeout=60_000)
     painted = "one => new Set(one.getContext('2d').getImageData(0, 0, one.width, one.height).data).size"
     until(lambda: page.locator("canvas.elevation").evaluate(painted) > 20)
     page.click("[data-tab=motion]")
     page.fill("[data-field=duration]", "1")
     page.click("[data-tab=run]")
-    expect(page.locator("[data-field=model] option")).to_have_text(["dem3d"])
+    expect(page.locator("#run [data-field=model] option")).to_have_text(["dem3d"])
     page.fill("[data-field=replicates]", "2")
     page.click("#go")
     expect(page.locator("#run-said .verdict:not(.sentence)")).to_contain_text("2 assemblies like this", timeout=120_000)

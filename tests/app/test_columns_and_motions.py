@@ -284,3 +284,41 @@ def test_an_assembly_in_space_opens_no_mesh_of_this_machine(client, mesh):
     ):
         assert "is a mesh, and the page has no other file at hand; give its vertices." in answer.text
         assert "secret" not in answer.text
+
+
+#: Two blocks, and a line that is none.
+TEXT = """name = "two"
+[joint]
+normal_stiffness = 5e9
+shear_stiffness = 2.5e9
+friction_angle = 35
+[[block]]
+name = "left"
+vertices = [
+    [0, 0], [1, 0], [1, 3], [0, 3],
+]
+density = 2500
+[[block]]
+density = 2500
+vertices = [[4, 0], [5, 0], [5, 3], [4, 3]]
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line"),
+    [
+        ("friction_angle = 35", "friction_angle =", 5),  # no TOML
+        ("friction_angle", "frction_angle", 5),
+        ("[[block]]\ndensity = 2500\nv", "[[block]]\ndensity = 2500\nmas = 1\nv", 14),  # of the second table
+        ("density = 2500\n[[", "density = 'heavy'\n[[", 11),  # behind lines of numbers in brackets
+        ("density = 2500\n[[", "density = -1\n[[", 7),  # named by the sentence alone
+        ("[4, 3]]", "[4.9, 1]]", 12),  # by its number
+        ("[[block]]\ndensity", '[[block]]\nname = "left"\ndensity', 7),
+        ("[[block]]", "[[blok]]", None),
+    ],
+)
+def test_an_error_in_the_text_of_an_assembly_is_of_its_line(client, old, new, line):
+    assert "error" not in client.post("/api/assembly", json={"assembly": TEXT}).json()
+    wrong = "[[blok]]" if old == "[[block]]" else TEXT.replace(old, new, 1)
+    told = client.post("/api/assembly", json={"assembly": wrong}).json()
+    assert told["field"] == ("assembly" if line is None else f"assembly.{line}"), told["error"]

@@ -1,11 +1,13 @@
 """Curves of analyses as the page draws them: plateaus where records fall, shares, and the lognormal curve."""
 
 import json
-import math
 
+import numpy as np
 import pytest
 
+from stylobate import HousnerBlock, evidence, fragility, harmonic, ida, preset
 from stylobate.app.curves import curves
+from stylobate.cli.worker import growing
 
 
 def test_what_is_not_computed_is_left_out(tmp_path):
@@ -32,16 +34,25 @@ def test_a_record_ends_in_a_plateau_where_it_falls(tmp_path):
     assert found["words"] == "peak ground velocity [m/s]"
 
 
-def test_the_curve_is_a_half_at_its_median(tmp_path):
-    place = tmp_path / "fragility"
-    place.mkdir()
-    said = {"median": 0.6, "beta": 0.5, "median_low": 0.4, "median_high": math.inf, "state": "collapse", "im": "pga"}
-    said["points"] = [{"im": 0.5, "share": 0.3, "low": 0.1, "high": None}]
-    (place / "fragility.json").write_text(json.dumps(said).replace("Infinity", "null"))
-    found = curves(tmp_path)["fragility"]
-    below = [y for x, y in zip(found["x"], found["y"]) if x < 0.6]
-    assert max(below) < 0.5 < min(y for x, y in zip(found["x"], found["y"]) if x > 0.6)
-    assert found["y"] == sorted(found["y"])
-    assert (found["median"], found["points"]) == ([0.4, None], [[0.5, 0.3, 0.1, None]])
-    (place / "fragility.json").write_text(json.dumps(said | {"median": None, "median_high": None}))
-    assert curves(tmp_path)["fragility"]["x"] == []
+def test_points_grow_while_an_analysis_runs_and_end_as_a_curve_in_its_band(tmp_path, monkeypatch):
+    """As the process of jobs does it: the last points, of all runs, are those of the fragility."""
+    monkeypatch.setattr("stylobate.cli.worker.LOOK", 0.0)
+    column, told = preset("paper-monolithic"), []
+    motions = [harmonic(0.5 + 0.1 * k, 4.0, 2.0) for k in range(10)]
+    watch = growing("job", "top:0.35d", lambda **said: told.append((said, curves(tmp_path)["growing"]["points"])))
+    monkeypatch.chdir(tmp_path)
+    found = ida(column, motions, HousnerBlock(), runs=4, watch=watch)
+    assert [said for said, _ in told] == 40 * [{"id": "job", "grown": True}]
+    known = [max((one[4] for one in points), default=0) for _, points in told]
+    assert known[0] < known[-1] == 10
+    fitted = fragility(evidence(found, state="top:0.35d"), samples=50)
+    (tmp_path / "fragility").mkdir()
+    (tmp_path / "fragility" / "fragility.json").write_text(json.dumps(fitted.summary()))
+    shown = curves(tmp_path)
+    assert "growing" not in shown
+    shown = shown["fragility"]
+    assert shown["points"] == told[-1][1]
+    assert (shown["state"], shown["words"]) == ("top:0.35d", "peak ground velocity [m/s]")
+    im, at, low, high = (np.array(shown["curve"][name]) for name in ("im", "probability", "low", "high"))
+    assert ((low <= at) & (at <= high)).all()
+    assert np.interp(fitted.median, im, at) == pytest.approx(0.5, abs=0.02)  # straight between eighty points

@@ -1,6 +1,7 @@
 """The page speaks of its fields: no sentence that it shows names a parameter or an option of the command line."""
 
 import dataclasses
+import json
 import re
 import threading
 import time
@@ -8,16 +9,19 @@ import warnings
 from pathlib import Path
 
 import pytest
+from page_server import HAZARD, RUNS
 
 import stylobate
 from stylobate.app.job import Job
 from stylobate.app.words import LABELS, doubted, in_page_words, warned
+from stylobate.cli import worker
 from stylobate.column.links import COLUMN_KINDS
 from stylobate.errors import OutOfRangeWarning
 
 SOURCE = Path(stylobate.__file__).parent
 STATIC = SOURCE / "app" / "static"
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
+COMMAND = re.compile(r"\bstylobate [a-z]|command line|same command")
 
 
 @pytest.mark.parametrize(
@@ -26,13 +30,14 @@ OPTION = re.compile(r"(?<![\w-])--[a-z]")
         ("a states no unit: `unit='g'`, or gal.", "a states no unit: “Unit” g, or gal."),
         ("state it: `dt=0.01`.", "state it: “Step” 0.01s."),
         ("`scale` and `pga` are both given.", "“scale” and “Scale to a peak of” are both given."),
-        ("give `files=FILE`, or several `azimuths`.", "give “Record”, or several “Azimuth”."),
+        ("give `files=FILE`, or several `azimuths`.", "give “Record”, or several “Directions”."),
         ("take it off (`condition='baseline'`).", "take it off."),
         ("bottom_width of a drum is -1 m.", "bottom width of a drum is -1 m."),
         ("far from rest; go on with --tail 5s.", "far from rest; go on with “Tail after the motion” 5s."),
         ("--azimuth is 'x'; write it with its unit.", "“Azimuth” is 'x'; write it with its unit."),
         ("leave it out or give --motion FILE.", "leave it out or give “Record”."),
         ("choose another --until-rest, or --tail", "choose another “until rest”, or “Tail after the motion”"),
+        ("Missing option '--models'; see 'stylobate compare --help'.", "Missing option “Models”."),
         ("a drum -- or two--three - is -1 m; <!-- no -->", "a drum -- or two--three - is -1 m; <!-- no -->"),
     ],
 )  # fmt: skip
@@ -129,3 +134,83 @@ def test_the_form_of_a_column_knows_every_kind_of_link_by_what_it_has():
         fields = {one.name for one in dataclasses.fields(made)} - {"between", "numbers", "name"}
         assert shown[kind] | more[kind] <= fields & words
         assert not shown[kind] & more[kind]
+
+
+#: Bad input of every kind of job: what it has instead of good input.
+ODD = {
+    "run": [
+        *({"replicates": one} for one in ("x", "-1", "1e9", "0.5")),
+        *({"tail": one} for one in ("x", "-1s", "5", "1e9s")),
+        *({"model": one} for one in ("hausner", "housner", "", "--help")),
+        *({"settings": one} for one in ({"points": "0"}, {"point": "2"}, {"law": "bed"}, {"losses": "wood"})),
+    ],
+    "critical": [
+        {"first": "0.5g", "last": "0.1g", "step": "0.1g"},
+        {"first": "0.1g", "last": "0.5g", "step": "0g"},
+        {"first": "x", "last": "0.5g", "step": "0.1g"},
+        {"first": "0.1", "last": "0.5", "step": "0.1"},
+        {"first": "0.1g", "last": "0.2g", "step": "0.1g"},
+    ],
+    "domain": [
+        {"frequencies": "4:1:5", "amplitudes": "0.1g:0.2g:2", "duration": "1s"},
+        {"frequencies": "1:2:2", "amplitudes": "0.1:0.2:2", "duration": "1s"},
+        {"frequencies": "1:2:2", "amplitudes": "0.1g:0.2g:2", "duration": "x"},
+        {"frequencies": "1:2:2", "amplitudes": "0.1g:0.2g:2", "duration": "-1s"},
+    ],
+    "ida": [
+        {"records": []},
+        *({"records": ["sample:el-centro-1940"], "runs": one} for one in ("x", "2", "1e9")),
+        *({"records": ["sample:el-centro-1940"], "im": one} for one in ("x", "d5_95", "sa:x")),
+        {"records": ["sample:nowhere"]},
+        {"records": ["sample:el-centro-1940", "sample:el-centro-1940"]},
+        {"records": ["sample:el-centro-1940"], "unit": "furlong"},
+    ],
+    "directions": [{"options": {"azimuths": one}} for one in ("x", "0:360:13", "0:330", "0:330:0", "0:330:1000000")],
+    "compare": [
+        *({"options": {"models": one}} for one in ("", "dem2d,dem2d", "dem2d,hausner", "dem2d,housner")),
+        {"options": {"models": "dem2d"}, "tail": "x"},
+    ],
+    "sequence": [
+        *({"options": {"repeat": one}} for one in ("x", "0", "-1", "1000000")),
+        *({"options": {"rest": one}} for one in ("x", "-1", "1e9")),
+        *({"options": {"factors": one}} for one in ("x", "1,,2", "-1", "0")),
+        {"options": {"factors": "1,2,3"}, "records": ["sample:el-centro-1940", "sample:waipukurau-2018"]},
+        {"options": {"unit": "g"}, "records": ["sample:el-centro-1940"]},
+        {"options": {"replicates": "x"}},
+    ],
+    "risk": [
+        *({"hazards": {"a.csv": one}} for one in ("", "x", "im,rate\n1,2\n", HAZARD.replace("pgv_m_s", "pga_g"))),
+        *({"table": one} for one in ("", "x", "record,im\na,1\n", RUNS[:80], RUNS.replace("0.4", "x", 1))),
+        *({"options": one} for one in ({"im": "x"}, {"im": "pga"}, {"state": "x"}, {"state": "top:0.35d"}, {})),
+    ],
+    "survival": [{"options": {"im": "pgv", "age": one}} for one in ("x", "-1", "0", "1e9", "")],
+}  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ODD)
+def test_no_job_names_an_option_or_a_command(fresh, asked, tmp_path, monkeypatch, kind):
+    """What the page refuses, and what the process of jobs says of the rest."""
+    good = (
+        {"table": RUNS, "hazards": {"a.csv": HAZARD}, "options": {"im": "pgv"}} if kind in ("risk", "survival") else {}
+    )
+    good |= {"motion": asked["motion"] | {"text": "1Hz,?g,1s"}} if kind == "critical" else {}
+    refused = 0
+    for change in ODD[kind]:
+        answer, told = fresh.post("/api/jobs", json=asked | {"kind": kind} | good | change), []
+        if answer.status_code == 422:
+            told.append(answer.json()["error"])
+        else:
+            folder = tmp_path / "jobs" / answer.json()["id"]
+            commands = json.loads((folder / "job.json").read_text())["commands"]
+            monkeypatch.chdir(folder)
+            worker.work(
+                {"id": "a", "folder": str(folder), "commands": commands}, lambda told=told, **what: told.append(what)
+            )
+            told = [what[key] for what in told if "code" in what for key in ("said", "complained")]
+        said = str(in_page_words(told))
+        refused += bool(told) and "'complained'" not in said
+        assert OPTION.search(said) is None, (change, said)
+        assert COMMAND.search(said) is None, (change, said)
+        assert "`" not in said, (change, said)
+    assert refused

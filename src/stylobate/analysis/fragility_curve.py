@@ -20,6 +20,9 @@ from .unknown_law import few_laws
 #: A limit of the median that is farther from all intensities that were run than by this factor is none.
 FAR = 1000.0
 
+#: Dispersions on either side of the median within which a curve is drawn, and its points.
+WIDE, DRAWN = 3.5, 80
+
 #: A dispersion so near, in its logarithm, to where the fit ends is at the end [-].
 CLOSE = 1e-6
 
@@ -173,6 +176,23 @@ class Fragility(Shown):
         return low, high
 
     @property
+    def span(self) -> tuple[float, float]:
+        """Intensities between which it is drawn: where it rises, as far as there are runs."""
+        im = self.evidence.im
+        wide = WIDE * (self.beta if self.bracket is None else min(self.beta_interval[1], 1.0))
+        low = max(im.min(), self.median * math.exp(-wide))
+        high = min(im.max(), max(self.median * math.exp(wide), self.points.im.max()))
+        return float(low) / 1.1, 1.2 * float(high)
+
+    def drawn(self) -> dict[str, list[float]]:
+        """The curve and its band over :attr:`span`, as a table."""
+        im = np.geomspace(*self.span, DRAWN)
+        names = ("im", "probability", "low", "high")
+        return {
+            name: one.tolist() for name, one in zip(names, (im, self.probability(im), *self.interval(im)), strict=True)
+        }
+
+    @property
     def median_interval(self) -> tuple[float, float]:
         """Confidence limits of θ, whatever open runs come to; 0 and +inf where none is known."""
         middle, spread = self.samples.T
@@ -299,10 +319,8 @@ class Fragility(Shown):
             "largest_distance": self.distance,
             "p_value": self.p_value,
             "sentence": self.sentence,
-            "points": [
-                {"im": x, "share": s, "low": a, "high": b, "records": n}
-                for x, s, a, b, n in zip(*(var.tolist() for var in vars(self.points).values()), strict=True)
-            ],
+            "curve": self.drawn(),
+            "points": self.points.table(),
         }
 
 

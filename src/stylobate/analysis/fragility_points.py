@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.special import ndtri
@@ -38,6 +39,11 @@ class Points:
     low: np.ndarray
     high: np.ndarray
     records: np.ndarray
+
+    def table(self) -> list[dict[str, Any]]:
+        """A row for each point, of plain numbers."""
+        names = {"im": self.im, "share": self.share, "low": self.low, "high": self.high, "records": self.records}
+        return [dict(zip(names, row)) for row in zip(*(one.tolist() for one in names.values()), strict=True)]
 
 
 def points_of(evidence: Evidence, codes: np.ndarray, method: str, both_ways: bool = False) -> Points:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -68,6 +69,7 @@ def ida(
     runs: int = RUNS,
     largest_factor: float = LARGEST,
     about: Mapping[str, Mapping[str, float]] | None = None,
+    watch: Callable[[Callable[[], Ida]], object] | None = None,
     campaign: Campaign = USUAL,
     **fields: Unpack[Fields],
 ) -> Ida:
@@ -89,6 +91,8 @@ def ida(
         By which a record is multiplied at most [-]; larger levels are not hunted, and refused where they are given.
     about : mapping, optional
         By name of a record, or of a motion that is made of one, ``magnitude`` and ``distance_km``.
+    watch : callable, optional
+        Called after each run with a function that makes the analysis of the runs that are finished.
     campaign : Campaign, optional
         With replicates, these are run instead of the column itself; ``progress`` is called with (finished, most that there
         will be).
@@ -158,6 +162,20 @@ def ida(
             return [] if one.levels else stripes
         return _asked(one, runs, largest_factor, measure.power)
 
+    def made(of: Sequence[Trace]) -> Ida:
+        table = _table(of, dict(zip((one.name for one in motions), facts)), column, measure, model, drawn)
+        table["hunted"] = stripes is None
+        table.attrs["doubt"] = doubt = "" if drawn is not None and drawn.groups else caveat([column], model)
+        return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
+
+    def so_far(asked: Sequence[tuple[Trace, float]], rows: Sequence[dict]) -> Ida:
+        grown = {id(one): replace(one, levels=[*one.levels], rows=[*one.rows]) for one in traces}
+        for (one, new), row in zip(asked, rows):
+            if row:
+                grown[id(one)].levels.append(new)
+                grown[id(one)].rows.append(row)
+        return made([*grown.values()])
+
     quiet, hasher = share_of(motions, campaign.whole), Hasher(model, campaign.options)
     try:
         with closing(Runs(campaign)) as kept:
@@ -170,16 +188,15 @@ def ida(
                         done += 1
                         if campaign.progress:
                             campaign.progress(done, total)
+                        if watch:
+                            watch(partial(so_far, asked, rows))
                 for (one, new), row in zip(asked, rows):
                     one.levels.append(new)
                     one.rows.append(row)
     except KeyboardInterrupt:
         raise Stopped(done, total, campaign.ledger) from None
     _warn_of_factors(traces, measure.power)
-    table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model, drawn)
-    table["hunted"] = stripes is None
-    table.attrs["doubt"] = doubt = "" if drawn is not None and drawn.groups else caveat([column], model)
-    return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
+    return made(traces)
 
 
 def _loudest(motion: Motion, column: Structure) -> float:

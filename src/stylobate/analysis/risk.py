@@ -114,10 +114,17 @@ class Risk(Shown):
             f"{self.hazard.name} is {most}, counted as none {least}; the curve leaves them out, its interval holds both."
         )
 
+    @property
+    def sentence(self) -> str:
+        """How often it comes to the state, in a sentence."""
+        e = self.fragility.evidence
+        return f"{e.name}: {e.state} {'never' if self.rate == 0.0 else f'once in {years(1.0 / self.rate)}'}."
+
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate risk``."""
         f = self.fragility
         return {
+            "sentence": self.sentence,
             "annual_rate": self.rate,
             "annual_rate_low": self.low,
             "annual_rate_high": self.high,
@@ -134,7 +141,7 @@ class Risk(Shown):
             "beta": f.beta,
             "hazard": self.hazard.name,
             "name": f.evidence.name,
-            "fragility": {key: value for key, value in f.summary().items() if key != "points"},
+            "fragility": {key: value for key, value in f.summary().items() if key not in ("curve", "points")},
             "deaggregation": [
                 {"from": a, "to": b, "annual_rate": p}
                 for a, b, p in zip(self.edges[:-1].tolist(), self.edges[1:].tolist(), self.parts.tolist())

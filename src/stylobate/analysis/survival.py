@@ -103,5 +103,5 @@ def parse_age(text: str) -> float:
     except ValueError:
         value = math.nan
     if not 0.0 < value <= 1e6:
-        raise InputError(f"age {text!r} cannot be read; write it in years, such as 2400y.")
+        raise InputError(f"age {text!r} cannot be read; write it in years, such as 2400y.", "age")
     return value

@@ -14,12 +14,16 @@ from ..errors import InputError
 from ..motion.ranges import amplitude_range, frequency_range
 from ..motion.specs import parse_time
 from .folder import RECORDS
+from .forms import FORMS, Form
 
 #: Files of a job: its column or assembly, the study of a domain, and where its commands write; its records lie in a folder
 #: that is called as that of the page.
 COLUMN, ASSEMBLY, STUDY, RUIN, RESULT, FRAGILITY, REPORT = (
     *("column.toml", "assembly.toml", "study.toml", "ruin.toml", "result", "fragility", "report.html"),
 )
+
+#: The runs that a job rests on, the folder of another one or a table; and the folder of its hazard curves.
+RUNS, TABLE, HAZARDS = "runs", "runs.csv", "hazards"
 
 #: Most cells of a domain.
 CELLS = 20_000
@@ -64,11 +68,17 @@ class JobAsked(Table):
     """Computation that is asked for: all but kind, column and model as on the command line.
 
     ``column`` is what a column file holds, ``assembly`` the text of an assembly file, ``ruin`` that of a ruin file; of
-    ``critical`` the amplitudes go from ``first`` to ``last`` by ``step``. ``page`` is what the page's fields hold, for it to
-    fill them again.
+    ``critical`` the amplitudes go from ``first`` to ``last`` by ``step``. An analysis of :data:`~stylobate.app.forms.FORMS`
+    has ``options``, what its fields hold, and may rest on a ``source``, the id of another job, or on the text of a ``table``
+    of runs, and on texts of ``hazards`` by the names of their files. ``page`` is what the page's fields hold, for it to fill
+    them again.
     """
 
-    kind: Literal["run", "critical", "domain", "ida", "infer"]
+    kind: Literal["run", "critical", "domain", "ida", "directions", "compare", "sequence", "risk", "survival", "infer"]
+    options: dict[str, str] = Field(default_factory=dict)
+    source: str | None = None
+    table: str | None = None
+    hazards: dict[str, str] = Field(default_factory=dict)
     column: dict[str, Any] | None = None
     assembly: str | None = None
     ruin: str | None = None
@@ -105,32 +115,99 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
     InputError
         Something is missing.
     """
-    common = [COLUMN if asked.assembly is None else ASSEMBLY, *_options(model=asked.model)]
-    common += [f"--set={name}={value}" for name, value in asked.settings.items() if value]
+    if asked.kind in FORMS:
+        return [_of_form(asked, FORMS[asked.kind], records)]
+    common = [COLUMN if asked.assembly is None else ASSEMBLY, *_model(asked.model, asked.settings)]
     end = [*_options(tail=asked.tail), f"--out={RESULT}"]
     if asked.kind in ("run", "critical"):
-        if asked.motion is None:
-            raise InputError(f"a {asked.kind} has no motion; choose one.")
-        given = [*common, *_motion(asked.motion, records), *_options(replicates=asked.replicates)]
+        given = [*common, *_motion(_the_motion(asked), records), *_options(replicates=asked.replicates)]
         if asked.kind == "run":
             return [["run", *given, "--no-pictures", *end]]
         steps = {"from": asked.first, "to": asked.last, "step": asked.step}
         return [["critical", *given, *_options(**steps), *end]]
     if asked.kind == "domain":
         return [["domain", STUDY, f"--out={RESULT}"]]
-    if asked.kind == "infer":
-        return [["infer", RUIN, f"--out={RESULT}"]]
     from ..analysis.fragility_checks import FEWEST
 
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
-    if any(len(records.get(record, ())) > 1 for record in asked.records):
-        raise InputError("a record of several files is no record of a fragility here; upload one file for each record.")
-    files = [path for record in asked.records for path in _files(record, records)]
+    files = _each(asked.records, records)
     analysis = ["ida", *common, *files, *_options(unit=asked.unit, im=asked.im, runs=asked.runs), *end]
     if len(asked.records) < FEWEST:
         return [analysis]
     return [analysis, ["fragility", RESULT, *_options(state=asked.state), f"--out={FRAGILITY}"]]
+
+
+def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) -> list[str]:
+    """The command line of an analysis: what it takes of the page, and what its fields hold."""
+    takes, boxes = form.takes, {box.option: box for box in form.boxes}
+    unknown = next((name for name in asked.options if name not in boxes), None)
+    if unknown is not None:
+        raise InputError(f"{form.title!r} has no field {unknown!r}; reload the page.")
+    given = {name: asked.options.get(name, box.start).strip() for name, box in boxes.items()}
+    empty = next((box for name, box in boxes.items() if box.start and not given[name]), None)
+    if empty is not None:
+        raise InputError(f"“{empty.label}” is empty; give it, such as {empty.start}.", empty.option.replace("-", "_"))
+    line = [form.command]
+    if "ruin" in takes:
+        line.append(RUIN)
+    elif "column" in takes:
+        line.append(COLUMN if asked.assembly is None else ASSEMBLY)
+    if "source" in takes:
+        line.append(RUNS if asked.table is None else TABLE)
+    if "model" in takes:
+        model = given.pop("model", asked.model)
+        line += _model(model, asked.settings if model == asked.model else {})
+    if "motions" in takes and asked.records:
+        line += [f"--motion={path}" for path in _each(asked.records, records)]
+    elif {"motion", "motions", "round"} & {*takes}:
+        given.pop("unit", None)  # of records; that of the page's motion goes with it
+        motion = _the_motion(asked)
+        line += _motion(motion.model_copy(update={"azimuth": None}) if "round" in takes else motion, records)
+    if {"hazard", "hazards"} & {*takes}:
+        number = len(asked.hazards)
+        if not number or (number > 1 and "hazard" in takes):
+            wanted = "one" if "hazard" in takes else "at least one"
+            raise InputError(
+                f"{number} hazard curves are open; {form.title.lower()} takes {wanted}: open its file.", "hazard"
+            )
+        line += [f"--hazard={HAZARDS}/{name}" for name in hazard_files(asked)]
+    line += _options(**{name: text and text + boxes[name].unit for name, text in given.items()})
+    return [*line, *form.fixed, *_options(tail=asked.tail if "tail" in takes else None), f"--out={RESULT}"]
+
+
+def hazard_files(asked: JobAsked) -> dict[str, str]:
+    """Texts of the hazard curves by the names of their files in the folder of the job: those that they had, made safe.
+
+    Raises
+    ------
+    InputError
+        Two are called the same.
+    """
+    found: dict[str, str] = {}
+    for name, text in asked.hazards.items():
+        safe = re.sub(r"[^\w.() -]+", "_", name).strip(". ")[-80:] or "hazard"
+        if safe in found:
+            raise InputError(f"two hazard curves are called {safe!r}; rename one of the files.", "hazard")
+        found[safe] = text
+    return found
+
+
+def _the_motion(asked: JobAsked) -> MotionAsked:
+    if asked.motion is None:
+        raise InputError("there is no motion; choose one.")
+    return asked.motion
+
+
+def _model(model: str, settings: Mapping[str, str]) -> list[str]:
+    return [*_options(model=model), *(f"--set={name}={value}" for name, value in settings.items() if value)]
+
+
+def _each(chosen: Sequence[str], records: Mapping[str, Sequence[str]]) -> list[str]:
+    """The file of each record that is chosen."""
+    if any(len(records.get(record, ())) > 1 for record in chosen):
+        raise InputError("a record of several files cannot be one of many here; upload one file for each record.")
+    return [path for record in chosen for path in _files(record, records)]
 
 
 def study(asked: JobAsked) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from ..column.presets import PRESETS
 from ..column.structure import Structure
 from ..column.toml import parse_toml
 from ..errors import InputError
+from .lines import point_to
 from .words import doubted, warned
 
 #: Largest assembly file: the address in the browser holds it [characters].
@@ -31,7 +32,7 @@ def assembly_of(text: str) -> Structure:
         It describes none, or takes a column or a mesh from a file.
     """
     if len(text) > LARGEST:
-        raise InputError(f"the assembly file has {len(text)} characters; the page takes up to {LARGEST}.")
+        raise InputError(f"the assembly file has {len(text)} characters; the page takes up to {LARGEST}.", "assembly")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / FILE
         path.write_text(text, encoding="utf-8")
@@ -42,6 +43,7 @@ def assembly_of(text: str) -> Structure:
             return read_assembly(path)
         except InputError as error:
             error.without(f"{folder}/")
+            point_to(error, text, "assembly")
             raise
 
 
@@ -79,8 +81,12 @@ def describe(text: str) -> dict[str, Any]:
     InputError
         The text describes none.
     """
-    with doubted() as doubts:
-        assembly = assembly_of(text)
+    try:
+        with doubted() as doubts:
+            assembly = assembly_of(text)
+    except InputError as error:
+        error.without(f"{FILE}: ")  # it is the text at hand
+        raise
     from ..plots.view import OBLIQUE  # matplotlib is loaded for those who look at an assembly
     from ..plots.views import SEEN, solids_of
 
@@ -97,6 +103,7 @@ def describe(text: str) -> dict[str, Any]:
             "height": max(float(body.corners[:, 1].max()) for body in bodies),
             "digest": assembly.digest,
         },
+        "model": model_of(assembly),
         "views": [
             _seen(assembly, solids, view, said)
             for view, said in (SEEN[:1] if plane else (*SEEN, (OBLIQUE, "from above")))

@@ -7,13 +7,18 @@ import json
 import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from ..atomic import replacing
 from ..motion.intensity_specs import parse_measure
 from .asked import FRAGILITY, RESULT
+from .job import GROWING
 
-#: Room at the right of the largest response, for collapses; the points of a drawn fragility.
-ROOM, POINTS = 1.25, 120
+if TYPE_CHECKING:
+    from ..analysis.ida_curves import Ida
+
+#: Room at the right of the largest response, for collapses [-].
+ROOM = 1.25
 
 #: Share of the records by the column of the table that holds its curve.
 SHARES = {"16": "edp_16", "50": "edp_50", "84": "edp_84"}
@@ -30,8 +35,9 @@ def curves(folder: Path) -> dict[str, Any]:
     found: dict[str, Any] = {}
     if (folder / RESULT / "capacities.csv").is_file():
         found["ida"] = _ida(folder / RESULT)
-    if (folder / FRAGILITY / "fragility.json").is_file():
-        found["fragility"] = _fragility(json.loads((folder / FRAGILITY / "fragility.json").read_text(encoding="utf-8")))
+    for name, file in (("fragility", folder / FRAGILITY / "fragility.json"), ("growing", folder / GROWING)):
+        if file.is_file() and "fragility" not in found:
+            found[name] = _fragility(json.loads(file.read_text(encoding="utf-8")))
     if (folder / RESULT / "critical.csv").is_file():
         found["critical"] = [
             [_number(row["amplitude_g"]), _moved(row), row["verdict"]]
@@ -84,20 +90,28 @@ def _ida(folder: Path) -> dict[str, Any]:
     return {"records": lines, "shares": shares, "right": right, "moves": moves, "words": _words(said)}
 
 
+def write_points(analysis: Ida, state: str, target: Path) -> Path:
+    """Write the shares of the records that are known of an analysis so far, in the form of a fragility without a curve."""
+    from ..analysis.evidence import evidence
+    from ..analysis.fragility_points import points_of
+
+    told = evidence(analysis, state=state)
+    points = points_of(told, told.codes, "records" if told.brackets else "runs")
+    said = {"im": told.measure, "state": told.state, "points": points.table()}
+    with replacing(target) as partial:
+        partial.write_text(json.dumps(said), encoding="utf-8")
+    return target
+
+
 def _fragility(said: Mapping[str, Any]) -> dict[str, Any]:
-    """The curve, the shares of the records with their intervals, and the interval of the median."""
-    median, beta = _number(said["median"]), _number(said["beta"])
-    points = [[_number(one[key]) for key in ("im", "share", "low", "high")] for one in said.get("points", ())]
+    """The curve with its band, the shares of the records with their intervals, and the interval of the median."""
+    points = [
+        [_number(one[key]) for key in ("im", "share", "low", "high", "records")] for one in said.get("points", ())
+    ]
     points = [one for one in points if one[0] is not None]
-    interval = [_number(said["median_low"]), _number(said["median_high"])]
-    fragility = {"x": [], "y": [], "points": points, "median": interval, "state": said["state"], "words": _words(said)}
-    if median is None or not beta:
-        return fragility
-    ends = [one for one in (*(point[0] for point in points), *interval) if one is not None]
-    high = 1.1 * max(*ends, median * math.exp(2.5 * beta))
-    x = [high * (k + 1) / POINTS for k in range(POINTS)]
-    y = [0.5 * math.erfc(-math.log(one / median) / (beta * math.sqrt(2.0))) for one in x]
-    return fragility | {"x": _plain(x), "y": _plain(y)}
+    interval = [_number(said.get(key)) for key in ("median_low", "median_high")]
+    drawn = {name: _plain(values) for name, values in said.get("curve", {}).items()}
+    return {"curve": drawn, "points": points, "median": interval, "state": said["state"], "words": _words(said)}
 
 
 def _words(said: Mapping[str, Any]) -> str:

@@ -17,8 +17,8 @@ from .words import in_page_words
 #: States of a job: it waits, is computed, has ended well, was refused as bad input, failed, or was stopped.
 WAITING, RUNNING, DONE, REFUSED, FAILED, CANCELLED = "waiting", "running", "done", "refused", "failed", "cancelled"
 
-#: The file that keeps a job.
-JOB = "job.json"
+#: The file that keeps a job; those from which the page draws its film, and its points as they come.
+JOB, FILM, GROWING = "job.json", "film.json", "growing.json"
 
 
 @dataclass
@@ -30,7 +30,7 @@ class Job:
     id : str
     folder : Path
     kind : str
-        ``run``, ``critical``, ``domain``, ``ida``, ``infer`` or ``report``.
+        ``run``, ``critical``, ``domain``, ``ida``, ``report``, or one of :data:`~stylobate.app.forms.FORMS`.
     title : str
         What it computes, in a line.
     commands : list of list of str
@@ -58,6 +58,7 @@ class Job:
     results: list[dict[str, Any]] = dataclasses.field(default_factory=list)
     version: int = 0
     filmed: bool = False
+    grown: int = 0
     _files: list[str] | None = dataclasses.field(default=None, init=False, repr=False, compare=False)
 
     @property
@@ -71,7 +72,7 @@ class Job:
             return self._files
         found = [path for path in self.folder.rglob("*") if path.is_file() and not path.is_symlink()]
         names = [one.relative_to(self.folder).as_posix() for one in found if one.name[0] != "." and one.name != LIST]
-        self._files = sorted(name for name in names if name not in (JOB, "film.json") and ".sqlite" not in name)
+        self._files = sorted(name for name in names if name not in (JOB, FILM, GROWING) and ".sqlite" not in name)
         return self._files
 
     def changed(self) -> None:
@@ -85,7 +86,7 @@ class Job:
         plain |= {key: in_page_words(plain[key]) for key in ("sentence", "warnings", "results") if key in plain}
         plain["commands"] = [shown(command) for command in self.commands]
         plain["files"] = [] if self.open else self.files()
-        plain["film"] = (self.filmed or not self.open) and (self.folder / "film.json").is_file()
+        plain["film"] = (self.filmed or not self.open) and (self.folder / FILM).is_file()
         return plain
 
     def lines(self) -> bytes:

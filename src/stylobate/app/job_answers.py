@@ -18,17 +18,34 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 
 from ..column.files import write_column
+from ..column.presets import PRESETS, preset
 from ..column.structure import Structure
 from ..column.toml import checked
 from ..errors import InputError
 from . import columns
 from .answers import Answer, Missing, as_json, json_object, missing
-from .asked import ASSEMBLY, COLUMN, FRAGILITY, RESULT, RUIN, STUDY, JobAsked, commands, report_of, study
+from .asked import (
+    ASSEMBLY,
+    COLUMN,
+    FRAGILITY,
+    HAZARDS,
+    RESULT,
+    RUIN,
+    RUNS,
+    STUDY,
+    TABLE,
+    JobAsked,
+    commands,
+    hazard_files,
+    report_of,
+    study,
+)
 from .assemblies import assembly_of
 from .cells import new_cells
 from .curves import curves
 from .folder import RECORDS
-from .job import Job
+from .forms import FORMS
+from .job import FILM, Job
 from .records import Records
 from .ruins import ruin_of
 from .workshop import Workshop
@@ -91,9 +108,11 @@ class JobAnswers:
         """Put a job into the queue."""
         body = await json_object(request)
         asked = checked(body, JobAsked, "the job")
-        stone = _structure(asked)
+        takes = FORMS[asked.kind].takes if asked.kind in FORMS else ("column",)
+        stone = _structure(asked) if "column" in takes else None
+        source = self._source(asked) if "source" in takes else None
         tables = study(asked) if asked.kind == "domain" else None
-        if asked.kind == "infer":
+        if "ruin" in takes and stone is not None:
             await run_in_threadpool(ruin_of, asked.ruin, stone, asked.assembly)
         wanted = [record for record in asked.records if not record.startswith("sample:")]
         if asked.motion is not None and asked.motion.kind == "record":
@@ -102,19 +121,26 @@ class JobAnswers:
         lines = commands(asked, names)
 
         def prepare(folder: Path) -> None:
-            if asked.assembly is None:
-                write_column(stone.stack, folder / COLUMN)
-            else:
-                (folder / ASSEMBLY).write_text(asked.assembly, encoding="utf-8")
-            if asked.ruin is not None:
-                (folder / RUIN).write_text(asked.ruin, encoding="utf-8")
+            _write(asked, stone, folder)
             self.records.copy(wanted, folder / RECORDS)
+            if source is not None:
+                _copy_result(source.folder / RESULT, folder / RUNS)
             if tables is not None:
                 (folder / STUDY).write_text(tomli_w.dumps(tables), encoding="utf-8")
 
-        title = _title(asked, stone.name, self.records)
+        stands = _called(stone) if stone is not None else source.title if source is not None else "table of runs"
+        title = _title(asked, stands, self.records)
         job = await run_in_threadpool(self.workshop.submit, asked.kind, title, lines, body, prepare)
         return Answer(self._shown(job), 201)
+
+    def _source(self, asked: JobAsked) -> Job | None:
+        """The job on whose runs another one rests; None where it brings a table of its own."""
+        if asked.table is not None:
+            return None
+        found = self.workshop.jobs.get(asked.source or "")
+        if found is None or not (found.folder / RESULT / TABLE).is_file():
+            raise InputError("no fragility is chosen; compute one, or open a table of runs.", "source")
+        return found
 
     async def one(self, request: Request) -> Response:
         """One job."""
@@ -138,9 +164,9 @@ class JobAnswers:
         lines = report_of(job.folder)
 
         def prepare(folder: Path) -> None:
-            for name in (RESULT, FRAGILITY):
+            for name in (RESULT, FRAGILITY, RUNS):
                 if (job.folder / name).is_dir():
-                    shutil.copytree(job.folder / name, folder / name, ignore=shutil.ignore_patterns("*.sqlite*"))
+                    _copy_result(job.folder / name, folder / name)
 
         return self.workshop.submit("report", f"report: {job.title}", lines, {}, prepare)
 
@@ -152,7 +178,7 @@ class JobAnswers:
 
     async def film(self, request: Request) -> Response:
         """The film of a run."""
-        path = self._job(request, "film").folder / "film.json"
+        path = self._job(request, "film").folder / FILM
         return FileResponse(path, media_type="application/json") if path.is_file() else missing("film")
 
     async def cells(self, request: Request) -> Response:
@@ -252,6 +278,30 @@ class JobAnswers:
         return job.to_dict(whole) | {"place": self.workshop.place(job)}
 
 
+def _called(stone: Structure) -> str:
+    """The name of what stands; a preset that was changed is told from what it was."""
+    return (
+        f"{stone.name}, changed" if stone.name in PRESETS and preset(stone.name).digest != stone.digest else stone.name
+    )
+
+
+def _copy_result(source: Path, target: Path) -> None:
+    """Copy what a command wrote, without what it keeps half-way."""
+    shutil.copytree(source, target, ignore=shutil.ignore_patterns("*.sqlite*"))
+
+
+def _write(asked: JobAsked, stone: Structure | None, folder: Path) -> None:
+    """Write what the page sent with a job into its folder."""
+    if stone is not None and asked.assembly is None:
+        write_column(stone.stack, folder / COLUMN)
+    texts = {ASSEMBLY: asked.assembly, RUIN: asked.ruin, TABLE: asked.table}
+    texts |= {f"{HAZARDS}/{name}": text for name, text in hazard_files(asked).items()}
+    for name, text in texts.items():
+        if text is not None:
+            (folder / name).parent.mkdir(exist_ok=True)
+            (folder / name).write_text(text, encoding="utf-8")
+
+
 def _structure(asked: JobAsked) -> Structure:
     """Structure: a column, or an assembly, which has no domain."""
     if asked.assembly is not None:
@@ -266,19 +316,24 @@ def _structure(asked: JobAsked) -> Structure:
 
 def _title(asked: JobAsked, name: str, records: Records) -> str:
     """A job in a line."""
-    if asked.kind == "infer":
-        return f"{name} · what shaking left the ruin"
-    if asked.kind in ("run", "critical") and asked.motion is not None:
-        what, kept = asked.motion.text, records.kept.get(asked.motion.text)
-        what = kept.name if kept is not None else what
-        what += f" at {asked.motion.azimuth}" if asked.motion.azimuth else ""
-        what += f" scaled to {asked.motion.pga}" if asked.motion.pga else ""
-        what = what if asked.kind == "run" else f"what brings it down of {what}, {asked.first} to {asked.last}"
-    elif asked.kind == "domain":
+    form, shaken = FORMS.get(asked.kind), ""
+    if asked.motion is not None:
+        kept = records.kept.get(asked.motion.text)
+        shaken = kept.name if kept is not None else asked.motion.text
+        shaken += f" at {asked.motion.azimuth}" if asked.motion.azimuth and asked.kind != "directions" else ""
+        shaken += f" scaled to {asked.motion.pga}" if asked.motion.pga else ""
+    model = asked.options.get("model") or asked.model
+    if form is not None:
+        shaken = f"{len(asked.records)} records" if "motions" in form.takes and asked.records else shaken
+        model = model if "model" in form.takes else ""
+        return " · ".join(one for one in (name, form.title.lower(), shaken, model) if one)
+    if asked.kind == "domain":
         what = f"domain {asked.frequencies} Hz × {asked.amplitudes}"
-    else:
+    elif asked.kind == "ida":
         what = f"{len(asked.records)} records by {asked.im or 'pgv'}"
-    return f"{name} · {what} · {asked.model}"
+    else:
+        what = shaken if asked.kind == "run" else f"what brings it down of {shaken}, {asked.first} to {asked.last}"
+    return f"{name} · {what} · {model}"
 
 
 def _event(kind: str, what: Any) -> str:

@@ -13,6 +13,7 @@ from ..column.structure import Structure
 from ..column.toml import parse_toml
 from ..errors import InputError
 from .asked import ASSEMBLY, COLUMN, RUIN
+from .lines import point_to
 
 #: Largest ruin file: the address in the browser holds it [characters]; most simulations.
 LARGEST, MOST = 50_000, 20_000
@@ -49,7 +50,8 @@ def ruin_of(text: str | None, stone: Structure, assembly: str | None) -> Ruin:
             found = read_ruin(path)
         except InputError as error:
             error.without(f"{folder}/")
-            error.field = "ruin"
+            error.without(f"{RUIN}: ")
+            point_to(error, text, "ruin")
             raise
     if found.simulations > MOST:
         raise InputError(f"{found.simulations} simulations are asked for; the page takes up to {MOST}.", "ruin")

@@ -6,6 +6,7 @@ import asyncio
 import tempfile
 from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from contextlib import asynccontextmanager
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -26,6 +27,7 @@ from . import assemblies, columns, motions
 from .answers import HANDLERS, Answer, found_wrong, json_object, missing
 from .asked import COLUMN, MotionAsked
 from .folder import JOBS, RECORDS
+from .forms import FORMS
 from .guard import Guard
 from .job_answers import LINES, JobAnswers
 from .keys import Keys
@@ -41,6 +43,9 @@ KINDS = {".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".s
 PAGES = {f"/static/{path.name}": path for path in STATIC.iterdir() if path.suffix in KINDS} | {
     f"/static/{name}": PLAYER / name for name in ("player.js", "player_space.js")
 }
+
+#: Analyses as the scripts of the page take them.
+FORMS_SHOWN = {name: asdict(form) for name, form in FORMS.items()}
 
 
 class Site:
@@ -76,7 +81,15 @@ class Site:
     async def about(self, request: Request) -> Response:
         """Choices."""
         listed = [{"name": sample.name, "about": sample.about} for sample in samples().values()]
-        return Answer({"version": __version__, "presets": columns.presets(), "samples": listed, "labels": LABELS})
+        return Answer(
+            {
+                "version": __version__,
+                "presets": columns.presets(),
+                "samples": listed,
+                "labels": LABELS,
+                "forms": FORMS_SHOWN,
+            }
+        )
 
     # -- columns and motions -------------------------------------------------------------------------------------
 

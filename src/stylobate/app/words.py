@@ -11,6 +11,7 @@ from typing import Any
 
 from ..column import tables
 from ..errors import reworded
+from .forms import FORMS
 
 #: Label of a field of the page, by the option of the command line that it stands for; the scripts of the page take
 #: them from here.
@@ -36,16 +37,23 @@ LABELS = {
     "im": "Intensity",
     "runs": "Runs of a record",
     "state": "Limit state",
+    "hazard": "Hazard curve",
 }
 
+#: The same with the fields of analyses.
+ALL_LABELS = {box.option: box.label.partition(" [")[0] for form in FORMS.values() for box in form.boxes} | LABELS
+
 #: Parameters that are not called after the option that gives them.
-_OPTIONS = {"files": "motion", "azimuths": "azimuth"}
+_OPTIONS = {"files": "motion", "hazards": "hazard"}
 
 #: Keys of a column file of several words, which are so many words on the page.
 _TABLES = [var for var in vars(tables).values() if isinstance(var, type) and issubclass(var, tables.Table)]
 _KEYS = re.compile(rf"\b(?:{'|'.join({key for table in _TABLES for key in table.model_fields if '_' in key})})\b")
 
 _OPTION = re.compile(r"(?<![\w-])--([a-z](?:[a-z-]*[a-z])?)(?: [A-Z]{2,}(?:\.\w+)?\b)?")
+#: Where the command line explains itself.
+_HELP = re.compile(r"; see 'stylobate[^']*'")
+
 _ASIDE = re.compile(r"\s*\(([^()]*(?<![\w-])--[a-z][^()]*)\)")
 
 
@@ -60,7 +68,8 @@ def in_page_words(said: Any) -> Any:
     """
     if isinstance(said, str):
         said = reworded(said, lambda name: "--" + _OPTIONS.get(name, name).replace("_", "-"))
-        said = _OPTION.sub(_named, _ASIDE.sub(_kept, said)) if "--" in said else said
+        if "--" in said:
+            said = _OPTION.sub(_named, _ASIDE.sub(_kept, _HELP.sub("", said))).replace("'“", "“").replace("”'", "”")
         return _KEYS.sub(lambda key: key[0].replace("_", " "), said)
     if isinstance(said, dict):
         return {key: in_page_words(value) for key, value in said.items()}
@@ -88,8 +97,8 @@ def warned(doubts: Sequence[warnings.WarningMessage]) -> list[str]:
 
 
 def _kept(aside: re.Match[str]) -> str:
-    return aside[0] if all(option in LABELS for option in _OPTION.findall(aside[1])) else ""
+    return aside[0] if all(option in ALL_LABELS for option in _OPTION.findall(aside[1])) else ""
 
 
 def _named(option: re.Match[str]) -> str:
-    return f"“{LABELS.get(option[1], option[1].replace('-', ' '))}”"
+    return f"“{ALL_LABELS.get(option[1], option[1].replace('-', ' '))}”"

@@ -28,7 +28,7 @@ WAIT, KEEP = 50, 300
 LOG = "worker.log"
 
 #: Kinds of jobs that can be stopped and go on later where they were.
-LONG = ("domain", "ida", "critical", "infer")
+LONG = ("domain", "ida", "critical", "directions", "compare", "infer")
 
 #: Time between two looks at an idle process, and at one that is ending [s].
 LOOK, PAUSE = 0.5, 0.02
@@ -300,8 +300,8 @@ class Workshop:
             job.what = what["what"]
             self._changed(job)
             return False
-        if "film" in what:
-            job.filmed = True
+        if "film" in what or "grown" in what:
+            job.filmed, job.grown = job.filmed or "film" in what, job.grown + ("grown" in what)
             self._changed(job)
             return False
         if "code" not in what:

@@ -20,6 +20,7 @@ from ..errors import reworded
 if TYPE_CHECKING:
     import pandas
 
+    from ..analysis.ida_curves import Ida
     from ..response import Response
 
 #: The command line that is run, as typed, and what was warned of since it began.
@@ -200,14 +201,15 @@ def note(sentence: str) -> None:
 #: Hears of progress (title, done, all) instead of a bar, where a command is run for somebody else than a terminal.
 LISTENER: Callable[[str, float, float], None] | None = None
 
-#: Sees what a run has come to before its files are written, where somebody waits for it.
-VIEWER: Callable[[Response], None] | None = None
+#: Sees what a command has come to before its files are written, where somebody waits for it: the response of a run, or what
+#: makes the analysis of the runs that are finished.
+VIEWER: Callable[[Any], None] | None = None
 
 
-def show(response: Response) -> None:
+def show(seen: Response | Callable[[], Ida]) -> None:
     """Let it be seen, where somebody waits for it."""
     if VIEWER is not None:
-        VIEWER(response)
+        VIEWER(seen)
 
 
 class Notes(logging.Handler):

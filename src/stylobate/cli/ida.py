@@ -53,7 +53,7 @@ def ida(
         with files.campaign(campaign) as asked:
             found = analyse(
                 stone, records.motions, how, measure, levels=stripes, runs=runs, largest_factor=largest, about=known,
-                campaign=asked,
+                watch=console.show, campaign=asked,
             )  # fmt: skip
         curves = found.curves(edp)
         best = which_tells_most(found.runs, edp=edp)

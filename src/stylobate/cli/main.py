@@ -159,6 +159,7 @@ def call(arguments: Sequence[str]) -> int:
             )
         except Exception as error:
             if isinstance(error, _UsageError):
+                console.FIELD = getattr(getattr(error, "param", None), "name", None)
                 return _complain(_usage(error), BAD_INPUT)
             import traceback
 

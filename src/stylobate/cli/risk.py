@@ -33,7 +33,6 @@ def risk(
     """Risk: mean annual rate and return period of a state under a hazard curve, and its deaggregation by intensity."""
     from ..analysis.hazard import read_hazard
     from ..analysis.risk import risk as rate_of
-    from ..analysis.risk import years
     from ..results.sources import kept_of
     from . import console
 
@@ -53,10 +52,9 @@ def risk(
             files.summary(result, "risk.json")
     if execution.emits(result):
         return
-    period = "never" if found.rate == 0.0 else f"once in {years(1.0 / found.rate)}"
     most = max(result["deaggregation"], key=lambda one: one["annual_rate"])
     console.say(
-        f"{result['name']}: {result['state']} {period}.",
+        found.sentence,
         {
             "annual rate": f"{found.rate:.3g} (95 %: {found.low:.3g} to {found.high:.3g})",
             "mostly from": f"{most['from']:.3g} to {most['to']:.3g} {result['unit']} ({result['im']})",

@@ -83,28 +83,29 @@ def run(
                 print(f"{len(summaries)} folders with a run each in {out}")
     else:
         summaries = [conclude(follow, stone, found.motions[0], how, out, execution.as_json, drawn)]
+    several: dict[str, Any] = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
     if len(asked.azimuths) > 1 or asked.signs == "both":
-        directions(summaries, stone.name, how.name, out, execution.as_json)
-    several = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
+        several["sentence"] = directions(summaries, stone.name, how.name, out)
+        if not execution.as_json and several["sentence"]:
+            print(several["sentence"])
     if not execution.emits(several if asked.several else summaries[0]):
         console.print_refused(found.refused)
 
 
-def directions(summaries: Sequence[dict], name: str, model: str, out: Path | None, quiet: bool) -> None:
-    """Which direction does most harm: in words, and where a folder is given on a compass."""
+def directions(summaries: Sequence[dict], name: str, model: str, out: Path | None) -> str:
+    """Which direction does most harm: in words, empty where all failed; and where a folder is given on a compass."""
     from ..analysis.directions import compass_of_chances, harm_words, worst
     from . import console
 
     chances = compass_of_chances(summaries)
     found = worst(summaries, chances)
-    if not quiet and found is not None:
-        print(harm_words(found, chances))
     if out is not None and len(chances.bearings) > 1:
         from .. import plots
 
         with console.folder(out, "directions") as folder:
             assert folder is not None
             plots.save(plots.draw_directions(chances, f"{name}, {model}"), folder / "directions")
+    return "" if found is None else harm_words(found, chances)
 
 
 def run_one(

@@ -14,7 +14,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import redirect_stderr, redirect_stdout, suppress
 from functools import partial
 from pathlib import Path
@@ -24,10 +24,11 @@ from ..errors import StylobateError
 from . import signals
 
 if TYPE_CHECKING:
+    from ..analysis.ida_curves import Ida
     from ..response import Response
 
-#: Least time between two lines about progress [s].
-PACE = 0.1
+#: Least time between two lines about progress, and between two looks at an analysis that grows [s].
+PACE, LOOK = 0.1, 0.7
 
 #: Share of the memory of this machine that a job may take [-].
 MEMORY = 0.6
@@ -118,7 +119,7 @@ def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
     os.chdir(job["folder"])
     for number, command in enumerate(job["commands"]):
         said, complained = io.StringIO(), io.StringIO()
-        console.VIEWER = partial(make_film, job["id"], tell) if command[0] == "run" else None
+        console.VIEWER = viewer(job, command, tell)
         with redirect_stdout(said), redirect_stderr(complained):
             code = call([*command, "--json"])
         console.VIEWER = None
@@ -129,12 +130,42 @@ def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
     tell(id=job["id"], done=True)
 
 
+def viewer(job: dict[str, Any], command: Sequence[str], tell: Callable[..., None]) -> Callable[[Any], None] | None:
+    """What sees what a command has come to: a film is made of one run, and of an analysis its points so far."""
+    if command[0] == "ida":
+        states = (
+            one.removeprefix("--state=") for line in job["commands"] for one in line if one.startswith("--state=")
+        )
+        return growing(job["id"], next(states, "collapse"), tell)
+    one = command[0] == "sequence" or (
+        command[0] == "run" and not any(word.startswith("--azimuths") for word in command)
+    )
+    return partial(make_film, job["id"], tell) if one else None
+
+
+def growing(job: str, state: str, tell: Callable[..., None]) -> Callable[[Callable[[], Ida]], None]:
+    """Keeps the points of an analysis in the folder of its job as they come, not too often."""
+    last = [-LOOK]
+
+    def see(so_far: Callable[[], Ida]) -> None:
+        from ..app.curves import write_points
+        from ..app.job import GROWING
+
+        if time.monotonic() - last[0] >= LOOK:
+            write_points(so_far(), state, Path(GROWING))
+            last[0] = time.monotonic()
+            tell(id=job, grown=True)
+
+    return see
+
+
 def make_film(job: str, tell: Callable[..., None], response: Response) -> None:
     """Make the film of a run, in the folder of its job."""
     from ..app.film import write_film
+    from ..app.job import FILM
 
     try:
-        write_film(response, Path("film.json"))
+        write_film(response, Path(FILM))
     except StylobateError as error:
         print(f"stylobate: warning: there is no film: {error}", file=sys.stderr)
         return

@@ -18,9 +18,6 @@ from .style import BLACK, BLUE, GREY, RED, legend_below, panel, styled
 #: Width and height of a picture for one column of a printed page, where its text is still legible [inch].
 NARROW = (4.4, 3.7)
 
-#: Dispersions on either side of the median that are shown, where there are runs.
-WIDE = 3.5
-
 #: A curve whose fit has a smaller p is told to fit badly.
 BADLY = 0.05
 
@@ -49,12 +46,7 @@ def draw_fragility(
     """
     found = [curves] if isinstance(curves, Fragility) else list(curves)
     figure, axes = panel(ax, NARROW)
-    values = np.concatenate([one.evidence.im for one in found])
-    wide = [WIDE * (one.beta if one.bracket is None else min(one.beta_interval[1], 1.0)) for one in found]
-    steep = [(one.median * np.exp(-far), one.median * np.exp(far)) for one, far in zip(found, wide, strict=True)]
-    low = max(values.min(), min(below for below, _ in steep))
-    high = min(values.max(), max([above for _, above in steep] + [one.points.im.max() for one in found]))
-    x = np.geomspace(low / 1.1, high * 1.2, 300)
+    x = np.geomspace(min(one.span[0] for one in found), max(one.span[1] for one in found), 300)
     fine = {"linewidth": 0.7, "linestyle": (0, (1, 1.5))}
     for one, look in zip(found, _LOOKS * len(found)):
         colour = look["color"]

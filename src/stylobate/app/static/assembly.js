@@ -1,44 +1,79 @@
-// An assembly of blocks from a file: shown as it stands, to be run; its blocks are edited in the file.
+// An assembly of blocks: the text of its file, which is edited here, beside how it stands.
 
 import { check as ask, latest } from "./api.js";
-import { el, facts, fill, find, length, mark, number, save, warnings } from "./dom.js";
+import { el, facts, field, fill, find, later, length, mark, number, save, warnings } from "./dom.js";
 import { BLUE, BROWN, INK, sharp } from "./plot.js";
 import { change, state } from "./state.js";
 
-let described = null;
+// Two posts and a beam, to begin with.
+export const EXAMPLE = `name = "two posts and a beam"
+density = 2500.0                # kg/m³
+
+[joint]
+normal_stiffness = 5.0e9        # N/m³
+shear_stiffness = 2.5e9
+friction_angle = 35.0           # degrees
+
+[[block]]
+name = "left post"
+vertices = [[0, 0], [1, 0], [1, 3], [0, 3]]      # x, z [m]; in space box = [x, y, z] and at = [x, y, z]
+
+[[block]]
+name = "right post"
+vertices = [[4, 0], [5, 0], [5, 3], [4, 3]]
+
+[[block]]
+name = "beam"
+vertices = [[0, 3], [5, 3], [5, 4], [0, 4]]
+`;
+
+let described = null, typing = false;
 const asking = latest(text => ask("/api/assembly", { assembly: text }));
+export const edited = () => typing;
 
 export function render(panel, files) {
   described = null;
+  const edit = event => { typing = true; change({ assembly: event.target.value || "\n" }); typing = false; check(panel); };
   fill(panel,
     el("h1", {}, "Column"),
-    el("p", { class: "lead" }, "An assembly of blocks stands, from its file: run it, find what amplitude brings it down, or its fragility. Domains are of columns."),
+    el("p", { class: "lead" }, "An assembly of blocks stands: run it, find what amplitude brings it down, or its fragility. Domains are of columns. What is drawn follows as you type."),
     el("div", { class: "sheet" },
       el("div", {},
         el("div", { class: "card", "data-errors": true },
           el("div", { class: "row" },
             el("button", { type: "button", onclick: () => files.click() }, "Open file …"), files,
             el("button", { type: "button", onclick: () => save("assembly.toml", state.assembly) }, "Save assembly file"),
-            el("button", { type: "button", onclick: () => change({ assembly: "" }) }, "Back to the column"),
-            el("button", { type: "button", onclick: () => change({ tab: "motion" }, { record: true }) }, "Next: motion →"))),
-        el("div", { class: "card", id: "column-facts", "aria-live": "polite" })),
-      el("div", { class: "card" }, el("canvas", { class: "elevation", role: "img", "aria-label": "The assembly as it stands" }))));
+            el("button", { type: "button", onclick: () => change({ assembly: "", model: "dem2d", settings: {} }) }, "Back to the column"),
+            el("button", { type: "button", onclick: () => change({ tab: "motion" }, { record: true }) }, "Next: motion →")),
+          el("div", { class: "row" }, field("Assembly file", el("textarea", { rows: 26, spellcheck: "false", "data-field": "assembly", value: state.assembly, oninput: edit }))))),
+      el("div", {}, el("div", { class: "card" }, el("canvas", { class: "elevation", role: "img", "aria-label": "The assembly as it stands" })),
+        el("div", { class: "card", id: "column-facts", "aria-live": "polite" }))));
   show(panel);
 }
 
+const check = later(panel => show(panel), 150);
 async function show(panel) {
-  const found = await asking(state.assembly);
+  const asked = state.assembly, found = await asking(asked);
   if (!found || !state.assembly) return;
-  if (found instanceof Error) { mark(panel, found); return; }
-  described = found;
+  if (found instanceof Error) {
+    mark(panel, found);
+    fill(find("#column-facts", panel));  // those of another one say nothing of this text
+    draw(find("canvas", panel));
+    return;
+  }
+  mark(panel, null);
+  described = { ...found, text: asked };
+  if (found.model !== state.model) change({ model: found.model, settings: {} });
   const f = found.facts;
   fill(find("#column-facts", panel), facts([["assembly", f.name], ["blocks", f.blocks], ["held", f.fixed || ""], ["joints", f.joints], ["links", f.links || ""], ["mass", `${number(f.mass / 1000)} t`], ["height", length(f.height)]]), warnings(found.warnings));
   draw(find("canvas", panel));
 }
 
 // Elevations, plan and a view from above a corner, all in one scale; of an assembly in the plane its one elevation.
+// What is drawn is one assembly with its own sizes: paler where the text is another one already.
 export function draw(canvas) {
   if (!described || !canvas || !canvas.clientWidth) return;
+  canvas.classList.toggle("past", described.text !== state.assembly);
   const [c, width, height] = sharp(canvas), views = described.views.map(boxed), across = views.length > 1 ? 2 : 1, down = Math.ceil(views.length / across);
   const [wide, high] = [width / across, height / down];
   const scale = Math.min(...views.map(one => Math.min((wide - 50) / one.wide, (high - 70) / (one.high || 1))));

@@ -2,7 +2,7 @@
 
 import * as assembly from "./assembly.js";
 import { check as ask, latest, postText, upload } from "./api.js";
-import { choice, el, facts, field, fill, find, later, length, mark, notice, number, save, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, later, length, mark, notice, number, redraw, save, select, warnings } from "./dom.js";
 import { drawElevation } from "./elevation.js";
 import { change, listen, state } from "./state.js";
 
@@ -18,7 +18,7 @@ let panel, view = "sizes", chosen = 0, described = null, hit = () => 0, presets 
 export function start(place, about) {
   panel = place; presets = about.presets;
   listen(keys => {
-    if ((keys.has("column") || keys.has("assembly")) && !own) { render(); check(); }
+    if ((keys.has("column") || keys.has("assembly")) && !own && !assembly.edited()) { render(); check(); }
     if (keys.has("tab") && state.tab === "column") paint();
   });
   addEventListener("resize", later(paint, 60));
@@ -96,9 +96,9 @@ function paint(faulty = 0) {
   const canvas = find("canvas", panel);
   if (!canvas || !canvas.clientWidth) return;
   drawn = described || drawn;
-  if (state.assembly) assembly.draw(canvas);
-  else if (drawn) hit = drawElevation(canvas, drawn, { chosen, faulty });
-  canvas.classList.toggle("past", Boolean(drawn) && drawn.table !== state.column && !state.assembly);
+  if (state.assembly) { assembly.draw(canvas); return; }
+  if (drawn) hit = drawElevation(canvas, drawn, { chosen, faulty });
+  canvas.classList.toggle("past", Boolean(drawn) && drawn.table !== state.column);
 }
 
 function summary(f) {
@@ -113,7 +113,7 @@ function render() {
   if (!table) return;
   const files = el("input", { type: "file", accept: ".toml", hidden: true, "data-upload": "column", onchange: event => open(event.target.files[0]) });
   if (state.assembly) { assembly.render(panel, files); return; }
-  fill(panel,
+  redraw(panel,
     el("h1", {}, "Column"),
     el("p", { class: "lead" }, "What stands: a preset, a file of a column or of an assembly of blocks, or drum by drum. The elevation follows as you type."),
     el("div", { class: "sheet" },
@@ -126,6 +126,7 @@ function render() {
           el("div", { class: "row" },
             el("button", { type: "button", onclick: () => files.click() }, "Open file …"), files,
             el("button", { type: "button", onclick: saveFile }, "Save column file"),
+            el("button", { type: "button", onclick: () => change({ assembly: assembly.EXAMPLE, model: "dem2d", settings: {}, replicates: "" }) }, "Write an assembly …"),
             el("button", { type: "button", onclick: () => { change({ tab: "motion" }, { record: true }); } }, "Next: motion →")),
           choice("section", "Section", [["circular", "round"], ["rectangular", "rectangular"]], table.section || "rectangular", section)),
         el("div", { class: "card" },

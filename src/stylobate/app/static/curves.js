@@ -1,8 +1,8 @@
 // Curves of analyses: intensity over response, probability over intensity, and what each amplitude did.
 
-import { get } from "./api.js";
+import { get, latest as last } from "./api.js";
 import { el, fill, later } from "./dom.js";
-import { BLUE, GREY, INK, plot, RED } from "./plot.js";
+import { BAND, BLUE, GREY, INK, plot, RED } from "./plot.js";
 
 const LOOKS = { 16: [INK, [2, 3]], 50: [RED, []], 84: [INK, [7, 4]] };
 const DOTS = { stands: ["o", INK], collapsed: ["x", RED], undecided: ["s", GREY], failed: ["s", BLUE] };
@@ -11,10 +11,13 @@ let shown = [];
 addEventListener("resize", later(() => redraw(), 60));
 export function redraw() { shown = shown.filter(one => one.canvas.isConnected); for (const one of shown) if (one.canvas.clientWidth) one.draw(); }
 
+const latest = last(job => get(`/api/jobs/${job}/curves`));
+
 // Fills a place with the figures of a job.
 export async function show(place, job) {
-  const found = await get(`/api/jobs/${job}/curves`);
-  const parts = [["fragility", "Fragility curve", fragility], ["ida", "Incremental dynamic analysis: intensity over response", ida], ["critical", "What each amplitude did", critical]]
+  const found = await latest(job);
+  if (!found) return;
+  const parts = [["fragility", "Fragility curve with its band", fragility], ["growing", "Shares of the records so far", fragility], ["ida", "Incremental dynamic analysis: intensity over response", ida], ["critical", "What each amplitude did", critical]]
     .filter(([name]) => found[name]).map(([name, label, draw]) => {
       const canvas = el("canvas", { class: "plot curves", role: "img", "aria-label": label, "data-curves": name });
       shown.push({ canvas, draw: () => draw(canvas, found[name]) });
@@ -31,14 +34,15 @@ function ida(canvas, { records, shares, right, moves, words }) {
   ], { xLabel: `${moves}, collapse →`, yLabel: words, xRange: [0, right] });
 }
 
-function fragility(canvas, { x, y, points, median, state, words }) {
-  const [low, high] = median;
+function fragility(canvas, { curve, points, median, state, words }) {
+  const [low, high] = median, { im = [], probability = [] } = curve;
   plot(canvas, [
-    ...points.map(([im, , from, to]) => ({ x: [im, im], y: [from, to], color: "#9a9a9a", width: 1 })),
-    { x, y, color: RED, width: 1.9, label: "lognormal" },
+    ...(im.length ? [{ x: im, y: curve.low, to: curve.high, color: BAND, label: "95 % band" }] : []),
+    ...points.map(([at, , from, to]) => ({ x: [at, at], y: [from, to], color: "#9a9a9a", width: 1 })),
+    { x: im, y: probability, color: RED, width: 1.9, label: "lognormal" },
     { x: points.map(one => one[0]), y: points.map(one => one[1]), color: INK, dots: "o", label: "records, 95 %" },
     ...(low !== null && high !== null ? [{ x: [low, high], y: [0.5, 0.5], color: BLUE, width: 2.5, label: "median, 95 %" }] : []),
-  ], { xLabel: words, yLabel: `probability of ${state}`, xRange: [0, x.length ? x[x.length - 1] : 1.1 * Math.max(...points.map(one => one[0]), 1e-9)], low: -0.03, high: 1.05 });
+  ], { xLabel: words, yLabel: `probability of ${state}`, xRange: [0, im.length ? im[im.length - 1] : 1.1 * Math.max(...points.map(one => one[0]), 1e-9)], low: -0.03, high: 1.05 });
 }
 
 function critical(canvas, rows) {

@@ -23,6 +23,39 @@ export function fill(element, ...children) {
   return element;
 }
 
+// Draws a form anew, and leaves where its list stood and what had the focus. A list of choices that has it stays where it is:
+// taken out for a moment, it would forget the letters that were typed in it.
+export function redraw(place, ...children) {
+  const list = find(".pick", place), down = list ? list.scrollTop : 0, active = place.contains(document.activeElement) ? document.activeElement : null;
+  const ends = active && active.type === "text" ? [active.selectionStart, active.selectionEnd] : null;
+  const fresh = fill(el("div"), ...children), one = active && find(same(active), fresh);
+  if (one && one.tagName === "SELECT" && texts(one) === texts(active)) {
+    active.value = one.value; active.onchange = one.onchange;
+    graft(place, fresh, active, one);
+  } else {
+    fill(place, ...fresh.childNodes);
+    if (one) one.focus();
+    if (one && ends && one.type === "text") one.setSelectionRange(...ends);
+  }
+  const again = find(".pick", place);
+  if (again) again.scrollTop = down;
+}
+const texts = select => [...select.options || []].map(option => option.value).join("\n");
+function same(active) {
+  const name = ["key", "field"].find(one => active.dataset[one]);
+  if (name) return `[data-${name}="${CSS.escape(active.dataset[name])}"]`;
+  return active.type === "radio" ? `input[name="${CSS.escape(active.name)}"][value="${CSS.escape(active.value)}"]` : ":not(*)";
+}
+// What lies around an element is put in the place of what lay around another one, which stays.
+function graft(old, fresh, stays, one) {
+  if (old === stays) return;
+  const [kept, come] = [[old, stays], [fresh, one]].map(([parent, inner]) => [...parent.childNodes].find(node => node.contains(inner)));
+  const list = [...fresh.childNodes], k = list.indexOf(come);
+  for (const node of [...old.childNodes]) if (node !== kept) node.remove();
+  kept.before(...list.slice(0, k)); kept.after(...list.slice(k + 1));
+  graft(kept, come, stays, one);
+}
+
 // A labelled control.
 export const field = (label, control, ...more) => el("label", { class: "field" }, el("span", {}, label), control, ...more);
 
@@ -77,12 +110,23 @@ export function mark(panel, error) {
   const control = error.field && (place(error.field) || (error.field.includes(".") && place(error.field.replace(/\.[^.]*$/, ""))));
   const said = el("p", { class: "error", role: "alert", id: "error-" + panel.id, "data-made": "error" }, error.error[0].toUpperCase() + error.error.slice(1));
   if (!control) { (find("[data-errors]", panel) || panel).append(said); return; }
+  const line = control.matches("textarea") && /\.(\d+)$/.exec(error.field);
+  if (control.matches("textarea")) control.style.backgroundPosition = `0 calc(.4rem + ${line ? line[1] - 1 : -99} * 1.45em)`;
+  if (line) said.append(" ", el("button", { type: "button", onclick: () => goTo(control, +line[1]) }, `Line ${line[1]}`));
   control.setAttribute("aria-invalid", "true"); control.setAttribute("aria-describedby", said.id);
   const hidden = control.closest("details:not([open])");
   if (hidden) hidden.open = true;
   const row = control.closest("table.drums tr");
   if (row) row.after(el("tr", { "data-made": "error" }, el("td", { colspan: 9 }, said)));
   else (control.closest(".field, .slider") || control).after(said);
+}
+
+// Goes to a line of a text that is edited, and selects it.
+function goTo(box, line) {
+  const lines = box.value.split("\n"), before = lines.slice(0, line - 1).join("\n").length + (line > 1);
+  box.focus();
+  box.setSelectionRange(before, before + (lines[line - 1] || "").length);
+  box.scrollTop = box.scrollHeight * Math.max(0, line - 4) / lines.length;
 }
 
 export function save(name, content) {

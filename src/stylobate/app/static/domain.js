@@ -5,7 +5,7 @@ import { el, field, fill, find, labels, later, length, mark, notice, number } fr
 import { tell } from "./news.js";
 import { CYCLE, INK, SAND, said, sharp, ticks } from "./plot.js";
 import * as run from "./run.js";
-import { change, listen, state } from "./state.js";
+import { called, change, listen, state } from "./state.js";
 
 const LOOKS = { stands: SAND, collapsed: "#a6372f", undecided: "#c0c0c0", failed: "#ffffff" };
 let panel, job = null, cells = new Map(), here = null, place = null;
@@ -51,7 +51,7 @@ function render() {
   };
   about(); count();
 }
-function about() { find("#domain-case", panel).textContent = state.assembly ? "An assembly stands, and domains are of columns: go back to one." : `${(state.column || {}).name || "column"} · ${state.model}`; }
+function about() { find("#domain-case", panel).textContent = state.assembly ? "An assembly stands, and domains are of columns: go back to one." : `${called()} · ${state.model}`; }
 function count() {
   const n = Number(state.domain.fn) * Number(state.domain.an);
   find("#domain-count", panel).textContent = n > 0 ? `${n} runs` : "";
@@ -86,7 +86,7 @@ export function hear(news) {
   if (news.id !== state.domainJob) return;
   const where = find("#domain-said", panel);
   where.hidden = false;
-  tell(where, news, () => [news.state === "done" && el("p", { class: "verdict" }, tally()), news.warnings.map(one => el("p", { class: "warning" }, one)), news.state === "done" && run.files(news)].flat());
+  tell(where, news, () => [el("p", { class: "hint" }, news.title), news.state === "done" && el("p", { class: "verdict" }, tally()), news.warnings.map(one => el("p", { class: "warning" }, one)), news.state === "done" && run.files(news)].flat());
 }
 function tally() {
   const found = {};

@@ -1,64 +1,43 @@
 // Fragility: every record scaled until the column falls, and the curve that comes of it.
 
-import { get, post, upload } from "./api.js";
+import { get, post } from "./api.js";
 import * as curves from "./curves.js";
-import { choice, el, facts, field, fill, find, labels, mark, notice, number, select } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, mark, notice, number, redraw, select } from "./dom.js";
 import { isOpen, tell } from "./news.js";
 import * as motion from "./motion.js";
+import * as records from "./records.js";
 import * as run from "./run.js";
-import { change, listen, state } from "./state.js";
+import { called, change, listen, state } from "./state.js";
 
 const MEASURES = [["pgv", "peak velocity"], ["pga", "peak acceleration"], ["sa:1.0s", "spectral acceleration at 1 s"], ["avgsa", "average spectral acceleration"]];
 const STATES = [["collapse", "collapse"], ["top:0.35d", "top moves 0.35 d"], ["drums:0.01d", "drums shift 0.01 d"]];
-let panel, samples, uploaded = [], typing = false;  // what is typed stays in its field, and a click after it finds its button
+let panel, typing = false;  // what is typed stays in its field, and a click after it finds its button
 
-export function start(place, about) {
-  panel = place; samples = about.samples; uploaded = motion.kept();
+export function start(place) {
+  panel = place;
   listen(keys => {
     if ((keys.has("fragility") && !typing) || keys.has("column") || keys.has("assembly") || keys.has("model")) render();
     if (keys.has("fragilityJob")) show();
-    if (keys.has("motion")) { uploaded = motion.kept(); }
-    if (keys.has("tab") && state.tab === "fragility") { uploaded = [...new Map([...uploaded, ...motion.kept()].map(one => [one.id, one])).values()]; render(); curves.redraw(); }
+    if (keys.has("tab") && state.tab === "fragility") { render(); curves.redraw(); }
   });
   fill(panel, el("h1", {}, "Fragility"), el("p", { class: "lead" }, "Each record is scaled up until what stands falls; from all of them comes the curve: how likely it falls at which intensity."),
     el("div", { class: "sheet left" }, el("div", { id: "fragility-asked", class: "card", "data-errors": true }), el("div", { id: "fragility-found" })));
   render(); show();
 }
-// What describes a station goes with the records; one of several files is for a single run.
-const isRecord = one => !/\.xml$/i.test(one.name) && one.files === 1;
 // An assembly has no top and no drums of one width: of it collapse alone is asked for.
 const limits = () => state.assembly ? STATES.slice(0, 1) : STATES;
 const wanted = () => state.assembly ? "collapse" : state.fragility.state;
 const set = changes => change({ fragility: { ...state.fragility, ...changes } });
 
 function render() {
-  const s = state.fragility, list = [...samples.map(one => [`sample:${one.name}`, one.name, one.about]), ...uploaded.filter(isRecord).map(one => [one.id, one.name, "uploaded"])];
-  const files = el("input", { type: "file", multiple: true, hidden: true, "data-upload": "records", onchange: event => take([...event.target.files]) });
-  const folder = el("input", { type: "file", multiple: true, webkitdirectory: true, hidden: true, "data-upload": "folder", onchange: event => take([...event.target.files].filter(one => !one.name.startsWith("."))) });
-  const tick = id => event => set({ records: event.target.checked ? [...s.records, id] : s.records.filter(one => one !== id) });
-  const place = find("#fragility-asked", panel), held = find(".pick", place), down = held ? held.scrollTop : 0;
-  const focused = document.activeElement && document.activeElement.dataset.key;
-  fill(place, el("p", { class: "hint" }, `${state.assembly ? "The assembly" : (state.column || {}).name || "column"} · ${state.model}`),
-    el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Upload records …"), files,
-      el("button", { type: "button", onclick: () => folder.click() }, "Upload a folder …"), folder,
-      el("button", { type: "button", class: "quiet", onclick: () => set({ records: s.records.length === list.length ? [] : list.map(one => one[0]) }) }, "All or none")),
-    el("ul", { class: "pick" }, list.map(([id, name, about]) => el("li", {}, el("label", { title: about }, el("input", { type: "checkbox", checked: s.records.includes(id), "data-key": id, onchange: tick(id) }), name)))),
+  const s = state.fragility, place = find("#fragility-asked", panel);
+  redraw(place, el("p", { class: "hint" }, `${called()} · ${state.model}`),
+    records.pick(() => state.fragility.records, chosen => set({ records: chosen })),
     el("div", { class: "row" }, field(labels.im, select(MEASURES, s.im, im => set({ im }), { "data-field": "im" })),
       field(labels.runs, el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", oninput: event => { typing = true; set({ runs: event.target.value.trim() }); typing = false; } })),
       field(`${labels.unit}, where a file states none`, select(motion.UNITS.map(one => [one, one || "as stated"]), s.unit, unit => set({ unit }), { "data-field": "unit" }))),
     choice("state", labels.state, limits(), wanted(), one => set({ state: one })),
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records${s.records.length < 10 ? "; a fragility takes ten" : ""}`)));
-  find(".pick", place).scrollTop = down;
-  if (focused) { const again = find(`[data-key="${CSS.escape(focused)}"]`, place); if (again) again.focus(); }
-}
-
-async function take(files) {
-  if (files.length > 300) { notice(`${files.length} files are too many at once; choose up to 300.`); return; }
-  let first = null;  // what describes a station holds for those that it came together with
-  for (const file of files) {
-    try { const one = await upload("/api/records" + (first ? `?beside=${first.id}` : ""), file); first ||= one; uploaded = [...uploaded, one]; if (isRecord(one)) set({ records: [...state.fragility.records, one.id] }); }
-    catch (error) { notice(`${file.name}: ${error.error}`); }
-  }
 }
 
 async function go() {
@@ -82,18 +61,19 @@ export async function hear(news) {
   let card = find(".card[data-key]", place);
   if (!card || !isOpen(job)) card = el("div", { class: "card", "data-key": "" });
   tell(card, job, () => [
-    curve && el("p", { class: "verdict" }, named(curve.sentence)),
+    el("p", { class: "hint" }, job.title),
+    curve && el("p", { class: "verdict" }, records.named(curve.sentence)),
     curve && facts([["median", `${known(curve)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
       ["from", `${curve.runs} runs of ${curve.records} records`], ["undecided", curve.undecided || ""], ["failed", curve.failed || ""]]),
-    Object.entries((analysis || {}).refused || {}).map(([name, why]) => el("p", { class: "warning" }, named(`${name} was left out: ${why}`))),
-    (job.warnings || []).map(one => el("p", { class: "warning" }, named(one))), analysis && !isOpen(job) && run.files(job),
+    Object.entries((analysis || {}).refused || {}).map(([name, why]) => el("p", { class: "warning" }, records.named(`${name} was left out: ${why}`))),
+    (job.warnings || []).map(one => el("p", { class: "warning" }, records.named(one))), analysis && !isOpen(job) && run.files(job),
   ].flat());
-  if (card.isConnected) return;
-  const figures = el("div", { class: "figures" });
-  fill(place, card, figures);
-  if (!isOpen(job)) curves.show(figures, job.id).catch(error => notice(error.error || String(error)));
+  let figures = find(".figures", place);
+  if (!card.isConnected || !figures) fill(place, card, figures = el("div", { class: "figures" }));
+  const key = `${job.id} ${job.state} ${job.grown}`;
+  if (figures.dataset.key === key || job.state === "waiting") return;
+  figures.dataset.key = key;  // the last points of a job, and whether it goes on
+  curves.show(figures, job.id).catch(error => notice(error.error || String(error)));
 }
 // Beyond the levels that were run only their bound is known of a median.
 const known = ({ median, outside, levels: [low, high] }) => !outside ? number(median) : median > high ? `> ${number(high)}` : `≤ ${number(low)}`;
-// Files have names of their own here; people know them by those that they had.
-const named = text => uploaded.reduce((said, one) => said.replace(new RegExp(`[\\w/-]*-${one.id}(\\.\\w+)?`, "g"), () => one.name), text);

@@ -1,17 +1,18 @@
 // The page begins: what there is to choose from, the parts, the line on which jobs are heard, and the address.
 
 import { get } from "./api.js";
+import * as analyses from "./analyses.js";
 import * as column from "./column.js";
 import { find, labels, notice } from "./dom.js";
 import * as domain from "./domain.js";
 import * as fragility from "./fragility.js";
 import * as jobs from "./jobs.js";
 import * as motion from "./motion.js";
-import * as ruin from "./ruin.js";
+import * as records from "./records.js";
 import * as run from "./run.js";
-import { change, followAddress, listen, read, state } from "./state.js";
+import { change, followAddress, known, listen, read, state } from "./state.js";
 
-const TABS = ["column", "motion", "run", "domain", "fragility", "ruin", "jobs"];
+const TABS = ["column", "motion", "run", "domain", "fragility", "analyses", "jobs"];
 
 function showTab() {
   const tab = TABS.includes(state.tab) ? state.tab : "column";
@@ -30,7 +31,7 @@ function follow() {
   line = new EventSource("/api/events" + (state.domainJob ? `?job=${encodeURIComponent(state.domainJob)}` : ""));
   const on = (name, hear) => line.addEventListener(name, event => hear(JSON.parse(event.data)));
   on("ready", now => { ready = now; status(); });
-  on("job", job => { document.dispatchEvent(new CustomEvent("news", { detail: job })); jobs.hear(job); run.hear(job); domain.hear(job); fragility.hear(job); ruin.hear(job); status(); });
+  on("job", job => { document.dispatchEvent(new CustomEvent("news", { detail: job })); jobs.hear(job); run.hear(job); domain.hear(job); fragility.hear(job); analyses.hear(job); status(); });
   on("gone", jobs.gone);
   on("cells", ({ job, cells }) => domain.add(job, cells));
   line.onerror = () => { find("#status").textContent = "not connected"; };
@@ -48,19 +49,21 @@ async function begin() {
   showTab();
   const [about, kept] = await Promise.all([get("/api/about"), get("/api/records")]);
   Object.assign(labels, about.labels);
+  known(about);
   if (!state.column) state.column = structuredClone(about.presets[state.preset] || Object.values(about.presets)[0]);
   listen(keys => {
     if (keys.has("tab")) { showTab(); }
     if (keys.has("domainJob")) follow();
     if (keys.has("column") && !state.column) change({ column: structuredClone(about.presets[state.preset] || Object.values(about.presets)[0]) });
   });
+  records.start(about, kept.records);
   column.start(find("#column"), about);
-  motion.start(find("#motion"), about, kept.records);
-  run.start(find("#run"));
+  motion.start(find("#motion"), about);
+  run.start(find("#run"), () => analyses.go("directions"));
   domain.start(find("#domain"));
-  fragility.start(find("#fragility"), about);
-  ruin.start(find("#ruin"));
-  jobs.start(find("#jobs"));
+  fragility.start(find("#fragility"));
+  analyses.start(find("#analyses"), about);
+  jobs.start(find("#jobs"), about);
   follow();
   document.documentElement.dataset.ready = "true";
 }

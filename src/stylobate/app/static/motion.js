@@ -1,19 +1,20 @@
 // Motion: a sine, a pulse, a sample, a record or a simulated one; its direction and size; what it looks like.
 
-import { check as question, latest, remove, upload } from "./api.js";
+import { check as question, latest } from "./api.js";
 import { dial } from "./dial.js";
-import { choice, el, facts, field, fill, find, labels, later, mark, notice, number, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, later, mark, number, redraw, select, warnings } from "./dom.js";
 import { BLUE, GREY, INK, plot } from "./plot.js";
+import * as records from "./records.js";
 import { change, changeMotion, listen, state } from "./state.js";
 
 const kinds = () => [["harmonic", labels.harmonic], ["pulse", labels.pulse], ["sample", "Sample"], ["record", labels.motion], ["synthetic", labels.synthetic]];
 const SHAPES = ["rectangular", "half-sine", "sine", "cosine", "ricker", "antisymmetric-ricker", "gabor", "mavroeidis-papageorgiou"];
 export const UNITS = ["", "g", "m/s2", "cm/s2", "mm/s2", "mg", "in/s2", "ft/s2"];
 
-let panel, samples, records = [], turner = null, shown = null, own = false;
+let panel, samples, turner = null, shown = null, own = false;
 
-export function start(place, about, kept) {
-  panel = place; samples = about.samples; records = kept;
+export function start(place, about) {
+  panel = place; samples = about.samples;
   listen(keys => {
     if (keys.has("motion") && !own) render();
     if (keys.has("motion") || keys.has("column")) check();
@@ -22,7 +23,6 @@ export function start(place, about, kept) {
   addEventListener("resize", later(paint, 60));
   render(); check();
 }
-export const kept = () => records;
 
 // What is asked of the machine: the words of the command line.
 export function asked(motion = state.motion) {
@@ -92,7 +92,7 @@ function record(m) {
   return [
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Upload a record …"), files),
     el("p", { class: "hint" }, "Any of the known strong-motion formats, up to 32 MB; the format is found. Several files at once are one record: its components, or its StationXML. Or drop files here."),
-    records.length > 0 && field("Uploaded", select([["", "choose"], ...records.map(one => [one.id, one.name])], m.record, choose, { "data-field": "record" })),
+    records.all().length > 0 && field("Uploaded", select([["", "choose"], ...records.all().map(one => [one.id, one.name])], m.record, choose, { "data-field": "record" })),
     m.record && el("div", { class: "row" },
       field(`${labels.unit}, where the file states none`, select(UNITS.map(one => [one, one || "as stated"]), m.unit, unit => set({ unit }), { "data-field": "unit" })),
       field(`${labels.dt} [s], without times`, el("input", { value: m.dt, inputmode: "decimal", "data-field": "dt", oninput: event => set({ dt: event.target.value.trim() }) }))),
@@ -103,22 +103,15 @@ function record(m) {
 
 // Files that come together are one record: its components, or what describes its station.
 export async function take(files) {
-  let one = null;
-  for (const file of files) {
-    try { one = await upload("/api/records" + (one ? `?with=${encodeURIComponent(one.id)}` : ""), file); }
-    catch (error) { notice(`${file.name}: ${error.error}`); }
-  }
-  if (!one) return;
-  records = [...records.filter(other => other.id !== one.id), one];
-  set({ kind: "record", record: one.id, name: one.name, unit: "", dt: "", component: "" }, true);
+  const [one] = await records.take(files, true);
+  if (one) set({ kind: "record", record: one.id, name: one.name, unit: "", dt: "", component: "" }, true);
 }
 function choose(id) {
-  const one = records.find(other => other.id === id);
+  const one = records.all().find(other => other.id === id);
   set({ record: id, name: one ? one.name : "", unit: "", dt: "", component: "" }, true);
 }
 async function forget() {
-  try { await remove(`/api/records/${state.motion.record}`); } catch { /* it is gone already */ }
-  records = records.filter(one => one.id !== state.motion.record);
+  await records.forget(state.motion.record);
   set({ record: "", name: "" }, true);
 }
 
@@ -129,7 +122,7 @@ function render() {
   left.ondragover = event => { event.preventDefault(); left.classList.add("drop"); };
   left.ondragleave = () => left.classList.remove("drop");
   left.ondrop = event => { event.preventDefault(); left.classList.remove("drop"); take([...event.dataTransfer.files]); };
-  fill(panel,
+  redraw(panel,
     el("h1", {}, "Motion"), el("p", { class: "lead" }, "What shakes the base: along x in the plane; in space along y and upward too."),
     el("div", { class: "sheet left" },
       el("div", {}, left,

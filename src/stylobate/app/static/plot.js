@@ -1,6 +1,6 @@
 // Lines over time and other small figures, in the style of the printed ones.
 
-export const INK = "#1a1a1a", RED = "#b2182b", BLUE = "#2166ac", GREY = "#767676", SAND = "#efe6d2", BROWN = "#8c6d3f";
+export const INK = "#1a1a1a", RED = "#b2182b", BLUE = "#2166ac", GREY = "#767676", SAND = "#efe6d2", BROWN = "#8c6d3f", BAND = "#f0d0cf";
 export const CYCLE = [[INK, []], [RED, [6, 3]], [BLUE, [7, 3, 1.5, 3]], ["#b35f00", [2, 2]], ["#2f7d3b", [8, 2, 2, 2, 2, 2]], [GREY, [10, 3]]];
 export const FONT = '12px system-ui, "DejaVu Sans", sans-serif';
 
@@ -28,7 +28,7 @@ export function ticks(low, high, parts) {
 
 export const said = value => Math.abs(value) >= 1e5 || (value && Math.abs(value) < 1e-3) ? value.toExponential(0) : String(+value.toPrecision(6));
 
-// Curves with axes: series of { x, y, color, dash, label, width }. Returns what the canvas shows, to draw a cursor later.
+// Curves with axes: series of { x, y, color, dash, label, width }; with "to" a band from y to there. Returns what the canvas shows, to draw a cursor later.
 export function plot(canvas, series, { xLabel = "", yLabel = "", zero = true, low = null, high = null, xRange = null } = {}) {
   const [c, width, height] = sharp(canvas);
   const drawn = series.filter(one => one.y.length);
@@ -66,6 +66,12 @@ export function plot(canvas, series, { xLabel = "", yLabel = "", zero = true, lo
     c.strokeStyle = one.color || INK; c.lineWidth = one.width || 1.2; c.setLineDash(one.dash || []);
     if (one.dots) { one.y.forEach((y, i) => { if (y !== null) dot(c, one.dots, across(one.x[i]), up(y)); }); continue; }
     c.beginPath();
+    if (one.to) {
+      c.fillStyle = one.color;
+      [...one.x.keys(), ...[...one.x.keys()].reverse()].forEach((i, k) => c.lineTo(across(one.x[i]), up(k < one.x.length ? one.y[i] : one.to[i])));
+      c.fill();
+      continue;
+    }
     let open = false;
     one.y.forEach((y, i) => {
       if (y === null) { open = false; return; }
@@ -80,7 +86,7 @@ export function plot(canvas, series, { xLabel = "", yLabel = "", zero = true, lo
   named.forEach((one, k) => {
     const [x, y] = [places[k][0], 9 + 16 * places[k][1]];
     c.strokeStyle = one.color || INK; c.lineWidth = 1.6; c.setLineDash(one.dash || []);
-    if (one.dots) dot(c, one.dots, x + 11, y); else { c.beginPath(); c.moveTo(x, y); c.lineTo(x + 22, y); c.stroke(); }
+    if (one.dots) dot(c, one.dots, x + 11, y); else if (one.to) { c.fillStyle = one.color; c.fillRect(x, y - 5, 22, 10); } else { c.beginPath(); c.moveTo(x, y); c.lineTo(x + 22, y); c.stroke(); }
     c.setLineDash([]);
     c.fillStyle = INK; c.fillText(one.label, x + 27, y);
   });

@@ -2,11 +2,11 @@
 
 import { get, post } from "./api.js";
 import * as curves from "./curves.js";
-import { choice, el, facts, field, fill, find, labels, later, length, mark, notice, number, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, later, length, mark, notice, number, redraw, select, warnings } from "./dom.js";
 import * as motion from "./motion.js";
 import { isOpen, tell } from "./news.js";
 import { BLUE, CYCLE, INK, moving, plot } from "./plot.js";
-import { change, listen, state } from "./state.js";
+import { called, change, listen, state } from "./state.js";
 
 export const MODELS = [
   ["dem2d", "dem2d", "Distinct elements in the plane: rigid drums that rock, slide and fall."],
@@ -16,10 +16,10 @@ export const MODELS = [
   ["housner", "housner", "Housner's rocking block: the column as one rigid body."],
 ];
 
-let panel, player = null, plots = [], loaded = "", followed = null, data = null;
+let panel, player = null, plots = [], loaded = "", followed = null, data = null, round = null;
 
-export function start(place) {
-  panel = place;
+export function start(place, fromAllDirections) {
+  panel = place; round = fromAllDirections;
   listen(keys => {
     if (["model", "replicates", "tail", "motion", "column", "settings", "assembly"].some(key => keys.has(key))) renderAsked();
     if (keys.has("job")) show();
@@ -34,10 +34,10 @@ export function start(place) {
 function stop() { if (player && find("#play", panel) && find("#play", panel).textContent === "Pause") player.toggle(); }
 
 function renderAsked() {
-  const column = state.column || {}, about = MODELS.find(one => one[0] === state.model), twins = !state.assembly || state.model === "dem3d";
-  find("#run-case", panel).textContent = `${state.assembly ? "The assembly" : `${column.name || "column"}, ${(column.drum || []).length} drums`} · ${motion.words()}`;
-  const place = find("#run-asked", panel), had = document.activeElement && document.activeElement.dataset.field;
-  fill(place,
+  const about = MODELS.find(one => one[0] === state.model), twins = !state.assembly || state.model === "dem3d";
+  find("#run-case", panel).textContent = `${called()}${state.assembly ? "" : `, ${((state.column || {}).drum || []).length} drums`} · ${motion.words()}`;
+  const place = find("#run-asked", panel);
+  redraw(place,
     field(labels.model, select(MODELS.filter(([key]) => !state.assembly || key === state.model).map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
     el("p", { class: "hint" }, about ? about[2] : ""),
     state.model === "dem3d" && !state.assembly && choice("law", "Contact in space", [["rim", "rim"], ["bed", "bed"]], state.settings.law || "rim", law => change({ settings: { ...state.settings, law } })),
@@ -46,8 +46,8 @@ function renderAsked() {
       field(`${labels.tail} [s]`, el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
     twins && el("p", { class: "hint" }, `How sure the verdict is: ${state.assembly ? "assemblies" : "columns"} that differ by what nobody has measured.`),
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: go }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")),
-    critical());
-  if (had) { const again = find(`[data-field="${had}"]`, place); if (again) { again.focus(); if (again.setSelectionRange) again.setSelectionRange(99, 99); } }
+    critical(),
+    el("div", { class: "row" }, el("button", { type: "button", onclick: () => round() }, "From all directions"), el("small", { class: "hint" }, "twelve, in space: which does most harm")));
 }
 
 // The smallest amplitude of this motion that brings the column down.
@@ -129,13 +129,13 @@ function waiting(job) {
 }
 
 function said(job) {
-  const place = find("#run-said", panel), result = job.state === "done" && job.kind === "run" && job.results && job.results[0];
+  const place = find("#run-said", panel), result = job.state === "done" && ["run", "sequence"].includes(job.kind) && job.results && job.results[0];
   place.hidden = false;
   if (result) place.dataset.key = "";
   tell(place, job, () => [
     el("p", { class: "hint" }, job.title),
     result && verdict(result, data && loaded === job.id ? data.sentence : ""),
-    result && !result.decided && result.outcome !== "failed" && el("div", { class: "row" },
+    result && job.kind === "run" && !result.decided && result.outcome !== "failed" && el("div", { class: "row" },
       el("button", { type: "button", onclick: () => { change({ tail: String((Number(state.tail) || 0) + 5) }); go(); } }, "Go on for 5 s more")),
     result && measures(result), warnings(job.warnings), job.state === "done" && files(job),
   ].flat());

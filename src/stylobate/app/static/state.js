@@ -1,7 +1,7 @@
 // What the page holds, and the address that holds it too: #tab=run&job=…&s=…, the rest of it as base64.
 
 const START = {
-  tab: "column", column: null, assembly: "", preset: "paper-12-drums", job: "", domainJob: "", fragilityJob: "", ruinJob: "", ruin: "",
+  tab: "column", column: null, assembly: "", preset: "paper-12-drums", job: "", domainJob: "", fragilityJob: "", analysisJob: "", ruin: "",
   motion: {
     kind: "harmonic", frequency: "1", amplitude: "0.3", duration: "10", both: false, across: "0.15", phase: "90",
     shape: "ricker", region: "greece,6.5Mw,20km,seed=1", sample: "el-centro-1940", record: "", name: "",
@@ -10,11 +10,21 @@ const START = {
   model: "dem2d", replicates: "", tail: "", settings: {},
   domain: { f0: "0.33", f1: "4", fn: "12", a0: "0.05", a1: "0.6", an: "16", duration: "10" },
   fragility: { records: [], unit: "", im: "pgv", runs: "8", state: "collapse" },
+  analysis: { kind: "directions", values: {}, records: [], source: "" },
   critical: { first: "0.05", last: "1", step: "0.05" },
 };
-const ADDRESSED = ["tab", "job", "domainJob", "fragilityJob", "ruinJob"];
+const ADDRESSED = ["tab", "job", "domainJob", "fragilityJob", "analysisJob"];
 
-export const state = structuredClone(START);
+// Texts of files stay out of the address: hazard curves by name, and a table of runs.
+export const state = { ...structuredClone(START), hazards: {}, table: null };
+// What stands, in words: a preset that was changed is told from what it was.
+let presets = {};
+export const known = about => { presets = about.presets; };
+export function called() {
+  const { name = "column" } = state.column || {};
+  return state.assembly ? "the assembly" : `${name}${presets[name] && JSON.stringify(presets[name]) !== JSON.stringify(state.column) ? ", changed" : ""}`;
+}
+
 const listeners = [];
 export const listen = hear => { listeners.push(hear); };
 

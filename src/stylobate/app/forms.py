@@ -1,0 +1,210 @@
+"""Forms of analyses: what the page asks for each and how its answer is shown; all are drawn and answered alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Box:
+    """A field of a form.
+
+    Parameters
+    ----------
+    option : str
+        Of the command line, which it gives.
+    label : str
+    start : str
+        What it holds at first.
+    unit : str
+        Follows what is typed.
+    choices : tuple of str
+        One of these instead of what is typed; several of them where ``many``, separated by commas.
+    hint : str
+        What stands in it while it is empty.
+    """
+
+    option: str
+    label: str
+    start: str = ""
+    unit: str = ""
+    choices: tuple[str, ...] = ()
+    many: bool = False
+    hint: str = ""
+
+
+@dataclass(frozen=True)
+class Form:
+    """An analysis.
+
+    Parameters
+    ----------
+    command : str
+        Of the command line, which does it.
+    title, lead : str
+        In the list of analyses, and under it.
+    takes : tuple of str
+        Of what is on the page: ``column`` (or assembly), ``model``, ``tail``, ``motion`` as it is or ``round`` the compass,
+        ``motions`` in an order, ``source`` (a fragility, or a table of runs), ``hazard`` or ``hazards``, ``ruin`` (a file).
+    boxes : tuple of Box
+    fixed : tuple of str
+        Options that are always given.
+    facts, columns : dict
+        Labels of what its JSON object tells, and of the columns of its table, by their keys; points lead into an object.
+    rows : str
+        Key of the list, or of the object by names, of which that table has the rows.
+    names : dict
+        Labels of the rows of such an object.
+    pictures : dict
+        Captions by the names of its pictures.
+    """
+
+    command: str
+    title: str
+    lead: str
+    takes: tuple[str, ...]
+    boxes: tuple[Box, ...] = ()
+    fixed: tuple[str, ...] = ()
+    facts: dict[str, str] = field(default_factory=dict)
+    rows: str = ""
+    columns: dict[str, str] = field(default_factory=dict)
+    names: dict[str, str] = field(default_factory=dict)
+    pictures: dict[str, str] = field(default_factory=dict)
+
+
+MODELS = ("dem2d", "dem3d", "rigid-block", "rigid-beam", "housner")
+STATES = ("collapse", "top:0.15d", "top:0.35d", "top:1d", "drums:0.005d", "drums:0.01d", "drums:0.02d")
+UNITS = ("", "g", "m/s2", "cm/s2", "mm/s2", "mg", "in/s2", "ft/s2")
+
+REPLICATES = Box("replicates", "Others like this one")
+STATE = Box("state", "Limit state", "collapse", choices=STATES)
+IM = Box("im", "Intensity", hint="that of the runs")
+
+#: Measures of runs that are compared, by their keys.
+MEASURES = {
+    "outcome": "outcome",
+    "decided": "decided",
+    "collapse_time_s": "falls at [s]",
+    "collapse_probability": "probability of collapse",
+    "peak_top_displacement_m": "peak top displacement [m]",
+    "peak_displacement_m": "peak displacement [m]",
+    "residual_top_displacement_m": "residual [m]",
+    "peak_rotation_rad": "peak rotation [rad]",
+    "peak_tilt_rad": "peak tilt [rad]",
+    "residual_joint_slip_m": "residual slip [m]",
+}
+
+FORMS = {
+    "directions": Form(
+        "run",
+        "From all directions",
+        "The motion turned round the compass: from where it does most harm. A column is computed in space unless another "
+        "model is chosen.",
+        ("column", "model", "tail", "round"),
+        (
+            Box("azimuths", "Directions [°]", "0:330:12", hint="from:to:number"),
+            Box("model", "Model", "dem3d", choices=MODELS),
+            REPLICATES,
+        ),
+        ("--no-pictures",),
+        rows="runs",
+        columns={"azimuth_deg": "x towards [°]", **MEASURES},
+        pictures={"directions": "By direction"},
+    ),
+    "compare": Form(
+        "compare",
+        "Models side by side",
+        "What several models say of one motion: where they agree, the model does not decide.",
+        ("column", "tail", "motion"),
+        (Box("models", "Models", "dem2d,rigid-block,rigid-beam", choices=MODELS, many=True),),
+        rows="runs",
+        columns={"model": "model", **MEASURES},
+        pictures={"comparison": "Histories side by side", "design": "Design values of links"},
+    ),
+    "sequence": Form(
+        "sequence",
+        "Earthquakes in sequence",
+        "Each earthquake finds what the one before has left. The records ticked come in the order in which they were "
+        "ticked; with none, the motion of the page comes again and again.",
+        ("column", "model", "motions"),
+        (
+            Box("repeat", "All of them come, times", "2"),
+            Box("rest", "Quiet after each [s]", "30", "s"),
+            Box("factors", "A factor for each", hint="such as 1,0.6,0.4"),
+            Box("unit", "Unit", choices=UNITS),
+            REPLICATES,
+        ),
+        facts={"fell_in": "fell in earthquake", "collapse_probability": "probability of collapse"},
+        rows="events",
+        columns={
+            "earthquake": "earthquake",
+            "motion": "motion",
+            "outcome": "outcome so far",
+            "alone.peak_rotation_rad": "peak rotation [rad]",
+            "alone.added_slip_m": "slip added [m]",
+            "residual_joint_slip_m": "slip so far [m]",
+            "alone.at_rest": "came to rest",
+        },
+        pictures={
+            "sequence": "What each earthquake added",
+            "ends": "How it stood after each",
+            "histories": "Histories",
+        },
+    ),
+    "risk": Form(
+        "risk",
+        "Risk",
+        "How often a year it comes to a state at a site: a fragility and the hazard curve of the site.",
+        ("source", "hazard"),
+        (STATE, IM),
+        facts={
+            "annual_rate": "annual rate",
+            "annual_rate_low": "at least (95 %)",
+            "annual_rate_high": "at most (95 %)",
+            "return_period_y": "once in [years]",
+        },
+        pictures={"risk": "Fragility, hazard, and which shaking the rate comes from"},
+    ),
+    "survival": Form(
+        "survival",
+        "Survival",
+        "It still stands after so many years: what that says of hazard curves.",
+        ("source", "hazards"),
+        (Box("age", "Age [years]", "2400", "y"), STATE, IM),
+        rows="hazards",
+        columns={
+            "hazard": "hazard curve",
+            "return_period_y": "falls once in [years]",
+            "survival_probability": "would still stand",
+            "survival_probability_low": "at least (95 %)",
+            "survival_probability_high": "at most (95 %)",
+            "weight": "weight",
+        },
+        pictures={"survival": "Which hazard curves its age admits"},
+    ),
+    "infer": Form(
+        "infer",
+        "Ruin",
+        "What shaking was it? Columns that still stand, have fallen or are out of place are shaken by motions drawn from a "
+        "prior; those that leave what is seen tell.",
+        ("column", "ruin"),
+        rows="posterior",
+        columns={
+            "median": "median",
+            "low": "5 %",
+            "high": "95 %",
+            "spread_over_prior": "spread over the prior's",
+        },
+        names={
+            "pgv_m_s": "PGV [m/s]",
+            "pga_g": "PGA [g]",
+            "period_s": "period [s]",
+            "azimuth_deg": "azimuth [°]",
+        },
+        pictures={
+            "infer": "Posterior of the shaking; the prior is grey",
+            "matches": "The ruin in plan beside draws that are nearest to it",
+            "observations": "Which observation tells what",
+        },
+    ),
+}  # fmt: skip
