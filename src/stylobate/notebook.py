@@ -22,9 +22,18 @@ class Shown:
         """Plain values by name."""
         raise NotImplementedError
 
+    def __init_subclass__(cls) -> None:
+        cls.__repr__ = Shown.__repr__  # a dataclass would write its arrays out
+
+    def __repr__(self) -> str:
+        said = getattr(self, "sentence", "") or ", ".join(f"{key} {_words(one)}" for key, one in self._facts().items())
+        return f"<{type(self).__name__}: {said}>"
+
     def _repr_html_(self) -> str:
-        facts = {key: value for key, value in self.summary().items() if key != "sentence"}
-        return page(type(self).__name__, str(getattr(self, "sentence", "")), facts)
+        return page(type(self).__name__, str(getattr(self, "sentence", "")), self._facts())
+
+    def _facts(self) -> dict[str, Any]:
+        return _plain({key: value for key, value in self.summary().items() if key != "sentence"})
 
 
 def page(title: str, sentence: str, facts: Mapping[str, Any], picture: str = "") -> str:
@@ -38,15 +47,17 @@ def page(title: str, sentence: str, facts: Mapping[str, Any], picture: str = "")
     picture : str
         SVG.
     """
-    plain = {
-        key: value for key, value in facts.items() if not (value is None or isinstance(value, (list, tuple, dict)))
-    }
     rows = "".join(
         f"<tr><td>{html.escape(str(key))}</td><td>{html.escape(_words(value))}</td></tr>"
-        for key, value in list(plain.items())[:ROWS]
+        for key, value in _plain(facts).items()
     )
     said = f"<p>{html.escape(sentence)}</p>" if sentence else ""
     return f"<p><b>{html.escape(title)}</b></p>{said}{picture}<table>{rows}</table>"
+
+
+def _plain(facts: Mapping[str, Any]) -> dict[str, Any]:
+    plain = [one for one in facts.items() if not (one[1] is None or isinstance(one[1], (list, tuple, dict)))]
+    return dict(plain[:ROWS])
 
 
 def _words(value: Any) -> str:

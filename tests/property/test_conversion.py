@@ -76,10 +76,14 @@ def test_what_was_exported_from_a_run_can_be_stood_up_again(tmp_path):
     """A part called ``ground`` tells the level of the ground, and is no stone."""
     part = trimesh.creation.box((4.0, 4.0, 0.1), trimesh.transformations.translation_matrix([0.0, 0.0, 1.95]))
     stone = trimesh.creation.box((1.0, 1.0, 1.0), trimesh.transformations.translation_matrix([0.0, 0.0, 2.5]))
+    step = trimesh.creation.box((1.0, 1.0, 1.0), trimesh.transformations.translation_matrix([3.0, 0.0, 2.5]))
     write(tmp_path / "a.obj", {"ground": part, "stone": stone})
+    write(tmp_path / "b.obj", {"ground": part, "stone": stone, "step": step})
     structure, tables, _ = read_model(tmp_path / "a.obj", MARBLE)
     assert tables["ground"] == pytest.approx(2.0)
     assert [one.name for one in structure.stones] == ["stone"]
+    moved, *_ = read_model(tmp_path / "b.obj", Reading("marble", fixed=("step",)))
+    assert moved.ground == pytest.approx(2.0)  # it stays where there are supports, too
 
 
 def write(path, meshes):
@@ -217,6 +221,7 @@ def _blocks(path):
             "is a compas.datastructures/Mesh; give blocks whose geometry",
         ),
         (lambda text: text.replace("-0.3", "NaN", 1), "is no solid"),
+        (lambda text: text.replace('"features": []', '"features": [{}]', 1), "has features or modifiers"),
         (lambda text: text.replace('"children"', '"others"'), "holds no blocks"),
         (lambda text: text.replace("[[1.0, 0.0", "[[1.0"), "is not laid out as COMPAS 2"),
     ],

@@ -2,14 +2,21 @@
 
 import builtins
 import csv
+import functools
+import http.server
 import io
 import math
+import shutil
+import subprocess
+import threading
 
+import matplotlib.image
 import meshio
 import numpy as np
 import pygltflib
 import pytest
 import trimesh
+from page_server import browser
 
 import stylobate as st
 from stylobate.column.assembly_files import load_structure
@@ -140,6 +147,70 @@ def test_gltf_stands_upright(in_space, tmp_path):
     statue, plinth = (scene.geometry[name] for name in ("statue", "plinth"))
     assert statue.volume == pytest.approx(0.4 * 0.4 * 1.0 + 0.6 * 0.6 * 0.2, rel=1e-6)
     assert plinth.volume == pytest.approx(0.4, rel=1e-6)
+
+
+#: A page that plays a file with three.js: ``at(t)`` draws that second and tells where every surface reaches.
+VIEWER = """
+<script type="importmap">{"imports": {"three": "/node_modules/three/build/three.module.js"}}</script>
+<body style="margin:0"><script type="module">
+import * as THREE from "three";
+import {GLTFLoader} from "/node_modules/three/examples/jsm/loaders/GLTFLoader.js";
+const drawn = new THREE.WebGLRenderer({preserveDrawingBuffer: true}), scene = new THREE.Scene();
+drawn.setSize(400, 400); document.body.append(drawn.domElement);
+scene.background = new THREE.Color(0xffffff); scene.add(new THREE.AmbientLight(0xffffff, 3));
+const file = await new GLTFLoader().loadAsync("a.glb"), mixer = new THREE.AnimationMixer(file.scene);
+scene.add(file.scene); file.animations.forEach((one) => mixer.clipAction(one).play());
+const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 100);
+camera.position.set(0, 1, 5); camera.lookAt(0, 0.8, 0);
+window.at = (time) => {
+  mixer.setTime(time); scene.updateMatrixWorld(true); drawn.render(scene, camera);
+  const found = {};
+  scene.traverse((one) => {
+    const box = new THREE.Box3();
+    if (one.isMesh) found[one.name] = [...box.setFromObject(one, true).min, ...box.max];
+  });
+  return found;
+};
+</script></body>
+"""
+
+
+@pytest.mark.slow
+def test_a_viewer_in_a_browser_plays_it(in_space, tmp_path):
+    """three.js has the statue upright, where and as large as recorded: its head of 0.6 m is √2 as wide after 45°."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
+    npm = shutil.which("npm")
+    if browser() is None or npm is None:
+        pytest.skip("needs Chromium and npm, which this machine does not have")
+    got = [npm, "install", "--no-audit", "--no-fund", "--fetch-retries=0", "--prefix", str(tmp_path), "three@0.170"]
+    if subprocess.run(got, capture_output=True, timeout=120, check=False).returncode:
+        pytest.skip("needs the package three of npm, which cannot be had here")
+    export_response(in_space, tmp_path / "a.glb", rate=2.0)
+    (tmp_path / "index.html").write_text(VIEWER)
+    handler = functools.partial(Quiet, directory=str(tmp_path))
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server, playwright.sync_playwright() as engine:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        software = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+        page = engine.chromium.launch(executable_path=browser(), args=software).new_page()
+        page.goto(f"http://127.0.0.1:{server.server_port}/")
+        page.wait_for_function("window.at !== undefined")
+        boxes, pictures = [], []
+        for time in (0.0, 1.0):
+            boxes.append(page.evaluate("at", time))
+            pictures.append(page.locator("canvas").screenshot())
+        server.shutdown()
+    wide = 0.3 * math.sqrt(2.0)
+    assert boxes[0]["plinth"] == pytest.approx([-0.5, 0.0, -0.5, 0.5, 0.4, 0.5], abs=1e-6)
+    assert boxes[0]["statue"] == pytest.approx([-0.3, 0.4, -0.3, 0.3, 1.6, 0.3], abs=1e-6)
+    assert boxes[1]["statue"] == pytest.approx([-wide, 0.4, -0.1 - wide, wide, 1.6, -0.1 + wide], abs=1e-6)
+    seen = [np.asarray(matplotlib.image.imread(io.BytesIO(one)))[..., :3].min(axis=2) < 0.95 for one in pictures]
+    assert all(0.02 < one.mean() < 0.9 for one in seen)
+    assert (seen[0] != seen[1]).sum() > 100  # the statue has grown wider
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
 
 
 def test_vtk_of_an_instant(in_space, tmp_path):

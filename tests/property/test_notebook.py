@@ -50,3 +50,68 @@ def test_a_history_keeps_its_peak():
     points = re.findall(r"(-?[\d.]+),(-?[\d.]+)", notebook.history(values, "a"))
     assert max(float(y) for _, y in points) == pytest.approx(80.0)
     assert len(points) <= 1200
+
+
+# -- IPython -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def shell(tmp_path_factory):
+    """A shell of IPython of its own, in which a column has been shaken."""
+    interactiveshell = pytest.importorskip(
+        "IPython.core.interactiveshell", reason="the extra notebook is not installed"
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("IPYTHONDIR", str(tmp_path_factory.mktemp("ipython")))
+        made = interactiveshell.InteractiveShell()
+        made.history_manager.enabled = False
+        yield made
+        made.history_manager.end_session()
+
+
+def completed(shell, text):
+    from IPython.core.completer import provisionalcompleter
+
+    with provisionalcompleter():
+        return {one.text for one in shell.Completer.completions(text, len(text))}
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("st.Colu", "Column"),
+        ("st.Mot", "MotionRequest"),
+        ("st.", "simulate"),
+        ("from stylobate import Distinct", "DistinctElement3D"),
+        ("st.DistinctElement3D(la", "law="),
+        ("column.upl", "uplift_acceleration"),
+        ("response.to_x", "to_xarray"),
+        ("table['coll", "collapsed"),
+        ("histories['joint_o", "joint_opening"),
+    ],
+)
+def test_names_are_completed(shell, text, name):
+    """Names that are loaded when they are first used, keywords, and names of columns of a table and of histories."""
+    import stylobate
+
+    column, motion = st.preset("paper-monolithic"), st.harmonic(1.0, 1.0, 1.0)
+    response = st.simulate(column, motion, st.HousnerBlock())
+    table = st.simulate_many(column, [motion], st.HousnerBlock())
+    own = {"column": column, "response": response, "table": table, "histories": response.to_xarray()}
+    shell.user_ns.update(st=stylobate, **own)
+    assert name in completed(shell, text)
+
+
+def test_what_ipython_shows(shell):
+    """HTML of a column, an assembly, motion, run, records, table and curves; in a terminal a paragraph, no arrays."""
+    column, motion = st.preset("paper-monolithic"), st.harmonic(1.0, 1.0, 1.0)
+    curves = [st.pushover(column), st.limit_analysis(column), st.limit_directions(column)]
+    curves.append(st.collapse_domain(column, st.HousnerBlock(), [1.0], [1.0, 5.0]))
+    run = st.simulate(column, motion, st.HousnerBlock())
+    for value in (*shown(), run, *curves):
+        formats, _ = shell.display_formatter.format(value)
+        assert formats["text/html"] == value._repr_html_()
+        assert "array(" not in formats["text/plain"]
+        assert "\n" not in formats["text/plain"]
+    table, _ = shell.display_formatter.format(st.simulate_many(column, [motion], st.HousnerBlock()))
+    assert "<table" in table["text/html"]

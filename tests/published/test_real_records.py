@@ -20,7 +20,7 @@ def read(name, **options):
 
 
 def test_samples_are_the_files_as_published():
-    assert len(SHIPPED) == 6
+    assert len(SHIPPED) == 7
     for name, sample in SHIPPED.items():
         assert hashlib.sha256(sample.data).hexdigest() == sample.sha256
         if (FOLDER / name).is_file():
@@ -31,6 +31,7 @@ def test_samples_are_the_files_as_published():
 STATED = [
     ("csmip_v1_Northridge1994_LA116thSt.RAW", (0.200, 0.143, 0.060), 0.001, (90.0, 0.0)),
     ("csmip_v1_Ridgecrest2019_ChinaLake_CLC.v1", (0.344, 0.511, 0.347), 0.01, (90.0, 0.0)),
+    ("csmip_v1_Ridgecrest2019_ChinaLake_CCC.RAW", (0.567, 0.471, 0.361), 0.01, (90.0, 0.0)),
     ("csmip_v2_Coalinga1983_ParkfieldFZ14.V2", (267.957 / 981.0, 256.231 / 981.0, 94.805 / 981.0), 0.02, (90.0, 0.0)),
     ("csmip_v2_SouthNapa2014_CE58667.V2", (27.114 / 981.0, 26.411 / 981.0, 11.244 / 981.0), 0.01, (None, None)),
     ("cosmos_v1_format_example.v1", (161.962 / 981.0,), 0.01, (340.0,)),

@@ -13,6 +13,7 @@ from ..column import Column
 from ..column.structure import Structure
 from ..errors import InputError, check_choice, check_kind
 from ..models.rigid_block.block_stack import BlockStack
+from ..notebook import Shown
 from .least_forces import Borne, Needed, needed_forces
 from .limit_programmes import (
     ACTIVE,
@@ -23,6 +24,7 @@ from .limit_programmes import (
     non_associated,
     static_bound,
 )  # fmt: skip
+from .pushover_result import mechanism_rows
 from .static_loads import check_standing, crushing_forces, gravity_forces, horizontal_forces
 
 FLOWS = ("non-associated", "associated")
@@ -78,6 +80,19 @@ class LinkForce:
     largest: float = math.nan
     towards: tuple[float, float, float] | None = None
 
+    def row(self) -> dict[str, Any]:
+        """Its demand in the JSON object of ``stylobate limit``."""
+        return {
+            "link": self.name,
+            "action": self.action,
+            "force_n": self.force,
+            "largest_force_n": None if math.isnan(self.largest) else self.largest,
+            "largest_force_towards": None if self.towards is None else list(self.towards),
+            "capacity_n": self.capacity,
+            "yields": self.yields,
+            "need_not_act": self.idle,
+        }
+
 
 @dataclass(frozen=True)
 class DirectionLimit:
@@ -110,9 +125,17 @@ class DirectionLimit:
     moving: tuple[str, ...] = ()
     upper_bound: bool = False
 
+    def summary(self) -> dict[str, Any]:
+        """Links, and of an assembly who moves, in the JSON object of ``stylobate limit``."""
+        links = {"links": [link.row() for link in self.links]}
+        if not self.moving:
+            return links
+        moves = {"between": list(self.between), "moving": list(self.moving)}
+        return links | moves | {"upper_bound": self.upper_bound, "flow": "associated"}
+
 
 @dataclass(frozen=True, eq=False)
-class LimitResult:
+class LimitResult(Shown):
     """Result of :func:`limit_analysis`.
 
     Parameters
@@ -152,6 +175,19 @@ class LimitResult:
     def governing_joint(self) -> int:
         """Lowest joint of the mechanism, counted from 1."""
         return min(item.joint for item in self.active)
+
+    def summary(self) -> dict[str, Any]:
+        """The JSON object of ``stylobate limit``."""
+        return {
+            "collapse_multiplier_g": self.multiplier,
+            "lower_bound_g": self.lower,
+            "upper_bound_g": self.upper,
+            "flow": self.flow,
+            "active_joints": [{"joint": item.joint, "mode": item.mode, "rate": item.rate} for item in self.active],
+            "joints_at_strength": list(self.at_limit),
+            "links": [link.row() for link in self.links],
+            "mechanism": mechanism_rows(self.mechanism),
+        }
 
 
 def limit_analysis(

@@ -14,6 +14,7 @@ from ..column.spatial.prisms import in_space
 from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError, check_kind
+from ..notebook import Shown
 from .limit import DirectionLimit, LimitResult, limit_analysis
 from .limit_assemblies import AssemblyProgramme
 from .limit_with_links import SpaceProgramme
@@ -26,7 +27,7 @@ LARGEST = 1e3
 
 
 @dataclass(frozen=True, eq=False)
-class LimitByDirection:
+class LimitByDirection(Shown):
     """Result of :func:`limit_directions`: one limit for each direction."""
 
     limits: tuple[DirectionLimit, ...]
@@ -47,6 +48,23 @@ class LimitByDirection:
         """The direction in which least is borne; the first of equal ones."""
         least = self.multipliers.min() * (1.0 + 1e-9)
         return next(limit for limit in self.limits if limit.multiplier <= least)
+
+    def summary(self) -> dict[str, Any]:
+        """Several directions in the JSON object of ``stylobate limit``."""
+        weak = self.weakest
+        directions = [
+            {"azimuth_deg": one.azimuth, "multiplier_g": one.multiplier, "joint": one.joint, "mode": one.mode}
+            | one.summary()
+            for one in self.limits
+        ]
+        return {
+            "collapse_multiplier_g": weak.multiplier,
+            "weakest_azimuth_deg": weak.azimuth,
+            "active_joints": [{"joint": weak.joint, "mode": weak.mode, "rate": None}],
+            "dims": self.dims,
+            "directions": directions,
+            **weak.summary(),
+        }
 
 
 def limit_directions(structure: Structure, azimuths: Sequence[float] | None = None, **loads: Any) -> LimitByDirection:

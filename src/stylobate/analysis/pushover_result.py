@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..atomic import replacing
+from ..notebook import Shown
 
 if TYPE_CHECKING:
     import pandas
@@ -21,8 +22,16 @@ STATES = ("elastic", "sliding", "rocking", "open")
 PLATEAU = 2e-7
 
 
+def mechanism_rows(mechanism: np.ndarray) -> list[dict[str, float]]:
+    """One row per drum: x, z and rotation for a unit horizontal movement of the drum that moves most."""
+    return [
+        {"drum": i + 1, "x": float(x), "z": float(z), "rotation_rad_per_m": float(turn)}
+        for i, (x, z, turn) in enumerate(mechanism)
+    ]
+
+
 @dataclass(frozen=True, eq=False)
-class PushoverResult:
+class PushoverResult(Shown):
     """Equilibrium path of a pushover analysis, as far as it was found.
 
     Parameters
@@ -137,6 +146,28 @@ class PushoverResult:
         turned = np.abs(self.rotation[-1] - self.rotation[start]) * self.arms
         slid = np.abs(self.slip[-1] - self.slip[start])
         return int(np.argmax(turned + slid)) + 1
+
+    def summary(self) -> dict[str, Any]:
+        """The JSON object of ``stylobate pushover``; null where the path ends before the column gives way."""
+        return {
+            "collapse_multiplier_g": self.collapse_multiplier,
+            "peaked": self.peaked,
+            "largest_multiplier_g": self.largest_multiplier,
+            "peak_displacement_m": self.peak_displacement,
+            "ultimate_displacement_m": self.ultimate_displacement,
+            "governing_joint": self.governing_joint if self.peaked else None,
+            "led_drum": self.at,
+            "complete": self.complete,
+            "stop": self.stop,
+            "steps": len(self.multiplier),
+            "curve": {"displacement_m": self.displacement.tolist(), "multiplier_g": self.multiplier.tolist()},
+            "mechanism": mechanism_rows(self.mechanism),
+            "links": [
+                {"link": name, "action": action, "largest_force_n": float(abs(self.link_force[:, k]).max())}
+                for k, (name, action) in enumerate(self.links)
+            ],
+            "joint_states": [[STATES[state] for state in step] for step in self.states[[self.peak, -1]]],
+        }
 
     def to_frame(self) -> pandas.DataFrame:
         """The path as a table: one row per step, joints numbered from 1."""

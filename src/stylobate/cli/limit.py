@@ -3,17 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import InputError
 from . import options as o
-from .pushover import Loads, mechanism_rows
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ..analysis.limit import DirectionLimit, LimitResult, LinkForce
-    from ..analysis.limit_directions import LimitByDirection
+from .pushover import Loads
 
 #: What is said where a mechanism slides or twists.
 UPPER_BOUND = (
@@ -60,9 +54,9 @@ def limit(
         plane = all_round is None or all_round.dims == "xz"
         weakest = 0.0 if all_round is None else all_round.weakest.azimuth
         found = limit_analysis(stone, flow=flow, direction=weakest, **loads) if plane else None
-        summary = {} if found is None else summarize(found)
+        summary = {} if found is None else found.summary()
         if all_round is not None:
-            summary = around_summary(all_round) | summary
+            summary = all_round.summary() | summary
         if files.wanted:
             from .. import plots
             from ..analysis.limit import towards
@@ -110,56 +104,6 @@ def limit(
     console.say(f"{sentence}.", facts, files)
 
 
-def around_summary(found: LimitByDirection) -> dict:
-    """Several directions in the JSON object."""
-    weak = found.weakest
-    return {
-        "collapse_multiplier_g": weak.multiplier,
-        "weakest_azimuth_deg": weak.azimuth,
-        "active_joints": [{"joint": weak.joint, "mode": weak.mode, "rate": None}],
-        "dims": found.dims,
-        "directions": [
-            {
-                "azimuth_deg": one.azimuth,
-                "multiplier_g": one.multiplier,
-                "joint": one.joint,
-                "mode": one.mode,
-                "links": link_rows(one.links),
-                **_mechanism(one),
-            }
-            for one in found.limits
-        ],
-        "links": link_rows(weak.links),
-        **_mechanism(weak),
-    }
-
-
-def _mechanism(found: DirectionLimit) -> dict:
-    """Who moves, of an assembly."""
-    if not found.moving:
-        return {}
-    return {
-        "between": list(found.between),
-        "moving": list(found.moving),
-        "upper_bound": found.upper_bound,
-        "flow": "associated",
-    }
-
-
-def summarize(found: LimitResult) -> dict:
-    """The JSON object of ``stylobate limit``."""
-    return {
-        "collapse_multiplier_g": found.multiplier,
-        "lower_bound_g": found.lower,
-        "upper_bound_g": found.upper,
-        "flow": found.flow,
-        "active_joints": [{"joint": item.joint, "mode": item.mode, "rate": item.rate} for item in found.active],
-        "joints_at_strength": list(found.at_limit),
-        "links": link_rows(found.links),
-        "mechanism": mechanism_rows(found.mechanism),
-    }
-
-
 def link_words(row: dict) -> str:
     """Demand on a link, for people."""
     capacity = f"{row['capacity_n']:.4g} N" if math.isfinite(row["capacity_n"]) else "no limit"
@@ -173,20 +117,3 @@ def link_words(row: dict) -> str:
     if row["yields"]:
         return f"{force}, yields"
     return f"at least {force}" + ("" if row["force_n"] else ", where others act for it") + rest
-
-
-def link_rows(links: Sequence[LinkForce]) -> list[dict]:
-    """Demand on links, in the JSON object."""
-    return [
-        {
-            "link": link.name,
-            "action": link.action,
-            "force_n": link.force,
-            "largest_force_n": None if math.isnan(link.largest) else link.largest,
-            "largest_force_towards": None if link.towards is None else list(link.towards),
-            "capacity_n": link.capacity,
-            "yields": link.yields,
-            "need_not_act": link.idle,
-        }
-        for link in links
-    ]

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import InputError
 from . import options as o
-
-if TYPE_CHECKING:
-    from ..analysis.pushover import PushoverResult
 
 
 @dataclass(frozen=True)
@@ -83,7 +80,7 @@ def pushover(
         loads["direction"] = limit_directions(stone, **loads).weakest.azimuth
     with execution.files("pushover", "pushover.csv", "pushover.json", "pushover") as files:
         path = follow(stone, control=control, geometric=not linear, to=far, at=led, **loads)
-        summary = summarize(path) | {"direction_deg": loads.get("direction", 0.0)}
+        summary = path.summary() | {"direction_deg": loads.get("direction", 0.0)}
         checked = None if site is None else code_check(towards(stone, summary["direction_deg"]), path, site)
         if checked is not None:
             summary["check"] = checked.summary()
@@ -124,39 +121,6 @@ def pushover(
         }
         facts["left out"] = "; ".join(checked.left_out)
     console.say(sentence, facts, files)
-
-
-def summarize(path: PushoverResult) -> dict:
-    """The JSON object of ``stylobate pushover``; null where the path ends before the column gives way."""
-    from ..analysis.pushover import STATES
-
-    return {
-        "collapse_multiplier_g": path.collapse_multiplier,
-        "peaked": path.peaked,
-        "largest_multiplier_g": path.largest_multiplier,
-        "peak_displacement_m": path.peak_displacement,
-        "ultimate_displacement_m": path.ultimate_displacement,
-        "governing_joint": path.governing_joint if path.peaked else None,
-        "led_drum": path.at,
-        "complete": path.complete,
-        "stop": path.stop,
-        "steps": len(path.multiplier),
-        "curve": {"displacement_m": path.displacement.tolist(), "multiplier_g": path.multiplier.tolist()},
-        "mechanism": mechanism_rows(path.mechanism),
-        "links": [
-            {"link": name, "action": action, "largest_force_n": float(abs(path.link_force[:, k]).max())}
-            for k, (name, action) in enumerate(path.links)
-        ],
-        "joint_states": [[STATES[state] for state in step] for step in path.states[[path.peak, -1]]],
-    }
-
-
-def mechanism_rows(mechanism) -> list[dict]:
-    """One row per drum: x, z and rotation for a unit horizontal movement of the drum that moves most."""
-    return [
-        {"drum": i + 1, "x": float(x), "z": float(z), "rotation_rad_per_m": float(turn)}
-        for i, (x, z, turn) in enumerate(mechanism)
-    ]
 
 
 def number(option: str, text: str) -> float:

@@ -30,15 +30,19 @@ LAYOUTS = ("dem", "assembly")
 
 
 class Block(NamedTuple):
-    """A block of a model: its surface where it stands [m], whether it is a support, and its density [kg/m³] if told."""
+    """A block of a model: its surface where it stands [m], whether it is a support, and its density [kg/m³] if told.
+
+    ``key`` is what the model calls it by: the guid of an element, the node of an assembly.
+    """
 
     part: MeshPart
     fixed: bool
     density: float | None
+    key: str
 
 
 def read_compas(path: Path) -> tuple[str, list[Block]]:
-    """Name and blocks of a model.
+    """Name and blocks of a model in a file.
 
     Raises
     ------
@@ -51,6 +55,24 @@ def read_compas(path: Path) -> tuple[str, list[Block]]:
     except (ValueError, RecursionError) as error:
         why = "" if isinstance(error, UnicodeDecodeError) else f" ({str(error)[:80]})"
         raise InputError(f"{name} is no JSON{why}; give what COMPAS writes with json_dump.") from None
+    return compas_blocks(found, name, path.stem)
+
+
+def compas_blocks(found: Any, name: str, default: str) -> tuple[str, list[Block]]:
+    """Name and blocks of a model.
+
+    Parameters
+    ----------
+    found : object
+        What the JSON of COMPAS holds.
+    name, default : str
+        What messages call the model, and its name if it has none.
+
+    Raises
+    ------
+    InputError
+        Another kind of object, or a block whose geometry is no mesh.
+    """
     dtype = found.get("dtype") if isinstance(found, dict) else None
     try:
         if dtype in MODELS:
@@ -69,7 +91,7 @@ def read_compas(path: Path) -> tuple[str, list[Block]]:
     if not blocks:
         raise InputError(f"{name} holds no blocks; give a model of one at least.")
     attributes = found["data"].get("attributes") if dtype == ASSEMBLIES else None
-    called = found.get("name") or (attributes or {}).get("name") or path.stem
+    called = found.get("name") or (attributes or {}).get("name") or default
     return str(called), _named(blocks)
 
 
@@ -88,11 +110,14 @@ def _of_assembly(data: Mapping[str, Any], name: str) -> Iterator[Block]:
         block = node.get("block")
         if block is not None:
             called = str(block.get("name") or f"block {key}")
-            yield Block(_mesh(block, np.eye(4), called, name), bool(node.get("is_support")), None)
+            yield Block(_mesh(block, np.eye(4), called, name), bool(node.get("is_support")), None, key)
 
 
 def _of_model(data: Mapping[str, Any], name: str) -> Iterator[Block]:
     elements, materials = data["elements"], data.get("materials") or {}
+    edges = [edge for ends in data["graph"]["edge"].values() for edge in ends.values()]
+    if any(one["data"].get("features") for one in elements.values()) or any(one.get("modifiers") for one in edges):
+        raise InputError(f"{name} has features or modifiers, which change its blocks; give their meshes as they are.")
 
     def below(node: Mapping[str, Any], turn: np.ndarray) -> Iterator[Block]:
         for child in node.get("children") or ():
@@ -104,7 +129,8 @@ def _of_model(data: Mapping[str, Any], name: str) -> Iterator[Block]:
                 stone = materials.get(fields.get("material")) or {}
                 density = stone.get("data", {}).get("density")
                 part = _mesh(fields["geometry"], own, called, name)
-                yield Block(part, bool(fields.get("is_support")), None if density is None else float(density))
+                density = None if density is None else float(density)
+                yield Block(part, bool(fields.get("is_support")), density, str(child["element"]))
             yield from below(child, own)
 
     yield from below(data["tree"]["root"], _matrix(data.get("transformation")))

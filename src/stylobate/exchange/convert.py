@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import tomli_w
 
@@ -23,7 +23,7 @@ from ..column.tables import made_of
 from ..column.toml import checked
 from ..errors import InputError, check_range, within
 from ..reading import shown
-from .compas_files import LAYOUTS, compas_json, read_compas
+from .compas_files import LAYOUTS, Block, compas_json, read_compas
 from .export import refuse_existing
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND
@@ -36,6 +36,9 @@ READ = (*MESHES, ".json", ".csv")
 
 #: Largest distance of a mesh from what stands for it unless told otherwise [m].
 TOLERANCE = 0.001
+
+#: A closed part of a model, whether it is fixed, and its density [kg/m³] if the model tells.
+Part: TypeAlias = tuple[MeshPart, bool, float | None]
 
 #: Kinds that stones of a mesh can become.
 KINDS = ("assembly", "column")
@@ -145,22 +148,43 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
         return column, tables, [f"{column.n} drums, {column.height:g} m high"]
     if path.suffix.lower() == ".json":
         name, blocks = read_compas(path)
-        parts = [(block.part, block.fixed, block.density) for block in blocks]
+        parts = parts_of(blocks)
     else:
         name, parts = path.stem, [(part, False, None) for part in read_stones(path, reading.unit)]
+    return stand_up(name, parts, reading, shown(path), path.parent)
+
+
+def parts_of(blocks: Sequence[Block]) -> list[Part]:
+    """Blocks of a model of COMPAS as parts of a model."""
+    return [(block.part, block.fixed, block.density) for block in blocks]
+
+
+def stand_up(
+    name: str, parts: Sequence[Part], reading: Reading, where: str, folder: Path
+) -> tuple[Structure, dict[str, Any], list[str]]:
+    """What stands of the parts of a model; returns and errors as of :func:`read_model`.
+
+    Parameters
+    ----------
+    name : str
+    parts : sequence of Part
+    reading : Reading
+    where : str
+        What messages call the model.
+    folder : Path
+        That paths of meshes start from.
+    """
     if reading.material is None:
         raise InputError(
-            f"{shown(path)} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
+            f"{where} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
         )
     level, parts = _without_ground(parts)
     names = [part.name for part, *_ in parts]
     unknown = next((one for one in reading.fixed if one not in names), None)
     if unknown is not None:
-        raise InputError(
-            f"`fixed` names {unknown!r}, which {shown(path)} does not hold; it holds {_some(names)}.", "fixed"
-        )
+        raise InputError(f"`fixed` names {unknown!r}, which {where} does not hold; it holds {_some(names)}.", "fixed")
     parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
-    with within(shown(path)):
+    with within(where):
         stones = fit_all(parts, reading.tolerance)
         words = [f"{one.name}: {one.words}" for one in stones]
         if reading.becomes == "column":
@@ -172,20 +196,18 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
             ground = None
         elif reading.ground is not None:
             ground = float(reading.ground)
-        elif any(one.fixed for one in stones):
+        elif level is None and any(one.fixed for one in stones):
             ground = None
         else:
             lowest = min(float(part.points[part.used, 2].min()) for part, *_ in parts)
             ground = round(lowest if level is None else level, 7)
         tables = assembly_tables(name, stones, reading.material, ground)
-        structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, path.parent)
+        structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder)
     words.append("no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m")
     return structure, tables, words
 
 
-def _without_ground(
-    parts: Sequence[tuple[MeshPart, bool, float | None]],
-) -> tuple[float | None, list[tuple[MeshPart, bool, float | None]]]:
+def _without_ground(parts: Sequence[Part]) -> tuple[float | None, list[Part]]:
     """Level of a part called ``ground`` [m], as exports have it, and the others."""
     level = next((float(part.points[part.used, 2].max()) for part, *_ in parts if part.name == "ground"), None)
     return level, [one for one in parts if one[0].name != "ground"]

@@ -66,6 +66,11 @@ def fit_all(parts: Sequence[tuple[MeshPart, bool, float | None]], tolerance: flo
     return found
 
 
+def body_of(part: str) -> str:
+    """Name of the body that a part belongs to."""
+    return part.partition(", part ")[0]
+
+
 def assembly_tables(name: str, stones: Sequence[Fitted], stone: str, ground: float | None) -> dict[str, Any]:
     """Content of a file of an assembly in space.
 
@@ -80,7 +85,7 @@ def assembly_tables(name: str, stones: Sequence[Fitted], stone: str, ground: flo
     """
     blocks: dict[str, dict[str, Any]] = {}
     for one in stones:
-        called, _, part = one.name.partition(", part ")
+        called, part = body_of(one.name), ", part " in one.name
         entry: dict[str, Any] = {}
         if isinstance(one.shape, Frustum):
             entry = _drum(one.shape)
