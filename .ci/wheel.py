@@ -41,6 +41,17 @@ assert importlib.util.find_spec("stylobate_studies") is None
 """
 
 
+#: Names of the kernels for graphics cards that are there from the sources that are there.
+BUILT = "from stylobate.kernels.gpu.kinds import kinds, missing\nbuilt = set(kinds()) - set(missing())"
+
+
+def built() -> set[str]:
+    """Those of this source tree, which the wheel must carry."""
+    found: dict[str, set[str]] = {}
+    exec(BUILT, found)
+    return found["built"]
+
+
 def main() -> int:
     (wheel,) = (ROOT / "dist").glob("*.whl")
     with tempfile.TemporaryDirectory() as text:
@@ -57,6 +68,7 @@ def main() -> int:
 
         run(python, "-m", "pip", "--disable-pip-version-check", "-qq", "install", "-c", constraints, wheel)
         run(python, "-c", IMPORT)
+        run(python, "-c", f"{BUILT}\nassert built >= {built()!r}, built")
         run(command, "--help")
         for name in ("reproduce", "experiments", "bench"):
             done = subprocess.run(
