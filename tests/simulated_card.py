@@ -57,6 +57,9 @@ class Simulated:
     def queue(self) -> None:
         pass
 
+    def end(self, queue: None) -> None:
+        pass
+
     def bring(self, address: int, array: np.ndarray, queue: None) -> None:
         ctypes.memmove(address, array.ctypes.data, array.nbytes)
 

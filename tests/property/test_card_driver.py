@@ -42,7 +42,7 @@ class Driver(types.SimpleNamespace):
             CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES="DYNAMIC", CU_FUNC_ATTRIBUTE_MAX_THREADS_PER_BLOCK="THREADS"
         )
         ok = Code.CUDA_SUCCESS
-        self.memory, self.current, self.launched, self.set = {}, {}, [], {}
+        self.memory, self.current, self.launched, self.ended, self.set = {}, {}, [], [], {}
         self.cuInit = lambda flags: (ok,)
         self.cuDeviceGetCount = lambda: (ok, cards)
         self.cuDeviceGet = lambda number: (ok, number)
@@ -58,6 +58,7 @@ class Driver(types.SimpleNamespace):
         self.CUstream_flags = types.SimpleNamespace(CU_STREAM_NON_BLOCKING=1)
         self.cuStreamCreate = lambda flags: (ok, "queue")
         self.cuStreamSynchronize = lambda queue: (ok,)
+        self.cuStreamDestroy = lambda queue: (self.ended.append(queue), (ok,))[1]
 
     def cuCtxSetCurrent(self, context):
         self.current[threading.get_ident()] = context
@@ -210,6 +211,7 @@ def test_memory_is_given_back_when_nobody_holds_the_records(drive):
     assert records.address(np.arange(10.0)) in made.memory
     del records
     assert not made.memory
+    assert made.ended == ["queue"]
 
 
 def test_samples_are_brought_once_and_forgotten(drive):
@@ -224,6 +226,14 @@ def test_samples_are_brought_once_and_forgotten(drive):
     assert place in made.memory
     assert gone not in made.memory
     assert records.address(None) == 0
+
+
+def test_smaller_columns_leave_larger_ones_their_shared_memory(drive):
+    made = drive()
+    device = driver.Card()
+    large = card.CardRecords(device, "rim", 12, 1)
+    card.CardRecords(device, "rim", 3, 1)
+    assert made.set["DYNAMIC"] == large.shared
 
 
 def test_large_columns_do_not_fit(drive):

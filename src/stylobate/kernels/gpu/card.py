@@ -36,6 +36,10 @@ class Device(Protocol):
         """A queue of what the card is asked for, one after the other; others go on beside it."""
         ...
 
+    def end(self, queue: Any) -> None:
+        """Give a queue back."""
+        ...
+
     def bring(self, address: int, array: np.ndarray, queue: Any) -> None:
         """Copy an array to the card."""
         ...
@@ -93,7 +97,7 @@ class CardRecords:
         ]
         self.samples: dict[int, tuple[np.ndarray, int]] = {}
         self.changed = True
-        weakref.finalize(self, _give_back, device, self.there, self.samples).atexit = False
+        weakref.finalize(self, _give_back, device, self.queue, self.there, self.samples).atexit = False
 
     def address(self, samples: np.ndarray | None) -> int:
         """Address on the card of the samples of a motion, which are brought there once; 0 for none."""
@@ -151,7 +155,8 @@ def _described(array: np.ndarray, address: int) -> list[int]:
     return [0, 0, array.size, array.dtype.itemsize, address, *array.shape, *array.strides]
 
 
-def _give_back(device: Device, there: dict[str, int], samples: dict[int, tuple[np.ndarray, int]]) -> None:
-    """Give the memory of the card back."""
+def _give_back(device: Device, queue: Any, there: dict[str, int], samples: dict[int, tuple[np.ndarray, int]]) -> None:
+    """Give the memory of the card, and a queue, back."""
+    device.end(queue)
     for address in (*there.values(), *(place for _, place in samples.values())):
         device.free(address)

@@ -73,24 +73,28 @@ class Card:
         optin = asked.CU_DEVICE_ATTRIBUTE_MAX_SHARED_MEMORY_PER_BLOCK_OPTIN
         (self.shared,) = self._ask(driver.cuDeviceGetAttribute(optin, device))
         (self._context,) = self._ask(driver.cuDevicePrimaryCtxRetain(device))
+        self._kernels: dict[str, tuple[Any, int]] = {}  # with the shared memory for which they are ready
 
     def kernel(self, name: str, shared: int) -> tuple[Any, int]:
         """A kernel by its name, for blocks that share so much memory [bytes], and the most threads of a block."""
         from .kinds import ENTRY, text_of
 
         driver = self._current()
-        text = text_of(name).encode() + b"\0"
-        try:
-            (module,) = self._ask(driver.cuModuleLoadData(text))
-        except StylobateError as error:
-            raise InputError(
-                f"`device` is gpu, and the driver of {self.name} does not take the kernel {name!r} ({error}); take a newer "
-                "driver, or leave `device` out.",
-                "device",
-            ) from None
-        (found,) = self._ask(driver.cuModuleGetFunction(module, ENTRY.encode()))
-        asked = driver.CUfunction_attribute
-        self._ask(driver.cuFuncSetAttribute(found, asked.CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES, shared))
+        found, ready = self._kernels.get(name, (None, 0))
+        if found is None:
+            text = text_of(name).encode() + b"\0"
+            try:
+                (module,) = self._ask(driver.cuModuleLoadData(text))
+            except StylobateError as error:
+                raise InputError(
+                    f"`device` is gpu, and the driver of {self.name} does not take the kernel {name!r} ({error}); take a "
+                    "newer driver, or leave `device` out.",
+                    "device",
+                ) from None
+            (found,) = self._ask(driver.cuModuleGetFunction(module, ENTRY.encode()))
+        asked, ready = driver.CUfunction_attribute, max(shared, ready)  # never less than records in use have
+        self._ask(driver.cuFuncSetAttribute(found, asked.CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES, ready))
+        self._kernels[name] = found, ready
         (most,) = self._ask(driver.cuFuncGetAttribute(asked.CU_FUNC_ATTRIBUTE_MAX_THREADS_PER_BLOCK, found))
         return found, most
 
@@ -108,6 +112,10 @@ class Card:
         driver = self._current()
         (found,) = self._ask(driver.cuStreamCreate(driver.CUstream_flags.CU_STREAM_NON_BLOCKING))
         return found
+
+    def end(self, queue: Any) -> None:
+        """Give a queue back."""
+        self._ask(self._current().cuStreamDestroy(queue))
 
     def bring(self, address: int, array: np.ndarray, queue: Any) -> None:
         """Copy an array, which is one piece of memory, to an address on the card."""
@@ -154,6 +162,11 @@ def the_card() -> Card:
     Raises
     ------
     InputError
-        The extra ``gpu`` is not installed, or there is no card.
+        The extra ``gpu`` is not installed, there is no card, or there are no kernels for it.
     """
-    return Card()
+    from .kinds import kinds, missing, text_of
+
+    card, names = Card(), set(kinds())
+    if names == set(missing()):
+        text_of(min(names))  # says so, before anything is made
+    return card
