@@ -12,7 +12,7 @@ import operator
 import queue
 import threading
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from functools import partial
+from functools import cache, partial
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -97,8 +97,16 @@ CHANGED = ("joint", "link", "lane")
 
 def with_copies(state: tuple[Any, ...], *others: str) -> tuple[Any, ...]:
     """A state of an engine with copies of all records that a look at the forces changes, and of some others."""
-    names = (*CHANGED, *others)
-    return tuple(copied(one) if name in names else one for name, one in zip(STATE, state, strict=True))
+    found = list(state)
+    for place in _places(*others):
+        found[place] = copied(found[place])
+    return tuple(found)
+
+
+@cache
+def _places(*others: str) -> tuple[int, ...]:
+    """Places in a state of the records of which there are copies."""
+    return tuple(STATE.index(name) for name in (*CHANGED, *others))
 
 
 def in_rows(records: np.ndarray, lanes: int) -> np.ndarray:
