@@ -191,7 +191,7 @@ def test_what_lanes_have_of_their_own_begins_on_lines_of_the_cache(model) -> Non
     types = (
         model.record_types(linked=True)
         if isinstance(model, st.DistinctElement2D)
-        else model.record_types(model.kind(st.preset("paper-monolithic")), linked=True)
+        else model.kind(st.preset("paper-monolithic")).record_types(linked=True)
     )
     for one in types.values() if isinstance(types, dict) else types:
         if not any(field.subdtype for field, *_ in one.fields.values()):

@@ -6,9 +6,7 @@ import importlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, ClassVar, NamedTuple
-
-import numpy as np
+from typing import Any, ClassVar
 
 from ...column import Column
 from ...column.found_in_space import shares_left
@@ -16,7 +14,6 @@ from ...column.shapes import DRUMS, ConvexSolid, Glued
 from ...column.specimen import Specimen
 from ...column.structure import Structure
 from ...errors import InputError, check_choice, check_range
-from ...kernels.dem3d.records import types
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, RunOptions
@@ -36,6 +33,7 @@ from ..space.rocking import rocking_stone
 from .arrays import Records
 from .block import SpaceBlock, Stack
 from .found_start import found_start
+from .kind import ALONE, CHIPPED, RING, SPECIMEN, Kind
 from .links import link_fields
 from .packing import chipped, drum_fields, joint_fields, lane_fields, pack_column
 from .specimen import FreeBody, RockingSpecimen, pack_specimen, rows_for, top_frequency
@@ -48,38 +46,6 @@ ON_CORNERS = 2.0
 
 #: Energy of a joint of each law with its load on its edge.
 TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_toes(column, kn, 0.25)}
-
-#: In place of a section: one body that stands on its vertices; round drums on rings, or with chips.
-SPECIMEN, RING, CHIPPED = "specimen", "ring", "chipped"
-
-#: On what the bodies of a section stand, as the kernels' records are told; others by the law of contact.
-FACES = {SPECIMEN: "vertex", "rectangular": "corner", RING: "ring", CHIPPED: "chip"}
-
-#: The contacts of a single body: with the base.
-ALONE = Topology(2, ((0, 1),), stack=1)
-
-
-class Kind(NamedTuple):
-    """Common block of lanes.
-
-    Parameters
-    ----------
-    topology : Topology
-    section : str
-    rows : int
-        Of the records of joints.
-    law : str
-        Of round faces.
-    damped, rolls : bool
-        Whether there are dashpots, and resistance to rolling.
-    """
-
-    topology: Topology
-    section: str
-    rows: int
-    law: str
-    damped: bool
-    rolls: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -335,18 +301,13 @@ class DistinctElement3D(LossyDrums):
         """Module of kernels."""
         return importlib.import_module("...kernels.dem3d.step", __package__)
 
-    def record_types(self, kind: Kind, linked: bool = False) -> dict[str, np.dtype]:
-        """Record types of the kernel's arrays, for bodies of a kind, with links or without."""
-        return types(FACES.get(kind.section, kind.law), kind.damped, kind.rolls, linked)
-
     def pack(self, column: Any) -> Packed:
         """A column or a specimen as the kernel wants it."""
         return (_pack_specimen if column.stack is None else _pack)(column, self.acting(column))
 
     def records(self, kind: Kind) -> Records:
         """Empty records of the kernel for what is of a kind."""
-        types = self.record_types(kind, bool(kind.topology.links))
-        return Records(self.kernel(), types, kind.topology, kind.rows)
+        return Records(self.kernel(), kind.record_types(bool(kind.topology.links)), kind.topology, kind.rows)
 
     def stable_step(self, column: Any) -> float:
         """Largest stable time step of the closed column [s]."""
@@ -363,11 +324,7 @@ class DistinctElement3D(LossyDrums):
 
     def card_kernel(self, kind: Kind) -> str | None:
         """Of columns without links on whole rims, or on corners."""
-        from ...kernels.gpu.kinds import FACES as COMPILED
-        from ...kernels.gpu.kinds import space_kernel
-
-        face = FACES.get(kind.section, kind.law)
-        return space_kernel(face, kind.damped, kind.rolls) if face in COMPILED and not kind.topology.links else None
+        return kind.card_kernel
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
@@ -390,7 +347,9 @@ def _pack(column: Column, model: DistinctElement3D) -> Packed:
     lane = lane_fields(column, damping_rows(model.damped, model.damping(column), model.mass_damping), *options)
     kind = model.kind(column)
     if column.as_found or column.pretensioned:
-        found, friction = found_start(column, model.kernel(), model.record_types(kind), (drums, joints, lane), closure)
+        found, friction = found_start(
+            column, model.kernel(), kind.record_types(linked=False), (drums, joints, lane), closure
+        )
         drums, joints = drums | found, joints | friction
     links, top = link_fields(column, drums), Stack(planar=model.planar).top
     numbers = pack_column(model.records(kind), column, (drums, joints, lane), links, top)
