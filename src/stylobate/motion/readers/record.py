@@ -126,7 +126,10 @@ def assemble(
             "component",
         )
     used = horizontal + vertical
-    processing: list[str] = []
+    histories = {tuple(one.history): one.file for one in used}
+    processing = [
+        text if len(histories) == 1 else f"{file}: {text}" for steps, file in histories.items() for text in steps
+    ]
     axes = [axis for axis, _ in zip(["x", "y"], horizontal)] + ["z"] * len(vertical)
     step = same_step(used, name, dt, processing)
     lengths = [len(one.values) for one in used]
