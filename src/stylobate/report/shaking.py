@@ -78,8 +78,10 @@ def motion_section(
         items.insert(len(note) + 1, Note([text], "fair"))
     drifts = {axis: displacement_drift(motion, axis) for axis in motion.components} if recorded else {}
     if worst := max(map(abs, drifts.values()), default=0.0):
-        text = f"Integrated twice, this record ends {worst:.2g} m from where it began: unless the ground moved so far for good, "
-        text += "its baseline drifts, and so do velocities and displacements of the ground."
+        text = (
+            f"Integrated twice, this record ends {worst:.2g} m from where it began: unless the ground moved so far for "
+            "good, its baseline drifts, and so do velocities and displacements of the ground."
+        )
         items.insert(len(note) + 1, Note([text], "fair"))
     if column is not None and motion.pga > 0.0:
         items.append(_beside(motion, column))
