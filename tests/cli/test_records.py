@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 
 from stylobate.cli.main import call
+from stylobate.motion import Motion
 from stylobate.motion.specs import parse_synthetic
 from stylobate.motion.writing import write_csv
 
@@ -62,3 +64,24 @@ def test_what_is_refused(folder, changed, words, capsys):
     assert code == 2, error
     assert words.split(" records")[0] in error
     assert "Traceback" not in error
+
+
+def test_a_record_that_drifts_is_named_where_it_is_scaled_to_a_velocity(tmp_path, capsys):
+    """In ida and in states, once each, and not where another measure is scaled."""
+    time = 0.02 * np.arange(1001)
+    shaking = 3.0 * np.sin(6.0 * np.pi * time) * np.exp(-(((time - 8.0) / 2.0) ** 2))
+    for name, drift in (("drifts", 0.02), ("rests", 0.0)):
+        write_csv(Motion(0.02, shaking + drift), tmp_path / f"{name}.csv")
+    block = ["paper-monolithic", "--model", "housner"]
+    for measure, levels in (("pgv", "0.1m/s:0.2m/s:2"), ("pga", "0.1g:0.2g:2")):
+        size = ["--im", measure, "--levels", levels]
+        for asked in (
+            ["ida", block[0], str(tmp_path), *block[1:], *size],
+            ["states", str(tmp_path), "--as-built", block[0], "--as-found", block[0], *block[1:], *size],
+        ):
+            assert call(asked) == 0
+            told = [line for line in capsys.readouterr().err.splitlines() if "peak velocity of component x" in line]
+            assert [line.partition("warning: ")[2].partition(":")[0] for line in told] == ["drifts.csv"] * (
+                measure == "pgv"
+            )
+            assert all("--condition" in line for line in told)

@@ -332,9 +332,7 @@ def _row(
     motion: Motion, factor: float, ratio: np.ndarray, horizontal: str, about: Mapping[str, float]
 ) -> dict[str, Any]:
     axes = motion.components if "file" in motion.metadata else ()
-    worst, drift = max(
-        ((axis, displacement_drift(motion, axis)) for axis in axes), key=lambda one: abs(one[1]), default=("x", 0.0)
-    )
+    drift = max((displacement_drift(motion, axis) for axis in axes), key=abs, default=0.0)
     return {
         "record": motion.name,
         "factor": factor,
@@ -348,5 +346,5 @@ def _row(
         "magnitude": about.get("magnitude"),
         "distance_km": about.get("distance_km"),
         "drift_m": drift,
-        "cure": cure_of(motion.components[worst], motion.dt) if drift else None,
+        "cure": cure_of(motion) if drift else None,
     }

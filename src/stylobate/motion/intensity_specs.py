@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -12,7 +12,13 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, suggest
-from .intensity import arias_intensity, cumulative_absolute_velocity, rocking_measures, significant_duration
+from .intensity import (
+    arias_intensity,
+    cumulative_absolute_velocity,
+    rocking_measures,
+    significant_duration,
+    warn_of_velocity,
+)
 from .motion import Motion
 from .pulse_match import pulse_match
 from .ranges import values_of as _values
@@ -179,6 +185,12 @@ class IntensityMeasure:
         if self.component == "geomean":
             return math.sqrt(values[0] * values[1])
         return max(values)
+
+    def warn_of_drift(self, motions: Iterable[Motion]) -> None:
+        """Warn of each record whose value is a peak velocity that a drifting baseline has made."""
+        if "pgv" in self.kind:
+            for motion in motions:
+                warn_of_velocity(motion, _AXES.get(self.component, "xy"))
 
     def _over_directions(self, motion: Motion) -> float:
         x, y = motion.acceleration, motion.components["y"]
