@@ -52,6 +52,7 @@ def test_what_is_written_reads_back_as_scaled(folder, tmp_path, capsys):
     [
         (["--periods", "3s:0.2s"], "the first value must be below the second"),
         (["--periods", "0.2s:7s"], "allowed is [0, 4] s"),
+        (["--where", "pgv=0.1:0.8"], "level '0.1' of pgv has no unit; write it with one, such as 0.1m/s"),
         (["--where", "pgv"], "write it as pgv=0.1m/s:0.8m/s"),
         (["--count", "40"], "4 records can be used, and 40 are asked for"),
         (["--per-event", "0"], "per_event"),
@@ -85,3 +86,40 @@ def test_a_record_that_drifts_is_named_where_it_is_scaled_to_a_velocity(tmp_path
                 measure == "pgv"
             )
             assert all("--condition" in line for line in told)
+
+
+def test_a_manifest_beside_records_may_be_named(folder, tmp_path, capsys):
+    """As it is read where it lies in their folder; one that tells of none of them is refused."""
+    manifest = tmp_path / "manifest.csv"
+    manifest.write_text("file,event\n0.csv,Somewhere Mw6.0\n1.csv,no size\n")
+    asked = [
+        "records",
+        str(folder),
+        "--target",
+        TARGET,
+        "--count",
+        "4",
+        "--factors",
+        "0.01:100",
+        "--about",
+        str(manifest),
+    ]
+    assert call([*asked, "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["records"]
+    assert {row["record"]: row["magnitude"] for row in rows} == {
+        "0.csv": 6.0,
+        "1.csv": None,
+        "2.csv": None,
+        "3.csv": None,
+    }
+    manifest.write_text("file,event\nother.csv,Mw6.0\n")
+    assert call(asked) == 2
+    assert "tells the magnitude of none of these records" in capsys.readouterr().err
+    manifest.write_text("record,magnitude\n0.csv,6.1\n")  # a table of records, whatever it is called
+    assert call([*asked, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["records"][0]["magnitude"] == 6.1
+
+
+def test_files_that_are_not_there_are_named_as_typed(tmp_path, capsys):
+    assert call(["records", str(tmp_path / "nope"), "--target", TARGET]) == 2
+    assert f"stylobate: {tmp_path / 'nope'} holds no record that can be used; the first" in capsys.readouterr().err

@@ -305,6 +305,11 @@ def parse_level(text: str, measure: IntensityMeasure) -> float:
     found, units = _LEVEL.fullmatch(text), LEVEL_UNITS[measure.unit]
     if found is None or found[2].lower() not in units or not float(found[1]) > 0.0:
         example = {"g": "0.3g", "m/s": "0.2m/s", "s": "1s", "-": "1.5"}[measure.unit]
+        if found is not None and not found[2] and float(found[1]) > 0.0:
+            example = found[1] + example.lstrip("0123456789.")
+            raise InputError(
+                f"level {text.strip()!r} of {measure.name} has no unit; write it with one, such as {example}."
+            )
         raise InputError(f"level {text.strip()!r} of {measure.name} cannot be read; write it such as {example}.")
     return float(found[1]) * units[found[2].lower()]
 
