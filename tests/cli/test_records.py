@@ -88,6 +88,23 @@ def test_a_record_that_drifts_is_named_where_it_is_scaled_to_a_velocity(tmp_path
             assert all("--condition" in line for line in told)
 
 
+def test_a_fragility_says_again_that_its_velocities_drift(tmp_path, capsys):
+    """Of runs that ida kept; over another measure it says nothing."""
+    time = 0.02 * np.arange(1001)
+    shaking = 3.0 * np.sin(np.pi * time) * np.exp(-(((time - 8.0) / 2.0) ** 2))
+    records, out = tmp_path / "records", tmp_path / "ida"
+    records.mkdir()
+    for k in range(3):
+        write_csv(Motion(0.02, shaking * (1.0 + 0.2 * k) + 0.02 * (k == 0)), records / f"{k}.csv")
+    hunt = ["ida", "paper-monolithic", str(records), "--model", "housner", "--runs", "8", "--largest-factor", "1000"]
+    assert call([*hunt, "--out", str(out)]) == 0
+    capsys.readouterr()
+    for measure, names in (("pgv", ["0.csv"]), ("pga", [])):
+        assert call(["fragility", str(out), "--im", measure, "--records-are-one"]) == 0
+        told = [line for line in capsys.readouterr().err.splitlines() if "peak velocity of component x" in line]
+        assert [line.partition("warning: ")[2].partition(":")[0] for line in told] == names
+
+
 def test_a_manifest_beside_records_may_be_named(folder, tmp_path, capsys):
     """As it is read where it lies in their folder; one that tells of none of them is refused."""
     manifest = tmp_path / "manifest.csv"

@@ -15,6 +15,9 @@ from .motion import Motion, peak_velocity
 from .pulse_match import pulse_match
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
 
+#: Of a peak velocity, in warnings that results keep and that what rests on them says again.
+DRIFTS = "is that of a baseline which drifts"
+
 
 def peak_ground_velocity(motion: Motion, component: str = "x") -> float:
     """Largest absolute velocity from rest, also between samples [m/s]."""
@@ -62,7 +65,7 @@ def warn_of_velocity(motion: Motion, axes: str = "x") -> None:
             left = peak_ground_velocity(cured(motion, cure), axis)
             remedy = f"correct it first ({as_asked(cure)}), which leaves {left:.3g} m/s"
         warn(
-            f"{motion.name}: the peak velocity of component {axis}, {own:.3g} m/s, is that of a baseline which drifts: "
+            f"{motion.name}: the peak velocity of component {axis}, {own:.3g} m/s, {DRIFTS}: "
             f"integrated twice, {abs(drift):.3g} m stand at the end; {remedy}.",
             OutOfRangeWarning,
         )
