@@ -69,10 +69,11 @@ def test_the_command_tells_every_coefficient_with_its_source(capsys):
     [
         ("ntc", "code 'ntc' is not known here; did you mean ntc2018"),
         ("ec8,soil=B", "ec8 needs ag"),
+        ("ec8,ag=0.2g", "ec8 needs soil"),
         ("ec8,ag=0.2g,soil=F", "ground_type is 'F'; allowed are A"),
         ("ec8,ag=0.2g,ground=B", "'ground=B' says nothing"),
-        ("ntc2018,ag=0.2g,F0=2.0,Tc*=0.3s", "F0 is 2; allowed is [2.2"),
-        ("ntc2018,ag=0.2g,F0=2.4,Tc*=0.3s,knowledge=KL1", "knowledge is 'KL1'; allowed by ntc2018 are LC1"),
+        ("ntc2018,ag=0.2g,F0=2.0,Tc*=0.3s,soil=B", "F0 is 2; allowed is [2.2"),
+        ("ntc2018,ag=0.2g,F0=2.4,Tc*=0.3s,soil=B,knowledge=KL1", "knowledge is 'KL1'; allowed by ntc2018 are LC1"),
     ],
 )
 def test_a_check_that_cannot_be_made_is_said_in_one_sentence(check, words, capsys):

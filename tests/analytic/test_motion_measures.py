@@ -3,6 +3,7 @@
 import json
 import math
 import re
+import warnings
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from stylobate.motion import (
     Motion,
     arias_intensity,
     cumulative_absolute_velocity,
+    displacement,
     half_sine_pulse,
     harmonic,
     housner_intensity,
@@ -29,8 +31,8 @@ from stylobate.motion import (
     significant_duration,
 )
 from stylobate.motion.condition_specs import conditioned
-from stylobate.motion.drift import CURES, KEPT_VELOCITY, cure_of, drift_of
-from stylobate.motion.intensity import displacement_drift, warn_of_drift
+from stylobate.motion.drift import CURES, KEPT_VELOCITY, THEN, cure_of, cured, cures_of, drift_of
+from stylobate.motion.intensity import displacement_drift, warn_of_drift, warn_of_velocity
 from stylobate.motion.motion import integrate
 from stylobate.motion.readers.registry import sample_motion
 
@@ -243,13 +245,58 @@ def test_no_conditioning_is_named_that_takes_the_shaking_or_is_longer_than_the_r
     shaking = 0.8 * np.sin(6.0 * np.pi * time) * np.exp(-(((time - 12.0) / 3.0) ** 2))
     values = np.gradient(fling, 0.01) + shaking
     own = float(np.abs(integrate(values, 0.01)).max())
-    taken = {one: np.abs(integrate(conditioned(Motion(0.01, values), one).samples, 0.01)).max() for one in CURES}
+    taken = {one: np.abs(integrate(cured(Motion(0.01, values), one).samples, 0.01)).max() for one in CURES}
     assert min(own / taken[one] for one in CURES if one != "demean") > 1.0 / KEPT_VELOCITY
     assert drift_of(values, 0.01) != 0.0
-    assert cure_of(values, 0.01) is None
+    assert cures_of(values, 0.01) == {}
     short = (shaking + 0.003 * time)[800:1700]  # nine seconds, which a filter of ten does not see
     assert drift_of(short, 0.01) != 0.0
-    assert "highpass" not in str(cure_of(short, 0.01))
+    assert "highpass" not in str(cures_of(short, 0.01))
+
+
+def drifting(offset):
+    """A minute with some seconds of shaking, on a baseline with an offset [m/s²] that wanders slowly."""
+    time = 0.01 * np.arange(6001)
+    shaking = 3.0 * np.sin(6.0 * np.pi * time) * np.exp(-(((time - 20.0) / 3.0) ** 2))
+    baseline = offset * (1.0 + 0.2 * np.sin(2.0 * np.pi * time / 45.0))
+    return Motion(0.01, shaking + baseline, name="r", metadata={"file": "r.csv"})
+
+
+def test_a_combination_is_named_where_it_does_better_than_any_single_step():
+    """The jump of a large offset rings through a filter alone; a mean alone leaves the wandering."""
+    record = drifting(0.12)
+    named = str(cure_of(record))
+    assert named == f"demean{THEN}highpass=0.1Hz"
+    left = {one: np.abs(displacement(cured(record, one).samples, 0.01)).max() for one in CURES}
+    assert left[named] < 0.5 * min(size for one, size in left.items() if THEN not in one)
+    assert displacement_drift(cured(record, named)) == 0.0
+    with pytest.warns(OutOfRangeWarning, match=r"\(`condition='demean'`, then `condition='highpass=0.1Hz'`\)"):
+        warn_of_drift(record)
+
+
+def test_one_conditioning_is_named_for_all_components_that_drift():
+    """What mends one of them alone is no remedy: the mean, of y whose offset is constant and not of x where it jumps."""
+    shaking = drifting(0.0).samples
+    both = Motion(0.01, shaking + 0.02 * (np.arange(6001) > 2500), shaking + 0.003, metadata={"file": "r.csv"})
+    each = [cures_of(values, 0.01) for values in both.components.values()]
+    assert "demean" in each[1]
+    assert "demean" not in each[0]
+    named = str(cure_of(both))
+    assert all(drift_of(values, 0.01) == 0.0 for values in cured(both, named).components.values())
+
+
+def test_the_velocity_of_a_record_that_drifts_is_told_with_what_it_is_without():
+    """Conditioned as the warning says, it is that of the shaking: 3 m/s² at 3 Hz make 3/(6π) m/s."""
+    record = drifting(0.02)
+    with pytest.warns(OutOfRangeWarning, match="r: the peak velocity of component x, .* m stand at the end") as seen:
+        warn_of_velocity(record)
+    left = re.search(r"leaves (\S+) m/s", str(seen[0].message))
+    assert left is not None
+    assert float(left[1]) == pytest.approx(3.0 / (6.0 * np.pi), rel=0.05)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        warn_of_velocity(cured(record, str(cure_of(record))))
+        warn_of_velocity(drifting(0.0))
 
 
 def test_el_centro_is_not_told_a_baseline_that_leaves_it_moving():

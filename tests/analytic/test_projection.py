@@ -62,7 +62,7 @@ def test_offsets_leans_and_the_slope_keep_their_parts_along_the_plane():
         "leans across of up to 0.2° (drum 3)",
         "turns of up to 15° (drum 3)",
         "slope of the base across, 0.0609°",
-        "drum 1 has chips of 20 and 100 mm",
+        "of the chips of drum 1, 20 mm and 100 mm deep, the plane shows ",
     ):
         assert words in told
 

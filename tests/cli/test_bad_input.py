@@ -338,3 +338,19 @@ def test_models_are_refused_before_the_first_of_them_is_run(tmp_path, monkeypatc
         monkeypatch.setattr(f"stylobate.analysis.compare.{name}", None)
     drums = ("compare", "paper-12-drums", "--models", "dem2d,housner", *motion)
     assert "computes one block" in refused(*drums, "--out", tmp_path / "never")
+
+
+def test_a_survey_where_a_column_file_is_wanted_is_told_as_one(tmp_path, monkeypatch, refused):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "survey.csv").write_text(
+        "# name: x\n# stone = worn\nheight_m;bottom_width_m;top_width_m\n0,7;1,2;1,1\n"
+    )
+    said = "is a survey, drum by drum; turn it into a column file by `stylobate convert survey.csv --to survey.toml`"
+    assert said in refused("draw", "survey.csv", "--out", "never")
+    assert said in refused("run", "survey.csv", "--harmonic", "1Hz,0.1g,1s")
+    (tmp_path / "settings.csv").write_text("height = 2\nbottom_width, top_width\n")
+    assert "not valid TOML" in refused("draw", "settings.csv", "--out", "never")
+
+
+def test_the_option_that_was_typed_is_named(refused):
+    assert "--directions are '345:0:24'" in refused("limit", "paper-monolithic", "--directions", "345:0:24")

@@ -420,3 +420,15 @@ def test_bad_files_end_with_2_and_one_sentence(content, words, refused, tmp_path
         message = refused(*arguments)
         for word in words:
             assert word in message, message
+
+
+def test_what_a_record_does_not_tell_has_no_row(tmp_path, capsys):
+    """An azimuth that is not known, and a label that is the axis; those that are known stand."""
+    (tmp_path / "own.csv").write_text("time_s,ax_g\n0,0\n0.01,0.1\n0.02,-0.1\n0.03,0\n")
+    assert call(["motion", str(tmp_path / "own.csv")]) == 0
+    said = capsys.readouterr().out
+    assert "azimuths" not in said
+    assert "labels" not in said
+    assert call(["motion", "sample:ridgecrest-2019"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "azimuths [degrees] x 90, y 0 labels x 90 Deg, y 360 Deg, z Up" in said

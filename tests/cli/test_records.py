@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 
 from stylobate.cli.main import call
+from stylobate.motion import Motion
 from stylobate.motion.specs import parse_synthetic
 from stylobate.motion.writing import write_csv
 
@@ -50,6 +52,7 @@ def test_what_is_written_reads_back_as_scaled(folder, tmp_path, capsys):
     [
         (["--periods", "3s:0.2s"], "the first value must be below the second"),
         (["--periods", "0.2s:7s"], "allowed is [0, 4] s"),
+        (["--where", "pgv=0.1:0.8"], "level '0.1' of pgv has no unit; write it with one, such as 0.1m/s"),
         (["--where", "pgv"], "write it as pgv=0.1m/s:0.8m/s"),
         (["--count", "40"], "4 records can be used, and 40 are asked for"),
         (["--per-event", "0"], "per_event"),
@@ -62,3 +65,78 @@ def test_what_is_refused(folder, changed, words, capsys):
     assert code == 2, error
     assert words.split(" records")[0] in error
     assert "Traceback" not in error
+
+
+def test_a_record_that_drifts_is_named_where_it_is_scaled_to_a_velocity(tmp_path, capsys):
+    """In ida and in states, once each, and not where another measure is scaled."""
+    time = 0.02 * np.arange(1001)
+    shaking = 3.0 * np.sin(6.0 * np.pi * time) * np.exp(-(((time - 8.0) / 2.0) ** 2))
+    for name, drift in (("drifts", 0.02), ("rests", 0.0)):
+        write_csv(Motion(0.02, shaking + drift), tmp_path / f"{name}.csv")
+    block = ["paper-monolithic", "--model", "housner"]
+    for measure, levels in (("pgv", "0.1m/s:0.2m/s:2"), ("pga", "0.1g:0.2g:2")):
+        size = ["--im", measure, "--levels", levels]
+        for asked in (
+            ["ida", block[0], str(tmp_path), *block[1:], *size],
+            ["states", str(tmp_path), "--as-built", block[0], "--as-found", block[0], *block[1:], *size],
+        ):
+            assert call(asked) == 0
+            told = [line for line in capsys.readouterr().err.splitlines() if "peak velocity of component x" in line]
+            assert [line.partition("warning: ")[2].partition(":")[0] for line in told] == ["drifts.csv"] * (
+                measure == "pgv"
+            )
+            assert all("--condition" in line for line in told)
+
+
+def test_a_fragility_says_again_that_its_velocities_drift(tmp_path, capsys):
+    """Of runs that ida kept; over another measure it says nothing."""
+    time = 0.02 * np.arange(1001)
+    shaking = 3.0 * np.sin(np.pi * time) * np.exp(-(((time - 8.0) / 2.0) ** 2))
+    records, out = tmp_path / "records", tmp_path / "ida"
+    records.mkdir()
+    for k in range(3):
+        write_csv(Motion(0.02, shaking * (1.0 + 0.2 * k) + 0.02 * (k == 0)), records / f"{k}.csv")
+    hunt = ["ida", "paper-monolithic", str(records), "--model", "housner", "--runs", "8", "--largest-factor", "1000"]
+    assert call([*hunt, "--out", str(out)]) == 0
+    capsys.readouterr()
+    for measure, names in (("pgv", ["0.csv"]), ("pga", [])):
+        assert call(["fragility", str(out), "--im", measure, "--records-are-one"]) == 0
+        told = [line for line in capsys.readouterr().err.splitlines() if "peak velocity of component x" in line]
+        assert [line.partition("warning: ")[2].partition(":")[0] for line in told] == names
+
+
+def test_a_manifest_beside_records_may_be_named(folder, tmp_path, capsys):
+    """As it is read where it lies in their folder; one that tells of none of them is refused."""
+    manifest = tmp_path / "manifest.csv"
+    manifest.write_text("file,event\n0.csv,Somewhere Mw6.0\n1.csv,no size\n")
+    asked = [
+        "records",
+        str(folder),
+        "--target",
+        TARGET,
+        "--count",
+        "4",
+        "--factors",
+        "0.01:100",
+        "--about",
+        str(manifest),
+    ]
+    assert call([*asked, "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["records"]
+    assert {row["record"]: row["magnitude"] for row in rows} == {
+        "0.csv": 6.0,
+        "1.csv": None,
+        "2.csv": None,
+        "3.csv": None,
+    }
+    manifest.write_text("file,event\nother.csv,Mw6.0\n")
+    assert call(asked) == 2
+    assert "tells the magnitude of none of these records" in capsys.readouterr().err
+    manifest.write_text("record,magnitude\n0.csv,6.1\n")  # a table of records, whatever it is called
+    assert call([*asked, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["records"][0]["magnitude"] == 6.1
+
+
+def test_files_that_are_not_there_are_named_as_typed(tmp_path, capsys):
+    assert call(["records", str(tmp_path / "nope"), "--target", TARGET]) == 2
+    assert f"stylobate: {tmp_path / 'nope'} holds no record that can be used; the first" in capsys.readouterr().err

@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
-from stylobate.motion import Motion, read_motion, write_csv
+from stylobate.motion import Motion, bandpass, read_motion, write_csv
+from stylobate.report.page import Note
+from stylobate.report.shaking import motion_section
 
 VALUES = st.floats(-40.0, 40.0, allow_nan=False)
 
@@ -34,7 +36,9 @@ def put(tmp_path):
 def test_written_and_read_back_to_the_same_bits(tmp_path_factory, dt, count, rows, factor):
     table = np.array(rows)
     parts = [table[:, i] for i in range(count)] + [None] * (3 - count)
-    motion = Motion(dt, *parts, factor=factor, metadata={"azimuths": {"x": 12.5}, "station": "ABC"})
+    done = ("mean of the record taken off", "x: sign turned", "scaled by 2: dt = 0.1, 3 samples in cm/s2")[:count]
+    facts = {"azimuths": {"x": 12.5}, "station": "ABC"}
+    motion = Motion(dt, *parts, factor=factor, metadata=facts, processing=done)
     path = write_csv(motion, tmp_path_factory.mktemp("csv") / "motion.csv")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", OutOfRangeWarning)  # random numbers may have a large mean
@@ -44,6 +48,43 @@ def test_written_and_read_back_to_the_same_bits(tmp_path_factory, dt, count, row
         assert np.array_equal(back.components[axis], values)
     assert back.metadata["azimuths"]["x"] == 12.5
     assert back.metadata["station"] == "ABC"
+    assert back.processing == done
+
+
+def test_what_was_done_to_a_record_is_read_whole_or_refused(tmp_path):
+    """A step that is lost would leave a scaled record looking as recorded; steps of several files say of which."""
+    wave = np.sin(np.arange(200) * 0.1)
+    paths = [
+        write_csv(
+            Motion(0.01, wave * k, metadata={"station": "A"}, processing=("detrended", f"times {k}")),
+            tmp_path / f"{k}.csv",
+        )
+        for k in (1, 2)
+    ]
+    assert read_motion(paths).processing == ("1.csv: detrended", "1.csv: times 1", "2.csv: detrended", "2.csv: times 2")
+    text = paths[0].read_text()
+    for lost in (text.replace("# processing 1: detrended\n", ""), text.replace("processing 2", "processing 1")):
+        paths[0].write_text(lost)
+        with pytest.raises(InputError, match=r"'# processing N: …' are numbered .*; allowed is 1, 2, 3"):
+            read_motion(paths[0])
+
+
+def test_a_report_on_a_filtered_record_tells_its_filter_and_of_a_drifting_one_how_far(tmp_path):
+    """Both are uncorrected by their source; only what was done since, and what is left, tells them apart."""
+    time = np.arange(4000) * 0.01
+    raw = Motion(0.01, np.sin(6.0 * time) + 0.01, metadata={"stage": "uncorrected", "station": "A"})
+    filtered = bandpass(raw, 0.2, None)
+    told = {}
+    for name, motion in (("raw", raw), ("filtered", filtered)):
+        back = read_motion(write_csv(motion, tmp_path / f"{name}.csv"))
+        items = motion_section(back, None, {"metadata": dict(back.metadata)}, None).items
+        told[name] = " ".join(text for one in items if isinstance(one, Note) for text in one.texts)
+    assert "may drift" not in told["filtered"]
+    assert "Integrated twice" not in told["filtered"]
+    assert "what was corrected stands under processing" in told["filtered"]
+    assert "its baseline was not corrected here either" in told["raw"]
+    # 0.01 m/s² over 40 s: 8 m, and 1/6 m/s of the sine's mean velocity over as long: 6.7 m
+    assert "ends 15 m from where it began" in told["raw"]
 
 
 @pytest.mark.parametrize(

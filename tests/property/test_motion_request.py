@@ -259,3 +259,8 @@ def test_one_direction_twice_is_refused(record, azimuths):
 def test_several_scales_are_no_scale(record):
     with pytest.raises(st.InputError, match=r"`scale` is \(1, 2\), not a number"):
         st.MotionRequest(files=(record,), scale=(1, 2))  # pyright: ignore[reportArgumentType]
+
+
+def test_azimuths_are_taken_in_their_order_whatever_is_typed():
+    asked = st.MotionRequest.typed(harmonic="1Hz,0.3g,2s", azimuths="0,30deg,10")
+    assert asked.azimuths == (0.0, 10.0, 30.0)

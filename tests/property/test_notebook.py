@@ -15,7 +15,7 @@ def shown():
     column = st.preset("paper-12-drums")
     stone = st.Stone.box((0.6, 0.4, 1.8), at=(0.0, 0.0, 0.0), density=2700.0, name="statue")
     motion = st.sample_motion("el-centro-1940")
-    chosen = st.select_records([motion], st.target_spectrum("ec8,ag=0.2g"), 1, factors=(0.1, 10.0))
+    chosen = st.select_records([motion], st.target_spectrum("ec8,ag=0.2g,soil=B"), 1, factors=(0.1, 10.0))
     return [column, st.SpatialAssembly((stone,), joint=column.joint_laws[0], name="scene"), motion, chosen]
 
 

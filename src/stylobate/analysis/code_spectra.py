@@ -54,6 +54,16 @@ TOPOGRAPHY = {"T1": 1.0, "T2": 1.2, "T3": 1.2, "T4": 1.4}
 LONGEST = 4.0
 
 
+#: Largest acceleration of the ground on rock, and plateau over it, that any site is designed for, with room above [g], [-].
+LARGEST, PLATEAU = 2.0, 2.5
+
+
+def _check_acceleration(name: str, value: float, over: float = 1.0) -> None:
+    """A spectral acceleration on rock as a code means it, so many times that of the ground [m/s²]."""
+    remedy = "no design ground shakes harder; write it as 0.25g"
+    check_range(name, value / g, 0.0, LARGEST * over, unit="g", open_low=True, remedy=remedy)
+
+
 def _shape(t: float, eta: float, top: float, tb: float, tc: float, td: float) -> float:
     """Spectral acceleration over S a_g: the four branches that both codes share."""
     if t <= tb:
@@ -89,12 +99,12 @@ class EurocodeSpectrum:
     """
 
     ground_acceleration: float
-    ground_type: str = "A"
+    ground_type: str
     damping: float = 0.05
     kind: int = 1
 
     def __post_init__(self) -> None:
-        check_range("ground_acceleration", self.ground_acceleration, 0.0, 100.0, unit="m/s²", open_low=True)
+        _check_acceleration("ground_acceleration", self.ground_acceleration)
         check_range("damping", self.damping, 0.0, 0.5)
         check_choice("type of the spectrum", self.kind, GROUND_TYPES, field="kind")
         check_choice("ground_type", self.ground_type, GROUND_TYPES[self.kind])
@@ -147,12 +157,12 @@ class NtcSpectrum:
     ground_acceleration: float
     amplification: float
     corner_period: float
-    soil: str = "A"
+    soil: str
     topography: str = "T1"
     damping: float = 0.05
 
     def __post_init__(self) -> None:
-        check_range("ground_acceleration", self.ground_acceleration, 0.0, 100.0, unit="m/s²", open_low=True)
+        _check_acceleration("ground_acceleration", self.ground_acceleration)
         check_range("F0", self.amplification, 2.2, 5.0, remedy="NTC 2018, 3.2.3.2.1: not below 2.2")
         check_range("Tc*", self.corner_period, 0.05, 2.0, unit="s")
         check_range("damping", self.damping, 0.0, 0.5)
@@ -222,12 +232,12 @@ class SecondEurocodeSpectrum:
 
     plateau: float
     at_one_second: float
-    plateau_factor: float = 1.0
-    one_second_factor: float = 1.0
+    plateau_factor: float
+    one_second_factor: float
 
     def __post_init__(self) -> None:
         for name, value in (("S_alpha", self.plateau), ("S_beta", self.at_one_second)):
-            check_range(name, value, 0.0, 100.0, unit="m/s²", open_low=True)
+            _check_acceleration(name, value, PLATEAU)
         for name, value in (("F_alpha", self.plateau_factor), ("F_beta", self.one_second_factor)):
             check_range(name, value, 0.5, 10.0)
         if not 0.05 < self.corners[1] < 1.0:
@@ -268,15 +278,25 @@ class SecondEurocodeSpectrum:
 
 #: Codes as typed: examples of what must be given to each, and of what may be.
 CODES: dict[str, tuple[dict[str, str], dict[str, str]]] = {
-    "ec8": ({"ag": "ag=0.25g"}, {"soil": "soil=B", "type": "type=1"}),
+    "ec8": ({"ag": "ag=0.25g", "soil": "soil=B"}, {"type": "type=1"}),
     "ec8-2": (
-        {"S_alpha": "S_alpha=0.6g", "S_beta": "S_beta=0.2g"},
-        {"F_alpha": "F_alpha=1.3", "F_beta": "F_beta=1.8"},
+        {"S_alpha": "S_alpha=0.6g", "S_beta": "S_beta=0.2g", "F_alpha": "F_alpha=1.3", "F_beta": "F_beta=1.8"},
+        {},
     ),
     "ntc2018": (
-        {"ag": "ag=0.25g", "F0": "F0=2.4", "Tc*": "Tc*=0.35s"},
-        {"soil": "soil=B", "topography": "topography=T1"},
+        {"ag": "ag=0.25g", "F0": "F0=2.4", "Tc*": "Tc*=0.35s", "soil": "soil=B"},
+        {"topography": "topography=T1"},
     ),
+}
+
+#: What is taken where it is not typed, and told.
+ASSUMED = {"type": "1", "topography": "T1"}
+
+#: What makes a site shake harder than rock, and what stands for rock.
+_SITE = {
+    "soil": "the ground of the site, A (rock) to E",
+    "F_alpha": "the site factor of the plateau, 1 on rock",
+    "F_beta": "the site factor at 1 s, 1 on rock",
 }
 
 
@@ -314,24 +334,31 @@ def parse_code(text: str, more: Mapping[str, Mapping[str, str]] | None = None) -
         given[key] = value
     missing = next((name for name in needed if name not in given), None)
     if missing is not None:
-        raise InputError(f"{code} needs {missing}; write it as {example}.")
+        meant = f", {_SITE[missing]}" if missing in _SITE else ""
+        raise InputError(f"{code} needs {missing}{meant}; write it as {example}.")
     return code, given
+
+
+def assumed_of(code: str, given: Mapping[str, str]) -> str:
+    """What is taken for a spectrum of a code and is not typed, such as ``type=1 assumed``; nothing where all is typed."""
+    taken = ", ".join(f"{name}={value}" for name, value in ASSUMED.items() if name in CODES[code][1].keys() - given)
+    return f"{taken} assumed" if taken else ""
 
 
 def spectrum_of_code(code: str, given: Mapping[str, str]) -> EurocodeSpectrum | SecondEurocodeSpectrum | NtcSpectrum:
     """The spectrum of a code from what :func:`parse_code` returns."""
     if code == "ec8-2":
-        factors = (parse_number(name, given.get(name, "1")) for name in ("F_alpha", "F_beta"))
+        factors = (parse_number(name, given[name]) for name in ("F_alpha", "F_beta"))
         return SecondEurocodeSpectrum(
             *(parse_acceleration(given[name], name) for name in ("S_alpha", "S_beta")), *factors
         )
-    ag, soil = parse_acceleration(given["ag"]), given.get("soil", "A")
+    ag, soil, other = parse_acceleration(given["ag"], "ag"), given["soil"], ASSUMED | dict(given)
+    _check_acceleration("ag", ag)
     if code == "ec8":
-        kind = given.get("type", "1")
-        check_choice("type of the spectrum", kind, ("1", "2"), field="type")
-        return EurocodeSpectrum(ag, soil, kind=int(kind))
+        check_choice("type of the spectrum", other["type"], ("1", "2"), field="type")
+        return EurocodeSpectrum(ag, soil, kind=int(other["type"]))
     try:
         amplification = float(given["F0"])
     except ValueError:
         raise InputError(f"F0 is {as_typed(given['F0'])}; allowed is a number from 2.2.") from None
-    return NtcSpectrum(ag, amplification, parse_time(given["Tc*"]), soil, given.get("topography", "T1"))
+    return NtcSpectrum(ag, amplification, parse_time(given["Tc*"]), soil, other["topography"])

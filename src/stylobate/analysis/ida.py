@@ -144,6 +144,7 @@ def ida(
     facts = [_facts(one, measure, relation, known.get(one.name, known.get(record_of(one), {}))) for one in motions]
     if angle is None:
         facts = [{name: value for name, value in one.items() if name not in RELATIVE} for one in facts]
+    measure.warn_of_drift(motions)
     drawn = the_twins(column, model, campaign) if campaign.replicates else None
     columns = [column] if drawn is None else list(drawn.columns)
     traces = []

@@ -27,7 +27,8 @@ def facts_of_records(
     Parameters
     ----------
     about : path, optional
-        A table with the columns record, and magnitude or distance_km; or the QuakeML of the one earthquake of all records,
+        A table with the columns record, and magnitude or distance_km; a ``manifest.csv``; or the QuakeML of the one
+        earthquake of all records,
         whose distance is that from the epicentre to stations whose StationXML lies with the records.
     sources : sequence of path
         Records, or folders of them; without ``about`` the ``manifest.csv`` of each is read.
@@ -39,19 +40,20 @@ def facts_of_records(
     InputError
         The table cannot be read, or tells nothing.
     """
-    import pandas
-
     names = {name for motion in motions for name in (motion.name, motion.record)}
     facts: dict[str, dict[str, float]] = {}
     for folder in (source for source in sources if about is None and (source / "manifest.csv").is_file()):
-        table = pandas.read_csv(folder / "manifest.csv", dtype=str).fillna("")
-        for row in table.to_dict("records"):
-            told = _MAGNITUDE.search(" ".join(str(one) for one in row.values()))
-            if told and row.get("file") in names:
-                facts[str(row["file"])] = {"magnitude": float(told[1])}
+        facts |= _of_manifest(folder / "manifest.csv", names)
     if about is not None and is_catalogue(about):
         return _of_one_earthquake(about, sources, motions)
-    if about is not None:
+    if about is not None and _is_manifest(about):
+        if not (facts := _of_manifest(about, names)):
+            raise InputError(
+                f"{about} tells the magnitude of none of these records; allowed is a column file with their names, and a "
+                "magnitude such as Mw7.1 in the row; or give a table of record, magnitude, distance_km.",
+                "about",
+            )
+    elif about is not None:
         table = tables.read(about, 10_000_000, "record", "the columns record, and magnitude or distance_km")
         known = [one for one in ABOUT if one in table.columns]
         if not known:
@@ -59,6 +61,28 @@ def facts_of_records(
         for name, *values in zip(table.texts("record"), *(table.numbers(one, math.nan) for one in known), strict=True):
             facts[name] = dict(zip(known, values, strict=True))
     return facts
+
+
+def _is_manifest(path: Path) -> bool:
+    """Whether the first line of a table names a column of files and none of records."""
+    try:
+        with path.open(encoding="utf-8-sig", errors="replace") as file:
+            names = file.readline(4000).strip().split(",")
+    except OSError:
+        return False
+    return "file" in names and "record" not in names
+
+
+def _of_manifest(path: Path, names: set[str]) -> dict[str, dict[str, float]]:
+    """Magnitudes by file, of the rows of a manifest in which one is written."""
+    import pandas
+
+    try:
+        rows = pandas.read_csv(path, dtype=str).fillna("").to_dict("records")
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path} cannot be read as CSV ({' '.join(str(error).split())[:120]}).", "about") from None
+    found = {str(row.get("file")): _MAGNITUDE.search(" ".join(map(str, row.values()))) for row in rows}
+    return {file: {"magnitude": float(told[1])} for file, told in found.items() if told and file in names}
 
 
 def _of_one_earthquake(about: Path, sources: Sequence[Path], motions: Sequence[Motion]) -> dict[str, dict[str, float]]:

@@ -13,10 +13,12 @@ from ..constants import g
 from ..errors import InputError, check_choice, check_range, check_whole
 from ..motion import Motion
 from ..motion.drift import cure_of
+from ..motion.events import events_of, unknown_events
 from ..motion.intensity import displacement_drift
 from ..motion.intensity_specs import IntensityMeasure
 from ..motion.spectra import pseudo_acceleration, rotated_pga, rotated_spectrum
 from ..notebook import Shown
+from .record_sets import best_set, lifted
 from .target_spectra import TargetSpectrum
 
 #: The one number for two horizontal components at a period by which records are compared.
@@ -27,9 +29,6 @@ POINTS = 100
 
 #: Fewest records of which EN 1998-1 and NTC 2018 take the mean of the responses.
 FOR_MEANS = 7
-
-#: Weight of the records' own misfits beside that of their mean, where sets are compared.
-OWN_MISFIT = 0.2
 
 
 @dataclass(frozen=True)
@@ -87,6 +86,8 @@ class RecordSelection(Shown):
         Mean of their peak accelerations over the target's at a period of 0, where its code wants it [-].
     refused : dict of str to str
         Records that were not considered, with the reason.
+    unknown_events : tuple of str
+        Chosen records of which it is not known whether they are of one earthquake with others, where that is limited.
     """
 
     target: TargetSpectrum
@@ -99,6 +100,7 @@ class RecordSelection(Shown):
     most: float
     pga_over_target: float | None
     refused: dict[str, str]
+    unknown_events: tuple[str, ...] = ()
 
     @property
     def mean(self) -> np.ndarray:
@@ -139,6 +141,11 @@ class RecordSelection(Shown):
             said += f" The code wants {self.target.fewest} records at least."
         elif len(self.motions) < FOR_MEANS:
             said += f" With fewer than {FOR_MEANS} records codes take the largest response, not the mean."
+        if self.unknown_events:
+            names = ", ".join(self.unknown_events)
+            said += (
+                f" The files of {names} do not tell of which earthquake they are: see that it is none of the others'."
+            )
         return said
 
     def summary(self) -> dict[str, Any]:
@@ -157,6 +164,7 @@ class RecordSelection(Shown):
             "mean_g": (self.mean / g).tolist(),
             "records": self.table.astype(object).where(self.table.notna(), None).to_dict("records"),
             "refused": self.refused,
+            "unknown_events": list(self.unknown_events),
         }
 
 
@@ -190,7 +198,8 @@ def select_records(
     least : float
         Least mean over the target at any of the periods [-]: 0.9 of EN 1998-1:2004, 3.2.3.1.2(4), and of NTC 2018, 3.2.3.6.
     per_event : int, optional
-        Most records of one event, by the name in their headers; without a limit by default.
+        Most records of one earthquake, by its name and by the time in their headers
+        (:func:`stylobate.motion.events.events_of`); without a limit by default.
     wanted : sequence of Wanted
         Ranges that a record must keep to, as recorded.
     about : dict of str to dict, optional
@@ -247,12 +256,13 @@ def select_records(
             "count",
         )
     scaled = np.array(sizes)[:, None] * np.array(spectra)
-    events = [str(motion.metadata.get("event") or motion.name) for motion in kept]
-    chosen = _best(np.log(scaled / aim), scaled / aim, count, events, per_event)
+    events = events_of(kept) if per_event is not None else range(len(kept))
+    chosen = best_set(np.log(scaled / aim), scaled / aim, count, events, per_event)
+    unknown = tuple(unknown_events([kept[k] for k in chosen])) if per_event is not None else ()
     zero = target.acceleration(0.0) if target.from_zero else None
     peaks = np.array([_peak(kept[k], horizontal) for k in chosen])
     own = np.array([sizes[k] for k in chosen])
-    size = _lifted(own, np.array([spectra[k] for k in chosen]), peaks, aim, zero, least, factors[1])
+    size = lifted(own, np.array([spectra[k] for k in chosen]), peaks, aim, zero, least, factors[1])
     found = tuple(_scaled(kept[k], float(x)) for k, x in zip(chosen, size, strict=True))
     rows = size[:, None] * np.array([spectra[k] for k in chosen])
     table = pandas.DataFrame(
@@ -263,7 +273,7 @@ def select_records(
     )
     ratio = None if zero is None else float((size * peaks).mean() / zero)
     most = np.inf if target.most is None else target.most
-    return RecordSelection(target, t, aim, found, rows, table, least, most, ratio, refused)
+    return RecordSelection(target, t, aim, found, rows, table, least, most, ratio, refused, unknown)
 
 
 def _considered(
@@ -313,63 +323,6 @@ def _peak(motion: Motion, horizontal: str) -> float:
     return float(np.sqrt(motion.pga * across)) if horizontal == "geomean" else max(motion.pga, across)
 
 
-def _best(logs: np.ndarray, ratios: np.ndarray, count: int, events: list[str], per_event: int | None) -> list[int]:
-    """Indices of the set of least misfit that exchanges of single records lead to."""
-    own = np.sqrt((logs**2).mean(axis=1))
-
-    def allowed(chosen: list[int], k: int) -> bool:
-        return k not in chosen and (per_event is None or sum(events[one] == events[k] for one in chosen) < per_event)
-
-    def misfit(chosen: list[int]) -> float:
-        mean = ratios[chosen].mean(axis=0)
-        level = np.exp(np.log(mean).mean())  # one factor brings the whole set up or down
-        return float(np.sqrt(((mean / level - 1.0) ** 2).mean()) + OWN_MISFIT * own[chosen].mean())
-
-    chosen: list[int] = []
-    for _ in range(count):
-        open_ = [k for k in range(len(own)) if allowed(chosen, k)]
-        if not open_:
-            raise InputError(
-                f"{len(chosen)} records can be chosen with at most {per_event} of one event, and {count} are asked for; "
-                "allow more of one event, or ask for fewer.",
-                "per_event",
-            )
-        chosen.append(min(open_, key=lambda k: misfit([*chosen, k])))
-    while True:
-        tried = [
-            (misfit([*rest, k]), place, k)
-            for place in range(count)
-            for rest in [chosen[:place] + chosen[place + 1 :]]
-            for k in range(len(own))
-            if allowed(rest, k) and k != chosen[place]
-        ]
-        better = min(tried, default=(np.inf, 0, 0))
-        if not better[0] < misfit(chosen) - 1e-12:
-            return sorted(chosen)
-        chosen[better[1]] = better[2]
-
-
-def _lifted(
-    own: np.ndarray,
-    spectra: np.ndarray,
-    peaks: np.ndarray,
-    aim: np.ndarray,
-    zero: float | None,
-    least: float,
-    largest: float,
-) -> np.ndarray:
-    """Factors of the records when all are multiplied by one that lifts their mean onto its bounds, as the limit allows."""
-    size = own
-    for _ in range(50):
-        short = (least * aim / (size[:, None] * spectra).mean(axis=0)).max()
-        if zero is not None:
-            short = max(short, zero / (size * peaks).mean())
-        if short <= 1.0 or (size >= largest).all():
-            return size
-        size = np.minimum(size * short, largest)
-    return size
-
-
 def _scaled(motion: Motion, factor: float) -> Motion:
     said = f"multiplied by {factor:.6g}: scaled to a target spectrum"
     return motion.scaled(factor).replace(processing=(*motion.processing, said))
@@ -379,9 +332,7 @@ def _row(
     motion: Motion, factor: float, ratio: np.ndarray, horizontal: str, about: Mapping[str, float]
 ) -> dict[str, Any]:
     axes = motion.components if "file" in motion.metadata else ()
-    worst, drift = max(
-        ((axis, displacement_drift(motion, axis)) for axis in axes), key=lambda one: abs(one[1]), default=("x", 0.0)
-    )
+    drift = max((displacement_drift(motion, axis) for axis in axes), key=abs, default=0.0)
     return {
         "record": motion.name,
         "factor": factor,
@@ -395,5 +346,5 @@ def _row(
         "magnitude": about.get("magnitude"),
         "distance_km": about.get("distance_km"),
         "drift_m": drift,
-        "cure": cure_of(motion.components[worst], motion.dt) if drift else None,
+        "cure": cure_of(motion) if drift else None,
     }

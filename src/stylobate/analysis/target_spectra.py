@@ -13,7 +13,7 @@ from ..constants import g
 from ..errors import InputError, check_range
 from ..motion.specs import parse_acceleration, parse_time
 from . import tables
-from .code_spectra import CODES, LONGEST, parse_code, spectrum_of_code
+from .code_spectra import CODES, LONGEST, assumed_of, parse_code, spectrum_of_code
 
 #: Shortest and longest period of Baker and Jayaram's correlations [s].
 CORRELATED = (0.01, 10.0)
@@ -49,6 +49,8 @@ class TargetSpectrum:
         Largest mean over the target that its code allows [-].
     fewest : int
         Records that its code wants at least.
+    assumed : str
+        What of its code was not typed, and is taken: ``type=1 assumed``.
     """
 
     name: str
@@ -59,6 +61,7 @@ class TargetSpectrum:
     from_zero: bool = False
     most: float | None = None
     fewest: int = 1
+    assumed: str = ""
 
     def at(self, periods: np.ndarray) -> np.ndarray:
         """Spectral accelerations [m/s²] at periods [s], both of shape (P,).
@@ -96,8 +99,11 @@ def target_spectrum(text: str) -> TargetSpectrum:
         return _over_periods(text, f"table {text}", period, level)
     code, given = parse_code(text)
     spectrum = spectrum_of_code(code, given)
-    most = EXCESS.get(code)
-    return TargetSpectrum(text, _CODE[code], 0.0, LONGEST, spectrum.acceleration, code in FROM_ZERO, most, FEWEST)
+    assumed = assumed_of(code, given)
+    words = f"{_CODE[code]} ({assumed})" if assumed else _CODE[code]
+    return TargetSpectrum(
+        text, words, 0.0, LONGEST, spectrum.acceleration, code in FROM_ZERO, EXCESS.get(code), FEWEST, assumed
+    )
 
 
 _CODE = dict(zip(CODES, ("EN 1998-1:2004, 3.2.2.2", "prEN 1998-1-1:2019, 5.2.2.2", "NTC 2018, 3.2.3.2"), strict=True))

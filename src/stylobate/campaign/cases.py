@@ -117,6 +117,8 @@ class Study:
             check_range("one of the levels", level, 0.0, 1e6, open_low=True, field="levels")
         if self.size > MAX_CASES:
             raise InputError(f"the study has {self.size} cases; allowed is up to {MAX_CASES}: give fewer.")
+        if self.im is not None:
+            self.im.warn_of_drift(self.motions)
         object.__setattr__(self, "factors", np.array([self._factors(motion) for motion in self.motions]))
 
     @property

@@ -44,6 +44,8 @@ class Curves(o.Group):
 
         Where a ``single`` curve is wanted, a source of several columns is refused before any is fitted.
         """
+        from ..errors import warn
+        from ..motion.intensity import DRIFTS
         from ..results.fragilities import fitted
 
         if method not in (None, "runs", "records"):
@@ -51,7 +53,11 @@ class Curves(o.Group):
         if not 0 <= self.seed < 2**63:
             raise InputError(f"--seed is {self.seed}; allowed is a whole number from 0.", "seed")
         how = {"method": method, "seed": self.seed, "records_are_one": self.records_are_one}
-        return fitted(sources, self.im, self.state, self.of, single=single, **how)
+        found, used = fitted(sources, self.im, self.state, self.of, single=single, **how)
+        told = [text for source in used if source.asked is not None for text in source.asked.warnings if DRIFTS in text]
+        for text in dict.fromkeys(told) if any("pgv" in one.summary()["im"] for one in found) else ():
+            warn(text)
+        return found, used
 
     def one(self, source: Path) -> tuple[Fragility, list[Source]]:
         """The one fragility of a source, for commands that go on from it, and the runs that it rests on."""

@@ -40,7 +40,7 @@ def limit(
 
     stone: Any = o.the_structure(column, project)
     loads = pushing.arguments
-    azimuths = None if directions is None else azimuth_range(directions).tolist()
+    azimuths = None if directions is None else azimuth_range(directions, "directions").tolist()
     in_space = azimuths is not None or stone.stack is None
     around = in_space or bool(stone.as_found)
     if around and pushing.typed and (in_space or not stone.as_found.in_plane):

@@ -71,6 +71,8 @@ _UNITS = {"_deg": " [degrees]", "_m_s": " [m/s]", "_g": " [g]", "_m": " [m]", "_
 def _facts(summary: dict) -> dict[str, str]:
     facts = {}
     for key, value in summary.items():
+        if isinstance(value, dict):  # an azimuth that is not known, and a label that is the axis, tell nothing
+            value = {axis: one for axis, one in value.items() if one is not None and one != axis}
         if key in ("name", "files") or value in (None, [], {}):
             continue
         ending = next((unit for unit in _UNITS if key.endswith(unit)), "")

@@ -47,6 +47,7 @@ def records(
     from ..analysis.record_facts import facts_of_records
     from ..analysis.record_selection import select_records
     from ..analysis.target_spectra import target_spectrum
+    from ..motion.drift import THEN
     from ..motion.specs import parse_number, parse_time
     from . import console
 
@@ -93,11 +94,9 @@ def records(
     console.print_table(shown, digits=3)
     for row in found.table.to_dict("records"):
         if row["drift_m"]:
-            remedy = (
-                f"--condition {row['cure']}"
-                if isinstance(row["cure"], str)
-                else "no step of conditioning mends it alone"
-            )
+            cure = row["cure"]
+            steps = cure.split(THEN) if isinstance(cure, str) else []
+            remedy = " ".join(f"--condition {step}" for step in steps) or "no conditioning that is known here mends it"
             print(f"{row['record']}: displacements drift by {row['drift_m']:.2g} m after double integration; {remedy}")
     console.print_refused(refused)
     console.print_files(files)

@@ -20,6 +20,9 @@ from .links import Line, Link
 #: Lengths [m], angles [degrees] and shares of a direction below this are rounding.
 NOTHING = 1e-9
 
+#: A chip below this is seen in no survey, and is not told of [m].
+SMALLEST_CHIP = 1e-4
+
 
 class Projection(NamedTuple):
     """A column in a plane, and in words what of it lies across that plane and is lost."""
@@ -205,14 +208,14 @@ def _most(what: str, unit: str, values: list[float]) -> str:
 
 
 def _chipped(ones: list[FoundDrum], kept: tuple[FoundDrum, ...]) -> str:
-    """The chips of which the plane shows something else."""
+    """The chips of which the plane shows something else, to a tenth of a millimetre."""
     told = []
     for one, now in zip(ones, kept, strict=True):
-        before, after = sorted(part for part in one.chips if part), sorted(part for part in now.chips if part)
+        before, after = (sorted(part for part in drum.chips if part > SMALLEST_CHIP) for drum in (one, now))
         if before and not (len(before) == len(after) and np.allclose(before, after, rtol=1e-6)):
-            words = " and ".join(f"{1e3 * part:.3g}" for part in before)
-            left = " and ".join(f"{1e3 * part:.3g}" for part in after) or "none"
-            told.append(f"drum {one.drum} has chips of {words} mm, the plane shows {left}")
+            words, left = (" and ".join(f"{1e3 * part:.3g} mm" for part in parts) for parts in (before, after))
+            shown = f"{left} at the ends of its faces" if left else "none"
+            told.append(f"of the chips of drum {one.drum}, {words} deep, the plane shows {shown}")
     return ", ".join(told)
 
 

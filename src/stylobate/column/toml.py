@@ -64,6 +64,11 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
         other = (
             "" if Path(path).suffix.lower() == ".toml" else "; a TOML file of settings is expected here, not a record"
         )
+        if _SURVEY.search(data.decode("utf-8-sig")):
+            raise InputError(
+                f"{name} is a survey, drum by drum; turn it into a column file by `stylobate convert {name} --to "
+                f"{Path(name).stem}.toml`."
+            ) from None
         raise InputError(f"{name} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}{other}.") from None
     except RecursionError:
         raise InputError(f"{name} is nested too deeply; {_NESTING}.") from None
@@ -72,6 +77,11 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
     check_values(found, name)
     return found
 
+
+#: The row of names of a survey, below lines ``# key: value``.
+_SURVEY = re.compile(
+    r"\A(?:\s*(?:#.*)?\n)*(?=[^=\n]*height)(?=[^=\n]*bottom_width)[^=\n]*top_width[^=\n]*\n", re.IGNORECASE
+)
 
 _NESTING = f"allowed are {DEEPEST} levels of tables and lists"
 #: Half of a character, as JSON and UTF-16 may write it: no file can hold it.

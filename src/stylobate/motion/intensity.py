@@ -9,11 +9,14 @@ import numpy as np
 
 from ..constants import g
 from ..errors import OutOfRangeWarning, check_range, warn
-from .drift import cure_of, drift_of
+from .drift import as_asked, cure_of, cured, drift_of
 from .integration import absolute_integral, arias, displacement, square_integral, time_above
 from .motion import Motion, peak_velocity
 from .pulse_match import pulse_match
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
+
+#: Of a peak velocity, in warnings that results keep and that what rests on them says again.
+DRIFTS = "is that of a baseline which drifts"
 
 
 def peak_ground_velocity(motion: Motion, component: str = "x") -> float:
@@ -39,16 +42,33 @@ def warn_of_drift(motion: Motion) -> None:
     """Warn of peak displacements of a record that double integration has made; computed motions have no baseline."""
     for axis in motion.components if "file" in motion.metadata else ():
         if drift := displacement_drift(motion, axis):
-            peak, cure = peak_ground_displacement(motion, axis), cure_of(motion.components[axis], motion.dt)
-            remedy = "take no displacement from it, as no step of conditioning mends it alone"
+            peak, cure = peak_ground_displacement(motion, axis), cure_of(motion)
+            remedy = "take no displacement from it, as no conditioning that is known here mends it"
             if cure is not None:
-                remedy = f"correct it before a displacement is taken from it (`condition={cure!r}`)"
+                remedy = f"correct it before a displacement is taken from it ({as_asked(cure)})"
             warn(
                 f"{motion.name}: the peak displacement of component {axis}, {peak:.3g} m, is what double integration "
                 f"leaves: {drift:.3g} m stand at the end, drift of the baseline unless the ground moved for good; "
                 f"{remedy}.",
                 OutOfRangeWarning,
             )
+
+
+def warn_of_velocity(motion: Motion, axes: str = "x") -> None:
+    """Warn of a peak velocity that holds drift, where it is what says how strong a record is; with what it is without."""
+    for axis in axes if "file" in motion.metadata else ():
+        if axis not in motion.components or not (drift := displacement_drift(motion, axis)):
+            continue
+        own, cure = peak_ground_velocity(motion, axis), cure_of(motion)
+        remedy = "take its strength from another measure, such as sa:1s, as no conditioning that is known here mends it"
+        if cure is not None:
+            left = peak_ground_velocity(cured(motion, cure), axis)
+            remedy = f"correct it first ({as_asked(cure)}), which leaves {left:.3g} m/s"
+        warn(
+            f"{motion.name}: the peak velocity of component {axis}, {own:.3g} m/s, {DRIFTS}: "
+            f"integrated twice, {abs(drift):.3g} m stand at the end; {remedy}.",
+            OutOfRangeWarning,
+        )
 
 
 def arias_intensity(motion: Motion, component: str = "x") -> float:

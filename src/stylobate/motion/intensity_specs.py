@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -12,7 +12,13 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, suggest
-from .intensity import arias_intensity, cumulative_absolute_velocity, rocking_measures, significant_duration
+from .intensity import (
+    arias_intensity,
+    cumulative_absolute_velocity,
+    rocking_measures,
+    significant_duration,
+    warn_of_velocity,
+)
 from .motion import Motion
 from .pulse_match import pulse_match
 from .ranges import values_of as _values
@@ -180,6 +186,12 @@ class IntensityMeasure:
             return math.sqrt(values[0] * values[1])
         return max(values)
 
+    def warn_of_drift(self, motions: Iterable[Motion]) -> None:
+        """Warn of each record whose value is a peak velocity that a drifting baseline has made."""
+        if "pgv" in self.kind:
+            for motion in motions:
+                warn_of_velocity(motion, _AXES.get(self.component, "xy"))
+
     def _over_directions(self, motion: Motion) -> float:
         x, y = motion.acceleration, motion.components["y"]
         kind, step = KINDS[self.kind], 1 if self.kind in ("pga", "pgv") else 10
@@ -293,6 +305,11 @@ def parse_level(text: str, measure: IntensityMeasure) -> float:
     found, units = _LEVEL.fullmatch(text), LEVEL_UNITS[measure.unit]
     if found is None or found[2].lower() not in units or not float(found[1]) > 0.0:
         example = {"g": "0.3g", "m/s": "0.2m/s", "s": "1s", "-": "1.5"}[measure.unit]
+        if found is not None and not found[2] and float(found[1]) > 0.0:
+            example = found[1] + example.lstrip("0123456789.")
+            raise InputError(
+                f"level {text.strip()!r} of {measure.name} has no unit; write it with one, such as {example}."
+            )
         raise InputError(f"level {text.strip()!r} of {measure.name} cannot be read; write it such as {example}.")
     return float(found[1]) * units[found[2].lower()]
 

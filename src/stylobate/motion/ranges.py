@@ -23,9 +23,9 @@ def amplitude_range(text: str) -> np.ndarray:
     return values_of("amplitudes", text, parse_acceleration, "0.05g:0.6g:32")
 
 
-def azimuth_range(text: str) -> np.ndarray:
-    """Azimuths as typed, ``0:330:12`` (first, last, number) or ``0,30deg,60deg`` [degrees]."""
-    return values_of("azimuths", text, _plain_or(parse_angle), "0:330:12")
+def azimuth_range(text: str, name: str = "azimuths") -> np.ndarray:
+    """Azimuths as typed, ``0:330:12`` (first, last, number) or ``0,30deg,60deg`` [degrees], the smallest first."""
+    return np.sort(values_of(name, text, _plain_or(parse_angle), "0:330:12"))
 
 
 def _plain_or(parse: Callable[[str], float]) -> Callable[[str], float]:

@@ -55,6 +55,8 @@ def draw_record_selection(
         axes.xaxis.set_major_formatter("{x:g}")
         axes.minorticks_off()
         axes.margins(x=0.0)
-    upper.set_title(title or f"{len(selection.motions)} records for {selection.target.name}")
+    assumed = selection.target.assumed
+    aim = f"{selection.target.name} ({assumed})" if assumed else selection.target.name
+    upper.set_title(title or f"{len(selection.motions)} records for {aim}")
     figure.align_ylabels()
     return figure

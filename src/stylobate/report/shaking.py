@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,7 +12,7 @@ import numpy as np
 from ..column import Column
 from ..constants import g
 from ..motion import Motion
-from ..motion.intensity import motion_summary
+from ..motion.intensity import displacement_drift, motion_summary
 from ..plots import draw_motion, draw_spectra
 from ..response import Response
 from ..results import Result
@@ -21,6 +22,9 @@ from .pictures import picture
 
 #: Most motions of a table, and the digits of a digest in it.
 MOST, DIGITS = 40, 12
+
+#: Steps of conditioning that bear on the baseline; of filters those with a lower corner.
+CORRECTED = re.compile(r"baseline|mean|trend|filter of order \d+, (?!0 )")
 
 #: Facts of a record, in words.
 SAID = ("station", "station_name", "network", "event", "start_time", "stage", "terms")
@@ -66,11 +70,17 @@ def motion_section(
         facts.append(("left out", "\n".join(left_out)))
     items: list[Item] = [*note, Facts(facts), _measures(motion)]
     if metadata.get("stage") in ("uncorrected", "raw counts"):
-        corrected = any(word in one for one in done for word in ("baseline", "mean", "trend"))
         text = "Its source gives this record as uncorrected; " + (
-            "what was corrected here stands under processing."
-            if corrected
+            "what was corrected stands under processing."
+            if any(CORRECTED.search(one) for one in done)
             else "its baseline was not corrected here either: velocities and displacements may drift."
+        )
+        items.insert(len(note) + 1, Note([text], "fair"))
+    drifts = {axis: displacement_drift(motion, axis) for axis in motion.components} if recorded else {}
+    if worst := max(map(abs, drifts.values()), default=0.0):
+        text = (
+            f"Integrated twice, this record ends {worst:.2g} m from where it began: unless the ground moved so far for "
+            "good, its baseline drifts, and so do velocities and displacements of the ground."
         )
         items.insert(len(note) + 1, Note([text], "fair"))
     if column is not None and motion.pga > 0.0:

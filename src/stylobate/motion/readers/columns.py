@@ -26,6 +26,8 @@ MAX_TITLE_LINES = 60
 #: Rows from which on a first column that grows in equal steps is one of times.
 FEWEST_STEPS = 4
 _COMMENT = ("#", "%", "!", "//", ";", "*", "'", '"#')
+#: A step that was done to a record, as this package writes it.
+_DONE = re.compile(r"#\s*processing (?P<number>\d{1,9})\s*:\s*(?P<step>.*\S)")
 _NUMERIC = re.compile(r"[\s.eEdD+\-,;]*\d[\s\d.eEdD+\-,;]*")
 
 
@@ -80,7 +82,9 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     _check(components, said, source.name, first)
     if "sha256" in comments:
         _check_digest(components, comments["sha256"], source.name)
+    history = _history(titles, source.name)
     for axis, component in zip("xyz", components):
+        component.history = history
         if f"azimuth_{axis}_deg" in comments:
             component.azimuth = _comment_number(comments, f"azimuth_{axis}_deg", source.name)
     facts = {"format": "columns of text", "unit": unit_found, "stage": comments.get("stage")}
@@ -142,6 +146,18 @@ def _comments(titles: list[str]) -> dict[str, str]:
             key, value = re.split(r"[:=]", line.lstrip("# "), maxsplit=1)
             comments[key.strip().lower()] = value.strip()
     return comments
+
+
+def _history(titles: list[str], file: str) -> list[str]:
+    """What was done to a record that this package wrote, in order."""
+    found = [match for line in titles if (match := _DONE.fullmatch(line))]
+    numbers = [int(match["number"]) for match in found]
+    if numbers != list(range(1, len(numbers) + 1)):
+        raise InputError(
+            f"{file}: the lines '# processing N: …' are numbered {', '.join(map(str, numbers))}; allowed is 1, 2, 3 and so "
+            "on, in this order: fetch the file again, as a step that was done to the record may be lost."
+        )
+    return [match["step"] for match in found]
 
 
 def _comment_number(comments: dict[str, str], key: str, file: str) -> float:

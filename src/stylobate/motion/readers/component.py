@@ -35,6 +35,8 @@ class Component:
         What this component's own header says.
     processing : list of str
         What the reader did to the values.
+    history : list of str
+        What was done to the whole record before, as its file says.
     file : str
         Name of the file it was read from.
     proven : bool
@@ -49,5 +51,6 @@ class Component:
     time: np.ndarray | None = None
     metadata: dict = field(default_factory=dict)
     processing: list[str] = field(default_factory=list)
+    history: list[str] = field(default_factory=list)
     file: str = ""
     proven: bool = False

@@ -10,7 +10,7 @@ import numpy as np
 from ...constants import g
 from ...errors import InputError, warn
 from ...percent import percent
-from ..drift import cure_of
+from ..drift import as_asked, best_of, cures_of
 from ..motion import MAX_SAMPLES, Motion, integrate
 from .component import Component
 from .steps import resampled, same_step
@@ -126,7 +126,10 @@ def assemble(
             "component",
         )
     used = horizontal + vertical
-    processing: list[str] = []
+    histories = {tuple(one.history): one.file for one in used}
+    processing = [
+        text if len(histories) == 1 else f"{file}: {text}" for steps, file in histories.items() for text in steps
+    ]
     axes = [axis for axis, _ in zip(["x", "y"], horizontal)] + ["z"] * len(vertical)
     step = same_step(used, name, dt, processing)
     lengths = [len(one.values) for one in used]
@@ -214,8 +217,8 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
     for axis, array in values.items():
         fastest = float(np.abs(integrate(array, step)).max())
         if fastest > LARGEST_VELOCITY and peaks[axis] <= LARGEST_PEAK:
-            cure = cure_of(array, step, LARGEST_VELOCITY)
-            drift = "" if cure is None else f", or take off the drift of the baseline (`condition={cure!r}`)"
+            cure = best_of(cures_of(array, step, LARGEST_VELOCITY))
+            drift = "" if cure is None else f", or take off the drift of the baseline ({as_asked(cure)})"
             _doubt(
                 f"{name}: component {axis} reaches a velocity of {fastest:.3g} m/s, more than was ever recorded; check the "
                 f"unit and the step{drift}."

@@ -67,8 +67,8 @@ def read_suite(
     InputError
         No such folder, or not one file in it that can be used.
     """
-    if isinstance(source, (str, Path)):
-        folder = Path(source)
+    folder = Path(source) if isinstance(source, (str, Path)) else None
+    if folder is not None:
         if not folder.is_dir():
             raise InputError(f"{folder} is not a folder; give a folder of records, or a list of files.")
         paths = sorted(path for path in folder.iterdir() if path.is_file() and not path.name.startswith("."))
@@ -97,7 +97,11 @@ def read_suite(
             motions.append(motion)
     if not motions:
         first = next(iter(refused.items()), ("", "it is empty"))
-        raise InputError(f"{source} holds no record that can be used; the first reason: {first[1]}")
+        where = [folder] if folder is not None else [*paths[:3], *["other files"] * (len(paths) > 3)]
+        given = " and ".join(map(shown, where))
+        raise InputError(
+            f"{given} {'hold' if len(where) > 1 else 'holds'} no record that can be used; the first reason: {first[1]}"
+        )
     return Suite(tuple(motions), refused)
 
 

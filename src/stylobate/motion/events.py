@@ -1,0 +1,94 @@
+"""Which records are of one earthquake: by the name of the event, and by the time at which they were recorded."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from datetime import datetime, timedelta
+from typing import NamedTuple
+
+from .motion import Motion
+
+#: Records whose spans come within so much of one another are of one earthquake: waves take it to stations at 400 km [s].
+BETWEEN_STATIONS = 120.0
+
+#: Where a file states no zone of time, by so much its clock may differ from UTC either way [s].
+ZONES_APART = 14 * 3600.0
+
+#: Zones of time that files name, in hours from UTC.
+ZONES = {"UTC": 0, "UT": 0, "GMT": 0, "GPS": 0, "Z": 0, "PDT": -7, "PST": -8, "JST": 9, "NZST": 12, "NZDT": 13}
+
+_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+_DATES = (
+    re.compile(r"(?<!\d)(?P<year>\d{4})[-/ ]+(?P<month>\d{1,2}|[A-Za-z]{3,9})[-/ ]+(?P<day>\d{1,2})(?!\d)"),
+    re.compile(r"(?<!\d)(?P<year>\d{4})(?P<month>\d{2})(?P<day>\d{2})(?!\d{3})"),
+    re.compile(r"(?<!\d)(?P<month>\d{1,2})/(?P<day>\d{1,2})/(?P<year>\d{4}|\d{2})(?!\d)"),
+    re.compile(r"(?P<month>[A-Za-z]{3,9})\.? +(?P<day>\d{1,2}), *(?P<year>\d{4})"),
+)
+_CLOCK = re.compile(r"(?<!\d)(?P<hour>\d{1,2}):\s?(?P<minute>\d{2})(?::\s?(?P<second>\d{1,2}(?:\.\d+)?))?")
+_COMPACT = re.compile(r"\d{8}[_ T](?P<hour>\d{2})(?P<minute>\d{2})(?P<second>\d{2})")
+_ZONE = re.compile(rf"(?:\d\s*|\b)(?P<zone>{'|'.join(ZONES)})\b")
+
+
+class Span(NamedTuple):
+    """Between which times a record was taken, in UTC, and whether its file states them to the second."""
+
+    first: datetime
+    last: datetime
+    exact: bool
+
+
+def span_of(motion: Motion) -> Span | None:
+    """When a record was taken; None where its file states no date."""
+    said = str(motion.metadata.get("start_time") or "") or str(motion.metadata.get("event") or "")
+    day = next((found for pattern in _DATES if (found := pattern.search(said))), None)
+    if day is None:
+        return None
+    year, month = int(day["year"]), day["month"].lower()
+    year += 0 if year > 99 else 1900 if year > 50 else 2000
+    try:
+        first = datetime(year, int(month) if month.isdecimal() else _MONTHS.index(month[:3]) + 1, int(day["day"]))
+        clock = _COMPACT.search(said) or _CLOCK.search(said, day.end())
+        length = timedelta(days=1)
+        if clock is not None:
+            at = {"hours": int(clock["hour"]), "minutes": int(clock["minute"]), "seconds": float(clock["second"] or 0)}
+            first, length = first + timedelta(**at), timedelta(seconds=motion.duration)
+        zone = _ZONE.search(said, day.end())
+        if zone is not None:
+            first -= timedelta(hours=ZONES[zone["zone"]])
+        apart = timedelta(seconds=0.0 if zone is not None else ZONES_APART)
+        return Span(first - apart, first + length + apart, clock is not None and zone is not None)
+    except (ValueError, OverflowError):
+        return None
+
+
+def events_of(motions: Sequence[Motion]) -> list[int]:
+    """A number for each record, the same for those of one earthquake, shape (N,).
+
+    Records are of one earthquake where their files name the same event, or where they were taken at the same time: at times
+    stated to the second, or else, where one of the two names no event, as far as their dates go.
+    """
+    names = [str(motion.metadata.get("event") or "") for motion in motions]
+    spans = [span_of(motion) for motion in motions]
+    numbers = list(range(len(motions)))
+    for one in range(len(motions)):
+        for other in range(one):
+            if names[one] == names[other] != "" or _meet(spans[one], spans[other], bool(names[one] and names[other])):
+                old, new = numbers[one], numbers[other]
+                numbers = [new if number == old else number for number in numbers]
+    return numbers
+
+
+def unknown_events(motions: Sequence[Motion]) -> list[str]:
+    """Names of the records that name no event, and whose time is not stated, or cannot be held against that of others."""
+    unnamed = [motion for motion in motions if not motion.metadata.get("event")]
+    open_ = any(motion.metadata.get("event") and span_of(motion) is None for motion in motions)
+    return [motion.name for motion in unnamed if open_ or span_of(motion) is None] if len(motions) > 1 else []
+
+
+def _meet(one: Span | None, other: Span | None, named: bool) -> bool:
+    """Whether two records were taken at one time."""
+    if one is None or other is None or (named and not (one.exact and other.exact)):
+        return False
+    apart = timedelta(seconds=BETWEEN_STATIONS)
+    return one.first <= other.last + apart and other.first <= one.last + apart

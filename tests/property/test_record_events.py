@@ -1,0 +1,59 @@
+"""Records of one earthquake are told by name and by time, in the words of every format that states them."""
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.motion.events import events_of, unknown_events
+from stylobate.motion.specs import parse_synthetic
+
+
+def record(name, event=None, start_time=None, seconds=300.0):
+    """A record whose header says so much."""
+    return st.Motion(1.0, np.zeros(int(seconds) + 1), name=name, metadata={"event": event, "start_time": start_time})
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "same"),
+    [
+        # one accelerogram from two networks: the file with a pre-event part begins three minutes before the other
+        (("Rcrd of Fri", "7/06/19, 03:16: 8.0 UTC (GPS)"), (None, "2019-07-06T03:19:23.038300Z"), True),
+        (("COALINGA", "05/02/83, 16:42:48.2 PDT"), (None, "1983-05-02T23:42:50Z"), True),
+        (("Waiau", "2016 November 13         11:02:56 UT"), ("Kaikoura", "2016-11-13T11:03:10Z"), True),
+        (("Waiau", None), ("Waiau", None), True),
+        (("1989 10 18 0004 Loma Prieta, CA", None), (None, "1989-10-18T00:04:30Z"), True),
+        ((None, "20161030_064018"), (None, "2016/10/30 06:40:20 UTC"), True),
+        # an aftershock an hour later; two of one day that both have names
+        ((None, "2019-07-06T03:16:08Z"), (None, "2019-07-06T04:19:23Z"), False),
+        (("Mainshock", "2016-10-30 06:40:18"), ("Aftershock", "2016-10-30 13:40:18"), False),
+        ((None, None), (None, None), False),
+        ((None, "2019-13-45T99:00:00Z"), (None, "2019-07-06T03:19:23Z"), False),
+    ],
+)
+def test_records_of_one_earthquake(one, other, same):
+    first, second = events_of([record("a", *one), record("b", *other)])
+    assert (first == second) is same
+
+
+def test_earthquakes_that_no_file_tells_are_named():
+    known, dated, bare = record("k", "Waiau"), record("d", None, "2016-11-13T11:03:10Z"), record("b")
+    assert unknown_events([known, dated, bare]) == ["d", "b"]
+    assert unknown_events([dated, record("e", None, "2019-07-06T03:19:23Z"), bare]) == ["b"]
+    assert unknown_events([bare]) == []
+
+
+def test_one_earthquake_is_chosen_once():
+    """Two copies of one accelerogram, one without a name of its event; and a third record that tells nothing."""
+    shaking = [parse_synthetic(f"greece,6.5Mw,20km,seed={k}") for k in range(3)]
+    heads = [("Ridgecrest", "7/06/19, 03:16: 8.0 UTC"), (None, "2019-07-06T03:16:20Z"), (None, None)]
+    motions = [
+        motion.replace(name=name, metadata={"event": event, "start_time": start})
+        for motion, name, (event, start) in zip(shaking, "abc", heads, strict=True)
+    ]
+    target = st.target_spectrum("ec8,ag=0.2g,soil=B")
+    found = st.select_records(motions, target, 2, factors=(0.01, 100.0), per_event=1)
+    assert found.table["record"].tolist() in (["a", "c"], ["b", "c"])
+    assert found.summary()["unknown_events"] == ["c"]
+    assert "The files of c do not tell of which earthquake they are" in found.sentence
+    with pytest.raises(st.InputError, match="2 records can be chosen with at most 1 of one event"):
+        st.select_records(motions, target, 3, factors=(0.01, 100.0), per_event=1)
