@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 from collections.abc import Iterable, Sequence
 from datetime import date
@@ -21,6 +22,8 @@ from .pdf import print_pdf
 from .project import Project, front_sections
 from .record import NOTE, SOURCES
 from .runs import run_sections, several_sections
+
+_log = logging.getLogger("stylobate")
 
 TEMPLATE = Path(__file__).with_name("case.html")
 
@@ -100,7 +103,10 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
     told: set[str] = set()
     language = language_of("en" if project is None else project.language, _names(found))
     with speaking(language):
-        cases = [_case(one, told, found, language) for one in found]
+        cases = []
+        for number, one in enumerate(found, start=1):
+            _log.info("case %d of %d: %s, %s.", number, len(found), one.kind.value, one.folder)
+            cases.append(_case(one, told, found, language))
     front = []
     if project is not None:
         cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
@@ -126,6 +132,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
     }
     files = [page.write_html(target, TEMPLATE, title=title or language.say(f"Report: {names}"), **values)]
     if pdf:
+        _log.info("printing the page.")
         files.append(print_pdf(target, target.with_suffix(".pdf")))
     return files
 
