@@ -132,7 +132,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
     }
     files = [page.write_html(target, TEMPLATE, title=title or language.say(f"Report: {names}"), **values)]
     if pdf:
-        _log.info("printing the page.")
+        _log.info("printing %s.", target.name)
         files.append(print_pdf(target, target.with_suffix(".pdf")))
     return files
 
@@ -165,7 +165,8 @@ def _names(found: Sequence[Result]) -> set[str]:
     motions = [str(motion.get(key)) for one in asked for motion in one.motions for key in ("name", "record")]
     runs = [run for one in found for run in (one.runs if isinstance(one, SeveralRuns) else (one,))]
     motions += [str(one.response.provenance.get("motion")) for one in runs if isinstance(one, RunResult)]
-    bodies = [body.name for one in found for stands in one.structures if stands.stack is None for body in stands.bodies]
+    standing = [stands for one in found for stands in one.structures if stands.stack is None]
+    bodies = [body.name for stands in standing for body in stands.bodies if not (body.fixed and body.name == "ground")]
     return {
         *motions,
         *bodies,
