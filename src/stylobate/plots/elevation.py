@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..column import Column
-from ..column.as_found import AS_BUILT, SIDES, FoundDrum
+from ..column.as_found import AS_BUILT, SIDES, AsFound
 from ..column.block import FAR_AWAY
 from ..column.found_in_space import base_axes
 from ..column.links.placed import strokes
@@ -37,8 +37,8 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     """Structure before the motion, seen along y, in true proportion, with its dimensions in m.
 
     Of a column: heights of drums and of all, widths (diameters, with ⌀) of both faces of each drum, numbers of drums and
-    joints, joints whose friction differs, links in blue. What is as found is red: the drums that are not where they were
-    built, over dashed outlines of the column as built, with what was measured.
+    joints, joints whose friction differs, links in blue. Red are drums that are not where they were built, over
+    dashed outlines of the column as built, and what was measured.
 
     Parameters
     ----------
@@ -58,9 +58,8 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     sheet = Sheet.around(axes, low, high, left=86.0, right=205.0, below=44.0, above=34.0)
     slope = _slope(column)
     axes.axline((0.0, 0.0), slope=math.tan(slope), color=BLACK, linewidth=1.4)
-    marked = {drum.drum for drum in column.as_found.drums if words_of_found(drum)}
     for i, shape in enumerate(outlines):
-        red = i + 1 in marked
+        red = column.as_found.displaced(i + 1)
         axes.fill(*shape.T, facecolor="#f7e3df" if red else SAND, edgecolor=RED if red else BROWN, linewidth=0.9)
     if column.as_found:
         for shape in built:
@@ -175,7 +174,7 @@ def _words_beside(axes: Axes, sheet: Sheet, column: Column, outlines: list[np.nd
         else:
             wide = f"{drum.bottom_width:.3f} × {drum.depth:.3f} – {drum.top_width:.3f} × {drum.upper_depth:.3f}"
         height = level + 0.5 * drum.height
-        found = words_of_found(column.as_found.of(i + 1))
+        found = words_of_found(column.as_found, i + 1)
         axes.text(far, height, wide, fontsize=WORDS, ha="left", va="bottom" if found and not tight else "center")
         if found:
             place = (sheet.up(far, 76.0), height) if tight else (far, height)
@@ -224,12 +223,18 @@ def _ends(shape: np.ndarray, at: np.ndarray) -> np.ndarray:
     return face[[int(face[:, 0].argmin()), int(face[:, 0].argmax())]]
 
 
-def words_of_found(drum: FoundDrum) -> str:
-    """State as found of a drum, in words."""
+def words_of_found(found: AsFound, number: int) -> str:
+    """State as found of a drum, in words: its offset on what is below, and where that leaves it if elsewhere."""
+    drum = found.of(number)
     towards = lambda azimuth: f" to {azimuth:g}°" if azimuth else ""  # noqa: E731
     parts = []
     if drum.offset:
         parts.append(f"offset {1000.0 * drum.offset:+.0f} mm{towards(drum.offset_azimuth)}")
+        net, azimuth = found.place(number)
+        if not net:
+            parts.append("back in line")
+        elif any(one.offset for one in found.drums if one.drum < number):
+            parts.append(f"in all {1000.0 * net:.0f} mm to {azimuth:.0f}°")
     if drum.tilt:
         parts.append(f"lean {drum.tilt:+g}°{towards(drum.tilt_azimuth)}")
     if drum.turn:

@@ -97,7 +97,7 @@ def _of_column(column: Column) -> list[JointPlan]:
         turn = rotation(np.array([0.0, 0.0, 1.0]), float(at.turned[j]))[:2, :2]
         crossing = [link for link in column.placed_links if link.crosses(j) and link.mark != "sheet"]
         places = [middle + turn @ np.array(link.middle[:2]) for link in crossing]
-        words = words_of_found(one)
+        words = words_of_found(column.as_found, j + 1)
         offset = float(middle[0]), float(middle[1])
         found = words.replace(", ", "\n")
         plans.append(JointPlan(f"joint {j + 1}", below, above, said + " m", found, _pairs(places), offset, bool(words)))
