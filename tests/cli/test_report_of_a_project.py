@@ -38,6 +38,7 @@ def test_the_page_repeats_the_answers_as_they_stand_in_the_cases(statics, tmp_pa
     assert "The foundation does not settle." in front
     assert "SHA-256" in front
     assert "Checked by, date" not in text
+    assert "<h1>Report: Temple, column 5</h1>" in out.read_text()  # its site, and no folder's name
 
 
 @pytest.mark.parametrize(

@@ -70,7 +70,7 @@ def write_report(
     out : path
         The HTML file.
     title : str, optional
-        What stands, by default.
+        The site of the project or what stands, by default.
     pdf : bool
         Print it to a PDF file of the same name as well.
     project : Project, optional
@@ -112,7 +112,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
         cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
         sections = front_sections(project, found, cases, cited)
         front = [page.part(language.section(section)) for section in sections]
-    names = ", ".join(dict.fromkeys(one.name for one in found))
+    names = _heading(found, project)
     kinds = ", ".join(dict.fromkeys(language.say(TITLES[one.kind.value]) for one in found))
     day = date.today().isoformat()
     lead = [f"{kinds[:1].upper()}{kinds[1:]}. {language.say(f'Written on {day} by stylobate {__version__}.')}"]
@@ -157,6 +157,14 @@ def _spoken(language: Language) -> list[page.Item]:
         words = language.table.get(PARTS_IN_ENGLISH, PARTS_IN_ENGLISH)
         said.append(words.replace("{sections}", ", ".join(language.english)))
     return [page.Note(said, "fair" if language.english else "")]
+
+
+def _heading(found: Sequence[Result], project: Project | None) -> str:
+    """What a report is of: the site of its project, or what stands; the name of a result where nothing is known to stand."""
+    if project is not None:
+        return project.site
+    standing = dict.fromkeys(stands.name for one in found for stands in one.structures)
+    return ", ".join(standing or dict.fromkeys(one.name for one in found))
 
 
 def _names(found: Sequence[Result]) -> set[str]:
