@@ -70,7 +70,9 @@ def test_a_drum_that_comes_back_and_a_chipped_one_are_in_place():
     assert [to_hex(patch.get_edgecolor()) == RED for patch in filled] == [False, True, False]
     assert "offset −38 mm to 120°, back in line" in words(axes)
     farther = st.AsFound((st.FoundDrum(1, offset=0.03), st.FoundDrum(2, offset=0.04, offset_azimuth=90.0)))
-    assert "offset +40 mm to 90°, in all 50 mm to 53°" in words(plots.draw_elevation(COLUMN.replace(as_found=farther)).axes[0])
+    assert "offset +40 mm to 90°, in all 50 mm to 53°" in words(
+        plots.draw_elevation(COLUMN.replace(as_found=farther)).axes[0]
+    )
 
 
 def test_outlines_stand_as_the_run_begins():

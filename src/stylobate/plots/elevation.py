@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
@@ -65,7 +67,7 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
         for shape in built:
             axes.fill(*shape.T, facecolor="none", edgecolor=GREY, linewidth=0.6, linestyle=(0, (3, 2)))
     _links(axes, sheet, column)
-    draw_heights(axes, sheet, column, low[0])
+    draw_chain(axes, sheet, levels_of(column), low[0])
     _words_beside(axes, sheet, column, outlines, high[0])
     _width(axes, sheet, column.drums[0].bottom_width, _bottom(outlines[0]), -26.0, column.section)
     _width(axes, sheet, column.drums[-1].top_width, _top(outlines[-1]), 12.0, column.section)
@@ -78,6 +80,11 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     if title:
         axes.set_title(title)
     return figure
+
+
+def levels_of(column: Column) -> list[float]:
+    """Heights of the joints of a column and of its top as built [m]."""
+    return [*column.joint_heights.tolist(), column.height]
 
 
 def outlines_of(structure: Structure) -> list[np.ndarray]:
@@ -121,25 +128,24 @@ class Sheet:
         return z + self.metres * points
 
 
-def draw_heights(axes: Axes, sheet: Sheet, column: Column, edge: float) -> None:
-    """Two chains of dimensions to the left: the drums', and that of all."""
-    levels = [*column.joint_heights.tolist(), column.height]
-    chain, whole = sheet.up(edge, -26.0), sheet.up(edge, -66.0)
+def draw_chain(axes: Axes, sheet: Sheet, levels: Sequence[float], edge: float) -> None:
+    """Chains of dimensions to the left: from level to level, and that of all."""
+    chain, far = sheet.up(edge, -26.0), sheet.up(edge, -66.0)
     for z in levels:
         axes.plot([sheet.up(chain, -4.0), sheet.up(edge, -4.0)], [z, z], color=GREY, linewidth=0.4)
         _tick(axes, chain, z)
-    axes.plot([chain, chain], [0.0, column.height], color=BLACK, linewidth=0.6)
-    every = math.ceil(column.n / WRITTEN)
-    for i, drum in enumerate(column.drums):
-        if i % every == 0:
-            middle = levels[i] + 0.5 * drum.height
-            axes.text(sheet.up(chain, -3.0), middle, f"{drum.height:.3f}", fontsize=WORDS, ha="right", va="center")
-    for z in (0.0, column.height):
-        axes.plot([sheet.up(whole, -4.0), sheet.up(chain, -4.0)], [z, z], color=GREY, linewidth=0.4)
-        _tick(axes, whole, z)
-    axes.plot([whole, whole], [0.0, column.height], color=BLACK, linewidth=0.6)
+    axes.plot([chain, chain], [levels[0], levels[-1]], color=BLACK, linewidth=0.6)
+    every = math.ceil((len(levels) - 1) / WRITTEN)
+    for low, high in list(pairwise(levels))[::every]:
+        said = f"{high - low:.3f}"
+        axes.text(sheet.up(chain, -3.0), 0.5 * (low + high), said, fontsize=WORDS, ha="right", va="center")
+    for z in (levels[0], levels[-1]):
+        axes.plot([sheet.up(far, -4.0), sheet.up(chain, -4.0)], [z, z], color=GREY, linewidth=0.4)
+        _tick(axes, far, z)
+    axes.plot([far, far], [levels[0], levels[-1]], color=BLACK, linewidth=0.6)
     words = {"fontsize": 8.5, "ha": "right", "va": "center", "rotation": 90}
-    axes.text(sheet.up(whole, -3.0), 0.5 * column.height, f"{column.height:.3f} m", **words)
+    said = f"{levels[-1] - levels[0]:.3f} m"
+    axes.text(sheet.up(far, -3.0), 0.5 * (levels[0] + levels[-1]), said, **words)
 
 
 def _tick(axes: Axes, x: float, z: float) -> None:

@@ -15,6 +15,7 @@ from ..column.plausible import unit_doubts
 from ..column.structure import Structure
 from ..constants import g
 from ..plots import draw_elevation, draw_views
+from ..plots.joint_plans import joint_plans
 from . import numbers as n
 from .page import Facts, Item, Picture, Rows, Section
 from .pictures import picture
@@ -198,10 +199,26 @@ def _as_found(column: Column) -> Rows:
     )
     caption = (
         "As found: each drum over the joint under it; what stands on it goes along. “In all” is where the offsets up to a drum "
-        "leave it, from its place as built. Azimuths are from x towards y."
-        + (base if found.base_tilt else "")
+        "leave it, from its place as built. Azimuths are from x towards y." + (base if found.base_tilt else "")
     )
     return Rows(header, body, caption, numbers=True)
+
+
+#: Caption of what is as found in an assembly.
+FOUND_AT = (
+    "As found: round faces that do not lie in line, and what the upper one has lost. Azimuths are from x towards y."
+)
+
+
+def _found_at(structure: Structure) -> list[list[str]]:
+    """Joints of an assembly in space where something is off or lost."""
+    plans = zip(joint_plans(structure), structure.space_joints or ())
+    names = [one.name for one in structure.bodies]
+    return [
+        [str(k), f"{names[joint.lower]} – {names[joint.upper]}", plan.found.replace("\n", ", ")]
+        for k, (plan, joint) in enumerate(plans, 1)
+        if plan.found
+    ][:MOST]
 
 
 #: Facts of a row on a link between blocks in cells of their own.
@@ -247,6 +264,8 @@ def _blocks(structure: Structure) -> list[Item]:
     )
     drawn = draw_elevation(structure) if contacts is None else draw_views(structure)
     found: list[Item] = [picture(drawn, caption), Facts(facts), rows, *([joints] if laws else [])]
+    if contacts is not None and (seen_at := _found_at(structure)):
+        found.append(Rows(["joint", "between", "as found"], seen_at, FOUND_AT, numbers=True))
     return [*found, _links_between_blocks(structure)] if structure.links else found
 
 
