@@ -25,7 +25,8 @@ _MARKERS = ("", "o", "s", "^")
 def draw_states(found: StateComparison, title: str = "", *, figure: Figure | SubFigure | None = None) -> Figure:
     """Fragility curves beside the differences in the share of runs that exceed the limit state.
 
-    Without any curve the differences stand alone. The band is that of the first state with a curve; those of the others stand in the table. A state with undecided runs
+    Without any curve the differences stand alone. The band is that of the first state with a curve; those of the others
+    stand in the table. A state with undecided runs
     has two thin curves: if all of them exceeded the limit state, and if none did. Right: thick from the best to the worst
     that the undecided can come to, a circle where all is decided; the interval over records holds both ends. Grey: nothing
     is concluded.

@@ -140,7 +140,7 @@ def _ends(values: np.ndarray) -> tuple[float, float]:
 
 def _feet(axes: Axes, sheet: Sheet, structure: Structure, view: View, edge: float) -> None:
     """From axis to axis of what stands on the ground, under an elevation; the width of the foot of one alone."""
-    if view is PLAN or structure.ground is None and structure.stack is None:
+    if view is PLAN or (structure.ground is None and structure.stack is None):
         return
     level = structure.ground or 0.0
     feet = []

@@ -64,7 +64,8 @@ def _elevation(column: Column) -> Picture:
     if column.links:
         caption += " Blue: links."
     if column.as_found:
-        caption += " Filled red: drums that are not where they were built, over the column as built (dashed); red words: what was measured."
+        caption += " Filled red: drums that are not where they were built, over the column as built (dashed); "
+        caption += "red words: what was measured."
     return picture(draw_elevation(column), caption)
 
 
@@ -198,8 +199,8 @@ def _as_found(column: Column) -> Rows:
         f" to azimuth {found.base_azimuth:g}°." if found.base_azimuth else "."
     )
     caption = (
-        "As found: each drum over the joint under it; what stands on it goes along. “In all” is where the offsets up to a drum "
-        "leave it, from its place as built. Azimuths are from x towards y." + (base if found.base_tilt else "")
+        "As found: each drum over the joint under it; what stands on it goes along. “In all” is where the offsets up to "
+        "a drum leave it, from its place as built. Azimuths are from x towards y." + (base if found.base_tilt else "")
     )
     return Rows(header, body, caption, numbers=True)
 
