@@ -99,5 +99,6 @@ def test_the_executive_page_is_all_in_its_language(statics, tmp_path, language):
         assert f"<h3>{english}</h3>" not in page
     for english in ("Signature", "Answers", "Limits: what is not covered", "Sources of the results"):
         assert f"<h3>{said[english]}</h3>" in page
+    assert "<h1>" + said["Report: {names}"].format(names="Temple, column 5") + "</h1>" in page  # its site is a name
     number = re.search(r"[\d.]+ volte il suo peso|[\d.]+ φορές το βάρος", page)
     assert number, page[:3000]

@@ -144,9 +144,9 @@ def _feet(axes: Axes, sheet: Sheet, structure: Structure, view: View, edge: floa
         return
     level = structure.ground or 0.0
     feet = []
-    for body in structure.bodies:
-        points = np.concatenate([part.mesh(ROUND).vertices for part in body.placed]) if body in _near(structure) else []
-        if len(points) and not body.fixed and abs(points[:, 2].min() - level) < FOOT:
+    for body in _near(structure):
+        points = np.concatenate([part.mesh(ROUND).vertices for part in body.placed])
+        if not body.fixed and abs(float(points[:, 2].min()) - level) < FOOT:
             feet.append(_ends(view.across(points[points[:, 2] < level + FOOT])[:, 0]))
     middles = sorted(dict.fromkeys(round(0.5 * sum(ends), 3) for ends in feet))
     marks = middles if len(middles) > 1 else sorted(feet[0]) if feet else []

@@ -101,7 +101,8 @@ def write_report(
 
 def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, project: Project | None) -> list[Path]:
     told: set[str] = set()
-    language = language_of("en" if project is None else project.language, _names(found))
+    own = _names(found) | ({project.site} if project is not None else set())
+    language = language_of("en" if project is None else project.language, own)
     with speaking(language):
         cases = []
         for number, one in enumerate(found, start=1):
