@@ -77,6 +77,14 @@ def test_the_picture_shows_curves_and_differences(found):
     assert [one.get_text() for one in bars.get_yticklabels()] == ["the same", "wider"]
 
 
+def test_without_a_curve_the_differences_stand_alone(found):
+    """Of few records nothing is fitted: no empty frame, and the legend outside of the axes."""
+    figure = plots.draw_states(dataclasses.replace(found, curves=tuple(None for _ in found.curves)))
+    (bars,) = figure.axes
+    assert bars.get_legend() is None
+    assert "percentage points" in bars.get_xlabel()
+
+
 def test_the_command(tmp_path, capsys):
     one, other = (write_column(block(width), tmp_path / f"{width}.toml") for width in (0.6, 0.9))
     base = ["states", "--as-built", str(one), "--with", str(other)]

@@ -8,7 +8,8 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.limit_directions import limit_directions, limit_in_space
+from stylobate.analysis.limit_directions import limit_directions, limit_in_space, weakest_direction
+from stylobate.analysis.limit_with_links import SpaceProgramme
 from stylobate.analysis.pushover import pushover
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
@@ -227,6 +228,31 @@ def test_a_round_block_tied_on_two_sides_by_hand():
     # one tie: away from it as without it
     single = limit_directions(with_links(column, ties[0]), [20.0, 200.0])
     assert single.multipliers == pytest.approx([radius / 2.0, towards], rel=1e-6)
+
+
+def test_the_weakest_direction_is_found_without_all_the_others(monkeypatch):
+    """A dowel in joint 2 holds nothing of what joint 1 does: the direction that is weakest without it tells."""
+    joint = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
+    found = (st.FoundDrum(1, chip_right=0.1, chip_azimuth=30.0), st.FoundDrum(2, offset=0.04, offset_azimuth=120.0))
+    drums = [st.Drum(1.0, 0.9, 0.8, 2500.0, "circular"), st.Drum(1.0, 0.8, 0.7, 2500.0, "circular")]
+    column = st.Column.of_drums(drums, joint).replace(as_found=st.AsFound(drums=found))
+    solve, solved = SpaceProgramme.solve, []
+
+    def counted(self, azimuth, largest=False):
+        solved.append((azimuth, largest))
+        return solve(self, azimuth, largest)
+
+    linked = with_links(column, st.Dowel(joint=2, shear_stiffness=1e8, shear_capacity=5e3))
+    with monkeypatch.context() as within:
+        within.setattr(SpaceProgramme, "solve", counted)
+        weak = weakest_direction(linked)
+    assert 1 <= len(solved) <= 2
+    assert not any(largest for _, largest in solved)
+    around = [(weak.azimuth + turn) % 360.0 for turn in (0.0, 15.0, 90.0, 180.0, 345.0)]
+    every = limit_directions(linked, around)
+    # the tolerance of the programme; a column that is alike in two directions is weakest in either
+    assert weak.multiplier == pytest.approx(every.weakest.multiplier, rel=2e-6)
+    assert (weak.joint, weak.mode) == (every.weakest.joint, every.weakest.mode)
 
 
 def test_a_dowelled_block_slides_in_any_direction_at_friction_and_capacity():

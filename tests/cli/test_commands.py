@@ -208,7 +208,7 @@ def test_models_side_by_side_fit_a_terminal(columns, capsys, monkeypatch):
     call(["compare", "paper-12-drums", "--models", "dem2d,dem3d,rigid-block", "--harmonic", "1Hz,0.05g,0.1s"])
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= columns
-    assert lines[0].startswith("Nothing damped its wobble")
+    assert lines[0].startswith("Wobbling was not damped")
     rows = lines[next(k for k, line in enumerate(lines) if line.startswith("model ")) :]
     names = [line.split()[0] for line in rows if not line.startswith(" ")]
     assert names[:3] == ["model", "outcome", "collapsed"]

@@ -38,6 +38,7 @@ def test_the_page_repeats_the_answers_as_they_stand_in_the_cases(statics, tmp_pa
     assert "The foundation does not settle." in front
     assert "SHA-256" in front
     assert "Checked by, date" not in text
+    assert "<h1>Report: Temple, column 5</h1>" in out.read_text()  # its site, and no folder's name
 
 
 @pytest.mark.parametrize(
@@ -98,5 +99,6 @@ def test_the_executive_page_is_all_in_its_language(statics, tmp_path, language):
         assert f"<h3>{english}</h3>" not in page
     for english in ("Signature", "Answers", "Limits: what is not covered", "Sources of the results"):
         assert f"<h3>{said[english]}</h3>" in page
+    assert "<h1>" + said["Report: {names}"].format(names="Temple, column 5") + "</h1>" in page  # its site is a name
     number = re.search(r"[\d.]+ volte il suo peso|[\d.]+ φορές το βάρος", page)
     assert number, page[:3000]

@@ -109,7 +109,7 @@ def test_a_verdict_on_undamped_wobble_is_doubted(parameters, tilt, doubted):
         structure=SimpleNamespace(slenderness=0.15),
         provenance={"parameters": parameters},
     )
-    assert doubt_of(cast(Any, run)).startswith("Nothing damped its wobble" if doubted else "")
+    assert doubt_of(cast(Any, run)).startswith("Wobbling was not damped" if doubted else "")
     assert bool(doubt_of(cast(Any, run))) is doubted
 
 
@@ -213,5 +213,5 @@ def test_a_run_says_its_doubt(column, capsys, tmp_path):
         assert DOUBT in result.summary["doubt"]
         assert DOUBT in str(sections_of(result, set())[0])
     text = said(capsys, "run", column, "--model", "dem3d", "--harmonic", "1Hz,0.3g,1s", "--replicates", "0")
-    assert "Nothing damped its wobble, and in space a verdict can hang on that, either way" in text
+    assert "Wobbling was not damped, and in space a verdict can hang on that, either way" in text
     assert "with a stiffness damping of 1e-4 s" in text

@@ -46,12 +46,33 @@ def test_what_is_as_found_is_red_and_said(azimuth):
     )
     (axes,) = plots.draw_elevation(COLUMN.replace(as_found=found)).axes
     red = [patch for patch in axes.patches if to_hex(patch.get_edgecolor()) == RED]
-    assert len(red) == 1
+    assert len(red) == 2  # the drum above goes along
     to = " to 90°" if azimuth else ""
     assert f"offset +40 mm{to}, lean +0.5°{to}" in words(axes)
     assert "base rises by 1° to the right" in words(axes)
     dashed = [patch for patch in axes.patches if isinstance(patch, Polygon) and not patch.get_fill()]
     assert len(dashed or [p for p in axes.patches if p.get_facecolor()[3] == 0.0]) == 3
+
+
+def test_a_drum_that_comes_back_and_a_chipped_one_are_in_place():
+    """Offsets are over the drum below: the one above a displaced drum that comes back stands where it was built."""
+    found = st.AsFound(
+        (
+            st.FoundDrum(1, chip_right=0.06, chip_azimuth=30.0),
+            st.FoundDrum(2, offset=0.038, offset_azimuth=120.0),
+            st.FoundDrum(3, offset=-0.038, offset_azimuth=120.0),
+        )
+    )
+    assert [found.displaced(drum) for drum in (1, 2, 3)] == [False, True, False]
+    assert found.place(2) == pytest.approx((0.038, 120.0))
+    (axes,) = plots.draw_elevation(COLUMN.replace(as_found=found)).axes
+    filled = [patch for patch in axes.patches if patch.get_facecolor()[3] > 0.0]
+    assert [to_hex(patch.get_edgecolor()) == RED for patch in filled] == [False, True, False]
+    assert "offset −38 mm to 120°, back in line" in words(axes)
+    farther = st.AsFound((st.FoundDrum(1, offset=0.03), st.FoundDrum(2, offset=0.04, offset_azimuth=90.0)))
+    assert "offset +40 mm to 90°, in all 50 mm to 53°" in words(
+        plots.draw_elevation(COLUMN.replace(as_found=farther)).axes[0]
+    )
 
 
 def test_outlines_stand_as_the_run_begins():

@@ -8,6 +8,7 @@ import pytest
 
 import stylobate as st
 from stylobate import plots
+from stylobate.column.files import write_column
 from stylobate.column.links import Dowel
 from stylobate.plots.joint_plans import joint_plans
 
@@ -86,3 +87,18 @@ def test_an_assembly_in_the_plane_has_views_only():
     assembly = st.read_assembly(FOLDER / "portal.toml")
     assert joint_plans(assembly) == []
     assert len(plots.draw_sheet(assembly).axes) == 4
+
+
+def test_round_drums_of_an_assembly_are_told_with_diameters_offsets_and_chips(tmp_path):
+    """As the column's own sheet tells them: an assembly keeps where its drums lie, not what a survey said."""
+    drums = [st.Drum(1.0, 1.0, 0.9, 2500.0, "circular"), st.Drum(1.0, 0.9, 0.8, 2500.0, "circular")]
+    found = st.AsFound((st.FoundDrum(2, offset=0.04, offset_azimuth=120.0, chip_right=0.06, chip_azimuth=30.0),))
+    column = st.Column.of_drums(drums, st.Joint(5e9, 2.5e9)).replace(as_found=found)
+    write_column(column, tmp_path / "c.toml")
+    (tmp_path / "a.toml").write_text('name = "pair"\n[[column]]\nfile = "c.toml"\nat = [[0.0, 0.0], [3.0, 0.0]]\n')
+    pair = st.read_assembly(tmp_path / "a.toml")
+    plans = [plan for plan in joint_plans(pair) if plan.found]
+    assert [plan.found for plan in plans] == ["offset 40 mm to 120°\nchip 60 mm to 30°"] * 2
+    assert all(plan.marked and plan.said.endswith("⌀ 0.900 m") for plan in plans)
+    said = {text.get_text() for axes in plots.draw_views(pair).axes for text in axes.texts}
+    assert {"3.000", "1.000", "2.000 m"} <= said  # from axis to axis, each drum, and all of it

@@ -22,6 +22,9 @@ from .limit_with_links import SpaceProgramme
 #: Directions that are looked at where nobody says which [degrees], and halvings of the multiplier.
 ALL_ROUND, HALVINGS = tuple(float(one) for one in range(0, 360, 15)), 60
 
+#: Multipliers that differ by less than this share are the same where only the least of them is asked for [-].
+CLOSE = 1e-6
+
 #: A column that bears more than this is not held by its joints alone [g].
 LARGEST = 1e3
 
@@ -111,6 +114,27 @@ def _with_largest(solve: Callable[[float, bool], DirectionLimit], asked: Sequenc
         return found
     told = solve(weakest.azimuth, True)
     return LimitByDirection(tuple(told if one is weakest else one for one in found.limits), "xyz")
+
+
+def weakest_direction(column: Column) -> DirectionLimit:
+    """What :func:`limit_directions` finds weakest, without the most that each link holds.
+
+    Without links a column bears no more than with them, and what it bears then costs next to nothing: directions in which
+    it bears more than the least that is known with links are not computed with them.
+    """
+    if not column.links:
+        return limit_directions(column).weakest
+    bare = limit_directions(column.replace(links=()))
+    if bare.dims == "xz":
+        return limit_directions(column).weakest
+    column.must_carry_on_whole_faces("limit analysis in space")
+    programme = SpaceProgramme(column)
+    found: list[DirectionLimit] = []
+    for one in sorted(bare.limits, key=lambda limit: limit.multiplier):
+        if found and one.multiplier * (1.0 + CLOSE) >= min(limit.multiplier for limit in found):
+            break
+        found.append(DirectionLimit(one.azimuth, *programme.solve(one.azimuth)))
+    return LimitByDirection(tuple(sorted(found, key=lambda limit: limit.azimuth)), "xyz").weakest
 
 
 def _in_plane(column: Column, direction: float, loads: dict[str, Any]) -> DirectionLimit:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from ..constants import DEGREE
 from ..errors import InputError, check_range, check_whole
 
 #: Edges that may be chipped.
@@ -167,6 +169,19 @@ class AsFound:
         plain: dict[str, Any] = {"drums": drums, "base_tilt": self.base_tilt}
         return plain | ({"base_azimuth": self.base_azimuth} if self.base_azimuth else {})
 
+    def place(self, drum: int) -> tuple[float, float]:
+        """How far the offsets up to a drum leave it from its place as built: amount [m], azimuth from 0 to 360 [degrees]."""
+        each = [(one.offset, one.offset_azimuth * DEGREE) for one in self.drums if one.drum <= drum]
+        x, y = (sum(size * way(angle) for size, angle in each) for way in (math.cos, math.sin))
+        far = math.hypot(x, y)
+        return (0.0, 0.0) if far < IN_LINE else (far, math.degrees(math.atan2(y, x)) % 360.0)
+
+    def displaced(self, drum: int) -> bool:
+        """Whether a drum is not where it was built on its base: shifted, leaning or turned, or on one that leans."""
+        below = [one for one in self.drums if one.drum <= drum]
+        turned = any(one.turn for one in below if one.drum == drum)
+        return turned or any(one.tilt for one in below) or self.place(drum)[0] > 0.0
+
     def of(self, drum: int) -> FoundDrum:
         """State as found of a drum, numbered from 1."""
         return next((one for one in self.drums if one.drum == drum), None) or _as_built(drum)
@@ -177,6 +192,9 @@ def _as_built(drum: int) -> FoundDrum:
     """A drum of this number with nothing found at it."""
     return FoundDrum(drum)
 
+
+#: A drum that is nearer to its place than this stands in line: what a survey does not tell [m].
+IN_LINE = 5e-4
 
 #: Parts of a drum that a plane model cannot take.
 _IN_SPACE = ("offset_azimuth", "tilt_azimuth", "turn", "chip_front", "chip_back", "chip_azimuth")

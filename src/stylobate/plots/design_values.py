@@ -15,8 +15,8 @@ from .style import CYCLE, GREY, WIDTH, page, plain, styled
 if TYPE_CHECKING:
     import pandas
 
-#: Most letters of a line beneath the axis.
-NARROW = 62
+#: Most letters of a line beneath the picture.
+WIDE = 100
 
 #: Most rows in a picture, as many of every state.
 MOST = 24
@@ -57,7 +57,7 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     axes.set_yticks(np.arange(len(shown))[::-1], labels)
     axes.set(xlim=(0.0, far), ylim=(-0.6, len(shown) - 0.4))
     meant = f"over capacity [-]: not exceeded under 84 % of the motions, and its 95 % interval {basis_of(values)}"
-    axes.set_xlabel(textwrap.fill(meant, NARROW))
+    figure.supxlabel(textwrap.fill(meant, WIDE), fontsize=9)  # longer than the axes are wide
     for state in states:
         axes.plot([], [], color=looks[state], marker="o", label=plain(state))
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=min(len(states), 3), fontsize=8, frameon=False)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, cast
 
 import numpy as np
@@ -11,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..column import Column
-from ..column.as_found import AS_BUILT, SIDES, FoundDrum
+from ..column.as_found import AS_BUILT, SIDES, AsFound
 from ..column.block import FAR_AWAY
 from ..column.found_in_space import base_axes
 from ..column.links.placed import strokes
@@ -37,8 +39,8 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     """Structure before the motion, seen along y, in true proportion, with its dimensions in m.
 
     Of a column: heights of drums and of all, widths (diameters, with ⌀) of both faces of each drum, numbers of drums and
-    joints, joints whose friction differs, links in blue. What is as found is red: the drums that are not where they were
-    built, over dashed outlines of the column as built, with what was measured.
+    joints, joints whose friction differs, links in blue. Red are drums that are not where they were built, over
+    dashed outlines of the column as built, and what was measured.
 
     Parameters
     ----------
@@ -58,15 +60,14 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     sheet = Sheet.around(axes, low, high, left=86.0, right=205.0, below=44.0, above=34.0)
     slope = _slope(column)
     axes.axline((0.0, 0.0), slope=math.tan(slope), color=BLACK, linewidth=1.4)
-    marked = {drum.drum for drum in column.as_found.drums if words_of_found(drum)}
     for i, shape in enumerate(outlines):
-        red = i + 1 in marked
+        red = column.as_found.displaced(i + 1)
         axes.fill(*shape.T, facecolor="#f7e3df" if red else SAND, edgecolor=RED if red else BROWN, linewidth=0.9)
     if column.as_found:
         for shape in built:
             axes.fill(*shape.T, facecolor="none", edgecolor=GREY, linewidth=0.6, linestyle=(0, (3, 2)))
     _links(axes, sheet, column)
-    draw_heights(axes, sheet, column, low[0])
+    draw_chain(axes, sheet, levels_of(column), low[0])
     _words_beside(axes, sheet, column, outlines, high[0])
     _width(axes, sheet, column.drums[0].bottom_width, _bottom(outlines[0]), -26.0, column.section)
     _width(axes, sheet, column.drums[-1].top_width, _top(outlines[-1]), 12.0, column.section)
@@ -79,6 +80,11 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     if title:
         axes.set_title(title)
     return figure
+
+
+def levels_of(column: Column) -> list[float]:
+    """Heights of the joints of a column and of its top as built [m]."""
+    return [*column.joint_heights.tolist(), column.height]
 
 
 def outlines_of(structure: Structure) -> list[np.ndarray]:
@@ -122,25 +128,24 @@ class Sheet:
         return z + self.metres * points
 
 
-def draw_heights(axes: Axes, sheet: Sheet, column: Column, edge: float) -> None:
-    """Two chains of dimensions to the left: the drums', and that of all."""
-    levels = [*column.joint_heights.tolist(), column.height]
-    chain, whole = sheet.up(edge, -26.0), sheet.up(edge, -66.0)
+def draw_chain(axes: Axes, sheet: Sheet, levels: Sequence[float], edge: float) -> None:
+    """Chains of dimensions to the left: from level to level, and that of all."""
+    chain, far = sheet.up(edge, -26.0), sheet.up(edge, -66.0)
     for z in levels:
         axes.plot([sheet.up(chain, -4.0), sheet.up(edge, -4.0)], [z, z], color=GREY, linewidth=0.4)
         _tick(axes, chain, z)
-    axes.plot([chain, chain], [0.0, column.height], color=BLACK, linewidth=0.6)
-    every = math.ceil(column.n / WRITTEN)
-    for i, drum in enumerate(column.drums):
-        if i % every == 0:
-            middle = levels[i] + 0.5 * drum.height
-            axes.text(sheet.up(chain, -3.0), middle, f"{drum.height:.3f}", fontsize=WORDS, ha="right", va="center")
-    for z in (0.0, column.height):
-        axes.plot([sheet.up(whole, -4.0), sheet.up(chain, -4.0)], [z, z], color=GREY, linewidth=0.4)
-        _tick(axes, whole, z)
-    axes.plot([whole, whole], [0.0, column.height], color=BLACK, linewidth=0.6)
+    axes.plot([chain, chain], [levels[0], levels[-1]], color=BLACK, linewidth=0.6)
+    every = math.ceil((len(levels) - 1) / WRITTEN)
+    for low, high in list(pairwise(levels))[::every]:
+        said = f"{high - low:.3f}"
+        axes.text(sheet.up(chain, -3.0), 0.5 * (low + high), said, fontsize=WORDS, ha="right", va="center")
+    for z in (levels[0], levels[-1]):
+        axes.plot([sheet.up(far, -4.0), sheet.up(chain, -4.0)], [z, z], color=GREY, linewidth=0.4)
+        _tick(axes, far, z)
+    axes.plot([far, far], [levels[0], levels[-1]], color=BLACK, linewidth=0.6)
     words = {"fontsize": 8.5, "ha": "right", "va": "center", "rotation": 90}
-    axes.text(sheet.up(whole, -3.0), 0.5 * column.height, f"{column.height:.3f} m", **words)
+    said = f"{levels[-1] - levels[0]:.3f} m"
+    axes.text(sheet.up(far, -3.0), 0.5 * (levels[0] + levels[-1]), said, **words)
 
 
 def _tick(axes: Axes, x: float, z: float) -> None:
@@ -175,7 +180,7 @@ def _words_beside(axes: Axes, sheet: Sheet, column: Column, outlines: list[np.nd
         else:
             wide = f"{drum.bottom_width:.3f} × {drum.depth:.3f} – {drum.top_width:.3f} × {drum.upper_depth:.3f}"
         height = level + 0.5 * drum.height
-        found = words_of_found(column.as_found.of(i + 1))
+        found = words_of_found(column.as_found, i + 1)
         axes.text(far, height, wide, fontsize=WORDS, ha="left", va="bottom" if found and not tight else "center")
         if found:
             place = (sheet.up(far, 76.0), height) if tight else (far, height)
@@ -224,12 +229,18 @@ def _ends(shape: np.ndarray, at: np.ndarray) -> np.ndarray:
     return face[[int(face[:, 0].argmin()), int(face[:, 0].argmax())]]
 
 
-def words_of_found(drum: FoundDrum) -> str:
-    """State as found of a drum, in words."""
+def words_of_found(found: AsFound, number: int) -> str:
+    """State as found of a drum, in words: its offset on what is below, and where that leaves it if elsewhere."""
+    drum = found.of(number)
     towards = lambda azimuth: f" to {azimuth:g}°" if azimuth else ""  # noqa: E731
     parts = []
     if drum.offset:
         parts.append(f"offset {1000.0 * drum.offset:+.0f} mm{towards(drum.offset_azimuth)}")
+        net, azimuth = found.place(number)
+        if not net:
+            parts.append("back in line")
+        elif any(one.offset for one in found.drums if one.drum < number):
+            parts.append(f"in all {1000.0 * net:.0f} mm to {azimuth:.0f}°")
     if drum.tilt:
         parts.append(f"lean {drum.tilt:+g}°{towards(drum.tilt_azimuth)}")
     if drum.turn:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,8 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..column import Column
+from ..column.as_found import IN_LINE
 from ..column.found_in_space import rotation, space_geometry
 from ..column.shapes import cut
+from ..column.spatial.touching import SpaceJoint
 from ..column.structure import Structure
 from ..constants import DEGREE
 from .elevation import words_of_found
@@ -22,6 +24,9 @@ from .views import draw_views, sheet_size
 
 #: Joints beside one another and height of a row of them [inch], of few and of many, and most joints that are drawn.
 FEW, MANY, MOST = (4, 2.15), (6, 1.6), 30
+
+#: From line to line of the words under a plan [points].
+LINE = 8.2
 
 #: Corners of a circle.
 AROUND = 120
@@ -72,9 +77,38 @@ def joint_plans(structure: Structure) -> list[JointPlan]:
         links = [link for link in structure.placed_links if {link.lower, link.upper} == pair and not link.straight]
         crossing = [((np.array(link.middle) - joint.origin) @ joint.frame)[:2] for link in links]
         said = f"{names[0]} –\n{names[1]}" if len("".join(names)) > 18 else f"{names[0]} – {names[1]}"
+        sizes, words, offset = _of_round_faces(joint, on_ground)
+        said += f"\n{sizes}" * bool(sizes)
         below = None if on_ground else corners[0]
-        found.append(JointPlan(f"joint {number}", below, corners[1], said, links=_pairs(crossing)))
+        plan = JointPlan(f"joint {number}", below, corners[1], said, words.replace(", ", "\n"), _pairs(crossing))
+        found.append(replace(plan, offset=offset, marked=bool(words)))
     return found
+
+
+def _of_round_faces(joint: SpaceJoint, on_ground: bool) -> tuple[str, str, tuple[float, float]]:
+    """Diameters, what is off or lost where round faces meet, and by how much in the joint's axes [m]."""
+    discs = [face.edges.discs for face in (joint.below, joint.above)]
+    if len(discs[1]) != 1 or (not on_ground and len(discs[0]) != 1):
+        return "", "", (0.0, 0.0)
+    radii = [0.0 if not one else one[0][1] for one in discs]
+    same = on_ground or abs(radii[0] - radii[1]) < IN_LINE
+    sizes = f"⌀ {2.0 * radii[1]:.3f}" + ("" if same else f" on ⌀ {2.0 * radii[0]:.3f}") + " m"
+    words, off = [], (0.0, 0.0)
+    if not on_ground:
+        moved = joint.above.middle - joint.below.middle
+        if math.hypot(*moved[:2]) >= IN_LINE:
+            words.append(f"offset {1000.0 * math.hypot(*moved[:2]):.0f} mm to {_azimuth(moved):.0f}°")
+            ((x, y),) = _pairs([((joint.above.middle - joint.origin) @ joint.frame)[:2]])
+            off = x, y
+    for normal, bound in joint.above.edges.sides:
+        lost, towards = radii[1] - bound, joint.above.frame[:, :2] @ normal
+        words.append(f"chip {1000.0 * lost:.0f} mm to {_azimuth(towards):.0f}°")
+    return sizes, ", ".join(words), off
+
+
+def _azimuth(way: np.ndarray) -> float:
+    """From x towards y [degrees]."""
+    return math.degrees(math.atan2(way[1], way[0])) % 360.0
 
 
 def _of_column(column: Column) -> list[JointPlan]:
@@ -97,7 +131,7 @@ def _of_column(column: Column) -> list[JointPlan]:
         turn = rotation(np.array([0.0, 0.0, 1.0]), float(at.turned[j]))[:2, :2]
         crossing = [link for link in column.placed_links if link.crosses(j) and link.mark != "sheet"]
         places = [middle + turn @ np.array(link.middle[:2]) for link in crossing]
-        words = words_of_found(one)
+        words = words_of_found(column.as_found, j + 1)
         offset = float(middle[0]), float(middle[1])
         found = words.replace(", ", "\n")
         plans.append(JointPlan(f"joint {j + 1}", below, above, said + " m", found, _pairs(places), offset, bool(words)))
@@ -139,6 +173,7 @@ def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure
     wide, high = sheet_size(structure)
     beside, row = FEW if len(shown) <= 12 else MANY
     rows = -(-len(shown) // beside)
+    row += LINE / 72.0 * max([0, *(_lines(plan) - 2 for plan in shown)])
     if not rows:
         return draw_views(structure, title, figure=figure)
     figure = page(figure, (wide, high + row * rows + 0.3))
@@ -163,6 +198,10 @@ def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure
     for axes in panels.flat[len(shown) :]:
         axes.set_axis_off()
     return figure
+
+
+def _lines(plan: JointPlan) -> int:
+    return sum(1 + words.count("\n") for words in (plan.said, plan.found) if words)
 
 
 def _heading(figure: SubFigure, text: str) -> None:
@@ -199,8 +238,9 @@ def _draw(axes: Axes, plan: JointPlan, half: float) -> None:
     axes.set_ylim(middle[1] - half, middle[1] + half)
     axes.set_axis_off()
     axes.set_title(plan.title, fontsize=8.0, weight="bold")
-    y = -0.03
+    lines = 0
     for words, colour in ((plan.said, "black"), (plan.found, RED)):
         if words:
-            axes.annotate(words, (0.5, y), xycoords="axes fraction", ha="center", va="top", fontsize=6.5, color=colour)
-            y -= 0.085 * (1 + words.count("\n"))
+            place = {"xycoords": "axes fraction", "xytext": (0.0, -2.0 - LINE * lines), "textcoords": "offset points"}
+            axes.annotate(words, (0.5, 0.0), **place, ha="center", va="top", fontsize=6.5, color=colour)
+            lines += 1 + words.count("\n")

@@ -15,7 +15,7 @@ from ..analysis.side_by_side import median_name, median_words
 from ..analysis.states import StateComparison
 from ..motion.intensity_specs import parse_measure
 from .fragility import logarithmic
-from .style import BLACK, CYCLE, GREY, RED, WIDTH, page, plain, styled
+from .style import BLACK, CYCLE, GREY, RED, WIDTH, in_lines, page, plain, styled
 
 #: Markers, after as many colours as the style has.
 _MARKERS = ("", "o", "s", "^")
@@ -25,7 +25,8 @@ _MARKERS = ("", "o", "s", "^")
 def draw_states(found: StateComparison, title: str = "", *, figure: Figure | SubFigure | None = None) -> Figure:
     """Fragility curves beside the differences in the share of runs that exceed the limit state.
 
-    The band is that of the first state with a curve; those of the others stand in the table. A state with undecided runs
+    Without any curve the differences stand alone. The band is that of the first state with a curve; those of the others
+    stand in the table. A state with undecided runs
     has two thin curves: if all of them exceeded the limit state, and if none did. Right: thick from the best to the worst
     that the undecided can come to, a circle where all is decided; the interval over records holds both ends. Grey: nothing
     is concluded.
@@ -37,20 +38,19 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
     figure : matplotlib figure or subfigure, optional
         Where to draw.
     """
-    figure = page(figure, (WIDTH, 4.4))
-    curves, bars = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
     known = [one for one in found.curves if one is not None]
+    figure = page(figure, (WIDTH, 4.4 if known else min(2.2 + 0.4 * len(found.differences), 4.4)))
     if known:
+        curves, bars = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
         _draw_curves(curves, known, found.state)
         for label, one in zip(found.labels, found.curves, strict=True):
             if one is None:
                 curves.plot([], [], color="none", label=f"{label}: no curve")
         curves.legend(loc="upper left", fontsize=7.5, handlelength=2.6)
     else:
-        curves.text(0.5, 0.5, "no curve: all runs say the same,\nor too few records", ha="center", va="center")
-        curves.set(xticks=[], yticks=[])
+        bars = figure.subplots()
     if title:
-        curves.set_title(title)
+        figure.suptitle(in_lines(title), x=0.02, ha="left")
     places = np.arange(len(found.differences))[::-1]
     bars.axvline(0.0, color=GREY, linewidth=0.8)
     for difference, place in zip(found.differences, places):
@@ -67,7 +67,7 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
     _say_which_side(bars, found)
     if any(difference.undecided for difference in found.differences):
         bars.plot([], [], color=BLACK, linewidth=4.0, alpha=0.5, label="undecided, both ways")
-        bars.legend(loc="lower left", fontsize=7.5)
+        figure.legend(*bars.get_legend_handles_labels(), loc="outside lower right", fontsize=7.5)
     bars.grid(True, axis="x")
     return figure
 

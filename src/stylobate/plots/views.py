@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,7 +15,7 @@ from ..column.links.placed import strokes
 from ..column.shapes import hull
 from ..column.structure import Body, Structure
 from ..column.turning import matrix_of
-from .elevation import NAMED, WORDS, Sheet, dimension, draw_heights
+from .elevation import NAMED, WRITTEN, Sheet, dimension, draw_chain, levels_of
 from .solids import MARK, STONE, Solid, Surface, painted, painting_order, surface_of
 from .style import BLACK, BLUE, GREY, WIDTH, in_lines, page, styled
 from .view import ALONG_X, ALONG_Y, OBLIQUE, View
@@ -27,6 +28,12 @@ TALL, LOW = (4.6, 1.8), (3.2, 1.6)
 
 #: Corners of a circle where it is measured, and room for two chains of dimensions [points].
 ROUND, CHAINS = 720, 84.0
+
+#: Least height of what is named in it [points].
+LEAST = 5.5
+
+#: What is nearer to the ground than this stands on it [m], and most feet whose distances are written.
+FOOT, MOST_FEET = 2e-3, 12
 
 #: A ground farther below what stands than this is left out of a picture [m].
 BESIDE = 5.0
@@ -87,7 +94,8 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
     ratio = min(max(across / deep, 0.6), 1.7)
     (front, side), (plan, oblique) = figure.subplots(2, 2, width_ratios=(ratio, 1.0), height_ratios=heights)
     stack = structure.stack
-    left = 46.0 if stack is None else CHAINS
+    levels = _levels(structure) if stack is None else levels_of(stack)
+    left = CHAINS if len(levels) > 2 else 46.0
     sheets = [_sheet(axes, solids, view, structure.ground, left=left) for axes, (view, _) in zip((front, side), SEEN)]
     scale = max(sheet.metres for sheet in sheets)
     for axes, (view, said) in zip((front, side, plan), SEEN):
@@ -100,8 +108,9 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
         flat = view.across(ends)
         low, high = flat.min(axis=0), flat.max(axis=0)
         dimension(axes, sheet, 0, low, high)
-        if stack is not None and view is ALONG_X:
-            draw_heights(axes, sheet, stack, float(low[0]))
+        _feet(axes, sheet, structure, view, float(low[1]))
+        if len(levels) > 2 and view is ALONG_X:
+            draw_chain(axes, sheet, levels, float(low[0]))
         else:
             dimension(axes, sheet, 1, low, high)
         if len(set(names)) <= NAMED:
@@ -115,6 +124,40 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
     if title:
         figure.suptitle(in_lines(title), x=0.02, ha="left")
     return figure
+
+
+def _levels(structure: Structure) -> list[float]:
+    """Heights of the undersides and tops of bodies that can move, each once [m]; none of more than are written."""
+    bodies = [one for one in _near(structure) if not one.fixed]
+    ends = [end for one in bodies for part in one.placed for end in _ends(part.mesh().vertices[:, 2])]
+    levels = sorted(dict.fromkeys(round(end, 3) for end in ends))
+    return levels if len(levels) <= WRITTEN + 1 else []
+
+
+def _ends(values: np.ndarray) -> tuple[float, float]:
+    return float(values.min()), float(values.max())
+
+
+def _feet(axes: Axes, sheet: Sheet, structure: Structure, view: View, edge: float) -> None:
+    """From axis to axis of what stands on the ground, under an elevation; the width of the foot of one alone."""
+    if view is PLAN or (structure.ground is None and structure.stack is None):
+        return
+    level = structure.ground or 0.0
+    feet = []
+    for body in _near(structure):
+        points = np.concatenate([part.mesh(ROUND).vertices for part in body.placed])
+        if not body.fixed and abs(float(points[:, 2].min()) - level) < FOOT:
+            feet.append(_ends(view.across(points[points[:, 2] < level + FOOT])[:, 0]))
+    middles = sorted(dict.fromkeys(round(0.5 * sum(ends), 3) for ends in feet))
+    marks = middles if len(middles) > 1 else sorted(feet[0]) if feet else []
+    if 1 < len(marks) <= MOST_FEET:
+        place = sheet.up(edge, -10.0)
+        for start, end in pairwise(marks):
+            line = {"arrowstyle": "|-|,widthA=0.2,widthB=0.2", "lw": 0.6, "shrinkA": 0, "shrinkB": 0}
+            axes.annotate("", (start, place), (end, place), arrowprops=line)
+            paper = {"pad": 0.6, "facecolor": "white", "edgecolor": "none"}
+            said = f"{end - start:.3f}"
+            axes.text(0.5 * (start + end), place, said, fontsize=6.5, ha="center", va="center", bbox=paper)
 
 
 def _plain(surface: Surface) -> Surface:
@@ -162,7 +205,7 @@ def _names(axes: Axes, sheet: Sheet, solids: list[Solid], names: list[str], view
         name = names[number]
         if 4.2 * len(name) > max(wide, high):
             name = name.rpartition(", ")[2]
-        if 4.2 * len(name) > max(wide, high) or min(wide, high) < WORDS:
+        if 4.2 * len(name) > max(wide, high) or min(wide, high) < LEAST:
             continue
         turned = 90 if wide < 4.2 * len(name) else 0
         middle = 0.5 * (shape.min(axis=0) + shape.max(axis=0))

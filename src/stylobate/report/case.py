@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 from collections.abc import Iterable, Sequence
 from datetime import date
@@ -21,6 +22,8 @@ from .pdf import print_pdf
 from .project import Project, front_sections
 from .record import NOTE, SOURCES
 from .runs import run_sections, several_sections
+
+_log = logging.getLogger("stylobate")
 
 TEMPLATE = Path(__file__).with_name("case.html")
 
@@ -67,7 +70,7 @@ def write_report(
     out : path
         The HTML file.
     title : str, optional
-        What stands, by default.
+        The site of the project or what stands, by default.
     pdf : bool
         Print it to a PDF file of the same name as well.
     project : Project, optional
@@ -98,15 +101,19 @@ def write_report(
 
 def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, project: Project | None) -> list[Path]:
     told: set[str] = set()
-    language = language_of("en" if project is None else project.language, _names(found))
+    own = _names(found) | ({project.site} if project is not None else set())
+    language = language_of("en" if project is None else project.language, own)
     with speaking(language):
-        cases = [_case(one, told, found, language) for one in found]
+        cases = []
+        for number, one in enumerate(found, start=1):
+            _log.info("case %d of %d: %s, %s.", number, len(found), one.kind.value, one.folder)
+            cases.append(_case(one, told, found, language))
     front = []
     if project is not None:
         cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
         sections = front_sections(project, found, cases, cited)
         front = [page.part(language.section(section)) for section in sections]
-    names = ", ".join(dict.fromkeys(one.name for one in found))
+    names = _heading(found, project)
     kinds = ", ".join(dict.fromkeys(language.say(TITLES[one.kind.value]) for one in found))
     day = date.today().isoformat()
     lead = [f"{kinds[:1].upper()}{kinds[1:]}. {language.say(f'Written on {day} by stylobate {__version__}.')}"]
@@ -126,6 +133,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
     }
     files = [page.write_html(target, TEMPLATE, title=title or language.say(f"Report: {names}"), **values)]
     if pdf:
+        _log.info("printing %s.", target.name)
         files.append(print_pdf(target, target.with_suffix(".pdf")))
     return files
 
@@ -152,13 +160,22 @@ def _spoken(language: Language) -> list[page.Item]:
     return [page.Note(said, "fair" if language.english else "")]
 
 
+def _heading(found: Sequence[Result], project: Project | None) -> str:
+    """What a report is of: the site of its project, or what stands; the name of a result where nothing is known to stand."""
+    if project is not None:
+        return project.site
+    standing = dict.fromkeys(stands.name for one in found for stands in one.structures)
+    return ", ".join(standing or dict.fromkeys(one.name for one in found))
+
+
 def _names(found: Sequence[Result]) -> set[str]:
     """Names that people gave, of which a report translates nothing."""
     asked = [one.asked for one in found if one.asked is not None]
     motions = [str(motion.get(key)) for one in asked for motion in one.motions for key in ("name", "record")]
     runs = [run for one in found for run in (one.runs if isinstance(one, SeveralRuns) else (one,))]
     motions += [str(one.response.provenance.get("motion")) for one in runs if isinstance(one, RunResult)]
-    bodies = [body.name for one in found for stands in one.structures if stands.stack is None for body in stands.bodies]
+    standing = [stands for one in found for stands in one.structures if stands.stack is None]
+    bodies = [body.name for stands in standing for body in stands.bodies if not (body.fixed and body.name == "ground")]
     return {
         *motions,
         *bodies,

@@ -95,10 +95,19 @@ class Language:
             for last in range(len(ends), k, -1):
                 found = self._whole(" ".join(ends[k:last])) if last - k < len(ends) else None
                 if found is not None or last == k + 1:
-                    said.append(ends[k] if found is None else found)
+                    said.append(self._listed(ends[k]) if found is None else found)
                     k = last
                     break
         return " ".join(said)
+
+    def _listed(self, text: str) -> str:
+        """A list of which every entry is known, in this language; any other text as it is."""
+        for between in ("; ", ", "):
+            parts = text.split(between)
+            said = [part if not _WORD.search(part) else self._whole(part) for part in parts]
+            if len(parts) > 1 and all(one is not None and not self.is_english(one, 1) for one in said):
+                return between.join(filter(None, said))
+        return text
 
     def _whole(self, text: str) -> str | None:
         """A text that an entry covers from end to end; None where none does."""

@@ -65,9 +65,8 @@ def states_items(result: Numbers) -> list[Item]:
     banded = next((state["label"] for state in s["states"] if state["fragility"]), None)
     band = "" if banded is None else f", the band that of “{banded}”"
     left = f"Left: fragility curves{band}; two thin ones where runs are undecided: if all exceeded, and if none did. "
-    right = (
-        "Right: difference of the share, pair by pair; left of zero is better. Thick: undecided runs counted both ways"
-    )
+    right = f"{'Right: difference' if banded else 'Difference'} of the share, pair by pair; left of zero is better. "
+    right += "Thick: undecided runs counted both ways"
     wide = any(difference["records"] >= FEWEST for difference in s["differences"])
     items += kept(
         result.pictures,

@@ -10,7 +10,7 @@ import numpy as np
 from ..analysis.capacity_spectrum import CapacityCheck, capacity_spectrum_check
 from ..analysis.limit import limit_analysis, towards
 from ..analysis.limit_assemblies import listed
-from ..analysis.limit_directions import limit_directions
+from ..analysis.limit_directions import weakest_direction
 from ..analysis.pushover import pushover
 from ..column import Column
 from ..errors import StylobateError
@@ -74,7 +74,7 @@ def _in_plane(column: Column) -> list[tuple[str, str]]:
 
 
 def _around(column: Column) -> list[tuple[str, str]]:
-    weak = limit_directions(column).weakest
+    weak = weakest_direction(column)
     return [
         ("limit analysis: becomes a mechanism at", f"{weak.multiplier:.4g} g, pushed towards {weak.azimuth:g}°"),
         ("mechanism", f"joint {weak.joint} {weak.mode}"),

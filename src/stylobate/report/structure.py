@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
-from ..column.as_found import FoundDrum
+from ..column.as_found import AsFound, FoundDrum
 from ..column.block import FAR_AWAY
 from ..column.found_in_space import weakest_uplift
 from ..column.plausible import unit_doubts
 from ..column.structure import Structure
 from ..constants import g
 from ..plots import draw_elevation, draw_views
+from ..plots.joint_plans import joint_plans
 from . import numbers as n
 from .page import Facts, Item, Picture, Rows, Section
 from .pictures import picture
@@ -63,7 +64,8 @@ def _elevation(column: Column) -> Picture:
     if column.links:
         caption += " Blue: links."
     if column.as_found:
-        caption += " Red: drums that are not where they were built, over the column as built (dashed)."
+        caption += " Filled red: drums that are not where they were built, over the column as built (dashed); "
+        caption += "red words: what was measured."
     return picture(draw_elevation(column), caption)
 
 
@@ -159,6 +161,14 @@ def _chips(drum: FoundDrum, deep: bool) -> str:
     return said + (f", right at {drum.chip_azimuth:g}°" if drum.chip_azimuth else "")
 
 
+def _place(found: AsFound, drum: FoundDrum) -> str:
+    """Where the offsets up to a drum leave it."""
+    far, azimuth = found.place(drum.drum)
+    if not far:
+        return "back in line" if drum.offset else n.NONE
+    return f"{1000.0 * far:.1f} mm to {azimuth:.0f}°"
+
+
 def _as_found(column: Column) -> Rows:
     found = column.as_found
     deep = any(drum.chip_front or drum.chip_back for drum in found.drums)
@@ -167,6 +177,7 @@ def _as_found(column: Column) -> Rows:
             str(drum.drum),
             f"{1000.0 * drum.offset:+.1f}" if drum.offset else n.NONE,
             f"{drum.offset_azimuth:g}" if drum.offset else n.NONE,
+            _place(found, drum),
             f"{drum.tilt:+.3g}" if drum.tilt else n.NONE,
             f"{drum.tilt_azimuth:g}" if drum.tilt else n.NONE,
             f"{drum.turn:+.3g}" if drum.turn else n.NONE,
@@ -178,6 +189,7 @@ def _as_found(column: Column) -> Rows:
         "drum",
         "offset [mm]",
         "to azimuth [°]",
+        "in all",
         "lean [°]",
         "azimuth [°]",
         "turned [°]",
@@ -187,10 +199,27 @@ def _as_found(column: Column) -> Rows:
         f" to azimuth {found.base_azimuth:g}°." if found.base_azimuth else "."
     )
     caption = (
-        "As found: each drum over the joint under it; what stands on it goes along. Azimuths are from x towards y."
-        + (base if found.base_tilt else "")
+        "As found: each drum over the joint under it; what stands on it goes along. “In all” is where the offsets up to "
+        "a drum leave it, from its place as built. Azimuths are from x towards y." + (base if found.base_tilt else "")
     )
     return Rows(header, body, caption, numbers=True)
+
+
+#: Caption of what is as found in an assembly.
+FOUND_AT = (
+    "As found: round faces that do not lie in line, and what the upper one has lost. Azimuths are from x towards y."
+)
+
+
+def _found_at(structure: Structure) -> list[list[str]]:
+    """Joints of an assembly in space where something is off or lost."""
+    plans = zip(joint_plans(structure), structure.space_joints or ())
+    names = [one.name for one in structure.bodies]
+    return [
+        [str(k), f"{names[joint.lower]} – {names[joint.upper]}", plan.found.replace("\n", ", ")]
+        for k, (plan, joint) in enumerate(plans, 1)
+        if plan.found
+    ][:MOST]
 
 
 #: Facts of a row on a link between blocks in cells of their own.
@@ -236,6 +265,8 @@ def _blocks(structure: Structure) -> list[Item]:
     )
     drawn = draw_elevation(structure) if contacts is None else draw_views(structure)
     found: list[Item] = [picture(drawn, caption), Facts(facts), rows, *([joints] if laws else [])]
+    if contacts is not None and (seen_at := _found_at(structure)):
+        found.append(Rows(["joint", "between", "as found"], seen_at, FOUND_AT, numbers=True))
     return [*found, _links_between_blocks(structure)] if structure.links else found
 
 

@@ -69,7 +69,7 @@ def opening_words(opens: Mapping[str, float] | None) -> str:
 
 #: What stands before all that rests on wobbles without damping.
 UNDAMPED_WOBBLE = (
-    "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many like it fall "
+    "Wobbling was not damped, and in space a verdict can hang on that, either way: see how many of a population fall "
     "with a stiffness damping of 1e-4 s, and of 1e-3 s, or with losses = stone, before relying on it."
 )
 
