@@ -14,7 +14,7 @@ import numpy as np
 from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.digests import Digests, Hasher
 from ..campaign.runs import Request, Runs, Stopped
-from ..campaign.twins import the_twins
+from ..campaign.twins import Twins, the_twins
 from ..column.structure import Structure
 from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
@@ -22,7 +22,7 @@ from ..notebook import Shown
 from ..response import Response
 from ..response.measures import CPU
 from ..response.words import to_decide
-from ..simulate import run_options, simulate
+from ..simulate import expected_wait, run_options, simulate, thread_count
 from .difference import caveat
 from .population import Population
 
@@ -97,7 +97,7 @@ def certainty(
     began = time.perf_counter()
     drawn = the_twins(column, model, campaign)
     twins, tail = drawn.columns, campaign.tail
-    riding = () if until_end or until_rest or drawn.groups else tuple(twins[: model.carried(column)])
+    riding = _riding(drawn, column, model, until_end or until_rest)
     following = {"output_interval": output_interval, "until_end": until_end, "until_rest": until_rest, "quiet": quiet}
 
     def make() -> Response:
@@ -118,6 +118,37 @@ def certainty(
     doubt = "" if column.space_joints is None else caveat([column], model)
     population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail), doubt=doubt)
     return Certainty(response, population, time.perf_counter() - began)
+
+
+def _riding(drawn: Twins, column: Structure, model: Model, followed: bool) -> tuple[Structure, ...]:
+    """Twins that ride along with a run; none where it is ``followed``, or where the law of their joints varies."""
+    return () if followed or drawn.groups else tuple(drawn.columns[: model.carried(column)])
+
+
+def wait_for(
+    column: Structure, motions: Sequence[Motion], model: Model, campaign: Campaign, options: RunOptions, followed: bool
+) -> float:
+    """About how long :func:`certainty` takes for all of some motions, one after the other [s]; 0 where that is not known.
+
+    Parameters
+    ----------
+    column, motions, model, campaign
+        Without replicates in the campaign, the runs alone.
+    options : RunOptions
+        Of the run itself.
+    followed : bool
+        Whether it goes on to its end, or until rest.
+    """
+    twins: Sequence[Structure] = ()
+    if campaign.replicates:
+        drawn = the_twins(column, model, campaign)
+        twins = drawn.columns[len(_riding(drawn, column, model, followed)) :]
+    threads, paced = thread_count(campaign.threads), model.paced(column)
+    return sum(
+        expected_wait([Case(column, motion)], model, options)
+        + expected_wait([Case(twin, motion) for twin in twins], paced, options, threads)
+        for motion in motions
+    )
 
 
 def _kept(

@@ -136,11 +136,12 @@ def each_record(
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     import numpy as np
 
+    from ..analysis.certainty import wait_for
     from ..campaign.campaign import Campaign
     from ..campaign.digests import Digests, Hasher
     from ..campaign.runs import Request, Runs, Stopped
     from ..models.base import Case
-    from ..simulate import run_options
+    from ..simulate import run_options, tell_wait
     from . import console
 
     places: list[Path | None] = []
@@ -169,6 +170,9 @@ def each_record(
     summaries: dict[int, dict] = {}
     with console.folder(out) as folder:
         ledger = console.ledger(folder)
+        twins = f", each with {campaign.replicates} like it," if campaign.replicates else ""
+        wait = wait_for(stone.stack or stone, motions, model, campaign, options, _followed(follow))
+        tell_wait(f"{len(motions)} runs{twins} take", wait, stone)
         try:
             with closing(Runs(Campaign(ledger=ledger))) as runs:
                 for number, row in runs.products(request, make):
