@@ -120,7 +120,7 @@ def certainty(
     return Certainty(response, population, time.perf_counter() - began)
 
 
-def _riding(drawn: Twins, column: Structure, model: Model, followed: bool) -> tuple[Structure, ...]:
+def _riding(drawn: Twins, column: Structure, model: Model, followed: bool) -> tuple[Any, ...]:
     """Twins that ride along with a run; none where it is ``followed``, or where the law of their joints varies."""
     return () if followed or drawn.groups else tuple(drawn.columns[: model.carried(column)])
 
