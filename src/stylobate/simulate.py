@@ -304,24 +304,50 @@ def thread_count(threads: int | None) -> int:
 TOLD_WAIT, ASKED = 10.0, 20
 
 
-def _tell_wait(cases: Sequence[Case], model: Model, options: RunOptions, threads: int = 1) -> None:
-    """Tell the log before a long computation about how long it will take, where that is known."""
+def expected_wait(cases: Sequence[Case], model: Model, options: RunOptions, threads: int = 1) -> float:
+    """About how long cases will take where nothing else runs on this machine [s]; 0 where that is not known.
+
+    Lanes are filled in the order in which they become free: all end by their mean load and the longest run besides [1].
+
+    References
+    ----------
+    .. [1] Graham, R. L. (1969). Bounds on multiprocessing timing anomalies. SIAM J. Appl. Math. 17(2), 416-429.
+    """
     if not len(cases) or (len(cases) > 1 and not model.carries):  # batches of the others are not stepped as single runs
-        return
+        return 0.0
     each = []
     for number in np.unique(np.linspace(0, len(cases) - 1, ASKED).astype(int)).tolist():
         column, motion = case = cases[number]
         step, cost = model.expected_step(column, motion)
         length = expected_length(case, options) if model.carries else motion.duration + options.tail
         each.append(cost * length / step)
-    first = cases[0].column
-    wait = max(max(each), float(np.mean(each)) * len(cases) / ((1 + model.carried(first)) * threads))
+    lanes = (1 + model.carried(cases[0].column)) * threads
+    return float(np.mean(each)) * len(cases) / lanes + max(each) * (1.0 - 1.0 / lanes)
+
+
+def tell_wait(runs: str, wait: float, column: Structure) -> None:
+    """Tell the log before a long computation about how long it will take.
+
+    Parameters
+    ----------
+    runs : str
+        What takes so long: subject and verb.
+    wait : float
+        [s]
+    column : Structure
+        What is shaken.
+    """
     if wait > TOLD_WAIT:
-        runs = "this run takes" if len(cases) == 1 else f"{len(cases)} runs take"
-        falls = "" if first.moving_acceleration is not None else ", and longer once something falls"
+        falls = "" if column.moving_acceleration is not None else ", and longer once something falls"
         logging.getLogger("stylobate").info(
             "%s about %s where nothing else runs on this machine%s.", runs, duration(wait), falls
         )
+
+
+def _tell_wait(cases: Sequence[Case], model: Model, options: RunOptions, threads: int = 1) -> None:
+    if len(cases):
+        runs = "this run takes" if len(cases) == 1 else f"{len(cases)} runs take"
+        tell_wait(runs, expected_wait(cases, model, options, threads), cases[0].column)
 
 
 def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) -> dict[str, Any]:

@@ -1,11 +1,14 @@
 """Commands that are stopped keep what is finished, and no command writes over what is not its own."""
 
+import json
 import math
 
 import pandas
 import pytest
 
+from stylobate.campaign.holding import Holding
 from stylobate.cli.main import call
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.own_files import LIST
 
@@ -109,6 +112,61 @@ def test_a_folder_of_records_goes_on_with_the_next(records, tmp_path, capsys, mo
     assert len(made) == 1
     assert capsys.readouterr().out.count("record-") >= 3
     assert {path.name for path in out.glob("[!.]*")} == {*(f"record-{k}.csv" for k in range(3)), "runs.sqlite"}
+
+
+SPREAD = ["--replicates", "18", "--scatter", "friction=10%"]
+
+
+@pytest.mark.parametrize("several", [False, True])
+def test_a_run_goes_on_with_its_twins(several, tmp_path, capsys, monkeypatch):
+    """Its fifteen twins ride along with it; the three others are made after it, two of them before the interrupt."""
+    from stylobate.analysis import certainty as module
+
+    state, real, real_many = {"runs": 0, "twins": 0, "stop": None}, module.simulate, DistinctElement2D.run_many
+
+    def simulate(*arguments, **options):
+        state["runs"] += 1
+        return real(*arguments, **options)
+
+    def run_many(self, cases, options, threads):
+        for one in real_many(self, cases, options, 1):
+            if state["twins"] == state["stop"]:
+                raise KeyboardInterrupt
+            state["twins"] += 1
+            yield one
+
+    monkeypatch.setattr(module, "simulate", simulate)
+    monkeypatch.setattr(DistinctElement2D, "run_many", run_many)
+    command = ["run", "paper-monolithic", "--harmonic", "1Hz,0.3g,1s", *SPREAD, "--no-pictures"]
+    command += ["--azimuths", "0,180"] if several else []
+    whole, out = tmp_path / "whole", tmp_path / "out"
+    assert call([*command, "--out", str(whole)]) == 0
+    state.update(runs=0, twins=0, stop=2)
+    capsys.readouterr()
+    assert call([*command, "--out", str(out)]) == 130
+    said = capsys.readouterr().err
+    if several:
+        assert f"0 of 2 runs are kept in {out}, and of the one under way itself and 2 of 3 like it: the same" in said
+    else:
+        assert f"interrupted; 2 of 3 runs are kept in {out}: the same command goes on" in said
+    state.update(runs=0, twins=0, stop=None)
+    assert call([*command, "--out", str(out)]) == 0
+    assert (state["runs"], state["twins"]) == ((1, 4) if several else (0, 1))
+    for one in whole.rglob("replicates.csv"):
+        assert (out / one.relative_to(whole)).read_bytes() == one.read_bytes()
+    for one in whole.rglob("run.json"):
+        first, again = (json.loads(path.read_text()) for path in (one, out / one.relative_to(whole)))
+        assert [key for key in first if first[key] != again[key]] == ["wall_s", "files"]
+
+
+def test_a_folder_in_use_is_refused_before_anything_is_computed(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("stylobate.analysis.certainty.simulate", lambda *_, **__: pytest.fail("computed first"))
+    held = Holding(tmp_path / "runs.sqlite")
+    try:
+        assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.3g,1s", *SPREAD, "--out", str(tmp_path)]) == 2
+        assert "runs.sqlite is not free: another process is at work on it" in capsys.readouterr().err
+    finally:
+        held.release()
 
 
 def test_a_comparison_goes_on_with_the_next_model(tmp_path, capsys, monkeypatch):

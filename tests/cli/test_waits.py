@@ -8,6 +8,7 @@ import pytest
 from numba.core import event
 
 import stylobate as st
+from stylobate import DistinctElement2D, DistinctElement3D
 from stylobate.cli import console
 from stylobate.cli.main import call
 from stylobate.kernels import jit
@@ -138,7 +139,8 @@ def test_a_long_computation_is_told_before_it_begins(told, monkeypatch):
     model = st.DistinctElement2D()
     step, cost = model.expected_step(COLUMN, motion)
     monkeypatch.setitem(simulate_iter.__globals__, "TOLD_WAIT", 1.0)
-    for runs, threads, blocks in ((1, 2, 1), (320, 2, 10), (320, 1, 20)):
+    # so many to a lane, and the longest besides, as some lane begins it last
+    for runs, threads, blocks in ((1, 1, 1), (320, 2, 10 + 31 / 32), (320, 1, 20 + 15 / 16)):
         some = simulate_iter([Case(COLUMN, motion)] * runs, model, threads=threads)
         monkeypatch.setattr(type(model), "run_many", lambda *_: iter(()))
         assert list(some) == []
@@ -153,6 +155,29 @@ def test_what_falls_takes_longer_than_told(told, monkeypatch):
     cube = st.Assembly([block], st.Joint(1e8, 5e7, friction_angle=35.0), name="cube")
     st.simulate_assembly(cube, st.harmonic(1.0, 0.1, 0.1))
     assert told().endswith(" where nothing else runs on this machine, and longer once something falls ...\n")
+
+
+def test_the_wait_for_several_directions_is_that_for_all_of_them(told, tmp_path, monkeypatch):
+    """Twelve directions, each with twenty columns like it of which fifteen ride along: the five others are a batch."""
+    waits = []
+    monkeypatch.setitem(simulate_iter.__globals__, "tell_wait", lambda runs, wait, column: waits.append((runs, wait)))
+    monkeypatch.setattr("stylobate.cli.run.conclude", lambda *_: pytest.fail("told before anything is computed"))
+    command = ["run", "paper-monolithic", "--harmonic", "1Hz,0.3g,1s", "--azimuths", "0:330:12", "--threads", "1"]
+    command += ["--replicates", "20", "--scatter", "friction=10%"]
+    with pytest.raises(pytest.fail.Exception):
+        call(command)
+    ((what, wait),) = waits
+    step, cost = DistinctElement2D().expected_step(st.preset("paper-monolithic"), st.harmonic(1.0, 0.3, 1.0))
+    assert what == "12 runs, each with 20 like it, take"
+    assert wait == pytest.approx(12 * cost / step * (1.0 + 5 / 16 + 15 / 16), rel=0.3)  # the last steps, and the quiet
+
+
+def test_damping_costs_what_its_steps_do():
+    """A damped step in space costs half as much again as an undamped one; named losses are told by what acts."""
+    column, motion = st.preset("paper-12-drums"), st.harmonic(1.0, 0.3, 1.0)
+    free, stone = (DistinctElement3D(losses=name).expected_step(column, motion) for name in ("none", "stone"))
+    assert stone[0] < free[0]
+    assert stone[1] == pytest.approx(1.5 * free[1], rel=0.05)
 
 
 def test_quiet_is_left_out_and_said(capsys, tmp_path):

@@ -11,7 +11,7 @@ from hypothesis import strategies as some
 import stylobate as st
 from stylobate.column.assembly_files import read_assembly
 from stylobate.column.files import column_from_dict, load_column, read_column, write_column
-from stylobate.column.plausible import unit_doubts
+from stylobate.column.plausible import length_doubts, unit_doubts
 from stylobate.column.presets import PRESETS, preset
 from stylobate.column.scatter import Scatter
 from stylobate.column.twins import twins_of
@@ -387,22 +387,37 @@ def test_a_key_of_a_table_in_a_table_is_told_by_the_whole_path(tmp_path):
         read_column(path)
 
 
+def test_all_lengths_of_a_column_are_doubted_in_one_unit():
+    """A column of two short drums measured in cm is as high in inches as one is usually; its drums and widths are not."""
+    assert length_doubts([74.2, 73.1], [(120.4, 117.2), (117.2, 114.1)]) == [
+        "the height of the column is 147.3 m, and columns have 0.05 to 60 m: was it meant in cm?",
+        "the width of the lower face of drum 1 is 120.4 m, and stones have 0.005 to 10 m: was it meant in cm?",
+    ]
+    (said,) = length_doubts([29.2, 28.8], [(47.4, 46.1), (46.1, 44.9)])
+    assert said.startswith("the width of the lower face of drum 1 is 47.4 m")
+    assert said.endswith("was it meant in inches?")
+    assert length_doubts([0.742], [(1.2, 1.1)], [90.0])[0].startswith("the depth of drum 1 is 90 m")
+    assert length_doubts([0.742], [(1.2, 1.1)], [0.9]) == []
+
+
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("height = 86.0", r"size of block 'a' is 86 m.*was it meant in"),
+        ("height = 86.0", r"size of block 'a' is 86 m.*was it meant in cm\?"),
+        ("depth = 80.0", r"size of block 'a' is 80 m.*was it meant in cm\?"),
         ("density = 2.5", r"density of block 'a' is 2.5 kg/m³.*was it meant in g/cm³\?"),
         ("normal_stiffness = 5e7", r"block 'a' sinks by 2 mm into its joint.*was it meant in kN/m³\?"),
     ],
 )
 def test_blocks_of_an_assembly_are_doubted_as_drums_are(line, said, tmp_path):
-    values = {"height": "4.0", "density": "2500.0", "normal_stiffness": "5e10"}
+    values = {"height": "4.0", "density": "2500.0", "normal_stiffness": "5e10", "depth": "0.8"}
     name, _, value = line.partition(" = ")
     values[name] = value
     h = values["height"]
     path = tmp_path / "block.toml"
     path.write_text(
-        f"density = {values['density']}\n[joint]\nnormal_stiffness = {values['normal_stiffness']}\nshear_stiffness = 2e10\n"
+        f"density = {values['density']}\ndepth = {values['depth']}\n"
+        f"[joint]\nnormal_stiffness = {values['normal_stiffness']}\nshear_stiffness = 2e10\n"
         f"[[block]]\nname = 'a'\nvertices = [[0.0, 0.0], [0.8, 0.0], [0.8, {h}], [0.0, {h}]]\n"
     )
     with pytest.warns(st.OutOfRangeWarning, match=said) as seen:

@@ -300,7 +300,12 @@ HEAD = "drum,height_m,bottom_width_m,top_width_m"
         (f"# stone: marble\n{HEAD}\n1,1,1,1", "says 'stone' of the column; .*allowed are name, section"),
         (f"# gravity: g\n{HEAD}\n1,1,1,1", "gravity of .* is 'g'; give a number"),
         (f"# material: cheese\n{HEAD}\n1,1,1,1", "cheese"),
-        (f"# material: marble\n{HEAD}\n1,-1,1,1", "height"),
+        (f"# material: marble\n{HEAD}\n1,-1,1,1", "height in row 1 of .* is -1 m; give a length above 0 m"),
+        (
+            "# material: marble\ndrum;height;bottom_width;top_width\n1;74,2;120,4;117,2\n2;73,1;117,2;114,1",
+            r"147.3 m, and columns have 0.05 to 60 m: was it meant in cm\? Lengths in .* are in m unless .* height_cm",
+        ),
+        (f"# material: marble\n{HEAD}\n1,0.8,90,1", r"lower face of drum 1 is 90 m.*meant in cm\?"),
         (f"# material: marble\n{HEAD},tilt_deg\n1,1,1,1,80", "tilt"),
     ],
 )
@@ -308,6 +313,14 @@ def test_what_is_no_survey(text, says, tmp_path):
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(st.InputError, match=says):
         convert(str(tmp_path / "a.csv"), tmp_path / "b.toml", Reading())
+    assert not (tmp_path / "b.toml").exists()
+
+
+def test_a_note_on_a_drum_is_the_surveyors(tmp_path):
+    (tmp_path / "a.csv").write_text(f"# material: marble\n{HEAD},Note\n1,0.8,1,0.9,cracked at NE\n2,0.3,0.9,1.1,\n")
+    column, tables, _ = read_model(tmp_path / "a.csv", Reading())
+    assert column.n == 2
+    assert "note" not in str(tables)
     assert not (tmp_path / "b.toml").exists()
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import stylobate as st
 from stylobate.column.kinds import FROM_DICT
+from stylobate.column.spatial.mesh_files import read_stones
 
 HEAD = """
 density = 2500.0
@@ -155,6 +156,51 @@ def test_a_mesh_in_millimetres(read, tmp_path):
     ):
         read(HEAD + block('mesh = "mm.obj"'))
     assert read(HEAD + block('mesh = "mm.obj"\nunit = "mm"')).stones[0].mass == pytest.approx(2500.0)
+
+
+def test_a_mesh_is_refused_where_no_part_of_it_has_the_size_of_a_stone(tmp_path):
+    """A colonnade of cubes 70 m long is one; a single cube of 40 m, thick in every direction, is none."""
+    corners = [line.split()[1:] for line in CUBE.splitlines() if line[:1] == "v"]
+    faces = [[int(one) for one in line.split()[1:]] for line in CUBE.splitlines() if line[:1] == "f"]
+    lines = []
+    for number in range(2):
+        lines += [f"o cube{number}", *(f"v {int(x) + 70 * number} {y} {z}" for x, y, z in corners)]
+        lines += [" ".join(["f", *(str(one + 8 * number) for one in face)]) for face in faces]
+    (tmp_path / "long.obj").write_text("\n".join(lines))
+    assert len(read_stones(tmp_path / "long.obj")) == 2
+    forty = [" ".join(["v", *(str(40 * int(x)) for x in one.split()[1:])]) if one[:1] == "v" else one
+             for one in CUBE.splitlines()]  # fmt: skip
+    (tmp_path / "forty.obj").write_text("\n".join(forty))
+    with pytest.raises(st.InputError, match=r"forty.obj is 40 m, and stones have at their thinnest .*was it meant in"):
+        read_stones(tmp_path / "forty.obj")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("section = [0.6, 0.5]", "section = [90, 70]", r"size of block 'architrave' is 90 m.*meant in cm\?"),
+        ("section = [0.6, 0.5]", "section = [0.6, 0.5]\ndensity = 2.5", r"density of block 'architrave' is 2.5 kg/m³"),
+        ("section = [0.6, 0.5]", "section = [35, 28]", r"size of block 'architrave' across is 28 m.*was it meant in"),
+    ],
+)
+def test_beams_are_doubted_as_blocks_are(old, new, says, read):
+    with pytest.warns(st.OutOfRangeWarning, match=says):
+        read(TWO.replace(old, new))
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        "box = [120.0, 80.0, 60.0]",
+        "box = [40.0, 40.0, 40.0]",
+        "drum = { bottom_diameter = 95.0, top_diameter = 90.0, height = 80.0 }",
+        "drum = { bottom_diameter = 40.0, top_diameter = 40.0, height = 0.8 }",
+        "vertices = [[0.0, 0.0, 0.0], [80.0, 0.0, 0.0], [0.0, 60.0, 0.0], [0.0, 0.0, 90.0]]",
+    ],
+)
+def test_stones_drawn_in_cm_are_doubted(shape, read):
+    with pytest.warns(st.OutOfRangeWarning, match=r"size of block 'a'.*stones have.*was it meant in"):
+        read(HEAD + f"[[block]]\nname = 'a'\nat = [0.0, 0.0, 0.0]\n{shape}\n")
 
 
 @pytest.mark.parametrize(

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, Unpack
 
+import numpy as np
+
 from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
-from ..campaign.digests import Hasher
+from ..campaign.digests import Digests, Hasher
 from ..campaign.runs import Request, Runs, Stopped
-from ..campaign.twins import the_twins
+from ..campaign.twins import Twins, the_twins
 from ..column.structure import Structure
 from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
 from ..notebook import Shown
 from ..response import Response
+from ..response.measures import CPU
 from ..response.words import to_decide
-from ..simulate import run_options, simulate
+from ..simulate import expected_wait, run_options, simulate, thread_count
 from .difference import caveat
 from .population import Population
 
@@ -64,6 +68,7 @@ def certainty(
     until_end: bool = False,
     until_rest: bool = False,
     quiet: float = 0.0,
+    kept: Path | None = None,
     campaign: Campaign = USUAL,
     **fields: Unpack[Fields],
 ) -> Certainty:
@@ -77,6 +82,9 @@ def certainty(
     ----------
     column, motion, model, output_interval, until_end, until_rest, quiet
         As in :func:`stylobate.simulate`.
+    kept : path, optional
+        File for the run of the column itself, beside the ledger of the campaign: where both are as they were written, it is
+        read, and not made again.
     campaign : Campaign, optional
         How many twins, and how; threads, cluster and ledger are for those beyond the first fifteen, and ``progress`` is
         called with times, as in :func:`stylobate.simulate`.
@@ -89,18 +97,75 @@ def certainty(
     began = time.perf_counter()
     drawn = the_twins(column, model, campaign)
     twins, tail = drawn.columns, campaign.tail
-    riding = () if until_end or until_rest or drawn.groups else tuple(twins[: model.carried(column)])
-    response = simulate(
-        column, motion, model, tail=tail, output_interval=output_interval, until_end=until_end, until_rest=until_rest,
-        twins=riding, quiet=quiet, progress=campaign.progress,
-    )  # fmt: skip
-    rows = [twin.row() for twin in response.twins]
+    riding = _riding(drawn, column, model, until_end or until_rest)
+    following = {"output_interval": output_interval, "until_end": until_end, "until_rest": until_rest, "quiet": quiet}
+
+    def make() -> Response:
+        return simulate(
+            column, motion, model, tail=tail, twins=riding, progress=campaign.progress, **following,
+        )  # fmt: skip
+
+    if kept is None or campaign.ledger is None or len(riding) == len(twins):  # then nothing is left to be interrupted
+        response = make()
+        rows = [twin.row() for twin in response.twins]
+    else:
+        product = {"own run": [column.digest, motion.name, motion.digest, [one.nameless_digest for one in riding]]}
+        digest = Hasher(model, run_options(tail)).of_product(product | following, __file__)
+        response, rows = _kept(Case(column, motion), model, digest, make, kept, campaign)
     rest = until_rest and not model.carried(column)  # what is followed one by one, so are its twins
     options = run_options(tail, until_rest=rest, quiet=quiet)
     rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, options)
     doubt = "" if column.space_joints is None else caveat([column], model)
     population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail), doubt=doubt)
     return Certainty(response, population, time.perf_counter() - began)
+
+
+def _riding(drawn: Twins, column: Structure, model: Model, followed: bool) -> tuple[Any, ...]:
+    """Twins that ride along with a run; none where it is ``followed``, or where the law of their joints varies."""
+    return () if followed or drawn.groups else tuple(drawn.columns[: model.carried(column)])
+
+
+def wait_for(
+    column: Structure, motions: Sequence[Motion], model: Model, campaign: Campaign, options: RunOptions, followed: bool
+) -> float:
+    """About how long :func:`certainty` takes for all of some motions, one after the other [s]; 0 where that is not known.
+
+    Parameters
+    ----------
+    column, motions, model, campaign
+        Without replicates in the campaign, the runs alone.
+    options : RunOptions
+        Of the run itself.
+    followed : bool
+        Whether it goes on to its end, or until rest.
+    """
+    twins: Sequence[Structure] = ()
+    if campaign.replicates:
+        drawn = the_twins(column, model, campaign)
+        twins = drawn.columns[len(_riding(drawn, column, model, followed)) :]
+    threads, paced = thread_count(campaign.threads), model.paced(column)
+    return sum(
+        expected_wait([Case(column, motion)], model, options)
+        + expected_wait([Case(twin, motion) for twin in twins], paced, options, threads)
+        for motion in motions
+    )
+
+
+def _kept(
+    case: Case, model: Model, digest: str, make: Callable[[], Response], place: Path, campaign: Campaign
+) -> tuple[Response, list[dict]]:
+    """A run with histories and the rows of those that rode along: from its file, or made and kept there."""
+    made: list[Response] = []
+
+    def product(_: int) -> dict[str, Any]:
+        made.append(make())
+        made[0].save(place)
+        return {"riding": [twin.row() for twin in made[0].twins], "files": [place.name]}
+
+    request = Request([case], Digests.of([digest]), [(np.arange(1), model, run_options(campaign.tail))])
+    with closing(Runs(replace(campaign.of_computing, dask=None, device=CPU, progress=None))) as runs:
+        ((_, row),) = runs.products(request, product)
+    return made[0] if made else Response.load(place), row["riding"]
 
 
 def batch(

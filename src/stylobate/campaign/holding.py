@@ -73,3 +73,9 @@ class Holding:
             return self.place.stat().st_ino
         except OSError:
             return None
+
+
+def refuse_held(path: Path) -> None:
+    """Refuse (InputError) a file that another process holds, before anything is computed for it."""
+    if Path(f"{path}-lock").exists():
+        Holding(path).release()

@@ -85,15 +85,19 @@ class Stopped(KeyboardInterrupt):
         Where the finished ones are kept.
     rows : Rows, optional
         The finished ones.
+    part : str
+        What is kept of the run that was under way, in words.
     """
 
-    def __init__(self, done: int, total: int, ledger: str | Path | None = None, rows: Rows | None = None) -> None:
+    def __init__(
+        self, done: int, total: int, ledger: str | Path | None = None, rows: Rows | None = None, part: str = ""
+    ) -> None:
         said = f"interrupted after {done} of {total} runs; nothing is kept: with `out=DIR` it would go on from there."
         if ledger is not None:
-            kept = f"{done} of {total} runs are kept in {Path(ledger).parent}"
+            kept = f"{done} of {total} runs are kept in {Path(ledger).parent}{part and f', and {part}'}"
             said = f"interrupted; {kept}: the same command goes on from there."
         super().__init__(said)
-        self.rows = Rows(total) if rows is None else rows
+        self.rows, self.done, self.total = Rows(total) if rows is None else rows, done, total
 
 
 class Runs:

@@ -182,13 +182,19 @@ def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None
     return output_folder(out, names)
 
 
-def ledger(folder: Path | None) -> Path | None:
-    """Place where commands keep the finished runs of a folder."""
+def ledger(folder: Path | None, *, waits: bool = False) -> Path | None:
+    """Place where commands keep the finished runs of a folder; refused while another process is at work on it.
+
+    A command that ``waits`` for that one is not refused.
+    """
+    from ..campaign.holding import refuse_held
     from ..campaign.ledger import RUNS_FILE
     from . import signals
 
     if folder is None:
         return None
+    if not waits:
+        refuse_held(folder / RUNS_FILE)
     signals.KEPT.append(f"interrupted; what is finished is kept in {folder}: the same command goes on from there.")
     return folder / RUNS_FILE
 

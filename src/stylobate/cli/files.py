@@ -46,7 +46,9 @@ class Files(list[Path]):
         return self.folder / name
 
     @contextmanager
-    def campaign(self, asked: Campaign, title: str = "runs", *, in_folder: bool = False) -> Iterator[Campaign]:
+    def campaign(
+        self, asked: Campaign, title: str = "runs", *, in_folder: bool = False, waits: bool = False
+    ) -> Iterator[Campaign]:
         """What is asked for, with the ledger of the folder and a bar of progress while it is under way.
 
         Parameters
@@ -56,8 +58,10 @@ class Files(list[Path]):
             What is counted.
         in_folder : bool
             What runs it finds the ledger in the folder by itself.
+        waits : bool
+            While another process is at work on that ledger, instead of being refused.
         """
-        ledger = console.ledger(self.folder)
+        ledger = console.ledger(self.folder, waits=waits)
         with console.progress(title) as progress:
             yield dataclasses.replace(asked, ledger=None if in_folder else ledger, progress=progress)
 

@@ -120,7 +120,8 @@ def run_one(
     if not campaign.replicates:
         return simulate(stone, motion, model, tail=campaign.tail, progress=progress, **options), None
     made = dataclasses.replace(campaign, whole=False, progress=progress)
-    found = certainty(stone.stack or stone, motion, model, campaign=made, **options)
+    kept = None if campaign.ledger is None else Path(campaign.ledger).with_name("response.nc")
+    found = certainty(stone.stack or stone, motion, model, kept=kept, campaign=made, **options)
     return found.response, found.population
 
 
@@ -135,11 +136,12 @@ def each_record(
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     import numpy as np
 
+    from ..analysis.certainty import wait_for
     from ..campaign.campaign import Campaign
     from ..campaign.digests import Digests, Hasher
     from ..campaign.runs import Request, Runs, Stopped
     from ..models.base import Case
-    from ..simulate import run_options
+    from ..simulate import run_options, tell_wait
     from . import console
 
     places: list[Path | None] = []
@@ -168,13 +170,19 @@ def each_record(
     summaries: dict[int, dict] = {}
     with console.folder(out) as folder:
         ledger = console.ledger(folder)
+        twins = f", each with {campaign.replicates} like it," if campaign.replicates else ""
+        wait = wait_for(stone.stack or stone, motions, model, campaign, options, _followed(follow))
+        tell_wait(f"{len(motions)} runs{twins} take", wait, stone)
         try:
             with closing(Runs(Campaign(ledger=ledger))) as runs:
                 for number, row in runs.products(request, make):
                     files = {} if out is None else {"files": [str(out / name) for name in row["files"]]}
                     summaries[number] = row["summary"] | files
-        except KeyboardInterrupt:
-            raise Stopped(len(summaries), len(motions), ledger) from None
+        except KeyboardInterrupt as interrupt:
+            part = ""
+            if isinstance(interrupt, Stopped):
+                part = f"of the one under way itself and {interrupt.done} of {interrupt.total} like it"
+            raise Stopped(len(summaries), len(motions), ledger, part=part) from None
     return [summaries[number] for number in range(len(motions))]
 
 
@@ -198,6 +206,7 @@ def conclude(
     pictures += SPACE_PICTURES if model.axes == "xyz" else []
     names = ("response.nc", "run.json", "motion.csv", "replicates.csv", "bodies.csv", "debris", "median")
     with files_of(out, "run", *names, *pictures) as files:
+        console.ledger(files.folder)
         with console.progress("seconds of motion") as progress:
             campaign = follow.keywords["campaign"].kept_in(files.folder)
             response, population = follow(motion, campaign=campaign, progress=progress)

@@ -36,7 +36,7 @@ def run(
     study, refused = read_plan(file)
     with files_of(out, "study", "study.parquet", "study.csv", "study.json") as files:
         another = f"another process is at work in {out}; this one goes on when that one ends."
-        with files.campaign(campaign, in_folder=True) as asked:
+        with files.campaign(campaign, in_folder=True, waits=True) as asked:
             result = run_study(study, out, waiting=lambda: console.note(another), campaign=asked)
         with console.progress("histories") as progress:
             files += keep_histories(study, result, out, progress)

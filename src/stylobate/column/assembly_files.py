@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, warn, within
@@ -18,7 +16,7 @@ from .joint import Joint
 from .links import link_from_dict
 from .links.tables import BlockLinkTable, links_between
 from .materials import Material, material
-from .plausible import COLUMN, DENSITY, first, joint_doubts, sinking_doubt
+from .plausible import Piece, piece_doubts
 from .presets import PRESETS
 from .spatial.assembly import SpatialAssembly
 from .spatial.files import spatial_assembly
@@ -153,7 +151,10 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
     else:
         joint = _law(table.joint, stone, "[joint]")
     links += links_between(table.link or [])
-    for doubt in _doubts(blocks[len(standing) :], joint, [law for _, _, law in overrides], table.gravity):
+    alone = blocks[len(standing) :]
+    laws = [joint, *(one.surface for one in alone if one.surface), *(law for _, _, law in overrides)]
+    pieces = [_piece(one, one.surface or joint) for one in alone if not one.fixed]
+    for doubt in piece_doubts(pieces, laws, table.gravity):
         warn(doubt)
     return Assembly(
         tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides), tuple(links)
@@ -165,18 +166,7 @@ def _law(table: Table | None, stone: Material | None, where: str) -> Joint:
     return Joint(**joint_fields(given, stone, where))
 
 
-def _doubts(blocks: Sequence[Block], joint: Joint, others: Sequence[Joint], gravity: float) -> list[str]:
-    """Parts of the blocks that come from no column that look like a slip of units, each kind once."""
-    free = [block for block in blocks if not block.fixed]
-    doubts = first(COLUMN.doubt(f"the size of block {one.name!r}", one.size, "stones have") for one in free)
-    doubts += first(DENSITY.doubt(f"the density of block {one.name!r}", one.density, "stone has") for one in free)
-    laws = [joint, *(block.surface for block in blocks if block.surface), *others]
-    beyond = first(joint_doubts(law) for law in dict.fromkeys(laws))
-    heavy = [(one, one.surface or joint, one.density * gravity * float(np.ptp(one.corners[:, 1]))) for one in free]
-    return doubts + (
-        beyond
-        or first(
-            sinking_doubt(f"block {one.name!r}", weight / law.normal_stiffness, law.normal_stiffness)
-            for one, law, weight in heavy
-        )
-    )
+def _piece(block: Block, law: Joint) -> Piece:
+    """A block as it is doubted."""
+    across, upward = block.sides
+    return Piece(block.name, (across, block.depth, upward), block.density, law)

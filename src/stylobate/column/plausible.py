@@ -20,24 +20,48 @@ class Measure(NamedTuple):
     usual: float
     others: Mapping[str, float]
 
-    def likely_unit(self, value: float) -> str:
-        """The question that ends a doubt: whether the value is in the unit that brings it nearest to the usual one."""
+    def holds(self, value: float) -> bool:
+        """Whether a value is plausible."""
+        return self.low <= value <= self.high
 
-        def distance(name: str) -> float:
-            return abs(math.log(value * self.others[name] / self.usual))
+    def doubt(self, name: str, value: float, what: str, alike: Sequence[Quantity] = ()) -> list[str]:
+        """The doubt about a value beyond the range, as a list of one sentence without its full stop; else none.
 
-        fits = [name for name, factor in self.others.items() if self.low <= value * factor <= self.high]
-        return f"was it meant in {min(fits, key=distance)}?" if fits else "is the unit right?"
-
-    def doubt(self, name: str, value: float, what: str) -> list[str]:
-        """The doubt about a value beyond the range, as a list of one sentence without its full stop; else none."""
-        if self.low <= value <= self.high:
+        The unit that it names is one in which the value is plausible, and with it all that was measured ``alike``.
+        """
+        if self.holds(value):
             return []
-        return [
-            f"{name} is {value:g} {self.unit}, and {what} {self.low:g} to {self.high:g} {self.unit}: "
-            f"{self.likely_unit(value)}"
-        ]
+        unit = likely_unit(alike or [Quantity(self, value)])
+        return [f"{name} is {value:g} {self.unit}, and {what} {self.low:g} to {self.high:g} {self.unit}: {unit}"]
 
+
+class Quantity(NamedTuple):
+    """A value and what it measures."""
+
+    measure: Measure
+    value: float
+
+
+def likely_unit(alike: Sequence[Quantity]) -> str:
+    """The question that ends a doubt: whether values are in the unit that brings all of them nearest to the usual ones.
+
+    Inches and feet have to bring them nearer than cm by a factor of :data:`RARER`, in the mean over the values.
+    """
+
+    def distance(name: str) -> float:
+        away = [abs(math.log(value * measure.others[name] / measure.usual)) for measure, value in alike]
+        return statistics.fmean(away) + (math.log(RARER) if name in ("inches", "feet") else 0.0)
+
+    fits = [
+        name
+        for name in alike[0].measure.others
+        if all(measure.holds(value * measure.others[name]) for measure, value in alike)
+    ]
+    return f"was it meant in {min(fits, key=distance)}?" if fits else "is the unit right?"
+
+
+#: How much less often stones are measured in inches and feet than in cm, as a factor of how usual the size is [-].
+RARER = 2.0
 
 _LENGTHS = {"cm": 1e-2, "mm": 1e-3, "inches": 0.0254, "feet": 0.3048}
 
@@ -45,6 +69,10 @@ _LENGTHS = {"cm": 1e-2, "mm": 1e-3, "inches": 0.0254, "feet": 0.3048}
 COLUMN = Measure("m", 0.05, 60.0, 8.0, _LENGTHS)
 DRUM = Measure("m", 0.005, 30.0, 1.0, _LENGTHS)
 WIDTH = Measure("m", 0.005, 10.0, 1.2, _LENGTHS)
+
+#: The longest side of a stone of an assembly, which may be a whole column.
+STONE = Measure("m", 0.05, 60.0, 1.2, _LENGTHS)
+
 DENSITY = Measure("kg/m³", 500.0, 5000.0, 2500.0, {"g/cm³": 1e3, "kN/m³": 101.97, "lb/ft³": 16.018})
 
 #: Range of values outside which nobody has measured joints of stone.
@@ -73,19 +101,91 @@ def law_doubts(column: Stack) -> list[str]:
 
 def size_doubts(column: Stack) -> list[str]:
     """Sizes and densities of a column that look like a slip of units, each kind once."""
-    single = [DRUM.doubt(f"the height of drum {i}", float(h), "drums have") for i, h in enumerate(column.heights, 1)]
-    doubts = [] if all(single) else first(single)  # one drum alone, or the whole column
-    doubts = doubts or COLUMN.doubt("the height of the column", column.height, "columns have")
-    doubts += first(
-        WIDTH.doubt(f"the width of the {face} face of drum {i}", width, "columns have")
-        for i, one in enumerate(column.drums, 1)
-        for face, width in (("lower", one.bottom_width), ("upper", one.top_width))
-    )
-    doubts = doubts or _slenderness_doubt(column)
+    widths = [(one.bottom_width, one.top_width) for one in column.drums]
+    depths = [one.depth for one in column.drums if column.section != "circular"]
+    doubts = length_doubts(column.heights.tolist(), widths, depths) or _slenderness_doubt(column)
     densities = [drum.density for drum in column.drums]
     return doubts + first(
         DENSITY.doubt(f"the density of drum {i + 1}", density, "stone has") for i, density in enumerate(densities)
     )
+
+
+def length_doubts(
+    heights: Sequence[float], widths: Sequence[tuple[float, float]], depths: Sequence[float] = ()
+) -> list[str]:
+    """Lengths of a column that look like a slip of units, each kind once, and all in one unit.
+
+    Parameters
+    ----------
+    heights : sequence of float
+        Of the drums from the base up [m].
+    widths : sequence of (float, float)
+        Of their lower and upper faces [m].
+    depths : sequence of float
+        Of their lower faces, where these are not round [m].
+    """
+    drums = [(f"the height of drum {i}", float(one)) for i, one in enumerate(heights, 1)]
+    column = [("the height of the column", float(sum(heights)))]
+    single = 0 < sum(not DRUM.holds(height) for _, height in drums) < len(drums)  # else one drum alone, or all of it
+    faces = [
+        (f"the width of the {face} face of drum {i}", float(width))
+        for i, pair in enumerate(widths, 1)
+        for face, width in zip(("lower", "upper"), pair, strict=True)
+    ]
+    sides = [(f"the depth of drum {i}", float(depth)) for i, depth in enumerate(depths, 1)]
+    kinds = [(DRUM, drums, "drums have") if single else (COLUMN, column, "columns have")]
+    kinds += [(WIDTH, faces, "stones have"), (WIDTH, sides, "stones have")]
+    alike = []
+    for measure, named, _ in kinds:
+        beyond = [value for _, value in named if not measure.holds(value)]
+        alike += [Quantity(measure, max(beyond, key=lambda value: abs(math.log(value))))] if beyond else []
+        if measure is COLUMN and beyond and len(drums) > 1:
+            alike.append(Quantity(DRUM, statistics.median(heights)))
+    return [
+        doubt
+        for measure, named, what in kinds
+        for doubt in first(measure.doubt(name, value, what, alike) for name, value in named)
+    ]
+
+
+class Piece(NamedTuple):
+    """A stone of an assembly that can move.
+
+    Its name, the sides of the box around it [m], the last of them upward, its density [kg/m³], and the law under it.
+    """
+
+    name: str
+    sides: tuple[float, ...]
+    density: float
+    law: Joint
+
+
+def piece_doubts(pieces: Sequence[Piece], laws: Iterable[Joint], gravity: float) -> list[str]:
+    """Stones of an assembly and laws of its joints that look like a slip of units, each kind once."""
+    doubts = first(side_doubts(f"the size of block {one.name!r}", one.sides) for one in pieces)
+    doubts += first(DENSITY.doubt(f"the density of block {one.name!r}", one.density, "stone has") for one in pieces)
+    beyond = first(joint_doubts(law) for law in dict.fromkeys(laws))
+    return doubts + (
+        beyond
+        or first(
+            sinking_doubt(f"block {name!r}", density * gravity * sides[-1] / law.normal_stiffness, law.normal_stiffness)
+            for name, sides, density, law in pieces
+        )
+    )
+
+
+def side_doubts(name: str, sides: Sequence[float]) -> list[str]:
+    """The doubt about a stone by the sides of the box around it [m]: too long, or too wide across; else none."""
+    *_, across, along = sorted(sides)
+    alike = [one for one in (Quantity(STONE, along), Quantity(WIDTH, across)) if not one.measure.holds(one.value)]
+    doubts = STONE.doubt(name, along, "stones have", alike)
+    return doubts or WIDTH.doubt(f"{name} across", across, "stones have", alike)
+
+
+def bulk_doubts(name: str, sides: Sequence[float]) -> list[str]:
+    """As :func:`side_doubts`, of what may be a support: too long, or too thick in every direction."""
+    doubts = STONE.doubt(name, max(sides), "stones have")
+    return doubts or (WIDTH.doubt(name, min(sides), "stones have at their thinnest") if min(sides) > WIDTH.high else [])
 
 
 def _slenderness_doubt(column: Stack) -> list[str]:
@@ -125,7 +225,7 @@ def sinking_doubt(name: str, closure: float, stiffness: float) -> list[str]:
     return [
         f"{name} sinks by {1e3 * closure:.2g} mm into its joint under the weight on it, whose normal_stiffness is "
         f"{stiffness:g} N/m³, and dry joints of stone close by less than {1e3 * CLOSES:g} mm: "
-        f"{STIFFNESS.likely_unit(stiffness)}"
+        f"{likely_unit([Quantity(STIFFNESS, stiffness)])}"
     ]
 
 

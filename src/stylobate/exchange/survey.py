@@ -9,6 +9,7 @@ from typing import Any
 
 from ..column import Column
 from ..column.files import tables_of
+from ..column.plausible import length_doubts
 from ..errors import InputError, suggest
 from ..reading import SETTINGS, read_bytes, shown
 
@@ -31,6 +32,9 @@ JOINT = {
     "cohesion": "pa",
     "ring_width": "m",
 }
+
+#: A column that is not read: what the surveyor has to say of a drum.
+NOTE = "note"
 
 #: What is said of the whole column, in lines ``# key: value`` above the table.
 FACTS = ("name", "section", "material", "gravity", "base_tilt", "base_azimuth")
@@ -124,6 +128,11 @@ def survey_tables(path: Path, stone: str | None = None) -> dict[str, Any]:
         raise InputError(
             f"{name} numbers its drums otherwise than 1, 2, 3 … from the base up; put the rows in that order."
         )
+    doubts = length_doubts([row["height"] for row in read], [(row["bottom_width"], row["top_width"]) for row in read])
+    if doubts:
+        raise InputError(
+            f"{doubts[0]} Lengths in {name} are in m unless the name of their column ends in _cm or _mm, such as height_cm."
+        )
     return _tables(facts, read, stone, name)
 
 
@@ -179,7 +188,7 @@ def _column(cell: str, name: str) -> tuple[str, float]:
     text = "_".join(
         cell.strip().lower().replace("[", " ").replace("]", " ").replace("(", " ").replace(")", " ").split()
     )
-    known = ("drum", "density", *LENGTHS, *ANGLES, *JOINT)
+    known = ("drum", "density", *LENGTHS, *ANGLES, *JOINT, NOTE)
     if text in known:
         return text, 1.0
     stem, _, unit = text.rpartition("_")
@@ -203,12 +212,15 @@ def _row(row: list[str], columns: list[tuple[str, float]], number: int, decimal:
         )
     found: dict[str, float] = {}
     for cell, (key, factor) in zip(row, columns):
-        if cell.strip():
+        if cell.strip() and key != NOTE:
             value = _number(cell.strip(), f"{key} in row {number} of {name}", decimal)
             found[key] = value if factor == 1.0 else value * factor
     missing = next((key for key in ("height", "bottom_width", "top_width") if key not in found), None)
     if missing is not None:
         raise InputError(f"row {number} of {name} has no {missing}; measure it, or leave the drum out.")
+    none = next((key for key in LENGTHS[:5] if not found.get(key, 1.0) > 0.0), None)
+    if none is not None:
+        raise InputError(f"{none} in row {number} of {name} is {found[none]:g} m; give a length above 0 m.")
     return found
 
 

@@ -70,7 +70,8 @@ def opening_words(opens: Mapping[str, float] | None) -> str:
 #: What stands before all that rests on wobbles without damping.
 UNDAMPED_WOBBLE = (
     "Wobbling was not damped, and in space a verdict can hang on that, either way: see how many of a population fall "
-    "with a stiffness damping of 1e-4 s, and of 1e-3 s, or with losses = stone, before relying on it."
+    "with a stiffness damping of 1e-4 s, and of 1e-3 s, or with losses = stone (2 to 35 times the computing time), before "
+    "relying on it."
 )
 
 #: What stands before all that rests on round columns in a plane; of several drums they leave it by themselves.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +9,10 @@ from ...errors import InputError, warn
 from ..joint import Joint
 from ..links.tables import links_between
 from ..materials import material
-from ..plausible import COLUMN, DENSITY, first, joint_doubts
+from ..plausible import Piece, piece_doubts
 from ..tables import JointTable, density_of, joint_fields
 from .assembly import SpatialAssembly, refuse_many
 from .placing import block_of, lay_beam, refuse_crossing, stand_in_space
-from .stone import Stone
 from .tables import SpatialTable
 
 
@@ -73,19 +71,13 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
         overrides.append((*one.between, law(one, where)))
     # without [joint], as between the drums of the columns
     joint = axes[0].law if table.joint is None and stone is None else law(table.joint, "[joint]")
-    for doubt in _doubts(blocks, [joint, *(each for *_, each in overrides)]):
+    alone = [*blocks, *beams]
+    laws = [joint, *(one.surface for one in alone if one.surface), *(each for *_, each in overrides)]
+    pieces = [Piece(one.name, one.sides, one.density, one.surface or joint) for one in alone if not one.fixed]
+    for doubt in piece_doubts(pieces, laws, table.gravity):
         warn(doubt)
     stones = (*standing, *beams, *blocks)
     name = table.name or default_name
     links += links_between(table.link or [])
     rest = tuple(overrides), table.settle, tuple(links)
     return SpatialAssembly(stones, joint, name, table.gravity, ground, *rest)
-
-
-def _doubts(blocks: Sequence[Stone], laws: Sequence[Joint]) -> list[str]:
-    """What looks like a slip of units, each kind once."""
-    free = [block for block in blocks if not block.fixed]
-    doubts = first(COLUMN.doubt(f"the size of block {one.name!r}", one.size, "stones have") for one in free)
-    doubts += first(DENSITY.doubt(f"the density of block {one.name!r}", one.density, "stone has") for one in free)
-    every = [*laws, *(block.surface for block in blocks if block.surface)]
-    return doubts + first(joint_doubts(law) for law in dict.fromkeys(every))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import InputError
 from ...reading import shown
-from ..plausible import COLUMN
+from ..plausible import bulk_doubts
 from .mesh_formats import MeshPart, edges_of, parsed_parts, pieces_of
 
 #: Units that a mesh may be in [m].
@@ -34,7 +35,7 @@ def read_mesh(path: Path, unit: str = "m") -> np.ndarray:
         more = ", …" if len(parts) > 3 else ""
         raise InputError(f"{name} holds {len(parts)} parts ({some}{more}); give each in a file of its own.")
     (part,) = parts
-    _check_size(part.points, factor, name, "unit = " + ", ".join(f'"{one}"' for one in UNITS))
+    _check_sizes([part], factor, name, "unit = " + ", ".join(f'"{one}"' for one in UNITS))
     check_closed(part, name)
     _check_convex(part, name)
     return part.points[part.used] * factor
@@ -46,12 +47,11 @@ def read_stones(path: Path, unit: str = "m") -> list[MeshPart]:
     Raises
     ------
     InputError
-        No mesh; a part with holes; or a size that no stone has.
+        No mesh; a part with holes; or sizes all of which no stone has.
     """
     name, factor = shown(path), _factor(unit, shown(path))
     parts = [piece for part in parsed_parts(path) for piece in pieces_of(part)]
-    every = np.concatenate([part.points[part.used] for part in parts])
-    _check_size(every, factor, name, "`unit` " + ", ".join(UNITS))
+    _check_sizes(parts, factor, name, "`unit` " + ", ".join(UNITS))
     names = [part.name for part in parts]
     found = []
     for number, part in enumerate(parts):
@@ -67,11 +67,13 @@ def _factor(unit: str, name: str) -> float:
     return UNITS[unit]
 
 
-def _check_size(points: np.ndarray, factor: float, name: str, known: str) -> None:
-    size = float(np.ptp(points, axis=0).max()) * factor
-    doubt = COLUMN.doubt(f"the size of {name}", size, "stones have")
-    if doubt:
-        raise InputError(f"{doubt[0]} Say it with {known}.", "unit")
+def _check_sizes(parts: Sequence[MeshPart], factor: float, name: str, known: str) -> None:
+    """Refuse a mesh of which no part has the size of a stone."""
+    doubts = [
+        bulk_doubts(f"the size of {name}", (factor * np.ptp(part.points[part.used], axis=0)).tolist()) for part in parts
+    ]
+    if all(doubts):
+        raise InputError(f"{doubts[0][0]} Say it with {known}.", "unit")
 
 
 def check_closed(part: MeshPart, name: str) -> None:

@@ -328,7 +328,7 @@ class DistinctElement3D(LossyDrums):
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
-        return 4.5 * super().cost(drums)
+        return (8.3 if self.damped else 5.5) * super().cost(drums)
 
 
 @lru_cache(maxsize=256)

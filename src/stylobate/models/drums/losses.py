@@ -73,6 +73,10 @@ class LossyDrums(SteppedDrums):
         """As of all models that step drums, with what acts in a run of the column [s]."""
         return super(LossyDrums, self.acting(column)).step_for(column)
 
+    def expected_step(self, column: Any, motion: Motion) -> tuple[float, float]:
+        """As of all models that step drums, with what acts in a run of the column, both [s]."""
+        return super(LossyDrums, self.acting(column)).expected_step(column, motion)
+
     def paced(self, column: Any) -> SteppedDrums:
         """As of all models that step drums; with the losses of the column, by name no more."""
         return super(LossyDrums, self.acting(column)).paced(column)
