@@ -163,7 +163,7 @@ class Fragility(Shown):
     def interval(self, im: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Confidence limits of :meth:`probability`, point by point: what the quantiles of the samples' curves hold, the
         curves of the region, and the curve moved to either limit of its median; with open runs, from the lower ones of the
-        curve if none exceeds to the upper ones if all do. It is one half over all of :attr:`median_interval`, and no farther.
+        curve if none exceeds to the upper ones if all do. It holds one half over all of :attr:`median_interval` only.
         """
         samples, plausible = (
             np.array([curve(im, m, math.exp(s)) for m, s in one]) for one in (self.samples, self.region)

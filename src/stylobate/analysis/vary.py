@@ -224,7 +224,7 @@ def best_of(
         label: evidence(table[table["state"] == label], None, found.state, label, doubt=found.doubt) for label in labels
     }
     first = next(iter(told.values()))
-    designed = design_values(found, instants=False)
+    designed = design_values(found, level=float(table["im"].max()), instants=False)
     most: Any = worst_of(designed)
     rows = []
     for share in shares({label: one.codes for label, one in told.items()}, first.records, first.laws):
