@@ -11,12 +11,13 @@ from ..column import Column
 from ..column.as_found import FoundDrum
 from ..column.block import FAR_AWAY
 from ..column.found_in_space import weakest_uplift
+from ..column.links.stone import stone_words
 from ..column.plausible import unit_doubts
 from ..column.structure import Structure
 from ..constants import g
 from ..plots import draw_elevation, draw_views
 from . import numbers as n
-from .page import Facts, Item, Picture, Rows, Section
+from .page import Facts, Item, Picture, Points, Rows, Section
 from .pictures import picture
 
 #: Most rows of a table of drums or blocks in a report; the column file holds them all.
@@ -68,7 +69,14 @@ def _elevation(column: Column) -> Picture:
 
 
 def _found_and_links(column: Column) -> list[Item]:
-    return [*([_as_found(column)] if column.as_found else []), *([_links(column)] if column.links else [])]
+    found: list[Item] = [_as_found(column)] if column.as_found else []
+    return [*found, _links(column), *_stone(column)] if column.links else found
+
+
+def _stone(structure: Structure) -> list[Item]:
+    """Where the stone gives way before links do; nothing without anchors."""
+    words = stone_words(structure.placed_links)
+    return [Points([words])] if words else []
 
 
 def what_opens(column: Column, in_space: bool = False) -> tuple[float, str]:
@@ -236,7 +244,7 @@ def _blocks(structure: Structure) -> list[Item]:
     )
     drawn = draw_elevation(structure) if contacts is None else draw_views(structure)
     found: list[Item] = [picture(drawn, caption), Facts(facts), rows, *([joints] if laws else [])]
-    return [*found, _links_between_blocks(structure)] if structure.links else found
+    return [*found, _links_between_blocks(structure), *_stone(structure)] if structure.links else found
 
 
 def _links_between_blocks(assembly: Structure) -> Rows:
