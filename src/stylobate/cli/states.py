@@ -163,7 +163,7 @@ def states(
     describe(found)
     describe_design(designed)
     if best is not None:
-        console.print_table(best.table, digits=3)
+        console.print_table(best.table.dropna(axis=1, how="all"), digits=3)
         print(best.words)
     console.print_refused(suite.refused)
     if files:

@@ -131,7 +131,8 @@ class StoneAround(NamedTuple):
     @property
     def source(self) -> str:
         """What it rests on, in words."""
-        return f"EN 1992-4, carried over from concrete; edge as built {self.edge:.3g} m, stone of {1e-6 * self.strength:g} MPa"
+        where = f"edge as built {self.edge:.3g} m, stone of {1e-6 * self.strength:g} MPa"
+        return f"EN 1992-4, carried over from concrete; {where}"
 
 
 def stone_around(link: Link, edge: float, pulled: bool) -> StoneAround | None:
