@@ -149,7 +149,7 @@ def values_of_runs(
     """
     import pandas
 
-    levels = np.unique(np.round(runs["im"].to_numpy(dtype=float), DIGITS)).tolist()
+    levels = [] if level is None else np.unique(np.round(runs["im"].to_numpy(dtype=float), DIGITS)).tolist()
     if level is not None and not np.isclose(levels, level).any():
         known = ", ".join(f"{one:g}" for one in levels)
         raise InputError(f"the level of design values is {level:g}; allowed is one that was run: {known}.", "level")
