@@ -5,6 +5,8 @@ import math
 import pytest
 
 import stylobate as st
+from stylobate.cli.columns import _held, _link
+from stylobate.column.links.stone import stone_words
 
 GIVEN = {"diameter": 0.02, "embedment": 0.1, "edge": 0.1, "stone_strength": 25e6, "yield_strength": 4e8}
 
@@ -72,3 +74,29 @@ def test_bearing_is_a_hinge_in_the_bar_against_five_times_the_strength():
 def test_what_is_missing_or_no_anchor_is_refused(change, words):
     with pytest.raises(st.InputError, match=words):
         st.stone_at_anchor(**GIVEN | change)
+
+
+def test_the_stone_that_gives_way_before_a_dowel_is_told():
+    """Edge of a dowel at 0.36 m in a drum of 1 m across: 0.14 m below, 0.09 m above. Chips are not taken off."""
+    drums = [st.Drum(1.0, 1.0, 1.0, 2500.0, "circular"), st.Drum(1.0, 0.9, 0.9, 2500.0, "circular")]
+    dowel = st.Dowel(joint=2, at=(0.36, 0.0), diameter=0.03, embedment=0.12, material="titanium", stone_strength=40e6)
+    thin = st.Dowel(joint=1, at=(0.0, 0.0), diameter=0.01, embedment=0.12, material="titanium")
+    given = st.Dowel(joint=2, at=(-0.36, 0.0), shear_stiffness=1e8, shear_capacity=1e4)
+    column = st.Column.of_drums(drums, st.Joint(5e10, 2.5e10, friction_angle=35.0)).replace(links=(dowel, thin, given))
+    first, second, third = column.placed_links
+    size = {"diameter": 0.03, "embedment": 0.12, "stone_strength": 40e6, "yield_strength": 275e6}
+    assert first.stone.shear == pytest.approx(st.stone_at_anchor(**size, edge=0.09)["edge"], rel=1e-12)
+    assert first.stone.shear < first.shear_capacity < math.inf
+    assert first.stone.pull == math.inf  # a dowel lifts out
+    assert second.stone.shear > second.shear_capacity
+    assert third.stone is None
+    told = stone_words(column.placed_links)
+    assert f"before 1 of 3 links do, first around {first.name}: at {first.stone.shear / 1e3:.4g} kN in shear" in told
+    assert "The stone around 1 of 3 links was not checked" in told
+    assert "The stone around 2 of 2" not in told
+    assert "bears more than they hold" in stone_words([second])
+    assert not stone_words([])
+    held = [_held(_link(link)) for link in (first, second, third)]
+    assert held[0].startswith(f"holds {first.stone.shear / 1e3:.4g} kN in shear, where the stone gives way")
+    assert f"the bar by itself: {first.shear_capacity / 1e3:.4g} kN" in held[0]
+    assert held[1].startswith(f"holds {second.shear_capacity / 1e3:.4g} kN in shear;")

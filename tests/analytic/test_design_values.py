@@ -89,6 +89,26 @@ def test_twins_of_a_record_count_as_one():
     assert fractile(x[owner], x[owner], owner, 0.84) == fractile(x, x, np.arange(30), 0.84)
 
 
+def test_values_are_told_at_the_highest_level_at_which_few_collapse(found):
+    """All three runs of 0.3 g collapse: 0.2 g is told, unless another level is asked for. Links alike keep their order."""
+    table = found.table.copy()
+    table.loc[(table["state"] == "dowelled") & (table["im"] == 0.3), "verdict"] = "collapsed"
+    fallen = dataclasses.replace(found, table=table)
+    for level, told in ((None, 0.2), (0.3, 0.3)):
+        values = st.design_values(fallen, level=level)
+        assert set(values["level"]) == {0.2, 0.3}  # every one is in the table
+        worst = worst_of(values)
+        assert set(worst["level"]) == {told}
+        assert np.isfinite(worst["value_84"]).all() == (told == 0.2)
+        assert np.isfinite(values.loc[values["told"] & (values["unit"] == "N"), "instant_84_s"]).all() == (told == 0.2)
+    assert set(worst_of(st.design_values(found))["level"]) == {0.3}
+    with pytest.raises(st.InputError, match=r"is 0\.4; allowed is one that was run: 0\.2, 0\.3"):
+        st.design_values(found, level=0.4)
+    names = [f"dowel in joint {k}" for k in range(1, 12)]
+    alike = pandas.concat([values[values["unit"] == "N"].assign(link=name, use_value_84=1.0) for name in names])
+    assert list(dict.fromkeys(worst_of(alike)["link"])) == names
+
+
 def test_the_command_prints_writes_and_reports_them(tmp_path, capsys):
     bare, dowelled = (write_column(one, tmp_path / f"{one.name}.toml") for one in (BARE, DOWELLED))
     out = tmp_path / "out"

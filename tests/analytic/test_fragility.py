@@ -255,3 +255,14 @@ def test_a_table_says_what_it_has():
     assert evidence(table, "sa:1s").im.tolist() == [0.2]
     with pytest.raises(InputError, match="no intensity 'cav'"):
         evidence(table, "cav")
+
+
+def test_the_band_and_the_interval_of_the_median_are_one_answer():
+    # Two yes/no stripes that nearly separate the records: quantiles as they are and turned round the median differ by most.
+    rows = [(f"r{k}", im, fell > k) for im, fell in ((0.2, 0), (0.4, 4), (0.6, 8), (0.8, 9)) for k in range(10)]
+    found = fragility(evidence(pandas.DataFrame(rows, columns=["record", "im", "collapsed"])))
+    x = np.geomspace(0.2, 0.9, 4001)  # steps of 4e-4
+    low, high = found.interval(x)
+    least, most = found.median_interval
+    assert x[np.argmax(high >= 0.5)] == pytest.approx(least, rel=1e-3)
+    assert x[np.argmax(low > 0.5)] == pytest.approx(most, rel=1e-3)

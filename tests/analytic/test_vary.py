@@ -71,7 +71,10 @@ def test_the_best_is_a_set_as_large_as_the_records_leave_it(found):
 def test_no_candidate_is_best_where_all_reach_their_capacity(found):
     best = best_of(found, found.labels[:2])
     assert (best.best, best.alike) == (None, ())
-    assert "none is allowed" in best.words
+    assert "None of the 2 candidates is allowed" in best.words
+    assert "no leave to build it" in best.words  # of a state that is stronger than another one
+    assert best.table[["difference_low", "difference_high", "alike"]].isna().all(axis=None)
+    assert best.summary()["candidates"][0]["alike"] is None
 
 
 def test_a_candidate_that_may_stay_below_its_capacity_is_in_the_set_and_not_the_best(found):

@@ -11,6 +11,7 @@ from stylobate.cli.main import call
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.own_files import LIST
+from stylobate.results.asked import Asked
 
 HOUSNER = ["--model", "housner"]
 COLUMN = """name = "my"
@@ -256,3 +257,29 @@ def test_what_a_command_wrote_it_may_write_again_until_somebody_changes_it(tmp_p
     assert call(command) == 2
     assert "was changed after stylobate wrote it" in capsys.readouterr().err
     assert (tmp_path / "limit.json").read_text().endswith("a note of mine\n")
+
+
+def test_the_result_of_another_question_is_replaced_with_a_word(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "my.toml").write_text(COLUMN)
+    line = ["run", "my.toml", *HOUSNER, "--out", "out", "--harmonic"]
+    said = []
+    for words in (
+        [*line, "1Hz,0.3g,1s"],
+        [*line, "1Hz,0.3g,1s", "--threads", "1", "--json"],  # the same question
+        [*line, "1Hz,0.2g,1s", "--no-pictures"],
+        [*line, "1Hz,0.2g,1s", "--no-pictures"],
+        ["limit", "my.toml", "--out", "out"],
+        ["limit", "my.toml", "--out", "out"],
+    ):
+        if len(said) == 5:
+            (tmp_path / "my.toml").write_text(COLUMN.replace("0.9", "0.8"))
+        assert call(words) == 0
+        said.append(capsys.readouterr().err)
+    replaced = "out held the result of another question"
+    assert [replaced in one for one in said] == [False, False, True, False, False, True]
+    assert "1Hz,0.3g,1s" in said[2]
+    assert "out holds the result of run too" in said[4]
+    assert any(replaced in one for one in Asked.read(tmp_path / "out" / "asked-limit.json").warnings)
+    assert not (tmp_path / "out" / "energy.png").exists()  # of the first question: the third has no pictures
+    assert (tmp_path / "out" / "limit.png").exists()

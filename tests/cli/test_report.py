@@ -385,6 +385,12 @@ def test_bad_folders_are_one_sentence(place, tmp_path, capsys, arrange, why):
     assert not out.exists()
 
 
+def test_a_folder_that_is_named_twice_is_read_once(place, monkeypatch):
+    monkeypatch.chdir(place)
+    name = "out statics <i>"
+    assert len(read_results([name, place / name, f"./{name}"])) == len(read_results([name])) > 0
+
+
 def test_a_later_format_and_a_bad_place(place, tmp_path, capsys):
     folder = tmp_path / "later"
     folder.mkdir()

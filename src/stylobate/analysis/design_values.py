@@ -12,7 +12,7 @@ import numpy as np
 from ..campaign.twins import LAW
 from ..column.links.placed import PlacedLink
 from ..column.structure import Structure
-from ..errors import check_kind
+from ..errors import InputError, check_kind
 from ..response.response import Response
 from . import verdicts as v
 from .compare import Comparison
@@ -24,6 +24,15 @@ if TYPE_CHECKING:
 
 #: Shares of the motions that a design value is not exceeded under [-].
 FRACTILES = (0.5, 0.84, 0.95)
+
+#: Share of runs that collapse from which on a level is none to design for: beyond it 84 % of the motions have no slip [-].
+MOST_COLLAPSED = 0.16
+
+#: The level at which values are told, in words.
+WHICH_LEVEL = (
+    "Unless another one was asked for, the level is the highest at which fewer than 16 % of the runs of a state collapse, "
+    "or the lowest where there is none."
+)
 
 #: What is told of each: itself, and the limits of its interval.
 WHICH = ("value", "low", "high")
@@ -61,7 +70,7 @@ QUANTITIES = (
 
 
 def design_values(
-    found: StateComparison | Comparison, confidence: float = 0.95, *, instants: bool = True
+    found: StateComparison | Comparison, confidence: float = 0.95, *, level: float | None = None, instants: bool = True
 ) -> pandas.DataFrame:
     """Peak force, slip and elongation of every link over records and twins, level by level, with utilisation.
 
@@ -72,21 +81,28 @@ def design_values(
         whose one motion leaves every upper limit open. Those of a suite are told by ``stylobate.suite_table`` itself.
     confidence : float
         Of the intervals.
+    level : float, optional
+        At which values are told; by default for every state as :data:`WHICH_LEVEL` says.
     instants : bool
-        Whether to compute the runs that govern at the largest level once more, to tell when and where to their force acts.
+        Whether to compute the runs that govern at that level once more, to tell when and where to their force acts.
 
     Returns
     -------
     pandas.DataFrame
         One row per state, level (1 of motions as they are), link with its ``kind``, and quantity: ``unit``, ``runs``,
-        ``records``, ``laws`` of the joints (0: taken as known), ``gone`` (runs that collapse or lose the link) and
-        ``undecided``; for 50, 84 and 95 %, ``value_84`` with ``low_84`` and ``high_84``, the
-        value that this share of the motions does not exceed and its interval; ``capacity``, and ``use_value_84`` with
-        ``use_low_84`` and ``use_high_84``, the same over it. Infinite: beyond all that was computed; NaN where there is no
-        capacity. ``record_84`` is the record of the run whose force or way ``value_84`` is, None where that is none that
-        stands or is open. Of forces at the largest level ``instant_84_s``, when it acts in that run [s], and of shear
-        ``azimuth_84_deg``, where it pushes the body above in plan, from x towards y, as seen from the body below; NaN where
-        it is not told.
+        ``records``, ``laws`` of the joints (0: taken as known), ``collapsed``, ``gone`` (runs that collapse or lose the
+        link), ``undecided``, ``told`` (whether values are told at this level); for 50, 84 and 95 %, ``value_84`` with
+        ``low_84`` and ``high_84``, the value that this share of the motions does not exceed and its interval; ``capacity``,
+        and ``use_value_84`` with ``use_low_84`` and ``use_high_84``, the same over it. Infinite: beyond all that was
+        computed; NaN where there is no capacity. ``record_84`` is the record of the run whose force or way ``value_84`` is,
+        None where that is none that stands or is open. Of forces at the level that is told ``instant_84_s``, when it acts in
+        that run [s], and of shear ``azimuth_84_deg``, where it pushes the body above in plan, from x towards y, as seen from
+        the body below; NaN where it is not told.
+
+    Raises
+    ------
+    InputError
+        No state ran at ``level``.
 
     Notes
     -----
@@ -101,11 +117,13 @@ def design_values(
     check_kind("found", found, (StateComparison, Comparison), allowed="a comparison of states or of models")
     if isinstance(found, StateComparison):
         again = partial(found.response, output_interval=FINE) if instants else None
-        return values_of_runs(dict(zip(found.labels, found.columns, strict=True)), found.table, confidence, again)
+        return values_of_runs(
+            dict(zip(found.labels, found.columns, strict=True)), found.table, confidence, again, level
+        )
     table = found.table.rename(columns={"model": "state"})
     table["verdict"] = [v.verdict(row) for row in table.to_dict("records")]
     stood = {label: one.structure for label, one in zip(found.labels, found.responses, strict=True)}
-    return values_of_runs(stood, table.assign(im=1.0, record=""), confidence, found.responses.__getitem__)
+    return values_of_runs(stood, table.assign(im=1.0, record=""), confidence, found.responses.__getitem__, level)
 
 
 def values_of_runs(
@@ -113,6 +131,7 @@ def values_of_runs(
     runs: pandas.DataFrame,
     confidence: float = 0.95,
     again: Callable[[int], Response] | None = None,
+    level: float | None = None,
 ) -> pandas.DataFrame:
     """The table of :func:`design_values` of any runs.
 
@@ -126,9 +145,14 @@ def values_of_runs(
     confidence : float
     again : callable, optional
         The run of a row with its histories; without it no instants are told.
+    level : float, optional
     """
     import pandas
 
+    levels = [] if level is None else np.unique(np.round(runs["im"].to_numpy(dtype=float), DIGITS)).tolist()
+    if level is not None and not np.isclose(levels, level).any():
+        known = ", ".join(f"{one:g}" for one in levels)
+        raise InputError(f"the level of design values is {level:g}; allowed is one that was run: {known}.", "level")
     rows: list[dict[str, Any]] = []
     for label, structure in stood.items():
         links = [link for link in structure.placed_links if link.acts]
@@ -137,14 +161,21 @@ def values_of_runs(
         table: Any = runs[runs["state"] == label]
         table = table[table["verdict"].isin((v.STANDS, v.COLLAPSED, v.UNDECIDED))]
         sizes = np.round(table["im"].to_numpy(dtype=float), DIGITS)
-        for level in np.unique(sizes).tolist():
-            told = _of_level(table[sizes == level], links, confidence)
-            rows += [{"state": label, "level": level} | one for one in told]
-        if again is not None and len(sizes):
-            _tell_instants([row for row in rows if (row["state"], row["level"]) == (label, sizes.max())], links, again)
+        at = _told_level(sizes, table["verdict"].to_numpy() == v.COLLAPSED) if level is None else level
+        for size in np.unique(sizes).tolist():
+            told = _of_level(table[sizes == size], links, confidence)
+            rows += [{"state": label, "level": size, "told": bool(np.isclose(size, at))} | one for one in told]
+        if again is not None:
+            _tell_instants([row for row in rows if row["state"] == label and row["told"]], links, again)
     for row in rows:
         del row["run"], row["place"]
     return pandas.DataFrame(rows)
+
+
+def _told_level(sizes: np.ndarray, collapsed: np.ndarray) -> float:
+    """The highest level at which few runs collapse, else the lowest."""
+    few = [one for one in np.unique(sizes) if collapsed[sizes == one].mean() < MOST_COLLAPSED]
+    return float(max(few, default=sizes.min(initial=math.inf)))
 
 
 def _tell_instants(rows: list[dict[str, Any]], links: list[PlacedLink], again: Callable[[int], Response]) -> None:
@@ -195,9 +226,9 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
             row: dict[str, Any] = {
                 "link": link.name, "kind": link.kind, "quantity": one.name, "unit": one.unit, "runs": len(table),
                 "records": int(owner.max()) + 1, "laws": len(np.unique(law[law > 0])),
-                "gone": int(gone.sum()), "undecided": int((said == v.UNDECIDED).sum()),
-                "capacity": limit, "record_84": None, "instant_84_s": math.nan, "azimuth_84_deg": math.nan,
-                "run": None, "place": k,
+                "collapsed": int((said == v.COLLAPSED).sum()), "gone": int(gone.sum()),
+                "undecided": int((said == v.UNDECIDED).sum()), "capacity": limit, "record_84": None,
+                "instant_84_s": math.nan, "azimuth_84_deg": math.nan, "run": None, "place": k,
             }  # fmt: skip
             for share in FRACTILES:
                 told = fractile(low, high, owner, share, confidence)
@@ -280,12 +311,13 @@ def basis_of(values: pandas.DataFrame) -> str:
 
 
 def where(values: pandas.DataFrame) -> str:
-    """At which level values are told that are those of the largest one; empty where there is only one."""
-    return " at the largest level" if len(set(values["level"])) > 1 else ""
+    """At which level values are told; empty where there is only one."""
+    which = " at one level" if "told" in values else " at the largest level"
+    return which if len(set(values["level"])) > 1 else ""
 
 
 def worst_of(values: pandas.DataFrame, share: float = 0.84) -> pandas.DataFrame:
-    """What has a capacity, at the largest level of every state; links that are used most come first.
+    """What has a capacity, at the level of every state that is told; links that are used most come first, else by place.
 
     A ductile link at its capacity is judged by its slip, so that all quantities of a link stay together.
 
@@ -300,14 +332,14 @@ def worst_of(values: pandas.DataFrame, share: float = 0.84) -> pandas.DataFrame:
     known: Any = values[values[key].notna()] if len(values) else values
     if not len(known):
         return known
-    known = _at_largest_level(known)
-    known = known.assign(most=known.groupby(["state", "link"])[key].transform("max"))
-    known = known.sort_values(["state", "most", "link", key], ascending=[True, False, True, False], kind="stable")
-    return known.drop(columns="most")
+    links = (known := _told(known)).groupby(["state", "link"], sort=False)
+    known = known.assign(most=links[key].transform("max"), order=links.ngroup())
+    known = known.sort_values(["state", "most", "order", key], ascending=[True, False, True, False], kind="stable")
+    return known.drop(columns=["most", "order"])
 
 
 def clearances(values: pandas.DataFrame) -> pandas.DataFrame:
-    """Slip of layers at the largest level of every state: the room that an isolated column needs around its foot.
+    """Slip of layers at the level of every state that is told: the room that an isolated column needs around its foot.
 
     Parameters
     ----------
@@ -317,11 +349,12 @@ def clearances(values: pandas.DataFrame) -> pandas.DataFrame:
     if not len(values):
         return values
     layers: Any = values[(values["kind"] == "layer") & (values["quantity"] == "slip")]
-    return _at_largest_level(layers)
+    return _told(layers)
 
 
-def _at_largest_level(values: Any) -> Any:
-    return values[values["level"] == values.groupby("state")["level"].transform("max")]
+def _told(values: Any) -> Any:
+    largest = values.groupby("state")["level"].transform("max")  # as earlier versions told them
+    return values[values["told"] if "told" in values else values["level"] == largest]
 
 
 def _has(link: PlacedLink, one: Quantity) -> bool:

@@ -161,14 +161,20 @@ class Fragility(Shown):
         return curve(im, self.log_median, self.beta)
 
     def interval(self, im: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Confidence limits of :meth:`probability`, point by point: what the quantiles of the samples' curves hold, and the
-        curves of the region; with open runs, from the lower ones of the curve if none exceeds to the upper ones if all do.
+        """Confidence limits of :meth:`probability`, point by point: what the quantiles of the samples' curves hold, the
+        curves of the region, and the curve moved to either limit of its median; with open runs, from the lower ones of the
+        curve if none exceeds to the upper ones if all do. It holds one half over all of :attr:`median_interval` only.
         """
         samples, plausible = (
             np.array([curve(im, m, math.exp(s)) for m, s in one]) for one in (self.samples, self.region)
         )
-        low, high = np.quantile(samples, [self._share, 1.0 - self._share], axis=0)
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], axis=0, method="nearest")
         low, high = np.minimum(low, plausible.min(axis=0)), np.maximum(high, plausible.max(axis=0))
+        least, most = self._median_limits
+        if math.isfinite(most):
+            low = np.minimum(low, curve(im, most, self.beta))
+        if math.isfinite(least):
+            high = np.maximum(high, curve(im, least, self.beta))
         if self.ends:
             most, least = self.ends
             low = np.zeros_like(low) if least is None else np.minimum(low, least.interval(im)[0])
@@ -194,22 +200,29 @@ class Fragility(Shown):
 
     @property
     def median_interval(self) -> tuple[float, float]:
-        """Confidence limits of θ, whatever open runs come to; 0 and +inf where none is known."""
-        middle, spread = self.samples.T
-        endless = spread >= math.log(lognormal.BETAS[1]) - CLOSE
-        im = np.log(self.evidence.im)
-        samples = np.where(endless, np.copysign(np.inf, middle - im.mean()), middle)
-        low, high = self.limits(self.log_median, samples, self.region[:, 0])
-        if self.bracket is not None:
-            low, high = min(low, math.log(self.bracket[0])), max(high, math.log(self.bracket[1]))
-        far = math.log(FAR)
-        low = math.exp(low) if low > im.min() - far else 0.0
-        high = math.exp(high) if high < im.max() + far else math.inf
+        """Confidence limits of θ, whatever open runs come to; 0 and +inf where none is known.
+
+        The wider ones of :meth:`limits` and of the plain quantiles of the samples, by which the band is drawn.
+        """
+        low, high = map(math.exp, self._median_limits)
         if self.ends:
             most, least = self.ends
             low = min(low, 0.0 if most is None else most.median_interval[0])
             high = max(high, math.inf if least is None else least.median_interval[1])
         return low, high
+
+    @property
+    def _median_limits(self) -> tuple[float, float]:
+        """Limits of ln θ by the decided runs; infinite where none is known."""
+        middle, spread = self.samples.T
+        endless = spread >= math.log(lognormal.BETAS[1]) - CLOSE
+        im = np.log(self.evidence.im)
+        samples = np.where(endless, np.copysign(np.inf, middle - im.mean()), middle)
+        known = [*self.limits(self.log_median, samples, self.region[:, 0])]
+        known += np.quantile(samples, [self._share, 1.0 - self._share], method="nearest").tolist()
+        known += [] if self.bracket is None else [math.log(one) for one in self.bracket]
+        low, high, far = min(known), max(known), math.log(FAR)
+        return low if low > im.min() - far else -math.inf, high if high < im.max() + far else math.inf
 
     @property
     def beta_interval(self) -> tuple[float, float]:

@@ -174,6 +174,7 @@ class Best:
         One row per candidate: ``candidate``, ``share_low`` and ``share_high`` (undecided out and in),
         ``interval_low`` and ``interval_high``, ``use``, ``use_low`` and ``use_high`` of its links (84 %, largest level),
         ``within`` its capacity; ``difference_low`` and ``difference_high`` of its share from that of the best; ``alike``.
+        The last three are missing where no candidate is allowed.
     runs, records : int
     words : str
         What it comes to, in sentences.
@@ -224,7 +225,7 @@ def best_of(
         label: evidence(table[table["state"] == label], None, found.state, label, doubt=found.doubt) for label in labels
     }
     first = next(iter(told.values()))
-    designed = design_values(found, instants=False)
+    designed = design_values(found, level=float(table["im"].max()), instants=False)
     most: Any = worst_of(designed)
     rows = []
     for share in shares({label: one.codes for label, one in told.items()}, first.records, first.laws):
@@ -240,13 +241,13 @@ def best_of(
     pairs = len(labels) * (len(labels) - 1) // 2
     each, records = 1.0 - (1.0 - confidence) / max(pairs, 1), len(np.unique(first.records))
     for row in rows:
-        low = high = 0.0
+        low, high = (0.0, 0.0) if best is not None else (math.nan, math.nan)
         if best is not None and row["candidate"] != best:
             difference = with_undecided(told[best], told[row["candidate"]], None, None, samples, seed, each)
             low, high = difference.share_low, difference.share_high
         row |= {"difference_low": low, "difference_high": high}
         may = row["use_low"] < AT_CAPACITY and np.isfinite(row["share_high"])
-        row["alike"] = best is not None and may and (records < FEWEST or not low > 0.0)
+        row["alike"] = None if best is None else may and (records < FEWEST or not low > 0.0)
     alike = tuple(row["candidate"] for row in rows if row["alike"])
     sure = all(row["use_high"] < AT_CAPACITY for row in rows if row["alike"])
     words = f"{_words(best, alike, len(labels), records, found.state)} {len(found.table)} runs; {100 * confidence:g} % "
@@ -260,8 +261,9 @@ def _words(best: str | None, alike: Sequence[str], number: int, records: int, st
     """What the comparison comes to."""
     if best is None:
         return (
-            f"All {number} candidates collapse or come to the capacity of a link under 16 % of the motions or more at the "
-            "largest level: none is allowed; strengthen the links, or run lower levels."
+            f"None of the {number} candidates is allowed: at the largest level each collapses or comes to the capacity of a "
+            "link under 16 % of the motions or more; strengthen the links, or run lower levels. That one is stronger than "
+            "another state only compares collapses under these motions: it is no leave to build it."
         )
     few = f"; nothing is told from fewer than {FEWEST} records" if records < FEWEST else ""
     said = f"Least {state} of {number} candidates: {best}"

@@ -144,6 +144,7 @@ def _assembled(structure: Structure) -> dict[str, str]:
         "mass": f"{p['mass_kg']:.0f} kg",
         "heaviest": f"{p['heaviest']}, {p['heaviest_mass_kg']:.0f} kg",
         **{link["name"]: _held(link) for link in p["links"]},
+        **_stone(structure),
     }
 
 
@@ -172,10 +173,16 @@ def properties(column: Column) -> dict:
 
 def _link(link: PlacedLink) -> dict:
     """Kind and capacities of a link; None for what it does not limit."""
+    stone = link.stone
     limits = {"shear_capacity_n": link.shear_capacity, "axial_capacity_n": link.axial_capacity}
+    limits |= {
+        "stone_shear_n": math.inf if stone is None else stone.shear,
+        "stone_tension_n": math.inf if stone is None else stone.pull,
+    }
     return {
         "name": link.name,
         **{name: value if math.isfinite(value) else None for name, value in limits.items()},
+        "stone": None if stone is None else stone.source,
         "pretension_n": link.pretension,
         "governs": link.governs,
     }
@@ -193,13 +200,29 @@ def _facts(column: Column) -> dict[str, str]:
         "static uplift": f"{p['uplift_g']:.4f} g",
         **_as_found(column),
         **{link["name"]: _held(link) for link in p["links"]},
+        **_stone(column),
     }
+
+
+def _stone(structure: Structure) -> dict[str, str]:
+    """What of the stone around links is to be minded; nothing without anchors."""
+    from ..column.links.stone import stone_words
+
+    words = stone_words(structure.placed_links)
+    return {"stone around links": words} if words else {}
 
 
 def _held(link: dict) -> str:
     """Resistance of a link, in words."""
-    kinds = (("shear", link["shear_capacity_n"]), ("tension", link["axial_capacity_n"]))
-    held = [f"{value / 1e3:.4g} kN in {kind}" for kind, value in kinds if value]
+    held = []
+    for kind, name in (("shear", "shear"), ("tension", "axial")):
+        bar, stone = link[f"{name}_capacity_n"], link[f"stone_{kind}_n"]
+        if stone and stone < (bar or math.inf):
+            computed = f"{bar / 1e3:.4g} kN" if bar else "without a limit"
+            least = f"{stone / 1e3:.4g} kN in {kind}, where the stone gives way ({link['stone']}; the bar by itself: "
+            held.append(f"{least}{computed}, with which it is computed)")
+        elif bar:
+            held.append(f"{bar / 1e3:.4g} kN in {kind}")
     limit = f"holds {' and '.join(held)}" if held else "without a limit"
     pulled = f", pretensioned with {link['pretension_n'] / 1e3:.4g} kN" if link["pretension_n"] else ""
     return f"{limit}{pulled}" + (f"; {link['governs']}" if link["governs"] else "")

@@ -9,7 +9,7 @@ import shutil
 import sys
 import textwrap
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from pathlib import Path
@@ -176,10 +176,12 @@ def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None
     """
     from ..atomic import output_folder
 
-    if out is None:
-        return nullcontext()
-    names = [name for write in writes for name in ((write,) if "." in write else (f"{write}.png", f"{write}.svg"))]
-    return output_folder(out, names)
+    return nullcontext() if out is None else output_folder(out, file_names(writes))
+
+
+def file_names(writes: Iterable[str]) -> list[str]:
+    """Names of files to be, with both endings of a picture that is named without one."""
+    return [name for write in writes for name in ((write,) if "." in write else (f"{write}.png", f"{write}.svg"))]
 
 
 def ledger(folder: Path | None, *, waits: bool = False) -> Path | None:
@@ -202,6 +204,13 @@ def ledger(folder: Path | None, *, waits: bool = False) -> Path | None:
 def note(sentence: str) -> None:
     """Say on standard error what a person should know while a command goes on."""
     print(f"stylobate: {sentence}", file=sys.stderr, flush=True)
+
+
+def warn(sentence: str) -> None:
+    """Say once what is kept with the results too, and stands in a report of them."""
+    if sentence not in WARNED:
+        WARNED.append(sentence)
+        note(f"warning: {sentence}")
 
 
 #: Hears of progress (title, done, all) instead of a bar, where a command is run for somebody else than a terminal.

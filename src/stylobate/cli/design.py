@@ -28,21 +28,31 @@ def describe_design(values: pandas.DataFrame) -> None:
     """Print the links used most of every state, and the clearance that layers need; nothing where there are none."""
     import pandas
 
-    from ..analysis.design_values import basis_of, clearances, where, worst_of
+    from ..analysis.design_values import WHICH_LEVEL, basis_of, clearances, where, worst_of
     from . import console
 
     if not len(values):
         return
+    level = ("level",) if where(values) else ()
     words = f"{where(values)}: not exceeded under 84 % of the motions, with the 95 % interval {basis_of(values)}."
     if len(worst := worst_of(values)):
         print(f"Design values{words}")
         some = worst.groupby("state", sort=False).head(6)
-        told: dict[str, Any] = {key: some[key] for key in ("state", "link", "quantity", "unit")}
+        told: dict[str, Any] = {key: some[key] for key in ("state", *level, "link", "quantity", "unit")}
         told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
         told |= {"over capacity": some["use_value_84"], "at most": some["use_high_84"]}
         told |= {"at [s]": some["instant_84_s"], "towards [°]": some["azimuth_84_deg"]}
         console.print_table(pandas.DataFrame(told), digits=3)
+        if len(some) < len(worst):
+            print(
+                f"{len(some)} of {len(worst)} rows, of the links used most; design.csv in --out has all, at every level."
+            )
     if len(wide := clearances(values)):
         print(f"Clearance that layers need [m]{words}")
-        told = {"state": wide["state"], "link": wide["link"], "84 %": wide["value_84"], "from": wide["low_84"]}
+        told = {key: wide[key] for key in ("state", *level, "link")} | {
+            "84 %": wide["value_84"],
+            "from": wide["low_84"],
+        }
         console.print_table(pandas.DataFrame(told | {"to": wide["high_84"]}), digits=3)
+    if level:
+        print(WHICH_LEVEL)

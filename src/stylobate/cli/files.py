@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
-from contextlib import contextmanager
+import shlex
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,17 @@ if TYPE_CHECKING:
     import pandas
 
     from ..campaign.campaign import Campaign
+    from ..results.asked import Asked
+
+#: Options that say where and how it is computed and told, and not what is asked; whether a value follows.
+ELSEWHERE = {
+    "--threads": True,
+    "--dask": True,
+    "--device": True,
+    "--out": True,
+    "--mix-devices": False,
+    "--json": False,
+}
 
 
 class Files(list[Path]):
@@ -25,11 +37,14 @@ class Files(list[Path]):
         Its name.
     folder : path, optional
         None if no files are wanted.
+    before : Asked, optional
+        What this command was asked when it last left a result in the folder, which the new one replaces.
     """
 
-    def __init__(self, command: str, folder: Path | None) -> None:
+    def __init__(self, command: str, folder: Path | None, before: Asked | None = None) -> None:
         super().__init__()
-        self.command, self.folder = command, folder
+        self.command, self.folder, self.before = command, folder, before
+        self.replaces = before is not None and _question(before.command) != _question(console.COMMAND)
 
     @property
     def wanted(self) -> bool:
@@ -96,9 +111,21 @@ class Files(list[Path]):
             ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.asked.Asked.of` takes them, or
             what :func:`stylobate.results.sources.kept_of` says of the runs that it rests on.
         """
-        from ..results.asked import Asked, asked_file
+        from ..results.asked import Asked, asked_file, others_in
 
-        found = Asked.of(console.COMMAND, warnings=[*what.pop("earlier", ()), *console.WARNED], **what)
+        assert self.folder is not None
+        earlier = what.pop("earlier", ())
+        found = Asked.of(console.COMMAND, **what)
+        if self.before is not None and not self.replaces and not found.holds(self.before):
+            self.replaces = True
+            console.warn(_replaced(self.folder, self.before, " of what its files held then"))
+        others = others_in(self.folder, self.command)
+        if others and not any(Path(one["path"]).resolve() == self.folder.resolve() for one in found.sources):
+            console.note(
+                f"{self.folder} holds the result of {' and '.join(others)} too, and a report of the folder tells all of "
+                "them; give each result an --out of its own to keep them apart."
+            )
+        found = dataclasses.replace(found, warnings=(*earlier, *console.WARNED))
         self.json(found.to_dict(), asked_file(self.command))
 
     def summary(self, result: dict[str, Any], name: str) -> None:
@@ -114,7 +141,50 @@ def files(out: Path | None, command: str, *writes: str) -> Iterator[Files]:
     if out is None:
         yield Files(command, None)
         return
-    from ..results.asked import asked_file
+    from ..errors import InputError
+    from ..own_files import OwnFiles
+    from ..results.asked import Asked, asked_file, others_in
 
     with console.folder(out, *writes, asked_file(command)) as folder:
-        yield Files(command, folder)
+        assert folder is not None
+        before = None
+        if (folder / asked_file(command)).is_file():
+            with suppress(InputError):  # damaged, or of a later version: it is replaced all the same
+                before = Asked.read(folder / asked_file(command))
+        elif others := others_in(folder, command):
+            names = [name for name in console.file_names(writes) if (folder / name).exists()]
+            if names:
+                console.warn(
+                    f"{folder} holds the result of {' and '.join(others)}, and its {', '.join(names)} may be replaced; "
+                    "give another --out to keep both."
+                )
+        found = Files(command, folder, before)
+        if before is not None and found.replaces:
+            console.warn(_replaced(folder, before))
+        yield found
+        if found.replaces:  # what the other question had and this one has not would be taken for a part of its result
+            own = OwnFiles(folder)
+            for name in console.file_names(writes):
+                if folder / name not in found:
+                    own.remove(folder / name)
+
+
+def _question(words: Sequence[str]) -> list[str]:
+    """The words of a command line that say what is asked."""
+    found, left = [], iter(words)
+    for word in left:
+        name, equals, _ = word.partition("=")
+        if name not in ELSEWHERE:
+            found.append(word)
+        elif ELSEWHERE[name] and not equals:
+            next(left, None)
+    return found
+
+
+def _replaced(folder: Path, before: Asked, held: str = "") -> str:
+    """What is said where the result of another question is replaced."""
+    line = shlex.join(("stylobate", *before.command))
+    return (
+        f"{folder} held the result of another question, asked on {before.day}{held}: '{line}'. The new result replaces "
+        "it; give another --out to keep both (finished runs in the folder serve either)."
+    )

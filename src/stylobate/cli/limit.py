@@ -35,6 +35,7 @@ def limit(
     from ..analysis.limit import limit_analysis
     from ..analysis.limit_assemblies import listed
     from ..analysis.limit_directions import limit_directions
+    from ..column.links.stone import stone_words
     from ..motion.ranges import azimuth_range
     from . import console
 
@@ -57,6 +58,8 @@ def limit(
         summary = {} if found is None else found.summary()
         if all_round is not None:
             summary = all_round.summary() | summary
+        if summary["links"]:
+            summary["stone_around_links"] = stone_words(stone.placed_links)
         if files.wanted:
             from .. import plots
             from ..analysis.limit import towards
@@ -101,6 +104,8 @@ def limit(
         facts[link["link"] if names.count(link["link"]) == 1 else f"{link['link']}, {link['action']}"] = link_words(
             link
         )
+    if words := stone_words(stone.placed_links):
+        facts["stone around links"] = words
     console.say(f"{sentence}.", facts, files)
 
 

@@ -198,10 +198,7 @@ class _Warner:
     """Prints each warning once, in one line, on standard error."""
 
     def __call__(self, message: Any, *_: Any, **__: Any) -> None:
-        text = console.in_options(message)
-        if text not in console.WARNED:
-            console.WARNED.append(text)
-            print(f"stylobate: warning: {text}", file=sys.stderr)
+        console.warn(console.in_options(message))
 
 
 def _usage(error: Any) -> str:

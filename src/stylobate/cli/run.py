@@ -202,8 +202,7 @@ def conclude(
     from . import console
     from .files import files as files_of
 
-    pictures = ["histories", "filmstrip", "joints", "energy", "motion"]
-    pictures += SPACE_PICTURES if model.axes == "xyz" else []
+    pictures = ["histories", "filmstrip", "joints", "energy", "motion", *SPACE_PICTURES]
     names = ("response.nc", "run.json", "motion.csv", "replicates.csv", "bodies.csv", "debris", "median")
     with files_of(out, "run", *names, *pictures) as files:
         console.ledger(files.folder)

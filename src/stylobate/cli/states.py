@@ -60,6 +60,20 @@ def the_candidates(
     return candidates(columns[Path(strengthened[0]).stem], asked)
 
 
+def the_design_level(text: str, im: str | None, levels: list[float]) -> float:
+    """Level at which design values are told, one of those that run."""
+    from ..campaign.study_files import levels_of
+
+    if im is None:
+        raise InputError("--design-level is one of --levels; give --im and --levels with it.", "design_level")
+    level = levels_of(im, text)[1][0]
+    found = next((one for one in levels if abs(one - level) < 1e-6 * level), None)
+    if found is None:
+        known = ", ".join(f"{one:g}" for one in levels)
+        raise InputError(f"--design-level is {text}; allowed is one of --levels: {known}.", "design_level")
+    return found
+
+
 def states(
     records: list[Path] | None = o.argument("[DIR|FILE]...", "Folders of records, or records; or sample:NAME.", None),
     as_built: str | None = o.option("COLUMN", "Name of a preset, or a file (TOML) of a column or an assembly."),
@@ -68,6 +82,10 @@ def states(
     model: str = o.option("MODEL", "How it is computed.", "dem2d"),
     im: str | None = o.option("MEASURE", "Scale the records to it, such as pgv."),
     levels: str | None = o.option("A:A:N", "Its levels, such as 0.2m/s:1.6m/s:8."),
+    design_level: str | None = o.option(
+        "A",
+        "At which of the levels design values of links are told, such as 0.4m/s; by default one at which few collapse.",
+    ),
     vary: list[str] | None = o.option(
         "KIND.FIELD=A:B:N",
         "Candidates for a number or place of the links [SI], such as dowel.diameter=0.02:0.06:5 or dowel.at.x=0,0.1; may be "
@@ -112,13 +130,14 @@ def states(
                          "0.2m/s:1.6m/s:8.", "im")  # fmt: skip
     parse_state(state)
     measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
+    level = None if design_level is None else the_design_level(design_level, im, sizes)
     suite = request.expand()
     with execution.files("states", "states.csv", "links.csv", "states.json", "states", *WRITES) as files:
         with files.campaign(campaign, in_folder=True) as asked:
             found = compare_states(
                 columns, suite.motions, how, sizes, measure, state=state, out=files.folder, campaign=asked
             )
-        designed = design_values(found)
+        designed = design_values(found, level=level)
         summary = found.summary() | {
             "design_values": designed.to_dict("records"),
             "model": how.name,
@@ -144,7 +163,7 @@ def states(
     describe(found)
     describe_design(designed)
     if best is not None:
-        console.print_table(best.table, digits=3)
+        console.print_table(best.table.dropna(axis=1, how="all"), digits=3)
         print(best.words)
     console.print_refused(suite.refused)
     if files:

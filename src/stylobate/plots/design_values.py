@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from ..analysis.design_values import basis_of, worst_of
+from ..analysis.design_values import basis_of, where, worst_of
 from .style import CYCLE, GREY, WIDTH, page, plain, styled
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ MOST = 24
 
 @styled
 def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure | None = None) -> Figure:
-    """Links at the largest level, those used most: a dot, its 95 % interval, and capacity at 1.
+    """Links at the level that is told, those used most: a dot, its 95 % interval, and capacity at 1.
 
     Under its name a force has the instant of the run that governs, and a shear force its azimuth, from x towards y. An
     arrow: the upper limit is beyond all that was computed; without a dot, so is the value itself.
@@ -57,6 +57,11 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     axes.set_yticks(np.arange(len(shown))[::-1], labels)
     axes.set(xlim=(0.0, far), ylim=(-0.6, len(shown) - 0.4))
     meant = f"over capacity [-]: not exceeded under 84 % of the motions, and its 95 % interval {basis_of(values)}"
+    if where(values) and "told" in values:
+        levels = shown.groupby("state", sort=False)["level"].first()
+        meant += "; level " + ", ".join(f"{level:g} ({plain(state)})" for state, level in levels.items())
+    if len(shown) < len(found):
+        meant += f"; {len(shown)} of {len(found)} rows, the others are used less and stand in design.csv"
     figure.supxlabel(textwrap.fill(meant, WIDE), fontsize=9)  # longer than the axes are wide
     for state in states:
         axes.plot([], [], color=looks[state], marker="o", label=plain(state))

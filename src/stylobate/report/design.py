@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..analysis.design_values import basis_of, clearances, where, worst_of
+from ..analysis.design_values import WHICH_LEVEL, basis_of, clearances, where, worst_of
 from . import numbers as n
 from .page import Item, Rows
 from .pictures import kept
@@ -18,8 +18,8 @@ MOST = 40
 
 #: Columns of the tables, by heading; clearances go without the last two of what has a capacity.
 SHOWN = {
-    "state": "state", "link": "link", "quantity": "quantity", "unit": "unit", "84 %": "value_84", "from": "low_84",
-    "to": "high_84", "undecided": "undecided", "over capacity": "use_value_84", "at most": "use_high_84",
+    "state": "state", "level": "level", "link": "link", "quantity": "quantity", "unit": "unit", "84 %": "value_84",
+    "from": "low_84", "to": "high_84", "undecided": "undecided", "over capacity": "use_value_84", "at most": "use_high_84",
 }  # fmt: skip
 
 #: The same of when and where to a force acts, which older tables do not tell.
@@ -43,6 +43,8 @@ def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> 
         "Where it says inf, it is beyond all that was computed, because runs collapse or lose the link, or there are "
         "fewer than 21 records."
     )
+    if where(values) and "told" in values:
+        open_ += f" {WHICH_LEVEL}"
     items: list[Item] = []
     if len(worst := worst_of(values)):
         caption = (
@@ -53,6 +55,8 @@ def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> 
         if acts:
             caption += " Forces are told at an instant of the run that governs; shear pushes the body above "
             caption += "towards an azimuth."
+        if len(worst) > MOST:
+            caption += " Rows beyond these are of links that are used less, and stand there."
         items.append(_rows(worst, SHOWN | acts, caption))
         caption = (
             "Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all "

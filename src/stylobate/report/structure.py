@@ -11,13 +11,14 @@ from ..column import Column
 from ..column.as_found import AsFound, FoundDrum
 from ..column.block import FAR_AWAY
 from ..column.found_in_space import weakest_uplift
+from ..column.links.stone import stone_words
 from ..column.plausible import unit_doubts
 from ..column.structure import Structure
 from ..constants import g
 from ..plots import draw_elevation, draw_views
 from ..plots.joint_plans import joint_plans
 from . import numbers as n
-from .page import Facts, Item, Picture, Rows, Section
+from .page import Facts, Item, Picture, Points, Rows, Section
 from .pictures import picture
 
 #: Most rows of a table of drums or blocks in a report; the column file holds them all.
@@ -70,7 +71,14 @@ def _elevation(column: Column) -> Picture:
 
 
 def _found_and_links(column: Column) -> list[Item]:
-    return [*([_as_found(column)] if column.as_found else []), *([_links(column)] if column.links else [])]
+    found: list[Item] = [_as_found(column)] if column.as_found else []
+    return [*found, _links(column), *_stone(column)] if column.links else found
+
+
+def _stone(structure: Structure) -> list[Item]:
+    """Where the stone gives way before links do; nothing without anchors."""
+    words = stone_words(structure.placed_links)
+    return [Points([words])] if words else []
 
 
 def what_opens(column: Column, in_space: bool = False) -> tuple[float, str]:
@@ -267,7 +275,7 @@ def _blocks(structure: Structure) -> list[Item]:
     found: list[Item] = [picture(drawn, caption), Facts(facts), rows, *([joints] if laws else [])]
     if contacts is not None and (seen_at := _found_at(structure)):
         found.append(Rows(["joint", "between", "as found"], seen_at, FOUND_AT, numbers=True))
-    return [*found, _links_between_blocks(structure)] if structure.links else found
+    return [*found, _links_between_blocks(structure), *_stone(structure)] if structure.links else found
 
 
 def _links_between_blocks(assembly: Structure) -> Rows:

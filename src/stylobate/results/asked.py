@@ -35,6 +35,13 @@ def asked_file(command: str) -> str:
     return f"asked-{command}.json"
 
 
+def others_in(folder: Path, command: str) -> list[str]:
+    """Other commands that left a result in a folder."""
+    names = sorted(path.name for path in folder.glob(asked_file("*")) if path.name != asked_file(command))
+    start, end = asked_file("*").split("*")
+    return [name.removeprefix(start).removesuffix(end) for name in names]
+
+
 @dataclass(frozen=True)
 class Asked:
     """Request of a command.
@@ -145,6 +152,11 @@ class Asked:
             return cls(**fields)
         except (TypeError, ValueError) as error:
             raise InputError(f"{shown(path)} is not what stylobate wrote ({error}); run again.") from None
+
+    def holds(self, other: Asked) -> bool:
+        """Whether all that stood and shook in another request is in this one as well."""
+        mine = {one.get("digest") for one in (*self.structures, *self.motions)}
+        return {one.get("digest") for one in (*other.structures, *other.motions)} <= mine
 
     @property
     def stood(self) -> list[Structure]:

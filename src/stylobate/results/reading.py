@@ -74,14 +74,17 @@ FURTHER = {
 
 
 def read_results(folders: Iterable[str | Path]) -> list[Result]:
-    """Everything that folders of results hold, in the order given.
+    """Everything that folders of results hold, in the order given, each folder once.
 
     Raises
     ------
     InputError
         A folder is missing, empty, or holds no result of this package; or a result that is damaged or of a later version.
     """
-    results = [one for folder in folders for one in read_folder(folder)]
+    places: dict[Path, str | Path] = {}
+    for folder in folders:
+        places.setdefault(Path(folder).resolve(), folder)
+    results = [one for folder in places.values() for one in read_folder(folder)]
     if not results:
         raise InputError("no folder of results is given; give one in which a command wrote its files.")
     return results

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from ...errors import InputError, check_range
+from .dowel import Pin
+from .link import Link
 
 #: k of the cone (EN 1992-4, 7.2.1.4, post-installed) and of the edge (7.2.2.5), cracked and not; in N and mm.
 CONE, EDGE = {True: 7.7, False: 11.0}, {True: 1.7, False: 2.4}
@@ -100,3 +103,56 @@ def stone_at_anchor(
         * math.sqrt(strength) * c**1.5,
         "bearing": d * d * min(1.3 * math.sqrt(strength * steel), 0.25 * math.pi * steel / math.sqrt(3.0)),
     }  # fmt: skip
+
+
+class StoneAround(NamedTuple):
+    """What the stone around a link bears at least, which no computation takes.
+
+    Parameters
+    ----------
+    shear, pull : float
+        Towards the nearest edge, and of the cone [N]; a pull is infinite where the link holds none.
+    edge : float
+        Distance of that edge from the axis [m].
+    strength : float
+        Compressive strength of the stone [Pa].
+    """
+
+    shear: float
+    pull: float
+    edge: float
+    strength: float
+
+    def before(self, shear: float, pull: float) -> tuple[str, float, float] | None:
+        """The way in which the stone gives way before a link of these capacities does, with both forces [N]; else None."""
+        ways = ("shear", self.shear, shear), ("tension", self.pull, pull)
+        return min((way for way in ways if way[1] < way[2]), key=lambda way: way[1] / way[2], default=None)
+
+    @property
+    def source(self) -> str:
+        """What it rests on, in words."""
+        where = f"edge as built {self.edge:.3g} m, stone of {1e-6 * self.strength:g} MPa"
+        return f"EN 1992-4, carried over from concrete; {where}"
+
+
+def stone_around(link: Link, edge: float, pulled: bool) -> StoneAround | None:
+    """What the stone around a link across a joint bears, cracked; None where it cannot be told.
+
+    Parameters
+    ----------
+    link : Link
+    edge : float
+        From its axis to the nearest edge of the stones, as built [m].
+    pulled : bool
+        Whether it holds against opening.
+    """
+    if not isinstance(link, Pin) or link.diameter is None or link.embedment is None:
+        return None
+    try:  # the bearing, which alone asks for the yield strength, is in the capacity of the link already
+        found = stone_at_anchor(
+            diameter=link.diameter, embedment=link.embedment, edge=edge, stone_strength=link.stone_strength,
+            yield_strength=RANGES["yield_strength"][1],
+        )  # fmt: skip
+    except InputError:
+        return None
+    return StoneAround(found["edge"], found["cone"] if pulled else math.inf, edge, link.stone_strength)

@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import InputError
 from ..drum import Drum
 from ..stack import Stack
+from .anchorage import stone_around
 from .line import Line
 from .link import Link, Site
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, place_all
@@ -48,7 +49,7 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
     numbers = link.held(Site(math.nan, float(stack.joint_areas[upper]), stack.joint_edge(upper)))
     faces = [(stack.drums[upper], "bottom", link.joint)]
     faces += [(stack.drums[upper - 1], "top", upper)] if upper else []
-    pin = link.mark != "sheet"
+    pin, edge = link.mark != "sheet", math.inf
     for drum, side, number in faces:
         inside = _inside(drum, side, link.at)
         where = f"a {link.kind} at {_place(link.at)} in joint {link.joint}"
@@ -56,6 +57,7 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
             raise InputError(
                 f"{where} is outside the section, by {-inside:.3g} m on drum {number}; move it inward.", "at"
             )
+        edge = min(edge, inside)
         inside -= 0.5 * numbers.diameter
         if pin and inside < RIM:
             raise InputError(
@@ -74,7 +76,8 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
     place = (*link.at, float(stack.joint_heights[upper]))
     half = numbers.lift if math.isfinite(numbers.lift) else STROKE * float(stack.heights[upper])
     called = link.name or f"{link.kind} in joint {link.joint}"
-    return _placed(link, numbers, called, stack, (upper, upper + 1), (place, place), joint=link.joint, stroke=half)
+    about = {"stroke": half, "stone": stone_around(link, edge, numbers.axial_stiffness > 0.0)}
+    return _placed(link, numbers, called, stack, (upper, upper + 1), (place, place), joint=link.joint, **about)
 
 
 def _line(link: Line, stack: Stack) -> PlacedLink:

@@ -13,6 +13,7 @@ import numpy as np
 from ...errors import InputError, within
 from ..turning import UPRIGHT, Quaternion, matrix_of
 from . import COLUMN_KINDS
+from .anchorage import StoneAround
 from .link import Lies, Link, Mark, Numbers
 
 Point = tuple[float, float, float]
@@ -53,6 +54,8 @@ class PlacedLink(Numbers):
         length 1 and across the others. In a plane it slips in the first alone.
     stroke : float
         Half the length of its mark across a joint [m].
+    stone : StoneAround, optional
+        What the stone around it bears, where that can be told; nothing is computed with it.
 
     Others as for :class:`Numbers`; of a clamp ``lift`` is infinite, because it does not leave its groove by opening.
     """
@@ -71,6 +74,7 @@ class PlacedLink(Numbers):
     joint: int = 0
     frame: tuple[Point, Point, Point] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
     stroke: float = 0.0
+    stone: StoneAround | None = None
 
     @property
     def acts(self) -> bool:
