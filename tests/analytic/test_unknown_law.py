@@ -245,7 +245,7 @@ def test_analyses_over_records_draw_laws_and_say_which():
     found = st.ida(ROUND, motions, SPACE, "pga", levels=[0.1], replicates=4, tail=0.1)
     assert found.runs[LAW].tolist() == [1, 1, 1, 2] * 2
     assert not found.doubt
-    assert "wobble" in st.ida(ROUND, motions, SPACE, "pga", levels=[0.1], tail=0.1).doubt
+    assert "Wobbling was not damped" in st.ida(ROUND, motions, SPACE, "pga", levels=[0.1], tail=0.1).doubt
     study = st.Study((ROUND,), motions, [SPACE, st.DistinctElement2D()], (0.1,), "pga", replicates=4, tail=0.1)
     assert study.plan().labels()[LAW].tolist() == [1, 1, 1, 2] * 2 + [0] * 8
 

@@ -345,7 +345,7 @@ def test_a_survey_where_a_column_file_is_wanted_is_told_as_one(tmp_path, monkeyp
     (tmp_path / "survey.csv").write_text(
         "# name: x\n# stone = worn\nheight_m;bottom_width_m;top_width_m\n0,7;1,2;1,1\n"
     )
-    said = "is a survey, drum by drum; turn it into a column file by `stylobate convert survey.csv --to survey.toml`"
+    said = "is a survey, drum by drum; turn it into a column file first, by `stylobate convert`"
     assert said in refused("draw", "survey.csv", "--out", "never")
     assert said in refused("run", "survey.csv", "--harmonic", "1Hz,0.1g,1s")
     (tmp_path / "settings.csv").write_text("height = 2\nbottom_width, top_width\n")

@@ -266,7 +266,7 @@ def test_states_have_a_page_of_their_own(place, tmp_path):
     assert "study" not in text.lower().split("sources to cite")[0]
     pictures = [value for name, value in page.attributes if name == "alt"]
     assert sum(one.startswith("Elevation of") for one in pictures) == 2
-    assert sum("difference of the share, pair by pair" in one for one in pictures) == 1
+    assert sum("Difference of the share, pair by pair" in one for one in pictures) == 1  # no curve beside it
 
 
 def test_states_of_a_version_that_counted_otherwise_are_refused(place, tmp_path, capsys):

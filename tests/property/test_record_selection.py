@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.record_selection import OWN_MISFIT, Wanted, select_records
+from stylobate.analysis.record_selection import Wanted, select_records
+from stylobate.analysis.record_sets import OWN_MISFIT
 from stylobate.motion.intensity_specs import parse_measure
 from stylobate.motion.specs import parse_synthetic
 from stylobate.motion.spectra import pseudo_acceleration

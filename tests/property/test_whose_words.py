@@ -18,7 +18,7 @@ SOURCE = Path(stylobate.__file__).parent
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 
 #: What makes command lines: of our own commands, and of a browser.
-COMMAND_LINES = {"app/asked.py", "report/pdf.py"}
+COMMAND_LINES = {"app/asked.py", "app/forms.py", "report/pdf.py"}
 
 
 @cache

@@ -66,8 +66,7 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
         )
         if _SURVEY.search(data.decode("utf-8-sig")):
             raise InputError(
-                f"{name} is a survey, drum by drum; turn it into a column file by `stylobate convert {name} --to "
-                f"{Path(name).stem}.toml`."
+                f"{name} is a survey, drum by drum; turn it into a column file first, by `stylobate convert`."
             ) from None
         raise InputError(f"{name} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}{other}.") from None
     except RecursionError:
