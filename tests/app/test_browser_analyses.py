@@ -106,8 +106,8 @@ def test_points_of_a_fragility_grow(open_page, tmp_path):
     growing, pictures = page.locator("canvas[data-curves=growing]"), set()
 
     def grown():
-        if growing.count():
-            pictures.add(growing.evaluate("one => one.toDataURL()"))
+        picture = page.evaluate("document.querySelector('canvas[data-curves=growing]')?.toDataURL()")
+        pictures.update([picture] if picture else [])
         return page.locator("canvas[data-curves=fragility]").count()
 
     until(grown, 240.0)

@@ -57,14 +57,16 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     axes.set_yticks(np.arange(len(shown))[::-1], labels)
     axes.set(xlim=(0.0, far), ylim=(-0.6, len(shown) - 0.4))
     meant = f"over capacity [-]: not exceeded under 84 % of the motions, and its 95 % interval {basis_of(values)}"
+    at = {}
     if where(values) and "told" in values:
-        levels = shown.groupby("state", sort=False)["level"].first()
-        meant += "; level " + ", ".join(f"{level:g} ({plain(state)})" for state, level in levels.items())
+        at = {
+            state: f", level {level:g}" for state, level in shown.groupby("state", sort=False)["level"].first().items()
+        }
     if len(shown) < len(found):
-        meant += f"; {len(shown)} of {len(found)} rows, the others are used less and stand in design.csv"
+        axes.set_title(f"{len(shown)} of {len(found)} rows, all in design.csv", loc="left", fontsize=8)
     figure.supxlabel(textwrap.fill(meant, WIDE), fontsize=9)  # longer than the axes are wide
     for state in states:
-        axes.plot([], [], color=looks[state], marker="o", label=plain(state))
+        axes.plot([], [], color=looks[state], marker="o", label=plain(state) + at.get(state, ""))
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=min(len(states), 3), fontsize=8, frameon=False)
     axes.grid(True, axis="x")
     return figure
