@@ -60,7 +60,7 @@ def test_verdicts_differ_no_more_than_those_of_two_processors(both):
 def test_columns_that_stay_shut_move_alike(both):
     *_, tables = both
     shut = (tables["cpu"]["peak_joint_opening_m"] == 0.0) & (tables["gpu"]["peak_joint_opening_m"] == 0.0)
-    assert shut.sum() > 20
+    assert shut.sum() > 10
     here, there = (tables[device]["peak_top_displacement_m"][shut] for device in ("cpu", "gpu"))
     assert np.quantile(np.abs(there / here - 1.0), 0.99) <= 1e-6
 
@@ -87,7 +87,7 @@ def test_what_was_stopped_goes_on_to_the_same_rows(tmp_path):
     grid = column, model, np.linspace(0.5, 3.0, 16), np.linspace(0.1, 0.5, 16) * st.g, 5.0
 
     def stop(done, total):
-        if done == 100:
+        if done >= 100:
             raise KeyboardInterrupt
 
     ledger = tmp_path / "runs.sqlite"

@@ -39,8 +39,11 @@ class Driver(types.SimpleNamespace):
             CU_DEVICE_ATTRIBUTE_MAX_SHARED_MEMORY_PER_BLOCK_OPTIN="SHARED",
         )
         self.CUfunction_attribute = types.SimpleNamespace(
-            CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES="DYNAMIC", CU_FUNC_ATTRIBUTE_MAX_THREADS_PER_BLOCK="THREADS"
+            CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES="DYNAMIC",
+            CU_FUNC_ATTRIBUTE_MAX_THREADS_PER_BLOCK="THREADS",
+            CU_FUNC_ATTRIBUTE_PREFERRED_SHARED_MEMORY_CARVEOUT="CARVEOUT",
         )
+        self.CUshared_carveout = types.SimpleNamespace(CU_SHAREDMEM_CARVEOUT_MAX_SHARED=100)
         ok = Code.CUDA_SUCCESS
         self.memory, self.current, self.launched, self.ended, self.set = {}, {}, [], [], {}
         self.cuInit = lambda flags: (ok,)

@@ -94,6 +94,11 @@ class Card:
             (found,) = self._ask(driver.cuModuleGetFunction(module, ENTRY.encode()))
         asked, ready = driver.CUfunction_attribute, max(shared, ready)  # never less than records in use have
         self._ask(driver.cuFuncSetAttribute(found, asked.CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES, ready))
+        # all that a processor of the card has is for shared memory: by itself the driver leaves room for a single block
+        whole = driver.CUshared_carveout.CU_SHAREDMEM_CARVEOUT_MAX_SHARED
+        self._ask(
+            driver.cuFuncSetAttribute(found, asked.CU_FUNC_ATTRIBUTE_PREFERRED_SHARED_MEMORY_CARVEOUT, int(whole))
+        )
         self._kernels[name] = found, ready
         (most,) = self._ask(driver.cuFuncGetAttribute(asked.CU_FUNC_ATTRIBUTE_MAX_THREADS_PER_BLOCK, found))
         return found, most

@@ -70,11 +70,18 @@ def lanes_of(name: str) -> int:
 
 
 def site_type(types: Types) -> np.dtype:
-    """Record of a body, with the joint and the load over it and what they sum up, from the types of an engine's records."""
+    """Record of a body, with the joint and the load over it and what they sum up, from the types of an engine's records.
+
+    Of an odd number of rows of lanes: threads of neighbouring joints then reach for different banks of the shared memory, of
+    which there are a power of two of such rows.
+    """
     lanes = types["watch"]["status"].shape
     sums = [(name, np.float64, lanes) for name in ("work", "shear", "visc")]
     sums += [(name, np.float64, (*rows, *lanes)) for name, rows in laws_for(types).momentum]
-    return np.dtype([(name, types[name]) for name in ("body", "joint", "load")] + [("sums", np.dtype(sums))])
+    own = [(name, types[name]) for name in ("body", "joint", "load")] + [("sums", np.dtype(sums))]
+    row = np.dtype((np.float64, lanes)).itemsize
+    even = np.dtype(own).itemsize // row % 2 == 0
+    return np.dtype(own + [("idle", np.float64, lanes)] if even else own)
 
 
 def stamp() -> str:
