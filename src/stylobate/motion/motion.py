@@ -150,7 +150,11 @@ class Motion:
     @property
     def pga(self) -> float:
         """Largest absolute horizontal acceleration along x [m/s²]."""
-        return float(np.abs(self.samples).max()) * abs(self.factor)
+        return self._peak * abs(self.factor)
+
+    @cached_property
+    def _peak(self) -> float:
+        return float(np.abs(self.samples).max())
 
     @property
     def pgv(self) -> float:
@@ -178,7 +182,10 @@ class Motion:
             "processing": self.processing,
         }
         other = {"acceleration": "ax", "lateral": "ay", "vertical": "az"}
-        return Motion(**fields | {other.get(key, key): value for key, value in changes.items()})
+        changed = Motion(**fields | {other.get(key, key): value for key, value in changes.items()})
+        if changed.samples is self.samples:  # a domain has one record at thousands of levels
+            vars(changed)["_peak"] = self._peak
+        return changed
 
     def scaled(self, factor: float) -> Motion:
         """A copy with every component multiplied by ``factor`` [-], which its name says; the samples are shared.

@@ -186,6 +186,6 @@ def _kind(value: Any) -> tuple:
     for one in (float, bool, int, str):
         if isinstance(value, one):
             return (object,) if one is int and not -(2**63) <= value < 2**63 else (one,)
-    if isinstance(value, list) and all(isinstance(one, float) for one in value):
+    if isinstance(value, list) and (set(map(type, value)) <= {float} or all(isinstance(one, float) for one in value)):
         return float, len(value)
     return (object,)

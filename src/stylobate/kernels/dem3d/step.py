@@ -34,7 +34,7 @@ from .rims import chipped_rims, whole_rims
 from .round_faces import on_face
 
 #: The models read these here.
-__all__ = ["advance", "energies", "forces", "gather", "joint_state"]
+__all__ = ["advance", "forces", "gather", "joint_state", "ledger"]
 
 
 @law
@@ -209,16 +209,6 @@ def ledger(state, k, dt, l, out):
     out[4] = o.shear[l] - held
     out[5] = o.visc[l]
     ledger_of_links(state[LINK], state[BOND], l, out)
-
-
-@strict
-def energies(state, base, dt, l, out):
-    """The ledger of one lane at t_n, of a state whose memory this brings there; ``base`` is the base's acceleration then."""
-    state[LANE][0].dt[l] = dt
-    gather(state)
-    for c in range(3):
-        state[GROUND][0].a[c, l] = base[c]  # filled anew before the next step
-    ledger(state, 0, dt, l, out)
 
 
 @strict

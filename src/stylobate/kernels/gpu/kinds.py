@@ -81,7 +81,7 @@ def site_type(types: Types) -> np.dtype:
     own = [(name, types[name]) for name in ("body", "joint", "load")] + [("sums", np.dtype(sums))]
     row = np.dtype((np.float64, lanes)).itemsize
     even = np.dtype(own).itemsize // row % 2 == 0
-    return np.dtype(own + [("idle", np.float64, lanes)] if even else own)
+    return np.dtype([*own, ("idle", np.float64, lanes)] if even else own)
 
 
 def stamp() -> str:

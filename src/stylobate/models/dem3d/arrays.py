@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...kernels.shared.records import STATE
+from ...kernels.shared.records import GROUND, STATE
 from ..drums.bodies import Topology
 from ..drums.records import LaneRecords
 
@@ -39,15 +39,10 @@ class Records(LaneRecords):
 
     # -- looks at a lane, which change nothing that matters ------------------------------------------------------
 
-    def energies(self, lane: int, dt: float, base: np.ndarray, state: tuple[Any, ...] | None = None) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].
-
-        With the forces at the present positions, as the next step will find them; ``base`` is the acceleration of the base.
-        Of a state, which is changed, instead of these records.
-        """
-        out = np.empty(6)
-        self.kernel.energies(self.now() if state is None else state, base, dt, lane, out)
-        return out
+    def ledger(self, state: tuple[Any, ...], lane: int, dt: float, base: np.ndarray, out: np.ndarray) -> None:
+        """Write the ledger of a lane of a state whose forces are those of its positions."""
+        state[GROUND]["a"][0, :, lane] = base  # filled anew before the next step
+        self.kernel.ledger(state, 0, dt, lane, out)
 
     def net(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Forces [N] and moments [N m] of their contacts on every body in its present position, each of shape (n, 3)."""

@@ -13,11 +13,12 @@ import numpy as np
 
 from ...column import Column
 from ...kernels.shared.records import LANE, STATE
+from ...motion import Motion
 from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF, what_is_lost
 from ...response.measures import SpaceMeasures
 from ...response.residuals import Residuals, turned_up
-from ..base import Case, RunOptions
+from ..base import RunOptions
 from ..drums.records import Packed, sink
 from ..drums.runs import LaneRuns
 from ..shared.lanes import in_rows
@@ -74,7 +75,9 @@ class Stack:
         """Place of the middle of the lowest face [m], shape (3,)."""
         return records.places(lane)[0] + records.axes(lane)[0] @ records.vectors(lane, "fx fy fz")[0]
 
-    def stays(self, packed: Packed, records: Records, lane: int, structure: Column, energy: float) -> bool:
+    def stays(
+        self, packed: Packed, records: Records, lane: int, structure: Column, energy: float, slip: np.ndarray
+    ) -> bool:
         """Whether the column in a lane with so much energy above that at rest [J] stands for good. Eq. (V1), in space.
 
         A drum that wobbles on another one may walk: joints between drums have their support narrowed by ``WALK``
@@ -85,7 +88,6 @@ class Stack:
         from ...kernels.dem3d.standing import stands
         from ...kernels.dem3d.standing_found import stands_as_found
 
-        _, slip, _ = records.joints(lane)
         walks, of_lane = not self.planar, (records.body, records.joint, records.lane, lane)
         if not structure.as_found:
             return bool(stands(packed.stand, slip, energy, structure.gravity, walks, *of_lane))
@@ -131,7 +133,7 @@ class SpaceBlock(LaneRuns):
         super().__init__(pack, records, options, cost)
         self.records, self.bodies, self.planar = records, bodies, planar
         n = len(records.body) - 1
-        self.stood = np.zeros((self.lanes, n, 3)), np.zeros((self.lanes, n, 3, 3))
+        self.placed = np.zeros((self.lanes, n, 3)), np.zeros((self.lanes, n, 3, 3))
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
@@ -146,11 +148,19 @@ class SpaceBlock(LaneRuns):
         lean = np.arctan2(size, self.records.body["kz"][1])
         return flat * np.divide(lean, size, out=np.ones_like(size), where=size > 0.0)
 
-    def stand(self, lane: int, case: Case) -> None:
-        """Note how a column stands in a lane, and how its base moves."""
-        for kept, one in zip(self.stood, (self.records.places(lane), self.records.axes(lane)), strict=True):
+    @property
+    def stood(self) -> tuple[np.ndarray, ...]:
+        """Places and axes of bodies as they stood."""
+        return self.placed
+
+    def stand(self, lane: int) -> None:
+        """Note how a column stands in a lane."""
+        for kept, one in zip(self.placed, (self.records.places(lane), self.records.axes(lane)), strict=True):
             kept[lane] = one
-        motion, feed, watch = case.motion, self.feed[0], self.watch[0]
+
+    def shake(self, lane: int, motion: Motion) -> None:
+        """Note how the base of a lane moves."""
+        feed, watch = self.feed[0], self.watch[0]
         along, high = motion.samples**2, 0.0
         if motion.y_samples is not None:
             along = along + motion.y_samples**2
@@ -198,12 +208,12 @@ class SpaceBlock(LaneRuns):
     def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
         """Ledger of a lane as if the column stood there without its pretension; ``bare`` is that column [J]."""
         state = self.records.now("body")
-        numbers, dt = self.pack(bare).lane, float(self.dt[lane])
+        numbers = self.pack(bare).lane
         for name in ("body", "joint", "lane"):
             in_rows(state[STATE.index(name)], self.lanes)[:, lane] = numbers[name]
         link = state[STATE.index("link")]
         link["on"][:, lane] = link["ft"][:, lane] = 0.0
-        return self.records.energies(lane, dt, self.ground_acceleration(lane), state)
+        return self.records.energies([lane], self.dt, [self.ground_acceleration(lane)], state)[0]
 
     # -- how it goes on ------------------------------------------------------------------------------------------
 
@@ -249,7 +259,7 @@ class SpaceBlock(LaneRuns):
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run is over."""
         _, slip, twist = self.records.joints(lane)
-        place, axes = (one[lane] for one in self.stood)
+        place, axes = (one[lane] for one in self.placed)
         up = turned_up(self.records.axes(lane), axes)
         left = Residuals.in_space(slip, twist, self.records.places(lane) - place, up)
         lean, tilt = (math.acos(max(-1.0, 1.0 - self.peak(lane, name))) for name in ("lean", "turn"))
@@ -259,11 +269,11 @@ class SpaceBlock(LaneRuns):
             peak_tilt=tilt,
             peak_twist=self.peak(lane, "spin"),
         )
-        return self.measures(lane, left, float(np.hypot(*self.top(lane))), lean, space)
+        return self.measures(lane, left, slip, float(np.hypot(*self.top(lane))), lean, space)
 
-    def stays(self, lane: int, energy: float) -> bool:
+    def stays(self, lane: int, energy: float, slip: np.ndarray) -> bool:
         """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
-        return self.bodies.stays(self.packed[lane], self.records, lane, self.column(lane), energy)
+        return self.bodies.stays(self.packed[lane], self.records, lane, self.column(lane), energy, slip)
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane, with its direction in plan."""

@@ -224,8 +224,11 @@ class FreeBody:
         axes, up = records.axes(lane)[0], records.vectors(lane, "nx ny nz")[0]
         return (records.places(lane)[0] + records.body["ht"][1, lane] * axes @ up)[:2]
 
-    def stays(self, packed: Packed, records: Records, lane: int, structure: Specimen, energy: float) -> bool:
+    def stays(
+        self, packed: Packed, records: Records, lane: int, structure: Specimen, energy: float, slip: np.ndarray
+    ) -> bool:
         """Whether the energy that is left lifts the body over no ring of tilts between its own and 45°."""
+        del slip
         least = packed.stand
         up = (records.axes(lane)[0] @ records.vectors(lane, "nx ny nz")[0])[2]
         tilt = math.acos(max(-1.0, min(1.0, float(up))))

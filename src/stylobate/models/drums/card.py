@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -51,79 +50,79 @@ class CardLanes:
         self.each, each = first.lanes, lanes_of(name)
         count = -(-min(max(runs, 1), MOST_LANES // THREADS) // self.each)
         self.blocks = [first, *(make() for _ in range(count - 1))]
+        for block in self.blocks:
+            block.computed_by = f"gpu ({device.name})"
         self.lanes = count * self.each
         self.card = CardRecords(device, name, first.arrays.topology.stack, self.lanes // each)
         self.views = self.card.views()
         self.running = np.zeros(self.lanes, dtype=bool)
-        self.taken = np.zeros(self.lanes, dtype=bool)  # lanes whose blocks here know how their runs have ended
-        self.computed_by = f"gpu ({device.name})"
+        self.waiting: dict[int, list[int]] = {}  # lanes to be handed to the card with the next launch, by their blocks
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
-        block, own = self._own(lane)
-        block.load(own, case)
-        self._put(lane)
+        number, own = divmod(lane, self.each)
+        self.blocks[number].load(own, case)
+        self._wait(lane)
 
     def advance(self) -> None:
         """Advance all lanes by a launch; those whose runs end stand still from there."""
         if len(self.card.samples) > 4 * self.lanes:
             self.card.forget_samples(self._in_use())
+        for number, lanes in self.waiting.items():
+            self._put(number, np.array(lanes))
+        self.waiting.clear()
         self.card.advance(CHUNKS_PER_LAUNCH)
-        self.running[...] = self.card.here["watch"]["status"].ravel() == RUNNING
-        self.taken[...] = False
+        ended = self.running & (self.card.here["watch"]["status"].ravel() != RUNNING)
+        for number in np.unique(np.flatnonzero(ended) // self.each).tolist():
+            self._take(number, np.flatnonzero(ended[number * self.each : (number + 1) * self.each]))
+        self.running &= ~ended
 
     def is_over(self, lane: int) -> bool:
         """Whether the lane's run has ended; one that is shaken again goes on."""
         if self.running[lane]:
             return False
-        block, own = self._own(lane)
-        if not self.taken[lane]:
-            self._take(lane)
-        over = block.is_over(own)
+        number, own = divmod(lane, self.each)
+        over = self.blocks[number].is_over(own)
         if not over:
-            self._put(lane)
+            self._wait(lane)
         return over
 
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run has ended; the lane is free afterwards."""
-        block, own = self._own(lane)
-        return replace(block.collect(own), computed_by=self.computed_by)
-
-    def _own(self, lane: int) -> tuple[LaneRuns, int]:
-        """The block of a lane, and the place of the lane in it."""
         number, own = divmod(lane, self.each)
-        return self.blocks[number], own
+        return self.blocks[number].collect(own)
 
-    def _numbers(self, lane: int, name: str) -> tuple[np.ndarray, np.ndarray]:
-        """Numbers of a record of a lane in its block here, and on their way to and from the card; (rows, fields) each."""
-        block, own = self._own(lane)
-        there = self.views[name][:, :, lane // self.card.lanes, lane % self.card.lanes]
-        return block.arrays.rows[name].reshape(*there.shape, -1)[..., own], there
-
-    def _put(self, lane: int) -> None:
-        """Hand a lane to the card with the next launch."""
-        block, own = self._own(lane)
-        for name in self.views:
-            here, there = self._numbers(lane, name)
-            there[...] = here
-        case = block.cases[own]
-        assert case is not None
-        feed = self.card.here["feed"]
-        for name, samples in _components(case).items():
-            if name in (feed.dtype.names or ()):
-                feed[name][divmod(lane, self.card.lanes)] = self.card.address(samples)
-        self.card.changed = True
+    def _wait(self, lane: int) -> None:
+        number, own = divmod(lane, self.each)
+        self.waiting.setdefault(number, []).append(own)
         self.running[lane] = True
 
-    def _take(self, lane: int) -> None:
-        """Take a lane as the card has left it; addresses of samples are those here."""
-        block, own = self._own(lane)
-        for name in self.views:
+    def _there(self, number: int, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Blocks of the card, and lanes in them, of lanes of a block here."""
+        return np.divmod(number * self.each + own, self.card.lanes)
+
+    def _put(self, number: int, own: np.ndarray) -> None:
+        """Write lanes of a block here for the card."""
+        block, there = self.blocks[number], self._there(number, own)
+        for name, view in self.views.items():
+            view[(slice(None), slice(None), *there)] = block.arrays.rows[name][:, own].reshape(*view.shape[:2], -1)
+        feed = self.card.here["feed"]
+        for one, *place in zip(own.tolist(), *there, strict=True):
+            case = block.cases[one]
+            assert case is not None
+            for name, samples in _components(case).items():
+                if name in (feed.dtype.names or ()):
+                    feed[name][tuple(place)] = self.card.address(samples)
+        self.card.changed = True
+
+    def _take(self, number: int, own: np.ndarray) -> None:
+        """Take lanes of a block as the card has left them; addresses of samples are those here."""
+        block, there = self.blocks[number], self._there(number, own)
+        block.ledgers.clear()
+        for name, view in self.views.items():
             if name != "feed":
-                here, there = self._numbers(lane, name)
-                here[...] = there
-        block.feed["step"][0, own] = self.card.here["feed"]["step"][divmod(lane, self.card.lanes)]
-        self.taken[lane] = True
+                block.arrays.rows[name][:, own] = view[(slice(None), slice(None), *there)].reshape(-1, len(own))
+        block.feed["step"][0, own] = self.card.here["feed"]["step"][there]
 
     def _in_use(self) -> set[int]:
         cases = [case for block in self.blocks for case in block.cases if case is not None]

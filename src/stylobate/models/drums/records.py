@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ...kernels.run_codes import CHUNK, RUNNING
-from ...kernels.shared.records import STATE
+from ...kernels.shared.records import LANE, STATE
 from ...motion import Motion
 from ..shared.lanes import aligned_zeros, in_rows, with_copies
 from .bodies import Topology
@@ -65,7 +65,14 @@ class LaneRecords:
         Rows of the records of joints: as many as there are, or those of a body's vertices.
     spare : int
         Contacts that a search may add.
+
+    Attributes
+    ----------
+    kernel : module
+        Of the engine.
     """
+
+    kernel: Any
 
     def __init__(self, types: Mapping[str, np.dtype], topology: Topology, joints: int, spare: int = 0) -> None:
         self.topology, self.lanes = topology, int(types["body"]["x"].shape[0])
@@ -122,11 +129,32 @@ class LaneRecords:
         feed["last"][lane] = motion.steps - 1
         feed["ratio"][lane], feed["factor"][lane] = dt / motion.dt, motion.factor
 
-    def energies(self, lane: int, dt: float, base: Any) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].
+    def energies(
+        self, lanes: Sequence[int], dt: np.ndarray, bases: Sequence[Any], state: tuple[Any, ...] | None = None
+    ) -> np.ndarray:
+        """Ledgers of lanes now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].
 
-        With the forces at the present positions, as the next step will find them; ``base`` is the acceleration of the base.
+        With the forces at the present positions, as the next step will find them, shape (lanes, 6).
+
+        Parameters
+        ----------
+        lanes : sequence of int
+        dt : array
+            Time steps of all lanes [s].
+        bases : sequence
+            Acceleration of the base of each of these lanes [m/s²].
+        state : tuple, optional
+            What is looked at, and changed, in place of a copy of these records.
         """
+        state, out = self.now() if state is None else state, np.empty((len(lanes), 6))
+        state[LANE]["dt"][0, lanes] = dt[lanes]
+        self.kernel.gather(state)
+        for lane, base, row in zip(lanes, bases, out, strict=True):
+            self.ledger(state, lane, float(dt[lane]), base, row)
+        return out
+
+    def ledger(self, state: tuple[Any, ...], lane: int, dt: float, base: Any, out: np.ndarray) -> None:
+        """Write the ledger of a lane of a state whose forces are those of its positions."""
         raise NotImplementedError
 
     def acceleration(self, lane: int) -> float:

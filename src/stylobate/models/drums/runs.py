@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,10 +12,11 @@ import numpy as np
 from ...column import Column
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
+from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, LinkMeasures, Measures
 from ...response.collapse import what_is_lost
-from ...response.measures import SpaceMeasures
+from ...response.measures import CPU, SpaceMeasures
 from ...response.residuals import Residuals
 from ..base import Case, RunOptions
 from ..shared import ledger, quiet
@@ -28,6 +30,52 @@ from .records import LaneRecords, Packed
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
+
+#: Records whose numbers the beginning of a run changes, beside what it is told of its motion.
+BEGINNING = ("body", "joint", "lane", "link")
+
+
+@dataclass(frozen=True)
+class Started:
+    """How a run has begun, for those of the same column that begin alike: what does not hang on its motion otherwise.
+
+    Parameters
+    ----------
+    packed : Packed
+        The column.
+    dt : float
+        Time step [s].
+    ground : tuple of float
+        Acceleration of the base at the start [m/s²].
+    numbers : dict of str to array
+        Numbers of the lane, by records and rows of them that a beginning changes.
+    kept : tuple of array
+        What the block itself keeps of a lane.
+    """
+
+    packed: Packed
+    dt: float
+    ground: tuple[float, ...]
+    numbers: dict[str, np.ndarray]
+    kept: tuple[np.ndarray, ...]
+
+    @classmethod
+    def of(cls, block: LaneRuns, lane: int, ground: tuple[float, ...]) -> Started:
+        """That of a run that has begun in a lane."""
+        numbers = {name: block.arrays.rows[name][:, lane].copy() for name in BEGINNING}
+        kept = tuple(one[lane].copy() for one in block.beginning)
+        return cls(block.packed[lane], float(block.dt[lane]), ground, numbers, kept)
+
+    def serves(self, packed: Packed, dt: float, ground: tuple[float, ...]) -> bool:
+        """Whether another run begins so."""
+        return packed is self.packed and dt == self.dt and ground == self.ground
+
+    def put(self, block: LaneRuns, lane: int) -> None:
+        """Let a run begin so in a lane."""
+        for name, numbers in self.numbers.items():
+            block.arrays.rows[name][:, lane] = numbers
+        for one, own in zip(block.beginning, self.kept, strict=True):
+            one[lane] = own
 
 
 class LaneRuns:
@@ -55,6 +103,9 @@ class LaneRuns:
         self.rest = np.zeros(self.lanes)
         self.pressed = np.zeros(self.lanes)
         self.cases: list[Case | None] = [None] * self.lanes
+        self.computed_by = CPU
+        self.ledgers: dict[int, np.ndarray] = {}  # of lanes that stand still
+        self.started: Started | None = None
         self.spans = quiet.Spans(self.lanes, options, self.chunk)
         self.chunks_per_call = 1
         self.piece = longest_piece(cost, self.chunk)
@@ -73,8 +124,17 @@ class LaneRuns:
         """The same as if the column stood there without its pretension; ``bare`` is that column."""
         raise NotImplementedError
 
-    def stand(self, lane: int, case: Case) -> None:
-        """Note how a column stands in a lane, and how its base moves."""
+    def shake(self, lane: int, motion: Motion) -> None:
+        """Note how the base of a lane moves."""
+        raise NotImplementedError
+
+    @property
+    def stood(self) -> tuple[np.ndarray, ...]:
+        """What is kept of how the columns stood, the lanes first."""
+        raise NotImplementedError
+
+    def stand(self, lane: int) -> None:
+        """Note how a column stands in a lane."""
         raise NotImplementedError
 
     def take_pose(self, lane: int, column: Any, start: Any) -> None:
@@ -97,8 +157,11 @@ class LaneRuns:
         """Fallen bodies, and their places, in words."""
         return f"{what_is_lost(collapse, column.n)}, to the {collapse.side}"
 
-    def stays(self, lane: int, energy: float) -> bool:
-        """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
+    def stays(self, lane: int, energy: float, slip: np.ndarray) -> bool:
+        """Whether what stands in a lane with so much energy above that at rest [J] stands for good.
+
+        ``slip`` is that of every joint since the start [m].
+        """
         raise NotImplementedError
 
     # -- how a run begins ----------------------------------------------------------------------------------------
@@ -106,6 +169,7 @@ class LaneRuns:
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
         self.cases[lane] = case
+        self.ledgers.pop(lane, None)
         packed = self.packed[lane] = self.pack(case.column)
         self.arrays.put(lane, packed.lane)
         dt, chunks = whole_steps(case.motion, self.options.tail, packed.step)
@@ -117,10 +181,20 @@ class LaneRuns:
         self.watch["follow"][0, lane] = self.options.until_end
         feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
         self.arrays.feed_motion(lane, case.motion, dt)
-        self.stand(lane, case)
         self.steps[lane] = steps
         self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
-        self.begin(lane)
+        self.shake(lane, case.motion)
+        ground = tuple(self.ground_acceleration(lane))
+        if self.started is None or not self.started.serves(packed, dt, ground):
+            self.stand(lane)
+            self.begin(lane)
+            self.started = Started.of(self, lane, ground)
+        self.started.put(self, lane)
+
+    @property
+    def beginning(self) -> tuple[np.ndarray, ...]:
+        """What is kept of how runs have begun, the lanes first."""
+        return self.start, self.rest, self.pressed, *self.stood
 
     def begin(self, lane: int) -> None:
         """Take the start's pose, if there is one; velocities half a step before the start, and the energy there.
@@ -167,6 +241,7 @@ class LaneRuns:
         """Advance all lanes by some chunks of steps."""
         left = min(self.chunks_per_call, self.piece) if chunks is None else chunks
         running = np.count_nonzero(self.running())
+        self.ledgers.clear()
         while left > 0 and np.count_nonzero(self.running()) == running:
             count = min(left, self.piece)
             self.step(count)
@@ -194,6 +269,7 @@ class LaneRuns:
             now = int(feed["step"][lane])
             first, end = self.spans.onward(lane, now, int(self.steps[lane]), self.at_rest(lane))
             if end > now:
+                self.ledgers.pop(lane, None)
                 feed["step"][lane], feed["end"][lane] = first, end
                 watch["status"][lane] = RUNNING
                 self.lane["dt"][0, lane] = self.dt[lane]
@@ -210,8 +286,20 @@ class LaneRuns:
     # -- what it tells -------------------------------------------------------------------------------------------
 
     def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
-        return self.arrays.energies(lane, float(self.dt[lane]), self.ground_acceleration(lane))
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].
+
+        Those of all lanes whose runs have ended are made together: most of the work is the same for one and for all.
+        """
+        going = self.running()
+        if going[lane]:
+            return self._ledgers([lane])[0]
+        if lane not in self.ledgers:
+            ended = [one for one in np.flatnonzero(~going).tolist() if self.cases[one] and one not in self.ledgers]
+            self.ledgers.update(zip(ended, self._ledgers(ended), strict=True))
+        return self.ledgers[lane]
+
+    def _ledgers(self, lanes: list[int]) -> np.ndarray:
+        return self.arrays.energies(lanes, self.dt, [self.ground_acceleration(lane) for lane in lanes])
 
     def residual_acceleration(self, lane: int) -> float:
         """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
@@ -260,6 +348,7 @@ class LaneRuns:
         self,
         lane: int,
         left: Residuals,
+        slip: np.ndarray,
         top: float,
         rotation: float,
         space: SpaceMeasures | None = None,
@@ -271,6 +360,8 @@ class LaneRuns:
         ----------
         lane : int
         left : Residuals
+        slip : array
+            Of every joint since the start, as :meth:`stays` takes it [m].
         top : float
             Residual displacement of the top [m].
         rotation : float
@@ -292,7 +383,7 @@ class LaneRuns:
         collapsed = outcome is Outcome.COLLAPSED
         return Measures(
             outcome=outcome,
-            decided=collapsed or (not failed and self.stays(lane, self.mechanical(lane, change))),
+            decided=collapsed or (not failed and self.stays(lane, self.mechanical(lane, change), slip)),
             collapse_time=when * dt if when >= 0 else math.nan,
             peak_top_displacement=self.peak(lane, "top"),
             residual_top_displacement=top,
@@ -308,6 +399,7 @@ class LaneRuns:
             stepped=self.spans.stepped(lane, step, dt),
             links=self.links_done(lane),
             residuals=left,
+            computed_by=self.computed_by,
         )
 
     def reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -37,14 +38,9 @@ class Records(LaneRecords):
         body = state[STATE.index("body")]
         return tuple(body[name][:, lane] for name in ("fx", "fz", "mo"))
 
-    def energies(self, lane: int, dt: float, base: tuple[float, float]) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
-        state = self.now()  # the forces at the present positions, as the next step will find them
-        state[STATE.index("lane")]["dt"][0, lane] = dt
-        self.kernel.gather(state)
-        out = np.empty(6)
+    def ledger(self, state: tuple[Any, ...], lane: int, dt: float, base: tuple[float, float], out: np.ndarray) -> None:
+        """Write the ledger of a lane of a state whose forces are those of its positions."""
         self.kernel.ledger(state, base[0], base[1], dt, lane, out)
-        return out
 
     def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Opening of every joint, and where the body above it is along it [m], each of shape (joints,)."""
@@ -72,9 +68,9 @@ def slope_base(records: Records, lane: int, motion: Motion, slope: float) -> Non
     """Let a lane's base move along a slope [rad], and note the largest accelerations across gravity and along it."""
     feed, watch, z = records.feed[0], records.watch[0], motion.z_samples
     feed["bc"][lane], feed["bs"][lane] = math.cos(slope), math.sin(slope)
-    peak_z = 0.0 if z is None else float(np.abs(z).max()) * abs(motion.factor)
-    watch["amax"][lane] = motion.pga * math.cos(slope) + peak_z * abs(math.sin(slope))
-    watch["vmax"][lane] = motion.pga * abs(math.sin(slope)) + peak_z * math.cos(slope)
+    peak_x, peak_z = motion.pga, 0.0 if z is None else float(np.abs(z).max()) * abs(motion.factor)
+    watch["amax"][lane] = peak_x * math.cos(slope) + peak_z * abs(math.sin(slope))
+    watch["vmax"][lane] = peak_x * abs(math.sin(slope)) + peak_z * math.cos(slope)
 
 
 def base_acceleration(records: Records, lane: int, motion: Motion, time: float) -> tuple[float, float]:

@@ -205,5 +205,6 @@ class _ColumnRun:
             watch["status"][0] = COLLAPSED
         residual = float(found.top_displacement[-1])
         change = last["energy"] - self.start
-        measures = block.measures(0, residuals_in(last), residual, block.peak(0, "turn"), since=change)
+        slip, turn = block.poses(0)["slip"], block.peak(0, "turn")
+        measures = block.measures(0, residuals_in(last), slip, residual, turn, since=change)
         return measures if measures.collapse is None else replace(measures, collapse=self.collapse(found))

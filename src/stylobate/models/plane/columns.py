@@ -9,10 +9,11 @@ import numpy as np
 
 from ...column import Column
 from ...constants import DEGREE
+from ...motion import Motion
 from ...response import Collapse, Measures
 from ...response.collapse import in_plane
 from ...response.residuals import Residuals
-from ..base import Case, RunOptions
+from ..base import RunOptions
 from ..drums.bodies import Topology
 from ..drums.records import Packed
 from ..drums.runs import LaneRuns
@@ -50,7 +51,7 @@ class ColumnLanes(LaneRuns):
         self.records = records = Records(types, topology)
         super().__init__(pack, records, options, cost)
         self.slip = np.zeros((self.lanes, topology.stack))
-        self.stood = np.zeros((self.lanes, 2, topology.stack))
+        self.placed = np.zeros((self.lanes, 2, topology.stack))
 
     def lean(self) -> np.ndarray:
         """Rotation of the lowest body of each lane, towards +x [rad]."""
@@ -63,12 +64,20 @@ class ColumnLanes(LaneRuns):
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
-    def stand(self, lane: int, case: Case) -> None:
-        """Note how a column stands in a lane, and how its base moves."""
-        slope_base(self.records, lane, case.motion, case.column.as_found.base_tilt * DEGREE)
+    def shake(self, lane: int, motion: Motion) -> None:
+        """Note how the base of a lane moves."""
+        slope_base(self.records, lane, motion, self.column(lane).as_found.base_tilt * DEGREE)
+
+    @property
+    def stood(self) -> tuple[np.ndarray, ...]:
+        """Slips of joints, places of drums and of the top as the columns stood."""
+        return self.slip, self.placed, self.watch["stood"][0]
+
+    def stand(self, lane: int) -> None:
+        """Note how a column stands in a lane."""
         body = self.records.body
         self.slip[lane] = self.records.joint_state(lane)[1]
-        self.stood[lane] = body["x"][1:, lane], body["z"][1:, lane]
+        self.placed[lane] = body["x"][1:, lane], body["z"][1:, lane]
         self.watch["stood"][0, lane] = self.top(lane)
 
     def take_pose(self, lane: int, column: Column, start: Any) -> None:
@@ -91,7 +100,7 @@ class ColumnLanes(LaneRuns):
         packed = self.pack(bare)
         records.put(0, packed.lane)
         records.bond[...], records.feed[...] = packed.bond, self.feed
-        return records.energies(0, float(self.dt[lane]), self.ground_acceleration(lane))
+        return records.energies([0], self.dt[lane:], [self.ground_acceleration(lane)])[0]
 
     def half_a_step_back(self, lane: int) -> None:
         """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
@@ -138,8 +147,8 @@ class ColumnLanes(LaneRuns):
         """Displacements and rotations of drums, openings and slips of joints, from how the column stood."""
         body, (opening, slip) = self.records.body, self.records.joint_state(lane)
         return {
-            "x": body["x"][1:, lane] - self.stood[lane, 0],
-            "z": body["z"][1:, lane] - self.stood[lane, 1],
+            "x": body["x"][1:, lane] - self.placed[lane, 0],
+            "z": body["z"][1:, lane] - self.placed[lane, 1],
             "rotation": body["th"][1:, lane].copy(),
             "opening": opening,
             "slip": slip - self.slip[lane],
@@ -147,14 +156,10 @@ class ColumnLanes(LaneRuns):
 
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run is over."""
-        residual = self.top(lane) - float(self.watch["stood"][0, lane])
-        return self.measures(lane, residuals_in(self.poses(lane)), residual, self.peak(lane, "turn"))
+        residual, state = self.top(lane) - float(self.watch["stood"][0, lane]), self.poses(lane)
+        return self.measures(lane, residuals_in(state), state["slip"], residual, self.peak(lane, "turn"))
 
-    def slips(self, lane: int) -> np.ndarray:
-        """Slip of every joint since the start [m], shape (n,)."""
-        return self.records.joint_state(lane)[1] - self.slip[lane]
-
-    def stays(self, lane: int, energy: float) -> bool:
+    def stays(self, lane: int, energy: float, slip: np.ndarray) -> bool:
         """Whether a column that no input shakes any more can neither overturn nor slide apart.
 
         Two conditions, Eq. (V1). As the column is, the centroid of every part stands within its contact: it is on the near
@@ -171,7 +176,7 @@ class ColumnLanes(LaneRuns):
         stand, slope = numbers.copy(), column.as_found.base_tilt * DEGREE
         stand["toe"] = self.packed[lane].stand
         where = records.body, records.joint, lane
-        return bool(stands(stand, offsets + self.slips(lane), column.gravity, slope, energy, *where))
+        return bool(stands(stand, offsets + slip, column.gravity, slope, energy, *where))
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane: what is lost turns about the joint that is widest open, there or higher up."""

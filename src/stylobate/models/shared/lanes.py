@@ -198,26 +198,26 @@ def run_lanes(
                 block.load(lane, one[1])
                 return one[0]
             except NOT_COMPUTED as error:
-                results.put((one[0], not_computed(error)))
+                results.put([(one[0], not_computed(error))])
         return None
 
-    def end(index: int, collect: Callable[[], Measures | GoesOn]) -> None:
-        """Give the measures of a run, or let it wait for whoever goes on with it."""
+    def end(index: int, collect: Callable[[], Measures | GoesOn]) -> list[tuple[int, Measures]]:
+        """The measures of a run; none where it waits for whoever goes on with it."""
         try:
             found = collect()
         except NOT_COMPUTED as error:
             found = not_computed(error)
         if callable(found):
             alone.put((index, found))
-        else:
-            results.put((index, found))
+            return []
+        return [(index, found)]
 
     def work() -> None:
         try:
             block = make_block()
             running: dict[int, int] = {}
             while not stop.is_set():
-                while results.qsize() > WINDOW and not stop.wait(0.01):  # a slow caller is waited for
+                while results.qsize() > WINDOW // block.lanes and not stop.wait(0.01):  # a slow caller is waited for
                     pass
                 for lane in range(block.lanes):
                     if lane not in running:
@@ -229,16 +229,19 @@ def run_lanes(
                 if alone.qsize() >= MOST_ALONE or not running:
                     others = bool(riding)  # asked before the queue: what they hand over is in it by then
                     try:
-                        end(*alone.get(timeout=0.0 if not others else 0.01))
+                        results.put(end(*alone.get(timeout=0.0 if not others else 0.01)))
                     except queue.Empty:
                         if not running and not others:
                             break
                     continue
                 block.advance()
+                ended: list[tuple[int, Measures]] = []
                 for lane in [lane for lane in running if block.is_over(lane)]:
                     index = running.pop(lane)
-                    end(index, partial(block.collect, lane))
+                    ended += end(index, partial(block.collect, lane))
                     riding.discard(index)
+                if ended:  # together: whoever takes them is woken once
+                    results.put(ended)
             results.put(None)
         except BaseException as error:  # handed to the caller's thread, which raises it
             results.put(error)
@@ -255,7 +258,7 @@ def run_lanes(
             elif isinstance(item, BaseException):
                 raise item
             else:
-                yield item
+                yield from item
     finally:
         stop.set()
         for worker in workers:
