@@ -25,7 +25,7 @@ class Records(LaneRecords):
         super().__init__(types, topology, joints, spare=1)  # for what all loads of a body add up to
         self.kernel = kernel
 
-    def put(self, lane: int, numbers: Mapping[str, np.ndarray]) -> None:
+    def put(self, lane: int, numbers: np.ndarray) -> None:
         """Write all numbers of a lane."""
         super().put(lane, numbers)
         if "near" in (self.lane.dtype.names or ()):

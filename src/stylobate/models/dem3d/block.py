@@ -208,9 +208,11 @@ class SpaceBlock(LaneRuns):
     def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
         """Ledger of a lane as if the column stood there without its pretension; ``bare`` is that column [J]."""
         state = self.records.now("body")
-        numbers = self.pack(bare).lane
+        numbers, end = self.pack(bare).lane, 0
         for name in ("body", "joint", "lane"):
-            in_rows(state[STATE.index(name)], self.lanes)[:, lane] = numbers[name]
+            rows = in_rows(state[STATE.index(name)], self.lanes)
+            begin, end = end, end + len(rows)
+            rows[:, lane] = numbers[begin:end]
         link = state[STATE.index("link")]
         link["on"][:, lane] = link["ft"][:, lane] = 0.0
         return self.records.energies([lane], self.dt, [self.ground_acceleration(lane)], state)[0]

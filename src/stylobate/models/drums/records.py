@@ -14,8 +14,9 @@ from ...motion import Motion
 from ..shared.lanes import aligned_zeros, in_rows, with_copies
 from .bodies import Topology
 
-#: Records of which every lane has its own numbers from the start.
-OF_A_LANE = ("body", "joint", "lane", "link", "feed", "watch")
+#: Records of which every lane has its own numbers from the start: what moves, and how it is moved and watched.
+MOVING = ("body", "joint", "lane", "link")
+OF_A_LANE = (*MOVING, "feed", "watch")
 
 #: State of a lane at the start: nothing has happened.
 UNSEEN = {"status": RUNNING, "when": -1, "which": -1, "wide": -1}
@@ -27,7 +28,7 @@ class Packed:
 
     Parameters
     ----------
-    lane : dict of str to array
+    lane : array
         All numbers of a lane, see :meth:`LaneRecords.taken`.
     bond : array
         Records of what links are in all lanes.
@@ -44,7 +45,7 @@ class Packed:
         Axes that histories tell, in those of the records; of a body, shape (3, 3).
     """
 
-    lane: dict[str, np.ndarray]
+    lane: np.ndarray
     bond: np.ndarray
     step: float
     widths: np.ndarray
@@ -70,6 +71,12 @@ class LaneRecords:
     ----------
     kernel : module
         Of the engine.
+    numbers : array
+        All numbers of lanes as bits, shape (fields, lanes): those of what moves first.
+    moving : int
+        How many of the fields are of what moves.
+    rows : dict of str to array
+        The same by their records.
     """
 
     kernel: Any
@@ -82,10 +89,18 @@ class LaneRecords:
             "body": topology.bodies, "joint": joints, "load": room + 1, "link": links, "bond": links, "ground": CHUNK + 1,
             "hold": topology.stack if links else 0, "pair": room, "span": topology.bodies, "touch": 2 * room,
         }  # fmt: skip
-        arrays = (
-            aligned_zeros(rows.get(name, 1), types[name]) if rows.get(name, 1) else np.zeros(0, types[name])
-            for name in STATE[:-1]
-        )
+        sizes = [types[name].itemsize * rows.get(name, 1) for name in OF_A_LANE]
+        whole = aligned_zeros(sum(sizes), np.dtype(np.uint8))
+        parts = dict(zip(OF_A_LANE, np.split(whole, np.cumsum(sizes)[:-1]), strict=True))
+        self.numbers = whole.view(np.int64).reshape(-1, self.lanes)
+        self.moving = sum(sizes[: len(MOVING)]) // (8 * self.lanes)
+
+        def records(name: str) -> np.ndarray:
+            if not (count := rows.get(name, 1)):
+                return np.zeros(0, types[name])
+            return parts[name].view(types[name]) if name in parts else aligned_zeros(count, types[name])
+
+        arrays = (records(name) for name in STATE[:-1])
         self.state: tuple[Any, ...] = (*arrays, topology.stack)
         (self.body, self.joint, self.load, self.link, self.bond, self.lane, self.ground, self.feed, self.watch, self.hold,
          self.pair, self.span, self.touch, _) = self.state  # fmt: skip
@@ -111,14 +126,13 @@ class LaneRecords:
             for name, values in fields.items():
                 array[name][..., lane] = values
 
-    def taken(self, lane: int) -> dict[str, np.ndarray]:
+    def taken(self, lane: int) -> np.ndarray:
         """All numbers of a lane, for :meth:`put`."""
-        return {name: rows[:, lane].copy() for name, rows in self.rows.items()}
+        return self.numbers[:, lane].copy()
 
-    def put(self, lane: int, numbers: Mapping[str, np.ndarray]) -> None:
+    def put(self, lane: int, numbers: np.ndarray) -> None:
         """Write all numbers of a lane."""
-        for name, rows in self.rows.items():
-            rows[:, lane] = numbers[name]
+        self.numbers[:, lane] = numbers
 
     def feed_motion(self, lane: int, motion: Motion, dt: float) -> None:
         """Let a lane's base move with a motion, in steps of dt [s]."""

@@ -31,9 +31,6 @@ from .records import LaneRecords, Packed
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
 
-#: Records whose numbers the beginning of a run changes, beside what it is told of its motion.
-BEGINNING = ("body", "joint", "lane", "link")
-
 
 @dataclass(frozen=True)
 class Started:
@@ -47,8 +44,8 @@ class Started:
         Time step [s].
     ground : tuple of float
         Acceleration of the base at the start [m/s²].
-    numbers : dict of str to array
-        Numbers of the lane, by records and rows of them that a beginning changes.
+    numbers : array
+        Numbers of the lane of what moves.
     kept : tuple of array
         What the block itself keeps of a lane.
     """
@@ -56,13 +53,13 @@ class Started:
     packed: Packed
     dt: float
     ground: tuple[float, ...]
-    numbers: dict[str, np.ndarray]
+    numbers: np.ndarray
     kept: tuple[np.ndarray, ...]
 
     @classmethod
     def of(cls, block: LaneRuns, lane: int, ground: tuple[float, ...]) -> Started:
         """That of a run that has begun in a lane."""
-        numbers = {name: block.arrays.rows[name][:, lane].copy() for name in BEGINNING}
+        numbers = block.arrays.numbers[: block.arrays.moving, lane].copy()
         kept = tuple(one[lane].copy() for one in block.beginning)
         return cls(block.packed[lane], float(block.dt[lane]), ground, numbers, kept)
 
@@ -72,8 +69,7 @@ class Started:
 
     def put(self, block: LaneRuns, lane: int) -> None:
         """Let a run begin so in a lane."""
-        for name, numbers in self.numbers.items():
-            block.arrays.rows[name][:, lane] = numbers
+        block.arrays.numbers[: len(self.numbers), lane] = self.numbers
         for one, own in zip(block.beginning, self.kept, strict=True):
             one[lane] = own
 
