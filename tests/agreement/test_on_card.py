@@ -91,7 +91,7 @@ def test_what_was_stopped_goes_on_to_the_same_rows(tmp_path):
             raise KeyboardInterrupt
 
     ledger = tmp_path / "runs.sqlite"
-    with pytest.raises(KeyboardInterrupt):
-        st.collapse_domain(*grid, device="gpu", ledger=ledger, progress=stop)
+    stopped = st.collapse_domain(*grid, device="gpu", ledger=ledger, progress=stop)
+    assert 100 <= len(stopped.table) < 256
     resumed = st.collapse_domain(*grid, device="gpu", ledger=ledger)
     assert resumed.table.equals(st.collapse_domain(*grid, device="gpu").table)

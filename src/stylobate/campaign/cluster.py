@@ -77,7 +77,7 @@ def _connect(client: type[Client], address: str) -> Client:
     """A client of the scheduler at an address, or the sentence that there is none; within :data:`PATIENCE`."""
     from distributed.comm.addressing import get_address_host_port
 
-    answers: queue.SimpleQueue = queue.SimpleQueue()
+    answers: queue.Queue = queue.Queue()
 
     class Known(client):
         """A client that waits for nobody at its end, unless it has come to a scheduler."""

@@ -68,7 +68,7 @@ class HandOut:
         say: Callable[[str], object] | None = None,
     ) -> None:
         self.client, self.cases, self.model, self.options, self.say = client, cases, model, options, say
-        self._inbox: queue.SimpleQueue = queue.SimpleQueue()
+        self._inbox: queue.Queue = queue.Queue()
         self._topic = f"stylobate-{uuid.uuid4().hex}"
         self._motions: OrderedDict[tuple, tuple[Motion, Future]] = OrderedDict()
         self._running: dict[str, tuple[Future, set[int]]] = {}  # with the cases that have not come in yet

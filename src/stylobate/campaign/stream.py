@@ -41,7 +41,7 @@ class Part:
     kind: bytes
     given: int = 0  # cases that are in lanes, or were
     left: int = field(init=False)  # cases whose results have not been taken
-    _results: queue.SimpleQueue = field(init=False, default_factory=queue.SimpleQueue)
+    _results: queue.Queue = field(init=False, default_factory=queue.Queue)
 
     def __post_init__(self) -> None:
         self.left = len(self.cases)

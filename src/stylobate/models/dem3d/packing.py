@@ -22,7 +22,7 @@ def pack_column(
     fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]],
     links: Mapping[str, np.ndarray],
     top: Callable[[Records, int], np.ndarray],
-) -> dict[str, np.ndarray]:
+) -> np.ndarray:
     """Numbers of a lane with a column, from the fields of its drums, joints and lane; ``records`` are empty ones.
 
     Slips and twists count from where the joints are, turns from where the axes are.

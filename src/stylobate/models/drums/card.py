@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from threading import Lock
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from ...kernels.run_codes import RUNNING
 from ...response import Measures
 from ..base import Case
+from ..shared.lanes import NOT_COMPUTED
 from .runs import LaneRuns
 
 if TYPE_CHECKING:
@@ -21,7 +23,7 @@ CHUNKS_PER_LAUNCH = 500
 #: Most lanes on a card at a time: as many as the largest of today's have room for, of columns of a dozen drums.
 MOST_LANES = 8192
 
-#: Threads that work for a card, each for a part of the lanes: while one prepares runs, the lanes of the other go on.
+#: Threads that work for a card, each for a part of the lanes: while one begins and ends runs, the lanes of the other go on.
 THREADS = 2
 
 
@@ -29,7 +31,8 @@ class CardLanes:
     """Many lanes that a card advances together; see :class:`stylobate.models.shared.lanes.LaneBlock`.
 
     Blocks here hold what is known of each run; the numbers of a lane are taken from the card when its run has ended, and put
-    there when one begins.
+    there when one begins. Runs of one length end together: threads take turns in beginning and ending them, so that lanes of
+    others go on meanwhile.
 
     Parameters
     ----------
@@ -40,9 +43,11 @@ class CardLanes:
         A block here, of columns that the kernel is for.
     runs : int
         How many runs there are, at most.
+    turn : Lock
+        Of all threads that work for the card.
     """
 
-    def __init__(self, device: Device, name: str, make: Callable[[], LaneRuns], runs: int) -> None:
+    def __init__(self, device: Device, name: str, make: Callable[[], LaneRuns], runs: int, turn: Lock) -> None:
         from ...kernels.gpu.card import CardRecords
         from ...kernels.gpu.kinds import lanes_of
 
@@ -55,47 +60,71 @@ class CardLanes:
         self.lanes = count * self.each
         self.card = CardRecords(device, name, first.arrays.topology.stack, self.lanes // each)
         self.views = self.card.views()
+        self.turn = turn
         self.running = np.zeros(self.lanes, dtype=bool)
-        self.waiting: dict[int, list[int]] = {}  # lanes to be handed to the card with the next launch, by their blocks
+        self.cases: dict[int, Case] = {}  # to be begun with the next launch, by their lanes
+        self.waiting: dict[int, list[int]] = {}  # lanes to be handed to the card with it, by their blocks
+        self.ended: dict[int, Measures | Exception] = {}  # what has come of a lane, or why nothing has
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
-        number, own = divmod(lane, self.each)
-        self.blocks[number].load(own, case)
-        self._wait(lane)
+        self.cases[lane] = case
 
     def advance(self) -> None:
         """Advance all lanes by a launch; those whose runs end stand still from there."""
-        if len(self.card.samples) > 4 * self.lanes:
-            self.card.forget_samples(self._in_use())
-        for number, lanes in self.waiting.items():
-            self._put(number, np.array(lanes))
-        self.waiting.clear()
+        with self.turn:
+            self._begin()
+        if not self.running.any():
+            return
         self.card.advance(CHUNKS_PER_LAUNCH)
         ended = self.running & (self.card.here["watch"]["status"].ravel() != RUNNING)
-        for number in np.unique(np.flatnonzero(ended) // self.each).tolist():
-            self._take(number, np.flatnonzero(ended[number * self.each : (number + 1) * self.each]))
-        self.running &= ~ended
+        if ended.any():
+            with self.turn:
+                self._end(ended)
 
     def is_over(self, lane: int) -> bool:
-        """Whether the lane's run has ended; one that is shaken again goes on."""
-        if self.running[lane]:
-            return False
-        number, own = divmod(lane, self.each)
-        over = self.blocks[number].is_over(own)
-        if not over:
-            self._wait(lane)
-        return over
+        """Whether the lane's run has ended."""
+        return lane in self.ended
 
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run has ended; the lane is free afterwards."""
-        number, own = divmod(lane, self.each)
-        return self.blocks[number].collect(own)
+        found = self.ended.pop(lane)
+        if isinstance(found, Exception):
+            raise found
+        return found
 
-    def _wait(self, lane: int) -> None:
-        number, own = divmod(lane, self.each)
-        self.waiting.setdefault(number, []).append(own)
-        self.running[lane] = True
+    def _begin(self) -> None:
+        """Begin the runs of cases, and bring all lanes that go on anew to the card."""
+        if len(self.card.samples) > 4 * self.lanes:
+            self.card.forget_samples(self._in_use())
+        for lane, case in self.cases.items():
+            number, own = divmod(lane, self.each)
+            try:
+                self.blocks[number].load(own, case)
+            except NOT_COMPUTED as error:
+                self.ended[lane] = error
+            else:
+                self.waiting.setdefault(number, []).append(own)
+        self.cases.clear()
+        for number, lanes in self.waiting.items():
+            self._put(number, np.array(lanes))
+        self.waiting.clear()
+
+    def _end(self, ended: np.ndarray) -> None:
+        """Take lanes from the card whose runs have ended; those that are shaken again go on with the next launch."""
+        self.running &= ~ended
+        for number in np.unique(np.flatnonzero(ended) // self.each).tolist():
+            block, first = self.blocks[number], number * self.each
+            lanes = np.flatnonzero(ended[first : first + self.each])
+            self._take(number, lanes)
+            for own in lanes.tolist():
+                if not block.is_over(own):
+                    self.waiting.setdefault(number, []).append(own)
+                    continue
+                try:
+                    self.ended[first + own] = block.collect(own)
+                except NOT_COMPUTED as error:
+                    self.ended[first + own] = error
 
     def _there(self, number: int, own: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Blocks of the card, and lanes in them, of lanes of a block here."""
@@ -113,6 +142,7 @@ class CardLanes:
             for name, samples in _components(case).items():
                 if name in (feed.dtype.names or ()):
                     feed[name][tuple(place)] = self.card.address(samples)
+        self.running[number * self.each + own] = True
         self.card.changed = True
 
     def _take(self, number: int, own: np.ndarray) -> None:

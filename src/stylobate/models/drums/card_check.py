@@ -7,6 +7,7 @@ rock and slide. Where they differ by more than rounding, nothing is computed the
 from __future__ import annotations
 
 from functools import cache, partial
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -57,7 +58,7 @@ def check(device: Device, name: str, kind: type[Model]) -> None:
     model, cases = cases_for(name, kind)
     options = RunOptions()
     block = partial(model.block_for, model.kind(cases[0].column), options)
-    there = dict(run_lanes(lambda: CardLanes(device, name, block, len(cases)), cases, 1))
+    there = dict(run_lanes(lambda: CardLanes(device, name, block, len(cases), Lock()), cases, 1))
     here = dict(run_lanes(block, cases, 1))
     for number in range(len(cases)):
         mine, theirs = here[number], there[number]

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import partial
+from threading import Lock
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...column import Column
@@ -178,11 +179,13 @@ class SteppedDrums(Model):
 
         from .card import THREADS, CardLanes
 
+        turn = Lock()
+
         def lanes(kind: Any) -> LaneBlock:
             name = self._kernel_on(device, kind)
             if name is None:
                 return self.block_for(kind, options)
-            return CardLanes(device, name, partial(self.block_for, kind, options), len(cases))
+            return CardLanes(device, name, partial(self.block_for, kind, options), len(cases), turn)
 
         return run_alike(
             lambda case: self.kind(case.column),

@@ -228,11 +228,13 @@ def run_lanes(
                         riding.add(index)
                 if alone.qsize() >= MOST_ALONE or not running:
                     others = bool(riding)  # asked before the queue: what they hand over is in it by then
-                    try:
-                        results.put(end(*alone.get(timeout=0.0 if not others else 0.01)))
+                    try:  # without a timeout, by which a SimpleQueue of several takers may wait for ever in CPython 3.11
+                        results.put(end(*alone.get_nowait()))
                     except queue.Empty:
                         if not running and not others:
                             break
+                        if not running:
+                            stop.wait(0.01)
                     continue
                 block.advance()
                 ended: list[tuple[int, Measures]] = []
