@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 from numba.core.dispatcher import Dispatcher
 from numba.cuda.simulator import kernel as simulator
+from numba.cuda.simulator import kernelapi
+from numba.np.numpy_support import as_dtype
 
 import stylobate as st
 from stylobate.column.twins import twins_of
@@ -25,6 +27,17 @@ from stylobate.models.drums import card_check
 from stylobate.models.start import Start
 
 simulator.FakeWithinKernelCUDAArray = lambda fake: fake._ary  # laws take records as they are, not in its wrapping
+memory_asked = kernelapi.FakeCUDAShared.array
+
+
+def memory_of_a_block(self: Any, shape: Any, dtype: Any) -> np.ndarray:
+    """Shared memory of a block: the simulator gives threads that ask for it at the same moment one each."""
+    if shape == 0:
+        return memory_asked(self, shape, dtype)
+    return self._allocations.setdefault(str(dtype), np.zeros(shape, as_dtype(dtype)))
+
+
+kernelapi.FakeCUDAShared.array = memory_of_a_block
 lanes.THREADS = 1  # the simulator has one card, which does one thing at a time
 sys.setswitchinterval(1e-5)  # its threads wait for one another in loops
 kinds.PLANE_LANES = kinds.SPACE_LANES = 2  # so that a block is half empty, and others are all

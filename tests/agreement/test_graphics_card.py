@@ -134,8 +134,8 @@ class Wrong:
 
     share = 0.0
 
-    def __init__(self, device, name, make, runs):
-        del device, name, runs
+    def __init__(self, device, name, make, runs, turn):
+        del device, name, runs, turn
         self.block = make()
         self.lanes = self.block.lanes
 
