@@ -142,6 +142,38 @@ def test_slips_of_units_are_said(change, says, tmp_path):
         read_column(path)
 
 
+@pytest.mark.parametrize(
+    ("drum", "found", "says"),
+    [
+        (
+            ("height = 0.74", "height = 7.4"),
+            "",
+            r"height of drum 3 is 7.4 m, and that of the others 0.74 to 0.74 m: is its",
+        ),
+        (
+            ("width = 1.0", "width = 10.0"),
+            "",
+            r"width of drum 3 is 10 m, and that of the others 1 to 1 m: is its decimal",
+        ),
+        (
+            ("", ""),
+            "[[as_found.drum]]\nindex = 2\noffset = 0.38",
+            r"drum 2 is found 0.38 m off the one below, 0.38 of its",
+        ),
+        (("", ""), "[[as_found.drum]]\nindex = 2\noffset = 0.2", None),
+    ],
+)
+def test_one_number_among_others_alike_is_doubted(drum, found, says, tmp_path):
+    one = "[[drum]]\nheight = 0.74\nbottom_width = 1.0\ntop_width = 1.0\n"
+    joint = "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\nfriction_angle = 35.0\n"
+    path = tmp_path / "column.toml"
+    path.write_text(f"density = 2600.0\n{one * 2}{one.replace(*drum)}{one * 3}{joint}{found}\n")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        read_column(path)
+    assert (says is None and not told) or any(re.search(says, str(w.message)) for w in told)
+
+
 def drums_of(height, width, number):
     """Equal round drums."""
     joint = st.Joint(5e10, 2.5e10)

@@ -123,6 +123,12 @@ def states(
     campaign = execution.campaign(following, population)
     request = motions.request(motion=sources, separate=bool(sources))
     columns = {label: o.the_structure(text, project) for label, text in named.items()}
+    if as_built is not None and getattr(columns["as built"], "as_found", None):
+        raise InputError(
+            f"--as-built is {as_built}, and its [as_found] has offsets, tilts or chips; give it with --as-found, or a file "
+            "without them.",
+            "as_built",
+        )
     tried = the_candidates(vary, strengthened or [], columns)
     columns = {label: one for label, one in columns.items() if not tried or label in NO_MEASURE} | tried
     if (im is None) != (levels is None):
@@ -207,4 +213,6 @@ def describe(found: StateComparison) -> None:
     links = found.links
     if len(links):
         worst = links.sort_values(["broken", "largest_over_capacity"], ascending=False).groupby("state", sort=False)
-        console.print_table(worst.head(3), digits=3)
+        console.print_table(some := worst.head(3), digits=3)
+        if len(some) < len(links):
+            print(f"{len(some)} of {len(links)} links, those used most of each state; links.csv in --out has all.")

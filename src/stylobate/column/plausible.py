@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import statistics
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .joint import Joint
 from .stack import Stack
@@ -85,6 +85,12 @@ ROUGHEST = 2.0
 #: slender columns of stone that stand, and as the tallest drums of such columns [-].
 SLENDEREST, DRUMS, TALLEST = 15.0, 5, 2.2
 
+#: Largest over smallest of what is alike, and how far from it a decimal point in the wrong place puts a value at least [-].
+ALIKE, DECIMAL = 2.5, 5.0
+
+#: Share of the width of a joint beyond which a drum is hardly found off the one below: their centroids are near an edge [-].
+FARTHEST = 0.3
+
 #: By so much dry joints of stone close under the weight on them, at most [m].
 CLOSES = 5e-4
 
@@ -104,6 +110,8 @@ def size_doubts(column: Stack) -> list[str]:
     widths = [(one.bottom_width, one.top_width) for one in column.drums]
     depths = [one.depth for one in column.drums if column.section != "circular"]
     doubts = length_doubts(column.heights.tolist(), widths, depths) or _slenderness_doubt(column)
+    doubts += decimal_doubts("height", column.heights.tolist())
+    doubts += decimal_doubts("width", [0.5 * sum(pair) for pair in widths])
     densities = [drum.density for drum in column.drums]
     return doubts + first(
         DENSITY.doubt(f"the density of drum {i + 1}", density, "stone has") for i, density in enumerate(densities)
@@ -146,6 +154,29 @@ def length_doubts(
         for measure, named, what in kinds
         for doubt in first(measure.doubt(name, value, what, alike) for name, value in named)
     ]
+
+
+def decimal_doubts(name: str, values: Sequence[float]) -> list[str]:
+    """The doubt about one drum among others alike that a decimal point in the wrong place makes; else none.
+
+    Parameters
+    ----------
+    name : str
+        What was measured.
+    values : sequence of float
+        Of the drums from the base up [m].
+    """
+    if len(values) < DRUMS:
+        return []
+    for number, value in enumerate(values, 1):
+        others = [*values[: number - 1], *values[number:]]
+        usual = statistics.median(others)
+        if max(others) <= ALIKE * min(others) and DECIMAL <= max(value / usual, usual / value) <= DECIMAL * 4.0:
+            return [
+                f"the {name} of drum {number} is {value:g} m, and that of the others {min(others):g} to {max(others):g} m: "
+                "is its decimal point in the right place?"
+            ]
+    return []
 
 
 class Piece(NamedTuple):
@@ -233,6 +264,17 @@ def _sinking(column: Stack) -> list[str]:
     most = int(column.joint_closures.argmax())
     closure, law = float(column.joint_closures[most]), column.joints[most]
     return sinking_doubt(f"drum {most + 1}", closure, law.normal_stiffness)
+
+
+def found_doubts(column: Any) -> list[str]:
+    """The doubt about the first drum of a column as found that stands near the edge of the one below; else none."""
+    return first(
+        [
+            f"drum {one.drum} is found {abs(one.offset):g} m off the one below, {often:.2g} of its width: is the unit right?"
+        ]
+        for one in column.as_found.drums
+        if (often := abs(one.offset) / column.drums[one.drum - 1].bottom_width) > FARTHEST
+    )
 
 
 def shape_doubts(column: Stack, name: str) -> list[str]:

@@ -13,7 +13,7 @@ from .drum import Drum
 from .joint import FRICTION, Joint, given
 from .links.tables import LinkTable, links_of
 from .materials import JOINT_VALUES, Material, material
-from .plausible import law_doubts
+from .plausible import found_doubts, law_doubts
 from .toml import Table, checked, parse_toml
 
 
@@ -183,7 +183,12 @@ def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
         changes["as_found"] = AsFound(some, table.as_found.base_tilt, table.as_found.base_azimuth)
     if table.link:
         changes["links"] = links_of(table.link, column.n)
-    return column.replace(**changes) if changes else column
+    if not changes:
+        return column
+    changed = column.replace(**changes)
+    for doubt in found_doubts(changed):
+        warn(f"{column.name!r}: {doubt}")
+    return changed
 
 
 def joint_fields(given: dict[str, Any], stone: Material | None, where: str = "[joint]") -> dict[str, Any]:

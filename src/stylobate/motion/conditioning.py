@@ -24,6 +24,9 @@ QUIET_SHARE = 0.01
 #: Scaling a record by more than this draws a warning [-].
 LARGEST_SCALING = 10.0
 
+#: Peak acceleration that no record has reached: the strongest have some 4 g [g].
+STRONGEST = 5.0
+
 
 def demean(motion: Motion, pre_event: float | None = None) -> Motion:
     """Take off the mean of each component, of the whole record or of its first ``pre_event`` seconds.
@@ -353,6 +356,22 @@ def warn_of_scaling(motion: Motion) -> None:
         warn(
             f"{motion.metadata['file']} is scaled by {motion.factor:.4g}, more than {LARGEST_SCALING:g} times what was "
             "recorded; check the units, or choose a stronger record.",
+            OutOfRangeWarning,
+        )
+
+
+def warn_of_peak(motion: Motion) -> None:
+    """Say that a motion is stronger than any record, which is mostly a slip of units.
+
+    Warns
+    -----
+    OutOfRangeWarning
+    """
+    peak, axis = motion.horizontal_peak
+    if peak > STRONGEST * g:
+        warn(
+            f"{motion.name} peaks at {peak / g:.3g} g along {axis}, and no record has reached {STRONGEST:g} g; check the "
+            "unit, g or m/s².",
             OutOfRangeWarning,
         )
 

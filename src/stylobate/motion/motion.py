@@ -157,6 +157,12 @@ class Motion:
         return float(np.abs(self.samples).max())
 
     @property
+    def horizontal_peak(self) -> tuple[float, str]:
+        """Largest absolute acceleration of a horizontal component [m/s²], and its axis: the peak as given, of no turn."""
+        across = 0.0 if self.lateral is None else float(np.abs(self.lateral).max())
+        return (across, "y") if across > self.pga else (self.pga, "x")
+
+    @property
     def pgv(self) -> float:
         """Largest absolute velocity along x from rest, also between samples [m/s]."""
         return peak_velocity(self.acceleration, self.dt)
@@ -242,7 +248,9 @@ class Motion:
 
     def describe(self) -> str:
         """One line for people."""
-        return f"{self.name}: {self.duration:g} s, dt {self.dt:g} s, PGA {self.pga / g:.3g} g"
+        peak, axis = self.horizontal_peak
+        along = "" if self.lateral is None else f" along {axis}"
+        return f"{self.name}: {self.duration:g} s, dt {self.dt:g} s, PGA {peak / g:.3g} g{along}"
 
 
 def _checked(value: np.ndarray, label: str, name: str) -> np.ndarray:

@@ -43,13 +43,12 @@ def rotated(motion: Motion, azimuth: float) -> Motion:
     known = _azimuths(motion)
     if known is None:
         # As if x pointed north: turning the axes clockwise turns the motion from x towards y.
-        theta = math.radians(wanted)
-        c, s = math.cos(theta), math.sin(theta)
+        c, s = _direction(wanted)
         text = f"turned as a whole by {wanted:g}° from x towards y (no azimuths are stated: counted from its own x)"
         return _with(motion, c * x - s * y, s * x + c * y, (wanted, wanted - 90.0), text)
     wanted %= 360.0
-    a, b = (math.radians(one) for one in known)
-    determinant = math.sin(a - b)
+    (ca, sa), (cb, sb) = (_direction(one) for one in known)
+    determinant = math.sin(math.radians(known[0] - known[1]))
     if abs(determinant) < 0.1:
         raise InputError(
             f"the horizontal components of {motion.name!r} point to {known[0]:g}° and {known[1]:g}°, nearly parallel; "
@@ -57,11 +56,11 @@ def rotated(motion: Motion, azimuth: float) -> Motion:
             "azimuth",
         )
     # a(θ) = e sin θ + n cos θ for both components, solved for east and north
-    east = (x * math.cos(b) - y * math.cos(a)) / determinant
-    north = (y * math.sin(a) - x * math.sin(b)) / determinant
-    theta = math.radians(wanted)
-    first = east * math.sin(theta) + north * math.cos(theta)
-    second = -east * math.cos(theta) + north * math.sin(theta)
+    east = (x * cb - y * ca) / determinant
+    north = (y * sa - x * sb) / determinant
+    c, s = _direction(wanted)
+    first = east * s + north * c
+    second = -east * c + north * s
     return _with(
         motion,
         first,
@@ -81,9 +80,8 @@ def turned(motion: Motion, angle: float) -> Motion:
     angle : float
         [degrees]
     """
-    theta = math.radians(check_range("angle", angle, -360.0, 360.0, unit="degrees"))
+    c, s = _direction(check_range("angle", angle, -360.0, 360.0, unit="degrees"))
     x, y = _samples(motion)
-    c, s = math.cos(theta), math.sin(theta)
     known = _azimuths(motion)
     text = f"turned by {angle:g}° from x towards y"
     if known is None:
@@ -173,6 +171,14 @@ def _samples(motion: Motion) -> tuple[np.ndarray, np.ndarray]:
     if motion.y_samples is None:
         raise InputError(f"motion {motion.name!r} has one horizontal component; turning needs two of them.", "azimuth")
     return motion.samples, motion.y_samples
+
+
+def _direction(angle: float) -> tuple[float, float]:
+    """Cosine and sine of an angle [degrees]: whole quarters leave nothing of a component across."""
+    quarters, rest = divmod(angle, 90.0)
+    if rest:
+        return math.cos(math.radians(angle)), math.sin(math.radians(angle))
+    return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarters) % 4]
 
 
 def _azimuths(motion: Motion) -> tuple[float, float] | None:

@@ -14,7 +14,7 @@ import numpy as np
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, warn
 from .condition_specs import conditioned
-from .conditioning import warn_of_scaling
+from .conditioning import warn_of_peak, warn_of_scaling
 from .motion import FACTORS, Motion
 from .orientation import keep_axes, rotated, turned
 from .ranges import azimuth_range
@@ -337,6 +337,7 @@ class MotionRequest:
             motion = motion.replace(processing=(*motion.processing, text))
         if self.scale is not None or self.pga is not None:
             warn_of_scaling(motion)
+        warn_of_peak(motion)
         return motion if self.vertical else keep_axes(motion, "xy")
 
 

@@ -7,9 +7,13 @@ from typing import cast
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.projections.polar import PolarAxes
+from matplotlib.ticker import MaxNLocator
 
 from ..analysis.limit_directions import LimitByDirection
 from .style import BLACK, BLUE, GREY, RED, in_lines, page, styled
+
+#: Where the axes of the plan lie: unlike azimuths from north, these count from x towards y.
+AXES = {0: " (x)", 90: " (y)", 180: " (−x)", 270: " (−y)"}
 
 
 @styled
@@ -27,7 +31,7 @@ def draw_limit_directions(
     """
     figure = page(figure, (4.6, 4.9))
     axes = cast(PolarAxes, figure.add_subplot(projection="polar"))
-    axes.set_thetagrids(np.arange(0, 360, 30), [f"{one}°" for one in range(0, 360, 30)])
+    axes.set_thetagrids(np.arange(0, 360, 30), [f"{one}°{AXES.get(one, '')}" for one in range(0, 360, 30)])
     order = np.argsort(found.azimuths % 360.0)
     angle, values = np.radians(found.azimuths[order]), found.multipliers[order]
     around = np.append(np.arange(len(angle)), 0)
@@ -49,6 +53,7 @@ def draw_limit_directions(
         label=f"weakest: {weak.azimuth:g}°, {weak.multiplier:.4g} g, joint {weak.joint}",
     )
     axes.set_ylim(0.0, 1.1 * float(values.max()))
+    axes.yaxis.set_major_locator(MaxNLocator(4, prune="lower"))
     axes.set_rlabel_position(22.5)
     axes.set_title(f"{in_lines(title)}\ncollapse multiplier [g], from x towards y" if title else "", pad=14.0)
     figure.legend(loc="outside lower center", ncols=3)

@@ -357,7 +357,7 @@ def several_sections(found: SeveralRuns, told: set[str]) -> list[Section]:
         r, s = run.response, run.summary
         m = r.measures
         moved = m.peak_top_displacement if m.blocks is None else m.blocks.peak_displacement
-        peak = n.NONE if run.motion is None else f"{run.motion.pga / g:.3f}"
+        peak = n.NONE if run.motion is None else f"{run.motion.horizontal_peak[0] / g:.3f}"
         outcome = r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided")
         body.append(
             [

@@ -83,10 +83,10 @@ def motion_section(
             "good, its baseline drifts, and so do velocities and displacements of the ground."
         )
         items.insert(len(note) + 1, Note([text], "fair"))
-    if column is not None and motion.pga > 0.0:
+    if column is not None and motion.horizontal_peak[0] > 0.0:
         items.append(_beside(motion, column))
     items.append(picture(draw_motion(motion, " "), "Acceleration and velocity of the ground, as they acted."))
-    if motion.pga > 0.0:
+    if motion.horizontal_peak[0] > 0.0:
         caption = (
             "Response spectra of a linear oscillator, 5 % of critical damping, to compare motions. What rocks is no such "
             "oscillator: its response cannot be read from them."
