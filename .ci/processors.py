@@ -2,7 +2,8 @@
 
 `make test-cpus`: compiled loops for the processor as it is, for any processor of its kind, without and with 512-bit
 vectors; where it is not as it is, linear algebra with the kernels of another one as well. As many at a time as there are
-cores, for the compiler uses one. `--without-default` leaves out what `make test` runs anyway.
+cores, for the compiler uses one. `--smoke` is the short form for continuous integration: the processor that differs most from
+this one, and the tests that take less than a few seconds.
 """
 
 from __future__ import annotations
@@ -27,16 +28,16 @@ TARGETS = {
     },
     "with AVX-512 (skylake-avx512)": {"NUMBA_CPU_NAME": "skylake-avx512", "NUMBA_CPU_FEATURES": "-prefer-256-bit"},
 }
+#: The processor that differs most from any of today: no fused products and sums, the shortest vectors.
+FARTHEST = "generic"
 NEEDS = {"without AVX-512 (haswell)": ("avx2", "fma"), "with AVX-512 (skylake-avx512)": ("avx512f", "avx512vl")}
 
 
-def targets(default: bool) -> dict[str, dict[str, str]]:
+def targets() -> dict[str, dict[str, str]]:
     """Targets that this processor can run, and what is set for each."""
     has = llvm.get_host_cpu_features()
-    found: dict[str, dict[str, str]] = {f"as it is ({llvm.get_host_cpu_name()})": {}} if default else {}
+    found: dict[str, dict[str, str]] = {f"as it is ({llvm.get_host_cpu_name()})": {}}
     for name, settings in TARGETS.items():
-        if not default and name.startswith("with AVX-512") and has.get("avx512f"):
-            continue  # as `make test` compiles already
         if all(has.get(feature) for feature in NEEDS.get(name, ())):
             found[name] = dict(settings)
         else:
@@ -48,9 +49,10 @@ def targets(default: bool) -> dict[str, dict[str, str]]:
 
 
 def main(arguments: list[str]) -> int:
-    default = "--without-default" not in arguments
-    rest = [one for one in arguments if one != "--without-default"] or ["tests"]
-    command = [sys.executable, "-m", "pytest", "-q", "-m", "processor", "-p", "no:cacheprovider", *rest]
+    smoke = "--smoke" in arguments
+    rest = [one for one in arguments if one != "--smoke"] or ["tests"]
+    which = "processor and not slow" if smoke else "processor"
+    command = [sys.executable, "-m", "pytest", "-q", "-m", which, "-p", "no:cacheprovider", *rest]
 
     def passes(name: str, settings: dict[str, str]) -> bool:
         begin = time.monotonic()
@@ -61,7 +63,9 @@ def main(arguments: list[str]) -> int:
         print(f"== {name}\n{done.stdout}== {name}: {end}", flush=True)
         return done.returncode == 0
 
-    asked = targets(default)
+    asked = targets()
+    if smoke:
+        asked = {FARTHEST: asked[FARTHEST]}
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(passes, asked, asked.values()))
     failed = [name for name, passed in zip(asked, results, strict=True) if not passed]

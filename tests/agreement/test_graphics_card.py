@@ -23,7 +23,7 @@ from stylobate.models.drums import card_check
 
 HERE = Path(__file__).parents[1]
 ANY_X86 = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
-BATCHES = ["one_drum", "three_drums", "sliding", "round_monolith", "round_drums"]
+BATCHES = ["one_drum", "three_drums", "round_monolith", "round_drums"]
 
 simulated = pytest.mark.skipif(
     platform.machine().lower() not in ("x86_64", "amd64"), reason="other processors fuse products and sums always"
@@ -44,7 +44,8 @@ def batches():
 @pytest.mark.parametrize("batch", BATCHES)
 def test_runs_of_the_card_have_the_bits_of_the_loop(batches, batch):
     # one drum: falls and stands from a pose, in the plane more runs than lanes; three: scatter, losses of stone in the
-    # plane, a run that ends early; sliding: on a slope
+    # plane, a run that ends early; others, by their names: ``PYTHONPATH=tests NUMBA_ENABLE_CUDASIM=1 python
+    # tests/simulated_card.py sliding with_corners drums_of_stone``
     found = batches[batch]
     assert [one["bits"] for one in found["card"]] == [one["bits"] for one in found["loop"]]
 
@@ -67,9 +68,9 @@ def test_a_run_has_the_same_bits_however_launches_cut_it(batches, batch):
 
 @simulated
 def test_the_batches_fall_rock_slide_and_end_early(batches):
-    for names in (BATCHES[:3], BATCHES[3:]):
+    for names, seen in ((BATCHES[:2], {"collapsed", "rocked"}), (BATCHES[2:], {"collapsed", "displaced"})):
         outcomes = {one["outcome"] for name in names for one in batches[name]["card"]}
-        assert {"collapsed", "displaced"} <= outcomes, outcomes
+        assert seen <= outcomes, outcomes
     assert all(len({one["steps"] for one in found["card"]}) > 1 for found in batches.values())
 
 
