@@ -2,8 +2,8 @@
 
 `make test-cpus`: compiled loops for the processor as it is, for any processor of its kind, without and with 512-bit
 vectors; where it is not as it is, linear algebra with the kernels of another one as well. As many at a time as there are
-cores, for the compiler uses one. `--smoke` is the short form for continuous integration: the processor that differs most from
-this one, and the tests that take less than a few seconds.
+cores, for the compiler uses one. `--smoke` is the short form for continuous integration: the processor that differs most
+from this one, and the tests that take less than a few seconds.
 """
 
 from __future__ import annotations
