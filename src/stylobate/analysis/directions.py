@@ -58,8 +58,9 @@ def worst(rows: Sequence[Mapping[str, Any]], compass: Compass | None = None) -> 
 
 
 #: Columns of the table of several runs.
-SHOWN = ("motion", "outcome", "undecided", "collapse_time_s", "collapse_probability", "peak_top_displacement_m",
-         "peak_displacement_m", "peak_rotation_rad")  # fmt: skip
+SHOWN = ("motion", "outcome", "undecided", "collapse_time_s", "collapse_probability", "collapse_interval_low",
+         "collapse_interval_high", "replicates", "peak_top_displacement_m", "peak_displacement_m",
+         "peak_rotation_rad")  # fmt: skip
 
 
 def table_of_runs(rows: Sequence[Mapping[str, Any]]) -> pandas.DataFrame:
