@@ -3,7 +3,7 @@
 `make test-cpus`: compiled loops for the processor as it is, for any processor of its kind, without and with 512-bit
 vectors; where it is not as it is, linear algebra with the kernels of another one as well. As many at a time as there are
 cores, for the compiler uses one. `--smoke` is the short form for continuous integration: the processor that differs most
-from this one, and the tests that take less than a few seconds.
+from this one, and short tests of every engine.
 """
 
 from __future__ import annotations
@@ -30,6 +30,9 @@ TARGETS = {
 }
 #: The processor that differs most from any of today: no fused products and sums, the shortest vectors.
 FARTHEST = "generic"
+
+#: Tests that run every engine, and compile each once.
+EVERY_ENGINE = ["tests/conservation", "tests/agreement/test_processors.py", "tests/agreement/test_dem2d.py"]
 NEEDS = {"without AVX-512 (haswell)": ("avx2", "fma"), "with AVX-512 (skylake-avx512)": ("avx512f", "avx512vl")}
 
 
@@ -50,7 +53,7 @@ def targets() -> dict[str, dict[str, str]]:
 
 def main(arguments: list[str]) -> int:
     smoke = "--smoke" in arguments
-    rest = [one for one in arguments if one != "--smoke"] or ["tests"]
+    rest = [one for one in arguments if one != "--smoke"] or (EVERY_ENGINE if smoke else ["tests"])
     which = "processor and not slow" if smoke else "processor"
     command = [sys.executable, "-m", "pytest", "-q", "-m", which, "-p", "no:cacheprovider", *rest]
 
