@@ -10,7 +10,7 @@ import stylobate as st
 from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.errors import LeftOutWarning
 from stylobate.motion import keep_axes, write_csv
-from stylobate.motion.orientation import record_of
+from stylobate.motion.orientation import record_of, rotated
 from stylobate.motion.specs import parse_angle
 
 WAVE = np.sin(np.linspace(0.0, 12.0, 201))
@@ -264,3 +264,16 @@ def test_several_scales_are_no_scale(record):
 def test_azimuths_are_taken_in_their_order_whatever_is_typed():
     asked = st.MotionRequest.typed(harmonic="1Hz,0.3g,2s", azimuths="0,30deg,10")
     assert asked.azimuths == (0.0, 10.0, 30.0)
+
+
+@pytest.mark.parametrize("azimuth", [0.0, 90.0, 180.0, 270.0, -90.0])
+@pytest.mark.parametrize("azimuths", [None, {"x": 0.0, "y": 270.0}])
+def test_whole_quarters_leave_nothing_across(azimuth, azimuths):
+    shaken = np.sin(0.1 * np.arange(200))
+    motion = st.Motion(0.01, shaken, np.zeros(200), metadata={} if azimuths is None else {"azimuths": azimuths})
+    turned = rotated(motion, azimuth)
+    axis = "y" if azimuth % 180.0 else "x"
+    other = turned.samples if axis == "y" else turned.y_samples
+    assert not other.any()
+    assert turned.horizontal_peak == (motion.pga, axis)
+    assert f"PGA {motion.pga / st.g:.3g} g along {axis}" in turned.describe()
