@@ -41,8 +41,9 @@ def describe(asked: MotionAsked, files: Sequence[str], column: Column | None) ->
         summary = motion_summary(motion, spectrum=False)
         warn_of_drift(motion)
         relative = None
-        if column is not None and motion.pga > 0.0:
-            relative = rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
+        peak, axis = motion.horizontal_peak
+        if column is not None and peak > 0.0:
+            relative = rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter, axis)
     return {
         "summary": summary,
         "relative": relative,
