@@ -92,6 +92,15 @@ def test_draw_refuses_other_files(refused, tmp_path):
     assert "which is no folder; name a file in a folder" in refused("draw", STATUE, "--out", tmp_path / "no" / "a.png")
     (tmp_path / "a.png").mkdir()
     assert "is a folder; name a file" in refused("draw", STATUE, "--out", tmp_path / "a.png")
+
+
+def test_draw_on_paper(answered, refused, tmp_path):
+    sheets = tmp_path / "sheets.pdf"
+    assert answered("draw", STATUE, "--out", sheets, "--paper", "a4", "--json")["files"] == [str(sheets)]
+    assert "allowed is 1:N" in refused("draw", STATUE, "--out", sheets, "--paper", "A4", "--scale", "50")
+    assert "say which with --paper" in refused("draw", STATUE, "--out", sheets, "--scale", "1:50")
+    assert "name a .pdf" in refused("draw", STATUE, "--out", tmp_path / "b.png", "--paper", "A4")
+    assert "allowed are A4, A3" in refused("draw", STATUE, "--out", sheets, "--paper", "B5")
     assert not list((tmp_path / "a.png").iterdir())
 
 

@@ -1,6 +1,7 @@
 """Plans of joints: faces where they are, what chips leave of them, links; and the sheet that holds them."""
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -102,3 +103,28 @@ def test_round_drums_of_an_assembly_are_told_with_diameters_offsets_and_chips(tm
     assert all(plan.marked and plan.said.endswith("⌀ 0.900 m") for plan in plans)
     said = {text.get_text() for axes in plots.draw_views(pair).axes for text in axes.texts}
     assert {"3.000", "1.000", "2.000 m"} <= said  # from axis to axis, each drum, and all of it
+
+
+@pytest.mark.parametrize("scale", [None, 100])
+def test_sheets_are_drawn_to_the_scale_that_they_name(found, scale):
+    elevations, joints = plots.draw_to_scale(found, paper="A4", scale=scale)
+    # 2.4 m and room for dimensions on 297 mm: 1:20 needs 120 mm; the faces of 1 m lie three beside one another
+    for sheet, said in ((elevations, scale or 20), (joints, 20)):
+        sheet.draw_without_rendering()
+        assert any(text.get_text().startswith(f"1:{said} on A4") for axes in sheet.axes for text in axes.texts)
+        for axes in sheet.axes[1:]:
+            ends = axes.transData.transform([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]) / sheet.dpi * 25.4
+            assert ends[1] - ends[0] == pytest.approx((1000.0 / said, 0.0), abs=1e-6)
+            assert ends[2] - ends[0] == pytest.approx((0.0, 1000.0 / said), abs=1e-6)
+    assert (elevations.get_size_inches() * 25.4).tolist() == pytest.approx([210.0, 297.0])
+
+
+def test_sheets_lie_across_where_that_shows_more_and_refuse_what_does_not_fit(tmp_path):
+    scene = st.read_assembly(FOLDER / "colonnade.toml")
+    sheets = plots.draw_to_scale(scene, paper="A4")
+    assert sheets[0].get_size_inches()[0] > sheets[0].get_size_inches()[1]
+    with pytest.raises(st.InputError, match="scale is 1:1, at which the drawing does not fit on A4; the largest usual"):
+        plots.draw_to_scale(scene, paper="A4", scale=1)
+    (file,) = plots.save_sheets(sheets, tmp_path / "colonnade.pdf")
+    assert len(sheets) > 1
+    assert len(re.findall(rb"/Type /Page\b", file.read_bytes())) == len(sheets)

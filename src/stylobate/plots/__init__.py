@@ -19,6 +19,7 @@ from .joints import draw_joints
 from .limit_directions import draw_limit_directions
 from .motion import draw_motion
 from .orbit import draw_orbit
+from .paper import PAPERS, draw_to_scale
 from .probability import draw_probability
 from .pushover import draw_mechanism, draw_pushover
 from .record_selection import draw_record_selection
@@ -29,13 +30,14 @@ from .rocking_spectrum import draw_rocking_spectrum
 from .sequence import draw_ends, draw_sequence
 from .spectra import draw_spectra
 from .states import draw_states
-from .style import save, save_as
+from .style import save, save_as, save_sheets
 from .suite import draw_suite
 from .uplift import draw_uplift
 from .views import draw_views
 from .weighing import draw_weighing
 
 __all__ = [
+    "PAPERS",
     "draw_amplitudes",
     "draw_boundaries",
     "draw_calibration",
@@ -74,9 +76,11 @@ __all__ = [
     "draw_states",
     "draw_suite",
     "draw_survival",
+    "draw_to_scale",
     "draw_uplift",
     "draw_views",
     "draw_weighing",
     "save",
     "save_as",
+    "save_sheets",
 ]

@@ -173,7 +173,7 @@ def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure
     wide, high = sheet_size(structure)
     beside, row = FEW if len(shown) <= 12 else MANY
     rows = -(-len(shown) // beside)
-    row += LINE / 72.0 * max([0, *(_lines(plan) - 2 for plan in shown)])
+    row += LINE / 72.0 * max([0, *(lines_under(plan) - 2 for plan in shown)])
     if not rows:
         return draw_views(structure, title, figure=figure)
     figure = page(figure, (wide, high + row * rows + 0.3))
@@ -181,26 +181,31 @@ def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure
     above, below = parts
     draw_views(structure, title, figure=above)
     left_out = "" if len(plans) <= MOST else f"; joints {MOST + 1} to {len(plans)} are not drawn"
-    seen = "each along its own axes" if structure.stack is None else "x to the right, y upward"
-    tilt = structure.as_found.base_tilt
-    slope = (
-        f"; the base rises by {abs(tilt):g}° to {structure.as_found.base_azimuth + 180.0 * (tilt < 0.0):g}°"
-        if tilt
-        else ""
-    )
-    _heading(below, f"plans of joints, {seen}{slope}{left_out}")
-    # one scale for all joints of a column, so that they can be laid on one another
-    each = [1.06 * float(np.abs(np.concatenate([_centred(plan), _there(plan.below)])).max()) for plan in shown]
-    reach = [max(each)] * len(each) if structure.stack is not None else each
+    _heading(below, f"plans of joints, {plan_axes(structure)}{left_out}")
     panels = below.subplots(rows, beside, squeeze=False)
-    for axes, plan, half in zip(panels.flat, shown, reach):
-        _draw(axes, plan, half)
+    for axes, plan, half in zip(panels.flat, shown, plan_reach(structure, shown)):
+        draw_plan(axes, plan, half)
     for axes in panels.flat[len(shown) :]:
         axes.set_axis_off()
     return figure
 
 
-def _lines(plan: JointPlan) -> int:
+def plan_axes(structure: Structure) -> str:
+    """Which way plans of joints lie, and the slope of the base, in words."""
+    seen = "each along its own axes" if structure.stack is None else "x to the right, y upward"
+    tilt = structure.as_found.base_tilt
+    rise = f"; the base rises by {abs(tilt):g}° to {structure.as_found.base_azimuth + 180.0 * (tilt < 0.0):g}°"
+    return f"{seen}{rise}" if tilt else seen
+
+
+def plan_reach(structure: Structure, plans: Sequence[JointPlan]) -> list[float]:
+    """Half the side of the square around each plan [m]; of a column one for all, so that they can be laid on one another."""
+    each = [1.06 * float(np.abs(np.concatenate([_centred(plan), _there(plan.below)])).max()) for plan in plans]
+    return [max(each)] * len(each) if structure.stack is not None else each
+
+
+def lines_under(plan: JointPlan) -> int:
+    """Lines of words under a plan."""
     return sum(1 + words.count("\n") for words in (plan.said, plan.found) if words)
 
 
@@ -221,7 +226,8 @@ def _middle(corners: np.ndarray) -> np.ndarray:
     return 0.5 * (corners.min(axis=0) + corners.max(axis=0))
 
 
-def _draw(axes: Axes, plan: JointPlan, half: float) -> None:
+def draw_plan(axes: Axes, plan: JointPlan, half: float) -> None:
+    """One plan in the middle of a square of twice ``half`` [m]."""
     face, edge = ("#f7e3df", RED) if plan.marked else (SAND, BROWN)
     axes.fill(*plan.above.T, facecolor=face, edgecolor=edge, linewidth=0.8)
     if plan.below is not None:

@@ -5,10 +5,11 @@ from __future__ import annotations
 import inspect
 import re
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import wraps
 from pathlib import Path
-from typing import Any, ParamSpec, cast
+from typing import Any, ParamSpec, TypeVar, cast
 
 import matplotlib
 from matplotlib.artist import Artist
@@ -22,6 +23,7 @@ from ..atomic import replacing
 from ..errors import check_all, check_choice, check_kind
 
 P = ParamSpec("P")
+Drawn = TypeVar("Drawn", Figure, tuple[Figure, ...])
 
 #: Width of a picture across the text of a page [inch].
 WIDTH = 7.0
@@ -84,7 +86,7 @@ _STYLE: dict[Any, Any] = {
 UNDATED: dict[str, Any] = {".png": None, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
 
-def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
+def styled(draw: Callable[P, Drawn]) -> Callable[P, Drawn]:
     """Draw in the style of this package, whatever the settings around it; titles and legends are plain text.
 
     What is drawn is checked first, where it is declared as an object of a class, or as several of one.
@@ -95,17 +97,18 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
     kind = getattr(draw, "__globals__", {}).get(alone or several)
 
     @wraps(draw)
-    def wrapped(*args: P.args, **kwargs: P.kwargs) -> Figure:
+    def wrapped(*args: P.args, **kwargs: P.kwargs) -> Drawn:
         if drawn and isinstance(kind, type) and kind is not Any and (args or drawn.name in kwargs):
             given: Any = args[0] if args else kwargs[drawn.name]
             (check_kind if alone else check_all)(drawn.name, given, kind)
         with matplotlib.rc_context():
             matplotlib.rcdefaults()
             matplotlib.rcParams.update(_STYLE)
-            figure = draw(*args, **kwargs)
-            ax = kwargs.get("ax")
-            _make_plain(ax if isinstance(ax, Axes) else figure)  # leave the other axes of the figure alone
-            return figure
+            made = draw(*args, **kwargs)
+            ax = kwargs.get("ax")  # the other axes of its figure are left alone
+            for one in (ax,) if isinstance(ax, Axes) else made if isinstance(made, tuple) else (made,):
+                _make_plain(one)
+            return made
 
     return wrapped
 
@@ -133,24 +136,44 @@ def save_as(figure: Figure, *files: Path) -> list[Path]:
     """Write files of the kinds that their names end in, ``.png``, ``.svg`` or ``.pdf``; as :func:`save`."""
     for file in files:
         check_choice("the ending of a picture", file.suffix.lower(), UNDATED)
+    with _settled(figure):
+        for file in files:
+            kind = file.suffix.lower()
+            dots = DOTS_PER_INCH if kind == ".png" else "figure"
+            with replacing(file) as partial:  # same picture, same bytes
+                figure.savefig(partial, format=kind[1:], dpi=dots, facecolor="white", metadata=UNDATED[kind])
+    return list(files)
+
+
+def save_sheets(figures: Sequence[Figure], file: Path) -> list[Path]:
+    """Write figures as the pages of one file that ends in ``.pdf``, each of its own size; as :func:`save`."""
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    check_choice("the ending of a file of several sheets", file.suffix.lower(), (".pdf",))
+    with replacing(file) as partial, PdfPages(partial, metadata=UNDATED[".pdf"]) as pages:
+        for figure in figures:
+            with _settled(figure):
+                pages.savefig(figure, facecolor="white")
+    return [file]
+
+
+@contextmanager
+def _settled(figure: Figure) -> Iterator[None]:
+    """The layout of a figure is settled once, for all files, at the resolution of the PNG file.
+
+    Letters are wider at some resolutions than at others, and what fits at another one may be cut off in the file.
+    """
     layout, dots = figure.get_layout_engine(), figure.dpi
     settled: dict[Any, Any] = {"figure.constrained_layout.use": False}
     with matplotlib.rc_context(_STYLE | settled):
-        # The layout is settled once, for all files, at the resolution of the PNG file: letters are wider at some
-        # resolutions than at others, and what fits at another one may be cut off in the file.
         figure.set_dpi(DOTS_PER_INCH)
         figure.draw_without_rendering()
         figure.set_layout_engine(None)
         figure.set_dpi(dots)
         try:
-            for file in files:
-                kind = file.suffix.lower()
-                dots = DOTS_PER_INCH if kind == ".png" else "figure"
-                with replacing(file) as partial:  # same picture, same bytes
-                    figure.savefig(partial, format=kind[1:], dpi=dots, facecolor="white", metadata=UNDATED[kind])
+            yield
         finally:
             figure.set_layout_engine(layout)
-    return list(files)
 
 
 def page(given: Figure | SubFigure | None, size: tuple[float, float]) -> Figure:

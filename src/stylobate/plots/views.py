@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -75,6 +76,81 @@ def sheet_size(structure: Structure) -> tuple[float, float]:
     return WIDTH, sum(_proportions(solids_of(structure)[0])[2])
 
 
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A structure as elevations and plans show it.
+
+    Parameters
+    ----------
+    structure : Structure
+    solids : list of Solid
+        Parts of its bodies as they stand.
+    names : list of str
+        Of the body of each.
+    ends : array
+        Points of their outlines [m], round ones finely enough to be measured, shape (k, 3).
+    levels : list of float
+        Heights that are dimensioned [m].
+    """
+
+    structure: Structure
+    solids: list[Solid]
+    names: list[str]
+    ends: np.ndarray
+    levels: list[float]
+
+    @classmethod
+    def of(cls, structure: Structure) -> Seen:
+        """A structure that is to be drawn."""
+        solids, names = solids_of(structure)
+        ends = np.concatenate([part.mesh(ROUND).vertices for body in _near(structure) for part in body.placed])
+        levels = _levels(structure) if structure.stack is None else levels_of(structure.stack)
+        return cls(structure, solids, names, ends, levels)
+
+    def _ground(self, view: View) -> float | None:
+        return None if view is PLAN else self.structure.ground
+
+    def margins(self, view: View) -> dict[str, float]:
+        """Room around what is seen for dimensions and words [points]."""
+        return {
+            "left": CHAINS if view is ALONG_X and len(self.levels) > 2 else 46.0,
+            "right": 8.0,
+            "below": 34.0,
+            "above": 8.0,
+        }
+
+    def box(self, view: View) -> tuple[np.ndarray, np.ndarray]:
+        """Corners of the box around what is seen, and around the ground where it is near [m], shape (2,) each."""
+        flat = np.concatenate([view.across(solid.vertices) for solid in self.solids])
+        low, high = flat.min(axis=0), flat.max(axis=0)
+        level = self._ground(view)
+        if level is not None:
+            low[1] = min(low[1], max(level, low[1] - BESIDE))
+        return low, high
+
+    def sheet(self, axes: Axes, view: View, least: float = 0.0) -> Sheet:
+        """Limits of axes around what is seen, ``least`` metres a point at least."""
+        return Sheet.around(axes, *self.box(view), **self.margins(view), least=least)
+
+    def draw(self, axes: Axes, sheet: Sheet, view: View) -> None:
+        """An elevation or the plan, with dimensions in m and names."""
+        level = self._ground(view)
+        if level is not None:
+            axes.axhline(level, color=BLACK, linewidth=1.2, zorder=0)
+        _paint(axes, self.solids, view)
+        _mark_links(axes, self.structure, view)
+        flat = view.across(self.ends)
+        low, high = flat.min(axis=0), flat.max(axis=0)
+        dimension(axes, sheet, 0, low, high)
+        _feet(axes, sheet, self.structure, view, float(low[1]))
+        if len(self.levels) > 2 and view is ALONG_X:
+            draw_chain(axes, sheet, self.levels, float(low[0]))
+        else:
+            dimension(axes, sheet, 1, low, high)
+        if len(set(self.names)) <= NAMED:
+            _names(axes, sheet, self.solids, self.names, view)
+
+
 @styled
 def draw_views(structure: Structure, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
     """What stands, before the motion: elevations along x and along y, the plan, and an oblique view, dimensions in m.
@@ -87,36 +163,17 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
     figure : Figure or SubFigure, optional
         Where it is drawn; a new figure by default.
     """
-    solids, names = solids_of(structure)
-    across, deep, heights = _proportions(solids)
+    seen = Seen.of(structure)
+    across, deep, heights = _proportions(seen.solids)
     figure = page(figure, (WIDTH, sum(heights)))
-    ends = np.concatenate([part.mesh(ROUND).vertices for body in _near(structure) for part in body.placed])
     ratio = min(max(across / deep, 0.6), 1.7)
     (front, side), (plan, oblique) = figure.subplots(2, 2, width_ratios=(ratio, 1.0), height_ratios=heights)
-    stack = structure.stack
-    levels = _levels(structure) if stack is None else levels_of(stack)
-    left = CHAINS if len(levels) > 2 else 46.0
-    sheets = [_sheet(axes, solids, view, structure.ground, left=left) for axes, (view, _) in zip((front, side), SEEN)]
+    sheets = [seen.sheet(axes, view) for axes, (view, _) in zip((front, side), SEEN)]
     scale = max(sheet.metres for sheet in sheets)
     for axes, (view, said) in zip((front, side, plan), SEEN):
-        level, least = (None, 0.0) if view is PLAN else (structure.ground, scale)
-        sheet = _sheet(axes, solids, view, level, least, left if view is ALONG_X else 46.0)
-        if level is not None:
-            axes.axhline(level, color=BLACK, linewidth=1.2, zorder=0)
-        _paint(axes, solids, view)
-        _mark_links(axes, structure, view)
-        flat = view.across(ends)
-        low, high = flat.min(axis=0), flat.max(axis=0)
-        dimension(axes, sheet, 0, low, high)
-        _feet(axes, sheet, structure, view, float(low[1]))
-        if len(levels) > 2 and view is ALONG_X:
-            draw_chain(axes, sheet, levels, float(low[0]))
-        else:
-            dimension(axes, sheet, 1, low, high)
-        if len(set(names)) <= NAMED:
-            _names(axes, sheet, solids, names, view)
+        seen.draw(axes, seen.sheet(axes, view, 0.0 if view is PLAN else scale), view)
         axes.set_title(said, fontsize=8.5, color=GREY)
-    _paint(oblique, solids, OBLIQUE)
+    _paint(oblique, seen.solids, OBLIQUE)
     _mark_links(oblique, structure, OBLIQUE)
     oblique.set_aspect("equal")
     oblique.autoscale_view()
@@ -165,22 +222,6 @@ def _plain(surface: Surface) -> Surface:
     return Surface(surface.vertices, surface.faces, tuple(STONE if tone == MARK else tone for tone in surface.tones))
 
 
-def _box(solids: list[Solid], view: View, level: float | None) -> tuple[np.ndarray, np.ndarray]:
-    """Corners of the box around what is seen, and around the ground where it is near [m], shape (2,) each."""
-    flat = np.concatenate([view.across(solid.vertices) for solid in solids])
-    low, high = flat.min(axis=0), flat.max(axis=0)
-    if level is not None:
-        low[1] = min(low[1], max(level, low[1] - BESIDE))
-    return low, high
-
-
-def _sheet(
-    axes: Axes, solids: list[Solid], view: View, level: float | None, least: float = 0.0, left: float = 46.0
-) -> Sheet:
-    low, high = _box(solids, view, level)
-    return Sheet.around(axes, low, high, left=left, right=8.0, below=34.0, above=8.0, least=least)
-
-
 def _paint(axes: Axes, solids: list[Solid], view: View) -> None:
     polygons, colours, outlines = painted(solids, view)
     edges = np.where(np.array(outlines)[:, None], 0.35, colours)
@@ -196,16 +237,19 @@ def _mark_links(axes: Axes, structure: Structure, view: View) -> None:
 
 
 def _names(axes: Axes, sheet: Sheet, solids: list[Solid], names: list[str], view: View) -> None:
-    """Names where they fit into what is seen of their body; of "column 1, drum 5" the drum if only that fits."""
+    """Names, or what is left of them, where they fit into what is seen of their body."""
     order = painting_order(solids, view)
     shapes = [hull(view.across(solid.vertices)) for solid in solids]
+    size = {number: float(np.prod(np.ptp(shape, axis=0))) for number, shape in enumerate(shapes)}
+    # of the parts of one body the largest bears its name
+    bearing = {name: max((k for k, one in enumerate(names) if one == name), key=size.__getitem__) for name in names}
     for place, number in enumerate(order):
+        if bearing[names[number]] != number:
+            continue
         shape = shapes[number]
         wide, high = np.ptp(shape, axis=0) / sheet.metres
-        name = names[number]
-        if 4.2 * len(name) > max(wide, high):
-            name = name.rpartition(", ")[2]
-        if 4.2 * len(name) > max(wide, high) or min(wide, high) < LEAST:
+        name = next((one for one in _shorter(names[number]) if 4.2 * len(one) <= max(wide, high)), None)
+        if name is None or min(wide, high) < LEAST:
             continue
         turned = 90 if wide < 4.2 * len(name) else 0
         middle = 0.5 * (shape.min(axis=0) + shape.max(axis=0))
@@ -215,6 +259,12 @@ def _names(axes: Axes, sheet: Sheet, solids: list[Solid], names: list[str], view
             continue
         x, y = (float(one) for one in middle)
         axes.text(x, y, name, fontsize=6.5, ha="center", va="center", rotation=turned, zorder=5)
+
+
+def _shorter(name: str) -> list[str]:
+    """A name, and what is left of it where there is little room: of "column 1, drum 5" the drum, then its number."""
+    own = name.rpartition(", ")[2]
+    return [name, own, *([own.removeprefix("drum ")] if own.startswith("drum ") else [])]
 
 
 def _covers(shape: np.ndarray, point: np.ndarray) -> bool:
