@@ -92,6 +92,7 @@ def test_draw_refuses_other_files(refused, tmp_path):
     assert "which is no folder; name a file in a folder" in refused("draw", STATUE, "--out", tmp_path / "no" / "a.png")
     (tmp_path / "a.png").mkdir()
     assert "is a folder; name a file" in refused("draw", STATUE, "--out", tmp_path / "a.png")
+    assert not list((tmp_path / "a.png").iterdir())
 
 
 def test_draw_on_paper(answered, refused, tmp_path):
@@ -101,7 +102,6 @@ def test_draw_on_paper(answered, refused, tmp_path):
     assert "say which with --paper" in refused("draw", STATUE, "--out", sheets, "--scale", "1:50")
     assert "name a .pdf" in refused("draw", STATUE, "--out", tmp_path / "b.png", "--paper", "A4")
     assert "allowed are A4, A3" in refused("draw", STATUE, "--out", sheets, "--paper", "B5")
-    assert not list((tmp_path / "a.png").iterdir())
 
 
 SHAKEN = ["--pulse", "ricker,1Hz,0.2g"]
