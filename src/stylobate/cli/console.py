@@ -69,7 +69,12 @@ def say(sentence: str, facts: Mapping[str, str], files: list[Path] | None = None
 def print_files(files: Sequence[Path] | None) -> None:
     """Say which files were written, and where; nothing where there are none."""
     if files:
-        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+        print(f"{counted(len(files), 'file')} in {files[0].parent}: {', '.join(file.name for file in files)}")
+
+
+def counted(number: int, noun: str) -> str:
+    """So many of something: "1 file", "2 files"."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def as_json(value: Any, indent: int | None = None) -> str:
@@ -291,7 +296,8 @@ class Lines:
             return
         self.due, self.told = 1.5 * (now - self.began), done
         to_go = "" if left is None else f", about {left} to go"
-        logging.getLogger("stylobate").info("%.4g of %.4g %s%s.", done, total, self.title, to_go)
+        so_far = f"{done:.0f}" if float(done).is_integer() else f"{done:.3g}"
+        logging.getLogger("stylobate").info("%s of %.10g %s%s.", so_far, total, self.title, to_go)
 
 
 @contextmanager

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 #: Amplitudes that columns like it go through unasked: what they cost then is bounded, and some two hundred runs.
 TWIN_AMPLITUDES = 12
 
+#: Most spans of amplitudes with one verdict that are told.
+MOST_SPANS = 12
+
 
 @dataclass(frozen=True)
 class Shapes(o.Motions):
@@ -155,7 +158,13 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
         facts[f"{likes.drawn.like} like this"] = f"{likes.drawn.words}; at {len(likes.amplitudes)} of these amplitudes"
     if (own := summary["as_recorded"]) is not None:
         facts["as recorded"] = as_recorded(own)
-    for row in summary["alternation"]:
-        runs = f"{row['runs']} run" + ("" if row["runs"] == 1 else "s")
-        facts[f"{row['from_g']:.4g} to {row['to_g']:.4g} g"] = f"{row['verdict']} ({runs})"
+    spans = summary["alternation"]
+    for row in spans[: MOST_SPANS - 1] if len(spans) > MOST_SPANS else spans:
+        span = f"{row['from_g']:.4g}" + (f" to {row['to_g']:.4g}" if row["runs"] > 1 else "")
+        facts[f"{span} g"] = f"{row['verdict']} ({console.counted(row['runs'], 'run')})"
+    if len(spans) > MOST_SPANS:
+        last = spans[-1]
+        where = "critical.csv holds all" if files else "--json holds all"
+        facts["above that"] = f"{len(spans) - MOST_SPANS} more spans that take turns; {where}"
+        facts[f"from {last['from_g']:.4g} g"] = f"{last['verdict']} ({console.counted(last['runs'], 'run')})"
     console.say(summary["sentence"], facts, files)

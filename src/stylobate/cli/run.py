@@ -163,6 +163,8 @@ def each_record(
     request = Request(cases, Digests.of(each), [(np.arange(len(cases)), model, options)])
 
     def make(number: int) -> dict[str, Any]:
+        if len(motions) > 1:
+            console.note(f"run {number + 1} of {len(motions)}: {motions[number].name}")
         summary = conclude(follow, stone, motions[number], model, places[number], True, drawn)
         files = {} if out is None else {"files": [str(Path(file).relative_to(out)) for file in summary["files"]]}
         return {"summary": json.loads(console.as_json(summary)), **files}

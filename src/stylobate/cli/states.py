@@ -173,7 +173,7 @@ def states(
         print(best.words)
     console.print_refused(suite.refused)
     if files:
-        print(f"{len(files)} files in {execution.out}")
+        print(f"{console.counted(len(files), 'file')} in {execution.out}")
 
 
 def _twins(columns: dict[str, Structure], model: Model, campaign: Campaign) -> dict[str, Any]:
