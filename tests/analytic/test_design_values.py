@@ -47,6 +47,20 @@ def test_a_dowel_bears_the_push_that_friction_leaves(found):
         assert (force["high_84"], slip["high_84"]) == (1e4, math.inf)
 
 
+def test_the_stone_limits_a_dowel_that_bears_more(found):
+    """A dowel of 60 mm near the edge: what EN 1992-4 leaves the stone is its capacity, and a slip has that of the dowel."""
+    size = {"diameter": 0.06, "embedment": 0.2, "material": "titanium"}
+    near = BARE.replace(links=(st.Dowel(joint=1, at=(0.4, 0.0), **size),), name="dowelled")
+    (link,) = near.placed_links
+    assert link.stone.shear < link.shear_capacity
+    values = values_of_runs({"dowelled": near}, found.table[found.table["state"] == "dowelled"])
+    forces, slips = (values[values["quantity"] == one] for one in ("shear force", "slip"))
+    assert set(forces["limited_by"]) == {"stone"}
+    assert set(slips["limited_by"]) == {"link"}
+    assert forces["use_value_84"].tolist() == (forces["value_84"] / link.stone.shear).tolist()
+    assert slips["capacity"].tolist() == [link.ultimate_slip] * len(slips)
+
+
 def test_what_collapses_is_lost_or_undecided_exceeds_every_slip(found):
     """Of three runs of 0.3 g one collapses, one is undecided: by the rules, with the peaks as they are."""
     table = found.table.copy()

@@ -51,21 +51,29 @@ DIGITS = 9
 
 
 class Quantity(NamedTuple):
-    """What a link is designed for: name, unit, key in the row of a run, field of the link that limits it, and whether it
-    acts along the link."""
+    """What a link is designed for: name, unit, key in the row of a run, fields of the link and of the stone around it that
+    limit it, and whether it acts along the link."""
 
     name: str
     unit: str
     key: str
     limit: str
+    stone: str
     along: bool
+
+    def capacity(self, link: PlacedLink) -> tuple[float, str]:
+        """What the link bears, or the stone around it where that is less, and which of them it is."""
+        own, stone = float(getattr(link, self.limit)), math.inf
+        if self.stone and link.stone is not None:
+            stone = float(getattr(link.stone, self.stone))
+        return (stone, "stone") if stone < own else (own, "link")
 
 
 QUANTITIES = (
-    Quantity("shear force", "N", "link_peak_shear_n", "shear_capacity", False),
-    Quantity("tension", "N", "link_peak_tension_n", "axial_capacity", True),
-    Quantity("slip", "m", "link_peak_slip_m", "ultimate_slip", False),
-    Quantity("elongation", "m", "link_peak_elongation_m", "ultimate_elongation", True),
+    Quantity("shear force", "N", "link_peak_shear_n", "shear_capacity", "shear", False),
+    Quantity("tension", "N", "link_peak_tension_n", "axial_capacity", "pull", True),
+    Quantity("slip", "m", "link_peak_slip_m", "ultimate_slip", "", False),
+    Quantity("elongation", "m", "link_peak_elongation_m", "ultimate_elongation", "", True),
 )
 
 
@@ -92,12 +100,13 @@ def design_values(
         One row per state, level (1 of motions as they are), link with its ``kind``, and quantity: ``unit``, ``runs``,
         ``records``, ``laws`` of the joints (0: taken as known), ``collapsed``, ``gone`` (runs that collapse or lose the
         link), ``undecided``, ``told`` (whether values are told at this level); for 50, 84 and 95 %, ``value_84`` with
-        ``low_84`` and ``high_84``, the value that this share of the motions does not exceed and its interval; ``capacity``,
-        and ``use_value_84`` with ``use_low_84`` and ``use_high_84``, the same over it. Infinite: beyond all that was
-        computed; NaN where there is no capacity. ``record_84`` is the record of the run whose force or way ``value_84`` is,
-        None where that is none that stands or is open. Of forces at the level that is told ``instant_84_s``, when it acts in
-        that run [s], and of shear ``azimuth_84_deg``, where it pushes the body above in plan, from x towards y, as seen from
-        the body below; NaN where it is not told.
+        ``low_84`` and ``high_84``, the value that this share of the motions does not exceed and its interval; ``capacity``
+        of the link, or of the stone around it where that is less (``limited_by``: link or stone), and ``use_value_84`` with
+        ``use_low_84`` and ``use_high_84``, the same over it. Infinite: beyond all that was computed; NaN where there is no
+        capacity. ``record_84`` is the record of the run whose force or way ``value_84`` is, None where that is none that
+        stands or is open. Of forces at the level that is told ``instant_84_s``, when it acts in that run [s], and of shear
+        ``azimuth_84_deg``, where it pushes the body above in plan, from x towards y, as seen from the body below; NaN where
+        it is not told.
 
     Raises
     ------
@@ -106,8 +115,9 @@ def design_values(
 
     Notes
     -----
-    A run that collapses, or in which the link is lost, exceeds every slip; its force is the capacity, which no force
-    exceeds.
+    A run that collapses, or in which the link is lost, exceeds every slip; its force is the capacity of the link, which no
+    force exceeds. Runs are computed with that one: where the stone bears less, its use may be above 1, and forces beyond it
+    are not to be relied on.
     An undecided run counts with its peaks so far in the value and the lower limit, and as a collapse in the upper one.
     Every record counts once, however many twins it has. The interval holds the values x for which Wilson's interval of the
     share of records that stay below x holds the fractile: with n records the upper limit of 84 % is finite from 21 of
@@ -220,6 +230,7 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
                 continue
             limit = float(getattr(link, one.limit))
             most = limit if one.unit == "N" else math.inf
+            capacity, limited_by = one.capacity(link)
             peak = np.minimum(np.array([run[k] for run in table[one.key]], dtype=float), most)
             low = np.where(gone, most, peak)
             high = np.where(said == v.UNDECIDED, most, low)
@@ -227,13 +238,13 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
                 "link": link.name, "kind": link.kind, "quantity": one.name, "unit": one.unit, "runs": len(table),
                 "records": int(owner.max()) + 1, "laws": len(np.unique(law[law > 0])),
                 "collapsed": int((said == v.COLLAPSED).sum()), "gone": int(gone.sum()),
-                "undecided": int((said == v.UNDECIDED).sum()), "capacity": limit, "record_84": None,
-                "instant_84_s": math.nan, "azimuth_84_deg": math.nan, "run": None, "place": k,
+                "undecided": int((said == v.UNDECIDED).sum()), "capacity": capacity, "limited_by": limited_by,
+                "record_84": None, "instant_84_s": math.nan, "azimuth_84_deg": math.nan, "run": None, "place": k,
             }  # fmt: skip
             for share in FRACTILES:
                 told = fractile(low, high, owner, share, confidence)
                 told = [min(x, most) for x in _with_laws(told, low, high, owner, law, share, confidence)]
-                use = [x / limit if math.isfinite(limit) else math.nan for x in told]
+                use = [x / capacity if math.isfinite(capacity) else math.nan for x in told]
                 for name, values in (("", told), ("use_", use)):
                     row |= {f"{name}{which}_{100 * share:g}": x for which, x in zip(WHICH, values, strict=True)}
             alike = np.flatnonzero((peak == row["value_84"]) & ~gone)

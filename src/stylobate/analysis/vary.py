@@ -253,7 +253,10 @@ def best_of(
     words = f"{_words(best, alike, len(labels), records, found.state)} {len(found.table)} runs; {100 * confidence:g} % "
     words += f"intervals for all pairs together, {basis_of(designed) if len(designed) else 'over records'}."
     if best is not None and not sure:
-        words += " That the links stay below their capacity is not sure: the upper limit of their use reaches it."
+        words += (
+            " That the links, and the stone around them, stay below their capacity is not sure: the upper limit of "
+        )
+        words += "their use reaches it."
     return Best(best, alike, pandas.DataFrame(rows), len(found.table), records, words)
 
 
@@ -262,8 +265,9 @@ def _words(best: str | None, alike: Sequence[str], number: int, records: int, st
     if best is None:
         return (
             f"None of the {number} candidates is allowed: at the largest level each collapses or comes to the capacity of a "
-            "link under 16 % of the motions or more; strengthen the links, or run lower levels. That one is stronger than "
-            "another state only compares collapses under these motions: it is no leave to build it."
+            "link, or of the stone around it, under 16 % of the motions or more; strengthen the links, or run lower levels. "
+            "That one is stronger than another state only compares collapses under these motions: it is no leave to build "
+            "it."
         )
     few = f"; nothing is told from fewer than {FEWEST} records" if records < FEWEST else ""
     said = f"Least {state} of {number} candidates: {best}"

@@ -40,7 +40,11 @@ def describe_design(values: pandas.DataFrame) -> None:
         some = worst.groupby("state", sort=False).head(6)
         told: dict[str, Any] = {key: some[key] for key in ("state", *level, "link", "quantity", "unit")}
         told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
-        told |= {"over capacity": some["use_value_84"], "at most": some["use_high_84"]}
+        told |= {
+            "over capacity": some["use_value_84"],
+            "at most": some["use_high_84"],
+            "limited by": some["limited_by"],
+        }
         told |= {"at [s]": some["instant_84_s"], "towards [°]": some["azimuth_84_deg"]}
         console.print_table(pandas.DataFrame(told), digits=3)
         if len(some) < len(worst):

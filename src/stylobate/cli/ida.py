@@ -33,7 +33,7 @@ def ida(
 
     Levels are hunted and filled, all records at a time; with the table of which intensity measure tells most.
     """
-    from ..analysis.efficiency import which_tells_most
+    from ..analysis.efficiency import FEWEST, which_tells_most
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response, median_of
     from ..analysis.record_facts import facts_of_records
@@ -84,11 +84,11 @@ def ida(
     console.print_doubt(result)
     fell = sum(capacity["collapses_from"] is not None for capacity in result["capacities"])
     facts = {
-        "runs": f"{result['runs']} of {_count(result['records'], 'record')}, {result['wall_s']:.1f} s",
-        "collapses": f"{fell} of {_count(len(curves), 'curve')} end in collapse",
+        "runs": f"{result['runs']} of {console.counted(result['records'], 'record')}, {result['wall_s']:.1f} s",
+        "collapses": f"{fell} of {console.counted(len(curves), 'curve')} end in collapse",
         "median capacity": f"{median_of(result)}; counted, fragility fits a curve and its interval",
-        "resurrections": f"{_count(result['resurrections'], 'run')} above a collapse that stand, in "
-        f"{_count(result['curves_with_resurrections'], 'curve')}",
+        "resurrections": f"{console.counted(result['resurrections'], 'run')} above a collapse that stand, in "
+        f"{console.counted(result['curves_with_resurrections'], 'curve')}",
     }
     if (drawn := found.twins) is not None:
         facts[f"{drawn.like} like this"] = drawn.words
@@ -97,11 +97,11 @@ def ida(
             f"{result['undecided']} undecided, {result['failed']} failed; "
             f"{to_decide(stone, how.parameters(), campaign.tail)}"
         )
-    console.say(f"{stone.name}, {how.name}: {_count(len(curves), 'curve')} over {measure.words}.", facts, files)
-    if len(best):
-        console.print_table(best.drop(columns=["median", "unit", "beta_low", "beta_high"]), digits=3)
+    console.say(
+        f"{stone.name}, {how.name}: {console.counted(len(curves), 'curve')} over {measure.words}.", facts, files
+    )
+    if len(best) and best["records"].max() < FEWEST:
+        print(f"Which measure tells most is told from {FEWEST} records; there are {best['records'].max()}.")
+    elif len(best):
+        console.print_table(best.drop(columns=["median", "unit"]).dropna(axis=1, how="all"), digits=3)
     console.print_refused(records.refused)
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"

@@ -53,7 +53,8 @@ def run(
     print(sentence(result))
     console.print_refused(refused)
     tables, histories = files[-3:], len(files) - 3
-    print(f"{console.counted(len(files), 'file')} in {out}: {', '.join(table.name for table in tables)}, histories of {histories} runs")
+    named = ", ".join(table.name for table in tables)
+    print(f"{console.counted(len(files), 'file')} in {out}: {named}, histories of {histories} runs")
 
 
 def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")]) -> None:

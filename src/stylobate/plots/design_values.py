@@ -26,8 +26,9 @@ MOST = 24
 def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure | None = None) -> Figure:
     """Links at the level that is told, those used most: a dot, its 95 % interval, and capacity at 1.
 
-    Under its name a force has the instant of the run that governs, and a shear force its azimuth, from x towards y. An
-    arrow: the upper limit is beyond all that was computed; without a dot, so is the value itself.
+    The capacity is that of the link, or of the stone around it where that is less, as its name says. Under it a force has
+    the instant of the run that governs, and a shear force its azimuth, from x towards y. An arrow: the upper limit is
+    beyond all that was computed; without a dot, so is the value itself.
 
     Parameters
     ----------
@@ -38,7 +39,7 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     """
     found = worst_of(values)
     shown = found.groupby("state", sort=False).head(max(MOST // max(len(set(found["state"])), 1), 1))
-    labels = [f"{plain(row['link'])}, {row['quantity']}{_acts(row)}" for row in shown.to_dict("records")]
+    labels = [f"{plain(row['link'])}, {row['quantity']}{_stone(row)}{_acts(row)}" for row in shown.to_dict("records")]
     figure = page(figure, (WIDTH, 1.7 + 0.27 * sum(1 + one.count("\n") for one in labels)))
     axes = figure.subplots()
     value, low, high = (shown[f"use_{which}_84"].to_numpy(dtype=float) for which in ("value", "low", "high"))
@@ -70,6 +71,11 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=min(len(states), 3), fontsize=8, frameon=False)
     axes.grid(True, axis="x")
     return figure
+
+
+def _stone(row: dict[str, Any]) -> str:
+    """That the capacity is what the stone around the link bears."""
+    return " over that of the stone" if row.get("limited_by") == "stone" else ""
 
 
 def _acts(row: dict[str, Any]) -> str:

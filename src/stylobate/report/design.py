@@ -22,7 +22,8 @@ SHOWN = {
     "from": "low_84", "to": "high_84", "undecided": "undecided", "over capacity": "use_value_84", "at most": "use_high_84",
 }  # fmt: skip
 
-#: The same of when and where to a force acts, which older tables do not tell.
+#: The same of what bears least, and of when and where to a force acts, which older tables do not tell.
+LIMITED = {"limited by": "limited_by"}
 ACTS = {"at [s]": "instant_84_s", "towards [°]": "azimuth_84_deg"}
 
 
@@ -51,13 +52,15 @@ def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> 
             f"Design values{where(values)}: {meant} Both also over the capacity; links used most come first. {open_} "
         )
         caption += "The file design.csv holds every level, quantity, and 50 and 95 %."
-        acts = ACTS if set(ACTS.values()) <= set(worst) else {}
+        limited, acts = (told if set(told.values()) <= set(worst) else {} for told in (LIMITED, ACTS))
+        if limited:
+            caption += " The capacity is that of the link, or what the stone around it bears where that is less."
         if acts:
             caption += " Forces are told at an instant of the run that governs; shear pushes the body above "
             caption += "towards an azimuth."
         if len(worst) > MOST:
             caption += " Rows beyond these are of links that are used less, and stand there."
-        items.append(_rows(worst, SHOWN | acts, caption))
+        items.append(_rows(worst, SHOWN | limited | acts, caption))
         caption = (
             "Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all "
         )

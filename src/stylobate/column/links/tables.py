@@ -33,7 +33,7 @@ class LinkTable(LinkNumbers):
 
     kind: str
     name: str | None = None
-    joint: int | None = None
+    joint: int | str | list[int] | None = None
     joints: str | list[int] | None = None
     at: list[float] | None = None
     to: list[float] | None = None
@@ -65,6 +65,12 @@ def links_of(tables: Sequence[LinkTable], joints: int) -> tuple[Link, ...]:
     for number, table in enumerate(tables, 1):
         fields = table.model_dump(exclude={"joints"}, exclude_none=True)
         with within(f"[[link]] number {number}", "link", number):
+            if not isinstance(table.joint, int | None):
+                raise InputError(
+                    f"joint is {table.joint!r}; it must be the number of a joint; "
+                    'for a link alike in several, write joints = "all", or a list of numbers.',
+                    "joint",
+                )
             if table.joints is None:
                 found.append(link_from_dict(fields))
             else:
