@@ -8,6 +8,8 @@ import pytest
 from validation.space import round_column
 
 import stylobate as st
+from stylobate.campaign.campaign import Campaign
+from stylobate.campaign.twins import the_twins
 from stylobate.column import Column
 from stylobate.column.files import write_column
 from stylobate.column.found_geometry import uplift_accelerations
@@ -63,6 +65,13 @@ def test_a_found_column_stands_still_from_the_start(model):
     block.advance(200)
     for name, values in before.items():
         assert block.records.body[name][1:, 0] == pytest.approx(values, abs=1e-10)
+
+
+@pytest.mark.parametrize(("name", "number"), [("segesta", 1), ("parthenon", 33)])
+def test_a_column_begins_where_a_joint_closes_at_a_kink_of_its_law(name, number):
+    """Newton's steps for the lightest joint of these twins led to and fro over the solution: they were told as failed."""
+    twin = the_twins(st.preset(name), DistinctElement3D(), Campaign(replicates=40)).columns[number]
+    assert block_of(twin).residual_acceleration(0) < 2e-5
 
 
 def test_square_drums_turned_and_offset_stand_still_too():

@@ -16,9 +16,9 @@ from ..drums.bodies import Topology
 from .arrays import Records
 from .packing import CORNERS
 
-#: Rest of a joint's force and moment over its load and its load's lever; from where on Newton's steps are
-#: taken whole; rounds to get there.
-ALLOWED, NEAR, ROUNDS = 1e-6, 1e-3, 60
+#: Rest of a joint's force and moment over its load and its load's lever; from where on Newton's steps are taken whole, and
+#: for how many rounds whatever comes of it; rounds to get there.
+ALLOWED, NEAR, WHOLE, ROUNDS = 1e-6, 1e-3, 30, 60
 
 #: Steps of the differences in place of derivatives, over the closure: from flat, where the strips of a bed are still to
 #: take their direction, and later.
@@ -98,7 +98,7 @@ def found_start(
             places = {name: contact.drum[name][..., 0].copy() for name in found_fields(column, poses[0])}
             found, left = (places, {"s": stored, "t": friction.turning.copy()}), worst
         friction.take(size < NEAR, slid, twisting)
-        unknowns.go_on(size, missing, held, step)
+        unknowns.go_on(size, missing, held, step, halved=count >= WHOLE)
     if found is None:
         raise InputError(
             f"joint {int(np.argmax(unknowns.rest)) + 1} of {column.name!r} as found carries its load at the very edge; "
@@ -145,12 +145,19 @@ class _Unknowns:
         now[:, 0] = -closure
         return cls(now, now.copy(), np.zeros_like(now), np.full(len(now), np.inf), np.ones(len(now)))
 
-    def go_on(self, size: np.ndarray, missing: np.ndarray, held: np.ndarray, step: np.ndarray) -> None:
-        """Newton's step of every joint that has come nearer; half of the last one from its best place for the others."""
+    def go_on(
+        self, size: np.ndarray, missing: np.ndarray, held: np.ndarray, step: np.ndarray, *, halved: bool = False
+    ) -> None:
+        """Newton's step of every joint that has come nearer; half of the last one from its best place for the others.
+
+        Where steps are ``halved``, those near the solution are: at a kink of the law of contact whole ones lead to and fro
+        over it for ever.
+        """
         for j in range(len(self.now)):
             if size[j] <= self.rest[j] or size[j] < NEAR:
                 slopes = (held[1:, j, :3] - held[0, j, :3]).T / step[j]
-                self.rest[j], self.best[j], self.share[j] = size[j], self.now[j], 1.0
+                self.share[j] = 0.5 if halved and size[j] < NEAR else 1.0
+                self.rest[j], self.best[j] = size[j], self.now[j]
                 self.moves[j] = -np.linalg.lstsq(slopes, missing[j], rcond=None)[0]
             else:
                 self.share[j] *= 0.5
