@@ -11,9 +11,10 @@ from typing import Any
 
 from markupsafe import Markup
 
+from ..analysis.difference import NO_MEASURE
 from ..atomic import output_folder
 from ..errors import InputError, StylobateError
-from ..results import Result, RunResult, SeveralRuns, read_results
+from ..results import Kind, Numbers, Result, RunResult, SeveralRuns, read_results
 from ..version import __version__
 from . import page
 from .language import Language, language_of, speaking
@@ -175,10 +176,13 @@ def _names(found: Sequence[Result]) -> set[str]:
     runs = [run for one in found for run in (one.runs if isinstance(one, SeveralRuns) else (one,))]
     motions += [str(one.response.provenance.get("motion")) for one in runs if isinstance(one, RunResult)]
     standing = [stands for one in found for stands in one.structures if stands.stack is None]
+    compared = [one for one in found if isinstance(one, Numbers) and one.kind is Kind.STATES]
+    labels = [state["label"] for one in compared for state in one.summary["states"]]
     bodies = [body.name for stands in standing for body in stands.bodies if not (body.fixed and body.name == "ground")]
     return {
         *motions,
         *bodies,
+        *(label for label in labels if label not in NO_MEASURE),
         *(one.name for one in found),
         *(stands.name for one in found for stands in one.structures),
     }

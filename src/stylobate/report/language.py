@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
@@ -86,6 +86,8 @@ class Language:
         """A text in this language as far as it is known: whole, or sentence by sentence."""
         if not self.foreign or text in self.own or not _WORD.search(text):
             return text
+        if text not in self.table and "(" not in text and (found := self._listed(text, (", ",))) != text:
+            return found  # an entry could hold all of a list in one of its placeholders
         if (found := self._whole(text)) is not None:
             return found
         parts = _END.split(text)
@@ -100,9 +102,9 @@ class Language:
                     break
         return " ".join(said)
 
-    def _listed(self, text: str) -> str:
+    def _listed(self, text: str, separators: Sequence[str] = ("; ", ", ")) -> str:
         """A list of which every entry is known, in this language; any other text as it is."""
-        for between in ("; ", ", "):
+        for between in separators:
             parts = text.split(between)
             said = [part if not _WORD.search(part) else self._whole(part) for part in parts]
             if len(parts) > 1 and all(one is not None and not self.is_english(one, 1) for one in said):

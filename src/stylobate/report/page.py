@@ -136,7 +136,7 @@ class Section:
 
 
 #: Style of a marked cell, and the sign before its text.
-_SIGNS = {"good": "✓ ", "fair": "≈ ", "bad": "✗ ", "": ""}
+_SIGNS = {"good": "✓ ", "fair": "! ", "bad": "✗ ", "": ""}
 
 _KINDS = {
     str: "text",

@@ -52,7 +52,7 @@ def _number(count: int, what: str) -> str:
 
 def _column(column: Column) -> list[Item]:
     round_ = column.section == "circular"
-    found: list[Item] = [Facts(_properties(column), "Properties"), _elevation(column), _drums(column, round_)]
+    found: list[Item] = [Facts(_properties(column), "Properties"), _drums(column, round_), _elevation(column)]
     found += _found_and_links(column)
     return [*found, *(f"Beyond what columns of stone are known to be: {doubt}" for doubt in unit_doubts(column))]
 
