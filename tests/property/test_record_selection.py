@@ -91,3 +91,15 @@ def test_ranges_and_events(motions):
     assert set(found.refused) == {"record 0", "record 1", "record 2"}
     with pytest.raises(st.InputError, match="0 of 8 records can be used, and 3 are asked for"):
         select_records(motions, target, 3, wanted=[Wanted("distance_km", 0.0, 10.0)])
+
+
+def test_a_recording_in_two_files_counts_once(motions):
+    """Scaled, resampled, its components in other places or alone: the one with more of them is the record."""
+    target = st.target_spectrum("ec8,ag=0.2g,soil=B")
+    pair = motions[1].replace(lateral=np.resize(motions[2].samples, len(motions[1].samples)), name="both")
+    fine = np.interp(
+        np.arange(2 * len(motions[1].samples) - 1), 2 * np.arange(len(motions[1].samples)), motions[1].samples
+    )
+    alone = st.Motion(0.5 * motions[1].dt, 1.7 * fine, name="alone")
+    found = select_records([alone, pair, *motions[3:]], target, 3, factors=(0.01, 100.0))
+    assert found.refused == {"alone": "it is the recording of 'both' once more; a record counts once"}

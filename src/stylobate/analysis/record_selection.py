@@ -27,6 +27,9 @@ HORIZONTAL = ("geomean", "larger", "rotd50", "rotd100", "x")
 #: Periods at which spectra are compared, evenly spaced in their logarithm.
 POINTS = 100
 
+#: Periods at which, and largest distance of the logarithms by which, shapes of spectra of one recording agree.
+ALIKE_POINTS, ALIKE = 24, 0.02
+
 #: Fewest records of which EN 1998-1 and NTC 2018 take the mean of the responses.
 FOR_MEANS = 7
 
@@ -87,7 +90,7 @@ class RecordSelection(Shown):
     refused : dict of str to str
         Records that were not considered, with the reason.
     unknown_events : tuple of str
-        Chosen records of which it is not known whether they are of one earthquake with others, where that is limited.
+        Chosen records of which it is not known whether they are of one earthquake with others.
     """
 
     target: TargetSpectrum
@@ -101,6 +104,11 @@ class RecordSelection(Shown):
     pga_over_target: float | None
     refused: dict[str, str]
     unknown_events: tuple[str, ...] = ()
+
+    @property
+    def events(self) -> int:
+        """Earthquakes that the chosen records are of; one that does not tell counts as one of its own."""
+        return len(set(events_of(self.motions)))
 
     @property
     def mean(self) -> np.ndarray:
@@ -141,6 +149,8 @@ class RecordSelection(Shown):
             said += f" The code wants {self.target.fewest} records at least."
         elif len(self.motions) < FOR_MEANS:
             said += f" With fewer than {FOR_MEANS} records codes take the largest response, not the mean."
+        if len(self.motions) > 1 and not self.unknown_events:
+            said += f" They are of {self.events} earthquakes." if self.events > 1 else " They are of one earthquake."
         if self.unknown_events:
             names = ", ".join(self.unknown_events)
             said += (
@@ -164,6 +174,7 @@ class RecordSelection(Shown):
             "mean_g": (self.mean / g).tolist(),
             "records": self.table.astype(object).where(self.table.notna(), None).to_dict("records"),
             "refused": self.refused,
+            "events": self.events,
             "unknown_events": list(self.unknown_events),
         }
 
@@ -238,8 +249,11 @@ def select_records(
     spectra: list[np.ndarray] = []
     sizes: list[float] = []
     refused: dict[str, str] = {}
-    for motion in motions:
+    again = recorded_again(motions)
+    for k, motion in enumerate(motions):
         reason, spectrum, size = _considered(motion, t, aim, horizontal, factors, wanted, known.get(motion.name, {}))
+        if reason is None and k in again:
+            reason = f"it is the recording of {motions[again[k]].name!r} once more; a record counts once"
         if reason is None:
             kept.append(motion)
             spectra.append(spectrum)
@@ -258,7 +272,7 @@ def select_records(
     scaled = np.array(sizes)[:, None] * np.array(spectra)
     events = events_of(kept) if per_event is not None else range(len(kept))
     chosen = best_set(np.log(scaled / aim), scaled / aim, count, events, per_event)
-    unknown = tuple(unknown_events([kept[k] for k in chosen])) if per_event is not None else ()
+    unknown = tuple(unknown_events([kept[k] for k in chosen]))
     zero = target.acceleration(0.0) if target.from_zero else None
     peaks = np.array([_peak(kept[k], horizontal) for k in chosen])
     own = np.array([sizes[k] for k in chosen])
@@ -274,6 +288,29 @@ def select_records(
     ratio = None if zero is None else float((size * peaks).mean() / zero)
     most = np.inf if target.most is None else target.most
     return RecordSelection(target, t, aim, found, rows, table, least, most, ratio, refused, unknown)
+
+
+def recorded_again(motions: Sequence[Motion]) -> dict[int, int]:
+    """Numbers of the records that are another one once more, in another file or format, with the number of that one.
+
+    Two files are of one recording where the spectra of a horizontal component of each have one shape: at stations a street
+    apart they differ by several per cent. Of two files that with more components is the record.
+    """
+    periods = np.geomspace(0.1, 3.0, ALIKE_POINTS)
+    shapes: list[np.ndarray] = []
+    for motion in motions:
+        each = [pseudo_acceleration(motion, periods, component=axis) for axis in "xy" if axis in motion.components]
+        logs = np.log(np.maximum([one for one in each if one.min() > 0.0] or np.ones((0, len(periods))), 1e-300))
+        shapes.append(logs - logs.mean(axis=1, keepdims=True))
+    again: dict[int, int] = {}
+    order = sorted(range(len(motions)), key=lambda k: -len(motions[k].components))
+    for place, k in enumerate(order):
+        for other in order[:place]:
+            apart = np.abs(shapes[k][:, None] - shapes[other][None]).max(axis=2, initial=0.0)
+            if apart.size and apart.min() < ALIKE and other not in again:
+                again[k] = other
+                break
+    return again
 
 
 def _considered(
