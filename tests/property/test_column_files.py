@@ -1,6 +1,7 @@
 """Column files: what is written is read back equal, and every mistake is one sentence."""
 
 import re
+import tomllib
 import warnings
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from stylobate.column.files import column_from_dict, load_column, read_column, w
 from stylobate.column.plausible import length_doubts, unit_doubts
 from stylobate.column.presets import PRESETS, preset
 from stylobate.column.scatter import Scatter
+from stylobate.column.toml import toml_text
 from stylobate.column.twins import twins_of
 from stylobate.errors import InputError
 
@@ -455,3 +457,13 @@ def test_blocks_of_an_assembly_are_doubted_as_drums_are(line, said, tmp_path):
     with pytest.warns(st.OutOfRangeWarning, match=said) as seen:
         read_assembly(path)
     assert len(seen) == 1
+
+
+SCALARS = some.integers(-5, 5) | some.floats(-1e9, 1e9) | some.booleans() | some.text("ab \n\"'#é", max_size=5)
+KEYS = some.text("abc_", min_size=1, max_size=3)
+VALUES = some.recursive(SCALARS, lambda one: some.lists(one, max_size=3) | some.dictionaries(KEYS, one, max_size=3))
+
+
+@given(some.dictionaries(KEYS, VALUES, max_size=5), some.lists(some.text("ab #", max_size=4), max_size=2))
+def test_a_file_under_headings_holds_the_same_tables(tables, comments):
+    assert tomllib.loads(toml_text(tables, comments)) == tables

@@ -17,6 +17,7 @@ from .joint import Joint, given
 from .links import link_from_dict
 from .losses import Losses
 from .presets import PRESETS, preset
+from .toml import toml_text
 
 
 def load_column(text: str | Path) -> Column:
@@ -51,11 +52,9 @@ def read_column(path: str | Path) -> Column:
 
 def write_column(column: Column, path: str | Path) -> Path:
     """Write a column file, drum by drum, that :func:`read_column` reads back as an equal column."""
-    import tomli_w
-
     target = Path(path)
     with replacing(target) as partial:
-        partial.write_text(tomli_w.dumps(tables_of(column)), encoding="utf-8")
+        partial.write_text(toml_text(tables_of(column)), encoding="utf-8")
     return target
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 import typing
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -198,3 +198,49 @@ def _short(value: Any) -> str:
         return "true" if value else "false"
     text = repr(value)
     return text if len(text) <= 60 else text[:57] + "…"
+
+
+def toml_text(tables: Mapping[str, Any], comments: Iterable[str] = ()) -> str:
+    """Tables as the text of a TOML file, each table of a list under a heading of its own, as files are written by hand.
+
+    Parameters
+    ----------
+    tables : mapping
+    comments : iterable of str
+        Lines above them.
+    """
+    import tomli_w
+
+    parts = [f"# {line}\n" for line in comments]
+    parts.append(tomli_w.dumps({key: value for key, value in tables.items() if not _headed(value)}))
+    for key, value in tables.items():
+        if isinstance(value, Mapping) and _headed(value):
+            inner = {name: one for name, one in value.items() if not _listed(one)}
+            parts.append(f"\n[{key}]\n{tomli_w.dumps(inner)}" if inner or not value else "")
+            parts += [_list_of_tables(f"{key}.{name}", one) for name, one in value.items() if _listed(one)]
+        elif _headed(value):
+            parts.append(_list_of_tables(key, value))
+    return "".join(parts)
+
+
+def _headed(value: Any) -> bool:
+    """Whether a value is a table, or a list of tables, that stands under headings of its own; deeper ones do not."""
+    if isinstance(value, Mapping):
+        return all(_listed(one) or not (isinstance(one, Mapping) or _deep(one)) for one in value.values())
+    return _listed(value)
+
+
+def _listed(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(one, Mapping) and not _deep(one) for one in value)
+
+
+def _deep(value: Any) -> bool:
+    """Whether a table, or a list, holds tables."""
+    inner = value.values() if isinstance(value, Mapping) else value if isinstance(value, list) else ()
+    return any(isinstance(one, Mapping) or _deep(one) for one in inner)
+
+
+def _list_of_tables(key: str, tables: Sequence[Mapping[str, Any]]) -> str:
+    import tomli_w
+
+    return "".join(f"\n[[{key}]]\n{tomli_w.dumps(one)}" for one in tables)

@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
-import tomli_w
-
 from ..atomic import replacing
 from ..column import Column
 from ..column.assembly_files import load_structure
@@ -20,7 +18,7 @@ from ..column.spatial.mesh_formats import MESHES, MeshPart
 from ..column.spatial.tables import SpatialTable
 from ..column.structure import Structure
 from ..column.tables import made_of
-from ..column.toml import checked
+from ..column.toml import checked, toml_text
 from ..errors import InputError, check_range, within
 from ..reading import shown
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
@@ -112,10 +110,13 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
     if layout not in LAYOUTS:
         raise InputError(f"`compas` is {layout!r}; allowed are {', '.join(LAYOUTS)}.", "compas")
     refuse_existing(path)
-    foreign = Path(model).suffix.lower() in READ
+    suffix_of = Path(model).suffix.lower()
+    foreign = suffix_of in READ
     structure, tables, words = read_model(Path(model), reading) if foreign else (load_structure(model), None, [])
     if suffix == ".toml":
-        content = tomli_w.dumps(tables).encode() if tables is not None else _file_of(structure)
+        content = (
+            _file_of(structure) if tables is None else toml_text(tables, words if suffix_of == ".csv" else ()).encode()
+        )
     elif suffix == ".csv":
         column = structure.stack
         if column is None:
@@ -142,10 +143,10 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
     InputError
     """
     if path.suffix.lower() == ".csv":
-        tables = survey_tables(path, reading.material)
+        tables, notes = survey_tables(path, reading.material)
         tables.setdefault("name", path.stem)
         column = made_of(Column, tables, shown(path))
-        return column, tables, [f"{column.n} drums, {column.height:g} m high"]
+        return column, tables, [f"{column.n} drums, {column.height:g} m high", *notes]
     if path.suffix.lower() == ".json":
         name, blocks = read_compas(path)
         parts = parts_of(blocks)
@@ -253,4 +254,4 @@ def _file_of(structure: Structure) -> bytes:
     column = structure.stack
     if column is None:
         raise InputError(f"{structure.name!r} is an assembly file already; write another kind of file.", "to")
-    return tomli_w.dumps(tables_of(column)).encode()
+    return toml_text(tables_of(column)).encode()

@@ -18,7 +18,7 @@ LENGTHS = (
     *("height", "bottom_width", "top_width", "depth", "top_depth"),
     *("offset", "chip_left", "chip_right", "chip_front", "chip_back"),
 )
-UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
+UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0}
 
 #: Columns that are angles [degrees].
 ANGLES = ("offset_azimuth", "tilt", "tilt_azimuth", "turn", "chip_azimuth")
@@ -33,7 +33,7 @@ JOINT = {
     "ring_width": "m",
 }
 
-#: A column that is not read: what the surveyor has to say of a drum.
+#: What the surveyor has to say of a drum: a comment of the column file.
 NOTE = "note"
 
 #: What is said of the whole column, in lines ``# key: value`` above the table.
@@ -83,8 +83,8 @@ def _header(name: str) -> str:
     return f"{name}_{unit}" if unit else name
 
 
-def survey_tables(path: Path, stone: str | None = None) -> dict[str, Any]:
-    """Content of a column file of a survey.
+def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any], list[str]]:
+    """Content of a column file of a survey, and what the surveyor has to say of drums, "drum 3: …".
 
     Separated by commas, semicolons or tabs; decimal commas are read where commas do not separate. The first row names
     the columns; lengths say their unit there (``height_mm``), which is m otherwise.
@@ -133,7 +133,14 @@ def survey_tables(path: Path, stone: str | None = None) -> dict[str, Any]:
         raise InputError(
             f"{doubts[0]} Lengths in {name} are in m unless the name of their column ends in _cm or _mm, such as height_cm."
         )
-    return _tables(facts, read, stone, name)
+    notes = [f"drum {i}: {note}" for i, row in enumerate(rows, 1) if (note := _note(row, known))]
+    return _tables(facts, read, stone, name), notes
+
+
+def _note(row: list[str], columns: list[str]) -> str:
+    """What a row says of its drum, in one line."""
+    said = [cell for cell, key in zip(row, columns) if key == NOTE]
+    return " ".join("".join(one if one.isprintable() else " " for one in "".join(said)).split())
 
 
 def _tables(facts: dict[str, Any], rows: list[dict[str, float]], stone: str | None, name: str) -> dict[str, Any]:
@@ -184,7 +191,7 @@ def _facts(lines: list[str], name: str) -> tuple[dict[str, Any], list[str]]:
 
 
 def _column(cell: str, name: str) -> tuple[str, float]:
-    """What a column holds, and the factor of its unit."""
+    """What a column holds, and how many of its unit are one of the SI."""
     text = "_".join(
         cell.strip().lower().replace("[", " ").replace("]", " ").replace("(", " ").replace(")", " ").split()
     )
@@ -214,7 +221,7 @@ def _row(row: list[str], columns: list[tuple[str, float]], number: int, decimal:
     for cell, (key, factor) in zip(row, columns):
         if cell.strip() and key != NOTE:
             value = _number(cell.strip(), f"{key} in row {number} of {name}", decimal)
-            found[key] = value if factor == 1.0 else value * factor
+            found[key] = value / factor
     missing = next((key for key in ("height", "bottom_width", "top_width") if key not in found), None)
     if missing is not None:
         raise InputError(f"row {number} of {name} has no {missing}; measure it, or leave the drum out.")
