@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from ..campaign.campaign import Progress
 from ..column import Column
 from ..column.found_in_space import SpaceGeometry, base_axes, inside_overlap, space_geometry, space_load, upward
 from ..column.spatial.prisms import in_space
@@ -70,7 +72,9 @@ class LimitByDirection(Shown):
         }
 
 
-def limit_directions(structure: Structure, azimuths: Sequence[float] | None = None, **loads: Any) -> LimitByDirection:
+def limit_directions(
+    structure: Structure, azimuths: Sequence[float] | None = None, *, progress: Progress | None = None, **loads: Any
+) -> LimitByDirection:
     """Collapse multiplier of a column or of an assembly in space in several directions.
 
     Parameters
@@ -79,6 +83,8 @@ def limit_directions(structure: Structure, azimuths: Sequence[float] | None = No
     azimuths : sequence of float, optional
         Where the forces push to, from x towards y [degrees]. By default both directions of the plane for an assembly of the
         plane and a column found in it, and every 15 degrees for any other.
+    progress : callable, optional
+        Hears how many directions are done, of how many; what links hold at most in the weakest is one more.
     **loads
         Of :func:`stylobate.limit_analysis`, for the directions of the plane.
 
@@ -98,20 +104,34 @@ def limit_directions(structure: Structure, azimuths: Sequence[float] | None = No
     if not asked or not np.isfinite(asked).all():
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
     if column is None:
-        return _with_largest(AssemblyProgramme(stands).solve, asked)
+        return _with_largest(AssemblyProgramme(stands).solve, asked, progress)
     if not column.links:
         return LimitByDirection(tuple(limit_in_space(column, one) for one in asked), "xyz")
     column.must_carry_on_whole_faces("limit analysis in space")
     programme = SpaceProgramme(column)  # what it learns in one direction serves the next
-    return _with_largest(lambda one, largest: DirectionLimit(one, *programme.solve(one, largest)), asked)
+    return _with_largest(lambda one, largest: DirectionLimit(one, *programme.solve(one, largest)), asked, progress)
 
 
-def _with_largest(solve: Callable[[float, bool], DirectionLimit], asked: Sequence[float]) -> LimitByDirection:
+def _with_largest(
+    solve: Callable[[float, bool], DirectionLimit], asked: Sequence[float], progress: Progress | None
+) -> LimitByDirection:
     """All directions; in the weakest one also the most that links hold."""
-    found = LimitByDirection(tuple(solve(one, False) for one in asked), "xyz")
+    limits = []
+    for one in asked:
+        limits.append(solve(one, False))
+        if progress is not None:
+            progress(len(limits), len(asked) + 1)
+    found = LimitByDirection(tuple(limits), "xyz")
     weakest = found.weakest
     if not weakest.links:
         return found
+    count = len(weakest.links)
+    logging.getLogger("stylobate").info(
+        "looking for the most that %d link%s can hold, pushed towards %g degrees.",
+        count,
+        "s" * (count > 1),
+        weakest.azimuth,
+    )
     told = solve(weakest.azimuth, True)
     return LimitByDirection(tuple(told if one is weakest else one for one in found.limits), "xyz")
 

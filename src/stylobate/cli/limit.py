@@ -51,7 +51,8 @@ def limit(
             "directions",
         )
     with execution.files("limit", "limit.json", "limit", "directions") as files:
-        all_round = limit_directions(stone, azimuths, **loads) if around else None
+        with console.progress("directions") as progress:
+            all_round = limit_directions(stone, azimuths, progress=progress, **loads) if around else None
         plane = all_round is None or all_round.dims == "xz"
         weakest = 0.0 if all_round is None else all_round.weakest.azimuth
         found = limit_analysis(stone, flow=flow, direction=weakest, **loads) if plane else None

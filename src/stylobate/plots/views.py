@@ -12,13 +12,14 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure, SubFigure
 
 from ..column.block import FAR_AWAY
+from ..column.found_in_space import base_axes, space_geometry
 from ..column.links.placed import strokes
 from ..column.shapes import hull
 from ..column.structure import Body, Structure
 from ..column.turning import matrix_of
 from .elevation import NAMED, WRITTEN, Sheet, dimension, draw_chain, levels_of
 from .solids import MARK, STONE, Solid, Surface, painted, painting_order, surface_of
-from .style import BLACK, BLUE, GREY, WIDTH, in_lines, page, styled
+from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, styled
 from .view import ALONG_X, ALONG_Y, OBLIQUE, View
 
 #: From above, x to the right and y upward.
@@ -138,6 +139,7 @@ class Seen:
         if level is not None:
             axes.axhline(level, color=BLACK, linewidth=1.2, zorder=0)
         _paint(axes, self.solids, view)
+        _mark_found(axes, self, view)
         _mark_links(axes, self.structure, view)
         flat = view.across(self.ends)
         low, high = flat.min(axis=0), flat.max(axis=0)
@@ -230,10 +232,34 @@ def _paint(axes: Axes, solids: list[Solid], view: View) -> None:
 
 
 def _mark_links(axes: Axes, structure: Structure, view: View) -> None:
-    """Lines for links, over the bodies: of a column they are told as built, and not marked."""
-    for _, (*_, low), (*_, high) in strokes(structure.placed_links) if structure.stack is None else ():
-        ends = view.across(np.array([low, high]))
+    """Lines for links, over the bodies, where these stand."""
+    column = structure.stack
+    at, base = (None, None) if column is None else (space_geometry(column), base_axes(column))
+
+    def place(end: tuple[int, np.ndarray, np.ndarray]) -> np.ndarray:
+        """Of an end, by its body of a column as found [m]."""
+        number, own, drawn = end
+        if at is None or base is None:
+            return drawn
+        return base @ (own if number == 0 else at.centroid[number - 1] + at.axes[number - 1] @ own)
+
+    for stroke in strokes(structure.placed_links):
+        ends = view.across(np.array([place(stroke.lower), place(stroke.upper)]))
         axes.plot(ends[:, 0], ends[:, 1], color=BLUE, linewidth=1.2, zorder=4, scalex=False, scaley=False)
+
+
+def _mark_found(axes: Axes, seen: Seen, view: View) -> None:
+    """Red outlines of drums that are not where they were built, and of those that are chipped."""
+    column = seen.structure.stack
+    if column is None or view is PLAN:
+        return
+    names = {
+        f"drum {i}" for i in range(1, column.n + 1) if column.as_found.displaced(i) or column.as_found.of(i).chipped
+    }
+    for solid, name in zip(seen.solids, seen.names, strict=True):
+        if name in names:
+            outline = hull(view.across(solid.vertices))
+            axes.fill(*outline.T, facecolor="none", edgecolor=RED, linewidth=1.1, zorder=3)
 
 
 def _names(axes: Axes, sheet: Sheet, solids: list[Solid], names: list[str], view: View) -> None:
