@@ -93,6 +93,13 @@ def test_the_whole_story(open_page, tmp_path):
     page.click("[data-tab=jobs]")
     expect(page.locator("#jobs li[data-job]")).to_have_count(5)
 
+    # one that is deleted is shown nowhere, and nothing is said to be computed
+    page.locator("#jobs li[data-job]").filter(has_text="domain").first.get_by_text("Delete").click()
+    expect(page.locator("#jobs li[data-job]")).to_have_count(4)
+    page.click("[data-tab=domain]")
+    expect(page.locator("#domain-said")).to_be_hidden()
+    expect(page.locator("#status")).to_have_text("ready")
+
 
 @pytest.mark.parametrize("width", [1440, 390])
 def test_every_part_fits_and_can_be_read(open_page, width):

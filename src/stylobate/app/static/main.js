@@ -10,7 +10,7 @@ import * as jobs from "./jobs.js";
 import * as motion from "./motion.js";
 import * as records from "./records.js";
 import * as run from "./run.js";
-import { change, followAddress, known, listen, read, state } from "./state.js";
+import { change, followAddress, known, listen, read, SHOWN, state } from "./state.js";
 
 const TABS = ["column", "motion", "run", "domain", "fragility", "analyses", "jobs"];
 
@@ -32,10 +32,16 @@ function follow() {
   const on = (name, hear) => line.addEventListener(name, event => hear(JSON.parse(event.data)));
   on("ready", now => { ready = now; status(); });
   on("job", job => { document.dispatchEvent(new CustomEvent("news", { detail: job })); jobs.hear(job); run.hear(job); domain.hear(job); fragility.hear(job); analyses.hear(job); status(); });
-  on("gone", jobs.gone);
+  on("gone", gone);
   on("cells", ({ job, cells }) => domain.add(job, cells));
   line.onerror = () => { find("#status").textContent = "not connected"; };
   line.onopen = status;
+}
+// A job that was deleted, here or on another page, is not shown any more.
+function gone(id) {
+  jobs.gone(id);
+  change(Object.fromEntries(SHOWN.filter(key => state[key] === id).map(key => [key, ""])));
+  status();
 }
 function status() {
   const open = jobs.open(), running = open.find(one => one.state === "running");

@@ -13,7 +13,9 @@ const START = {
   analysis: { kind: "directions", values: {}, records: [], source: "" },
   critical: { first: "0.05", last: "1", step: "0.05" },
 };
-const ADDRESSED = ["tab", "job", "domainJob", "fragilityJob", "analysisJob"];
+// Jobs that parts of the page show; and all that the address names.
+export const SHOWN = ["job", "domainJob", "fragilityJob", "analysisJob"];
+const ADDRESSED = ["tab", ...SHOWN];
 
 // Texts of files stay out of the address: hazard curves by name, and a table of runs.
 export const state = { ...structuredClone(START), hazards: {}, table: null };
