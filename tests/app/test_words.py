@@ -38,6 +38,8 @@ COMMAND = re.compile(r"\bstylobate [a-z]|command line|same command")
         ("leave it out or give --motion FILE.", "leave it out or give “Record”."),
         ("choose another --until-rest, or --tail", "choose another “until rest”, or “Tail after the motion”"),
         ("Missing option '--models'; see 'stylobate compare --help'.", "Missing option “Models”."),
+        ("`pga` is -9.81 m/s²; allowed is [0, 981] m/s².", "“Scale to a peak of” is -1 g; allowed is [0, 100] g."),
+        ("gravity is 100 m/s²; allowed is [0.1, 30] m/s².", "gravity is 100 m/s²; allowed is [0.1, 30] m/s²."),
         ("a drum -- or two--three - is -1 m; <!-- no -->", "a drum -- or two--three - is -1 m; <!-- no -->"),
     ],
 )  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import threading
 import warnings
@@ -10,6 +11,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from ..column import tables
+from ..constants import g
 from ..errors import reworded
 from .forms import FORMS
 
@@ -54,6 +56,13 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z](?:[a-z-]*[a-z])?)(?: [A-Z]{2,}(?:\.\w+
 #: Where the command line explains itself.
 _HELP = re.compile(r"; see 'stylobate[^']*'")
 
+#: A quantity and what is allowed of it, in units that no field of the page has; those of its fields, in the same.
+_QUANTITY = re.compile(
+    r"(?<![\d.])(?<!gravity is )(?P<value>-?[\d.]+(?:e[+-]\d+)?) (?P<unit>m/s²|rad); "
+    r"allowed is (?P<open>[\[(])(?P<low>\S+), (?P<high>\S+)(?P<close>[\])]) (?P=unit)"
+)
+_UNITS = {"m/s²": (g, " g"), "rad": (math.pi / 180.0, "°")}
+
 _ASIDE = re.compile(r"\s*\(([^()]*(?<![\w-])--[a-z][^()]*)\)")
 
 
@@ -70,7 +79,7 @@ def in_page_words(said: Any) -> Any:
         said = reworded(said, lambda name: "--" + _OPTIONS.get(name, name).replace("_", "-"))
         if "--" in said:
             said = _OPTION.sub(_named, _ASIDE.sub(_kept, _HELP.sub("", said))).replace("'“", "“").replace("”'", "”")
-        return _KEYS.sub(lambda key: key[0].replace("_", " "), said)
+        return _KEYS.sub(lambda key: key[0].replace("_", " "), _QUANTITY.sub(_in_units_of_fields, said))
     if isinstance(said, dict):
         return {key: in_page_words(value) for key, value in said.items()}
     if isinstance(said, (list, tuple)):
@@ -94,6 +103,12 @@ def doubted() -> Iterator[list[warnings.WarningMessage]]:
 def warned(doubts: Sequence[warnings.WarningMessage]) -> list[str]:
     """Warnings for the page, each once."""
     return list(dict.fromkeys(in_page_words(str(doubt.message)) for doubt in doubts))
+
+
+def _in_units_of_fields(said: re.Match[str]) -> str:
+    size, unit = _UNITS[said["unit"]]
+    value, low, high = (f"{float(said[key]) / size:.6g}" for key in ("value", "low", "high"))
+    return f"{value}{unit}; allowed is {said['open']}{low}, {high}{said['close']}{unit}"
 
 
 def _kept(aside: re.Match[str]) -> str:
