@@ -23,7 +23,7 @@ def test_the_whole_story(open_page, tmp_path):
     # a value that cannot be is marked where it was typed, in the words of the library
     height = page.locator('[data-field="drum.3.height"]')
     height.fill("-1")
-    expect(page.locator("#column .error")).to_contain_text("[[drum]] number 3: height of a drum is -1 m")
+    expect(page.locator("#column .error")).to_contain_text("Height of drum 3 is -1 m")
     expect(height).to_have_attribute("aria-invalid", "true")
     height.fill("0.5")
     expect(page.locator("#column .error")).to_have_count(0)

@@ -123,7 +123,7 @@ def test_a_missing_value_finds_its_field(client, table):
     del table["drum"][1]["height"]
     found = client.post("/api/column", json=table).json()
     assert found == {
-        "error": "key 'height' is missing in [[drum]] number 2; add it.",
+        "error": "'height' of drum 2 is empty; give it.",
         "field": "drum.2.height",
     }
 
