@@ -97,11 +97,11 @@ def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Sur
 
 def parse_age(text: str) -> float:
     """An age as typed, ``2400y`` [y]."""
-    found = re.fullmatch(r"\s*([0-9.eE+]+)\s*(y|yr|a|years?)\s*", text)
+    found = re.fullmatch(r"\s*([0-9.eE+-]+)\s*(y|yr|a|years?)\s*", text)
     try:
         value = float(found[1]) if found else math.nan
     except ValueError:
         value = math.nan
-    if not 0.0 < value <= 1e6:
+    if math.isnan(value):
         raise InputError(f"age {text!r} cannot be read; write it in years, such as 2400y.", "age")
-    return value
+    return check_range("age", value, 0.0, 1e6, unit="years", open_low=True)
