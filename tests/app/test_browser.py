@@ -12,6 +12,9 @@ pytestmark = [
     pytest.mark.slow,
 ]
 
+#: Number of jobs, asked on the page.
+JOBS = "fetch('/api/jobs').then(answer => answer.json()).then(found => found.jobs.length)"
+
 #: An assembly in space.
 STATUE = Path(__file__).parents[2] / "gallery" / "assemblies" / "statue.toml"
 
@@ -359,3 +362,33 @@ def test_what_the_process_of_jobs_refuses_is_marked_at_its_field(open_page):
     page.click("text=Map it")
     expect(page.locator('#domain [data-field="amplitudes"]')).to_have_attribute("aria-invalid", "true", timeout=25_000)
     expect(page.locator("#domain .error")).to_have_text("One of the amplitudes is -1 g; allowed is (0, 1019.37] g.")
+
+
+def test_what_is_no_number_is_told_in_the_words_of_its_field(open_page):
+    """Before anything is asked for: no job is made, and no message speaks of how a command line writes it."""
+    page, expect = open_page(1440), playwright.expect
+    jobs = page.evaluate(JOBS)
+    page.click("[data-tab=motion]")
+    page.fill("#motion [data-field=frequency]", "0,5")
+    expect(page.locator("#motion .error")).to_have_text(
+        "“Frequency” is “0,5”; it must be a number [Hz], with a point: 0.5."
+    )
+    expect(page.locator("#motion-facts")).to_contain_text("No motion yet")
+    page.fill("#motion [data-field=frequency]", "1")
+    expect(page.locator("#motion .error")).to_have_count(0)
+    for tab, button, field, typed, said in (
+        ("run", "#go", "tail", "1 s", "“Tail after the motion” is “1 s”; it must be a number [s], such as 5."),
+        ("domain", "text=Map it", "frequencies", "", "“Hz, from” is empty; give a number [Hz], such as 0.33."),
+        ("domain", "text=Map it", "frequencies.last", "0.1", "“to” is 0.1; it must be above “Hz, from”, which is 0.33"),
+        ("domain", "text=Map it", "amplitudes.number", "2.5", "“values” is “2.5”; it must be a whole number"),
+        ("fragility", "#fragility-asked button.primary", "runs", "x", "“Runs of a record” is “x”; it must be a whole"),
+    ):
+        page.click(f"[data-tab={tab}]")
+        box = page.locator(f'#{tab} [data-field="{field}"]')
+        before = box.input_value()
+        box.fill(typed)
+        page.click(button)
+        expect(page.locator(f"#{tab} .error")).to_contain_text(said)
+        expect(box).to_have_attribute("aria-invalid", "true")
+        box.fill(before)
+    assert page.evaluate(JOBS) == jobs

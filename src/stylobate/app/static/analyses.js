@@ -8,6 +8,7 @@ import { isOpen, tell } from "./news.js";
 import * as records from "./records.js";
 import * as run from "./run.js";
 import { called, change, listen, state } from "./state.js";
+import { numeral } from "./typed.js";
 
 let panel, forms, typing = false;
 
@@ -104,10 +105,12 @@ function hazards() {
 // "kind" from a button elsewhere on the page: with what its form holds.
 export async function go(kind = state.analysis.kind) {
   set({ kind });
-  const asked = find("#analyses-asked", panel), common = run.common(), options = {};
-  for (const box of form().boxes) options[box.option] = box.option === "model" && state.assembly ? state.model : held(box);
+  const asked = find("#analyses-asked", panel), options = {};
+  const typed = box => box.unit ? numeral(held(box), box.option.replaceAll("-", "_"), box.label.replace(/ \[.*/, ""), { unit: /\[(.*)\]/.exec(box.label)[1], such: box.start }) : held(box);
   try {
     mark(asked, null);
+    const common = run.common();
+    for (const box of form().boxes) options[box.option] = box.option === "model" && state.assembly ? state.model : typed(box);
     const job = await post("/api/jobs", { kind, options, model: common.model, settings: common.settings,
       ...(takes("column") ? { column: common.column, assembly: common.assembly } : {}), ...(takes("tail") ? { tail: common.tail } : {}),
       ...(takes("motion", "motions", "round") ? { motion: motion.asked() } : {}), ...(takes("motions") ? { records: state.analysis.records } : {}),
@@ -146,7 +149,7 @@ export async function hear(news) {
 // A film of the direction that does most harm.
 const worst = (job, row) => el("div", { class: "row" }, el("button", { type: "button", onclick: async () => {
   const { asked } = await get(`/api/jobs/${job.id}`).catch(() => job);
-  run.go({ column: asked.column, assembly: asked.assembly, model: row.model, settings: row.model === asked.model ? asked.settings || {} : {}, motion: { ...asked.motion, azimuth: `${row.azimuth_deg}deg` } });
+  run.go(() => ({ column: asked.column, assembly: asked.assembly, tail: asked.tail, model: row.model, settings: row.model === asked.model ? asked.settings || {} : {}, motion: { ...asked.motion, azimuth: `${row.azimuth_deg}deg` } }));
 } }, `Run it at ${row.azimuth_deg}°`));
 
 const at = (row, path) => path.split(".").reduce((inner, key) => inner && inner[key], row);

@@ -5,6 +5,7 @@ import { check as ask, latest, postText, upload } from "./api.js";
 import { choice, el, facts, field, fill, find, later, length, mark, notice, number, redraw, save, select, warnings } from "./dom.js";
 import { drawElevation } from "./elevation.js";
 import { change, listen, state } from "./state.js";
+import { isNumeral } from "./typed.js";
 
 const SIZES = [["height", "Height", "m"], ["bottom_width", "Bottom", "m"], ["top_width", "Top", "m"], ["density", "Density", "kg/m³"]];
 const DEPTH = ["depth", "Depth", "m"];
@@ -27,7 +28,7 @@ export function start(place, about) {
 export const description = () => described;
 
 // What an input holds: a number, a text that is none, or nothing.
-const value = text => text.trim() === "" ? undefined : Number.isFinite(Number(text)) ? Number(text) : text;
+const value = text => text.trim() === "" ? undefined : isNumeral(text) ? Number(text) : text.trim();
 
 function edit(changed) {
   own = true;

@@ -6,6 +6,7 @@ import { tell } from "./news.js";
 import { CYCLE, INK, SAND, said, sharp, ticks } from "./plot.js";
 import * as run from "./run.js";
 import { called, change, listen, state } from "./state.js";
+import { numeral, range } from "./typed.js";
 
 const LOOKS = { stands: SAND, collapsed: "#a6372f", undecided: "#c0c0c0", failed: "#ffffff" };
 let panel, job = null, cells = new Map(), here = null, place = null;
@@ -62,7 +63,10 @@ async function go() {
   const asked = find("#domain-asked", panel);
   try {
     mark(asked, null);
-    const made = await post("/api/jobs", { kind: "domain", ...run.common(), frequencies: `${d.f0}:${d.f1}:${d.fn}`, amplitudes: `${d.a0}g:${d.a1}g:${d.an}`, duration: `${d.duration}s`, page: { domain: d } });
+    const [f0, f1, fn] = range([d.f0, d.f1, d.fn], "frequencies", ["Hz, from", "to", "values"], { unit: "Hz", such: "0.33", number: "12" });
+    const [a0, a1, an] = range([d.a0, d.a1, d.an], "amplitudes", ["g, from", "to", "values"], { unit: "g", such: "0.3", number: "16" });
+    const duration = numeral(d.duration, "duration", labels.duration, { unit: "s", such: "10" });
+    const made = await post("/api/jobs", { kind: "domain", ...run.common(), frequencies: `${f0}:${f1}:${fn}`, amplitudes: `${a0}g:${a1}g:${an}`, duration: `${duration}s`, page: { domain: d } });
     change({ domainJob: made.id });
   } catch (error) { mark(asked, error); }
 }
@@ -167,6 +171,6 @@ function point(cell) {
 }
 function open([i, j]) {
   const f = String(+place.f[i].toPrecision(12)), a = String(+place.a[j].toPrecision(12)), from = job.asked;
-  run.go({ column: from.column, model: from.model, settings: from.settings || {}, motion: { kind: "harmonic", text: `${f}Hz,${a}g,${from.duration}` },
-    page: { motion: { ...state.motion, kind: "harmonic", frequency: f, amplitude: a, duration: String(parseFloat(from.duration)), both: false, azimuth: "", pga: "" } } });
+  run.go(() => ({ column: from.column, assembly: from.assembly, tail: from.tail, model: from.model, settings: from.settings || {}, motion: { kind: "harmonic", text: `${f}Hz,${a}g,${from.duration}` },
+    page: { motion: { ...state.motion, kind: "harmonic", frequency: f, amplitude: a, duration: String(parseFloat(from.duration)), both: false, azimuth: "", pga: "" } } }));
 }

@@ -8,6 +8,7 @@ import * as motion from "./motion.js";
 import * as records from "./records.js";
 import * as run from "./run.js";
 import { called, change, listen, state } from "./state.js";
+import { numeral } from "./typed.js";
 
 const MEASURES = [["pgv", "peak velocity"], ["pga", "peak acceleration"], ["sa:1.0s", "spectral acceleration at 1 s"], ["avgsa", "average spectral acceleration"]];
 const STATES = [["collapse", "collapse"], ["top:0.35d", "top moves 0.35 d"], ["drums:0.01d", "drums shift 0.01 d"]];
@@ -44,7 +45,7 @@ async function go() {
   const s = state.fragility, asked = find("#fragility-asked", panel);
   try {
     mark(asked, null);
-    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: s.runs, state: wanted(), page: { fragility: s }, ...(s.unit ? { unit: s.unit } : {}) });
+    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: numeral(s.runs, "runs", labels.runs, { such: "8", whole: true }), state: wanted(), page: { fragility: s }, ...(s.unit ? { unit: s.unit } : {}) });
     change({ fragilityJob: job.id });
   } catch (error) { mark(asked, error); }
 }

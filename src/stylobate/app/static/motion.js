@@ -6,6 +6,7 @@ import { choice, el, facts, field, fill, find, labels, later, mark, number, redr
 import { BLUE, GREY, INK, plot } from "./plot.js";
 import * as records from "./records.js";
 import { change, changeMotion, listen, state } from "./state.js";
+import { numeral } from "./typed.js";
 
 const kinds = () => [["harmonic", labels.harmonic], ["pulse", labels.pulse], ["sample", "Sample"], ["record", labels.motion], ["synthetic", labels.synthetic]];
 const SHAPES = ["rectangular", "half-sine", "sine", "cosine", "ricker", "antisymmetric-ricker", "gabor", "mavroeidis-papageorgiou"];
@@ -24,22 +25,30 @@ export function start(place, about) {
   render(); check();
 }
 
-// What is asked of the machine: the words of the command line.
+// Numbers of the form: what they are called, their unit, and one that they may be.
+const NUMBERS = {
+  frequency: ["Frequency", "Hz", "1"], amplitude: ["Amplitude", "g", "0.3"], duration: ["Duration", "s", "10"],
+  across: ["Amplitude along y", "g", "0.15"], phase: ["Phase along y", "°", "90"],
+};
+const slides = (key, ...more) => slider(key, NUMBERS[key][0], NUMBERS[key][1], ...more);
+
+// What is asked of the machine: the words of the command line. Thrown is what is wrong in a field.
 export function asked(motion = state.motion) {
   const found = { kind: motion.kind, text: "" };
+  const typed = key => numeral(motion[key], key === "phase" ? "across.phase" : key, NUMBERS[key][0], { unit: NUMBERS[key][1], such: NUMBERS[key][2] });
   if (motion.kind === "harmonic") {
-    found.text = `${motion.frequency}Hz,${motion.amplitude}g,${motion.duration}s`;
-    if (motion.both) found.across = `${motion.frequency}Hz,${motion.across}g,${motion.phase}deg`;
-  } else if (motion.kind === "pulse") found.text = `${motion.shape},${motion.frequency}Hz,${motion.amplitude}g`;
+    found.text = `${typed("frequency")}Hz,${typed("amplitude")}g,${typed("duration")}s`;
+    if (motion.both) found.across = `${motion.frequency}Hz,${typed("across")}g,${typed("phase")}deg`;
+  } else if (motion.kind === "pulse") found.text = `${motion.shape},${typed("frequency")}Hz,${typed("amplitude")}g`;
   else if (motion.kind === "sample") found.text = motion.sample;
   else if (motion.kind === "record") {
     found.text = motion.record;
     if (motion.unit) found.unit = motion.unit;
-    if (motion.dt) found.dt = `${motion.dt}s`;
+    if (motion.dt) found.dt = `${numeral(motion.dt, "dt", labels.dt, { unit: "s", such: "0.01" })}s`;
   } else found.text = motion.region;
   if (motion.component && ["record", "sample"].includes(motion.kind)) found.component = motion.component;
-  if (motion.azimuth !== "") found.azimuth = `${motion.azimuth}deg`;
-  if (motion.pga !== "") found.pga = `${motion.pga}g`;
+  if (motion.azimuth !== "") found.azimuth = `${numeral(motion.azimuth, "azimuth", labels.azimuth, { unit: "°", such: "30" })}deg`;
+  if (motion.pga !== "") found.pga = `${numeral(motion.pga, "pga", labels.pga, { unit: "g", such: "0.3" })}g`;
   if (!motion.vertical) found.vertical = "off";
   return found;
 }
@@ -69,11 +78,11 @@ function slider(key, label, unit, low, high, step, logarithmic = false) {
 
 function controls() {
   const m = state.motion;
-  const frequency = slider("frequency", "Frequency", "Hz", 0.1, 10, 0.01, true), amplitude = slider("amplitude", "Amplitude", "g", 0.01, 1.5, 0.01);
+  const frequency = slides("frequency", 0.1, 10, 0.01, true), amplitude = slides("amplitude", 0.01, 1.5, 0.01);
   if (m.kind === "harmonic") {
-    return [frequency, amplitude, slider("duration", "Duration", "s", 1, 60, 0.5),
+    return [frequency, amplitude, slides("duration", 1, 60, 0.5),
       el("label", { class: "check" }, el("input", { type: "checkbox", checked: m.both, onchange: event => set({ both: event.target.checked }, true) }), labels.across),
-      m.both && slider("across", "Amplitude along y", "g", 0.01, 1.5, 0.01), m.both && slider("phase", "Phase along y", "°", 0, 360, 5)];
+      m.both && slides("across", 0.01, 1.5, 0.01), m.both && slides("phase", 0, 360, 5)];
   }
   if (m.kind === "pulse") return [field("Shape", select(SHAPES.map(one => [one, one]), m.shape, shape => set({ shape }), { "data-field": "shape" })), frequency, amplitude];
   if (m.kind === "sample") {
@@ -140,11 +149,13 @@ function render() {
   paint();
 }
 
-const ask = latest((motion, column) => question("/api/motion", { motion, column }));
+const ask = latest(async () => {
+  try { return await question("/api/motion", { motion: asked(), column: state.column }); } catch (error) { return error; }
+});
 const check = later(async () => {
   find("#motion-name", panel).textContent = words();
   if (state.motion.kind === "record" && !state.motion.record) { shown = null; mark(panel, null); fill(find("#motion-facts", panel), el("p", { class: "empty" }, "Upload a record to see it here.")); paint(); return; }
-  const found = await ask(asked(), state.column);
+  const found = await ask();
   if (!found) return;
   if (found instanceof Error) { shown = null; mark(panel, found); fill(find("#motion-facts", panel), el("p", { class: "hint" }, "No motion yet.")); paint(); return; }
   shown = found;

@@ -6,7 +6,9 @@ import { choice, el, facts, field, fill, find, labels, later, length, mark, noti
 import * as motion from "./motion.js";
 import { isOpen, tell } from "./news.js";
 import { BLUE, CYCLE, INK, moving, plot } from "./plot.js";
+import * as records from "./records.js";
 import { called, change, listen, state } from "./state.js";
+import { numeral } from "./typed.js";
 
 export const MODELS = [
   ["dem2d", "dem2d", "Distinct elements in the plane: rigid drums that rock, slide and fall."],
@@ -45,7 +47,7 @@ function renderAsked() {
       twins && field(labels.replicates, el("input", { value: state.replicates, placeholder: "15", inputmode: "numeric", "data-field": "replicates", oninput: event => change({ replicates: event.target.value.trim() }) })),
       field(`${labels.tail} [s]`, el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
     twins && el("p", { class: "hint" }, `How sure the verdict is: ${state.assembly ? "assemblies" : "columns"} that differ by what nobody has measured.`),
-    el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: go }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")),
+    el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: () => go() }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")),
     critical(),
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => round() }, "From all directions"), el("small", { class: "hint" }, "twelve, in space: which does most harm")));
 }
@@ -61,21 +63,27 @@ function critical() {
 let criticalOpen = false;
 
 function goCritical() {
-  const { first, last, step } = state.critical, { pga, ...asked } = motion.asked();
-  if (["harmonic", "pulse"].includes(asked.kind)) asked.text = asked.text.replace(/,[^,]*g(,|$)/, ",?g$1");
-  if (asked.across) asked.across = asked.across.replace(/,[^,]*g(,|$)/, ",?g$1");
-  go({ kind: "critical", motion: asked, first: `${first}g`, last: `${last}g`, step: `${step}g` });
+  const typed = (key, field, label) => `${numeral(state.critical[key], field, label, { unit: "g", such: "0.05" })}g`;
+  go(() => {
+    const { pga, ...asked } = motion.asked();
+    if (["harmonic", "pulse"].includes(asked.kind)) asked.text = asked.text.replace(/,[^,]*g(,|$)/, ",?g$1");
+    if (asked.across) asked.across = asked.across.replace(/,[^,]*g(,|$)/, ",?g$1");
+    return { kind: "critical", motion: asked, first: typed("first", "start", labels.from), last: typed("last", "stop", labels.to), step: typed("step", "step", labels.step) };
+  });
 }
 
+// What every job of what stands has. Thrown is what is wrong in a field.
 export const common = () => ({
-  ...(state.assembly ? { assembly: state.assembly } : { column: state.column }), model: state.model, settings: state.settings, ...(state.tail ? { tail: `${state.tail}s` } : {}),
+  ...(state.assembly ? { assembly: state.assembly } : { column: state.column }), model: state.model, settings: state.settings,
+  ...(state.tail ? { tail: `${numeral(state.tail, "tail", labels.tail, { unit: "s", such: "5" })}s` } : {}),
 });
 
-export async function go(changes = {}) {
-  const given = changes instanceof Event ? {} : changes;
+// A run, or what "asked" makes of it.
+export async function go(asked = () => ({ motion: motion.asked() })) {
   try {
     mark(find("#run-asked", panel), null);
-    const job = await post("/api/jobs", { kind: "run", ...common(), motion: motion.asked(), page: { motion: state.motion, replicates: state.replicates, tail: state.tail }, ...(state.replicates ? { replicates: state.replicates } : {}), ...given });
+    const given = asked();
+    const job = await post("/api/jobs", { kind: "run", ...common(), page: { motion: state.motion, replicates: state.replicates, tail: state.tail }, ...(state.replicates ? { replicates: state.replicates } : {}), ...given });
     change({ tab: "run", job: job.id }, { record: true });
   } catch (error) {
     if (state.tab === "run") mark(find("#run-asked", panel), error); else notice(error.error);
@@ -116,8 +124,8 @@ function foundCritical(job) {
   tell(place, job, () => [
     el("p", { class: `verdict ${r.lowest_collapse_g !== null ? "collapsed" : r.open_below ? "undecided" : "stands"}` }, verdict, ...rest.map(one => el("small", {}, one))),
     facts([["runs", r.runs], ["amplitudes", `${asked.first} to ${asked.last}`], ["steps of", asked.step], ["undecided", r.undecided || ""], ["failed", r.failed || ""]]),
-    warnings(job.warnings),
-    !none && el("div", { class: "row" }, el("button", { type: "button", onclick: () => go({ column: asked.column, assembly: asked.assembly, model: asked.model, settings: asked.settings || {}, motion: near }) }, "Run it at this amplitude")),
+    warnings((job.warnings || []).map(records.named)),
+    !none && el("div", { class: "row" }, el("button", { type: "button", onclick: () => go(() => ({ column: asked.column, assembly: asked.assembly, tail: asked.tail, model: asked.model, settings: asked.settings || {}, motion: near })) }, "Run it at this amplitude")),
     files(job),
   ].flat());
   curves.show(find("#run-film", panel), job.id).catch(error => notice(error.error || String(error)));
@@ -137,7 +145,7 @@ function said(job) {
     result && verdict(result, data && loaded === job.id ? data.sentence : ""),
     result && job.kind === "run" && !result.decided && result.outcome !== "failed" && el("div", { class: "row" },
       el("button", { type: "button", onclick: () => { change({ tail: String((Number(state.tail) || 0) + 5) }); go(); } }, "Go on for 5 s more")),
-    result && measures(result), warnings(job.warnings), job.state === "done" && files(job),
+    result && measures(result), warnings((job.warnings || []).map(records.named)), job.state === "done" && files(job),
   ].flat());
 }
 
