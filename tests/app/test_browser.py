@@ -310,7 +310,7 @@ def test_an_assembly_and_links_through_the_page(open_page, tmp_path):
     corners = ["[[block]]\nvertices = [[{0},{2}],[{1},{2}],[{1},{3}],[{0},{3}]]\n".format(*one) for one in blocks]
     portal.write_text('name = "portal <b>"\ndensity = 2500.0\n' + joint + "".join(corners))
     page.set_input_files("[data-upload=column]", str(portal))
-    expect(page.locator("#column-facts")).to_contain_text("portal <b>")
+    expect(page.locator("#column-facts")).to_contain_text("portal <b>", timeout=60_000)
     page.click("[data-tab=motion]")
     page.fill("[data-field=duration]", "1")
     page.keyboard.press("Control+Enter")

@@ -243,6 +243,20 @@ def test_what_is_wrong_in_a_file_is_said_without_where_it_lies(client):
         assert error.startswith("your-")
 
 
+def test_an_uploaded_file_is_told_by_its_name(client):
+    for name, called in (("broken%20one.toml", "broken one.toml"), ("..%2F..%2Fetc%2Fpasswd", "_.._etc_passwd")):
+        error = client.post("/api/column/file", content=b"name = ", headers={"x-name": name}).json()["error"]
+        assert error.startswith(f"{called} is not valid TOML")
+
+
+def test_an_assembly_with_a_mistake_opens_to_be_mended(client):
+    text = ASSEMBLY.replace("[1,3]", "[1,-3]")
+    opened = client.post("/api/column/file", content=text.encode()).json()
+    assert (opened["assembly"], "block 1" in opened["error"]) == (text, True)
+    told = client.post("/api/assembly", json={"assembly": text}).json()
+    assert told["field"].startswith("assembly.")
+
+
 IN_SPACE = """\
 density = 2500
 [joint]
@@ -284,8 +298,9 @@ def test_an_assembly_in_space_opens_no_mesh_of_this_machine(client, mesh):
         client.post("/api/column/file", content=text.encode()),
         client.post("/api/assembly", json={"assembly": text}),
     ):
-        assert "is a mesh, and the page has no other file at hand; give its vertices." in answer.text
-        assert "secret" not in answer.text
+        error = answer.json()["error"]
+        assert "is a mesh, and the page has no other file at hand; give its vertices." in error
+        assert "secret" not in error
 
 
 #: Two blocks, and a line that is none.

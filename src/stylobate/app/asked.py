@@ -186,11 +186,16 @@ def hazard_files(asked: JobAsked) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     for name, text in asked.hazards.items():
-        safe = re.sub(r"[^\w.() -]+", "_", name).strip(". ")[-80:] or "hazard"
+        safe = safe_name(name, "hazard")
         if safe in found:
             raise InputError(f"two hazard curves are called {safe!r}; rename one of the files.", "hazard")
         found[safe] = text
     return found
+
+
+def safe_name(name: str, otherwise: str) -> str:
+    """The name of a file of somebody, made one that a folder here can hold."""
+    return re.sub(r"[^\w.() -]+", "_", name).strip(". ")[-60:] or otherwise
 
 
 def _the_motion(asked: JobAsked) -> MotionAsked:

@@ -25,14 +25,14 @@ from ..motion.readers.samples import samples
 from ..version import __version__
 from . import assemblies, columns, motions
 from .answers import HANDLERS, Answer, found_wrong, json_object, missing
-from .asked import COLUMN, MotionAsked
+from .asked import COLUMN, MotionAsked, safe_name
 from .folder import JOBS, RECORDS
 from .forms import FORMS
 from .guard import Guard
 from .job_answers import LINES, JobAnswers
 from .keys import Keys
 from .records import FILE, Record, Records
-from .words import LABELS
+from .words import LABELS, in_page_words
 from .workshop import Workshop
 
 STATIC = Path(__file__).with_name("static")
@@ -111,15 +111,14 @@ class Site:
             return PlainTextResponse(path.read_text(encoding="utf-8"))
 
     async def column_file(self, request: Request) -> Response:
-        """Contents of an uploaded file: a column, or an assembly."""
+        """Contents of an uploaded file: a column, or an assembly, which is mended where it is edited."""
+        name = safe_name(unquote(request.headers.get("x-name", "")), "your-column.toml")
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "your-column.toml"
+            path = Path(folder) / name
             path.write_bytes(await request.body())
             try:
                 if is_assembly(path):
-                    text = path.read_text(encoding="utf-8")
-                    found = await run_in_threadpool(assemblies.assembly_of, text)
-                    return Answer({"assembly": text, "model": assemblies.model_of(found)})
+                    return await _opened(path.read_text(encoding="utf-8"))
                 return Answer({"table": await run_in_threadpool(columns.tables_in, path)})
             except InputError as error:
                 error.without(f"{folder}/")
@@ -166,6 +165,18 @@ class Site:
         """Forget one."""
         self.records.remove(request.path_params["id"])
         return Answer({})
+
+
+async def _opened(text: str) -> Response:
+    """An assembly file with its model, and what is wrong in it."""
+    found: dict[str, Any] = {"assembly": text, "model": "dem2d"}
+    try:
+        found["model"] = assemblies.model_of(await run_in_threadpool(assemblies.assembly_of, text))
+    except InputError as error:
+        if len(text) > assemblies.LARGEST:
+            raise
+        found["error"] = in_page_words(str(error))
+    return Answer(found)
 
 
 def _of_record(record: Record) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 // Analyses: a form for each, made from what the page knows of it, and its answer in words, a table and pictures.
 
 import { get, post } from "./api.js";
-import { el, facts, field, fill, find, labels, mark, notice, number, redraw, save, select, warnings } from "./dom.js";
+import { el, facts, field, fill, find, labels, mark, notice, number, opener, redraw, save, select, warnings } from "./dom.js";
 import * as jobs from "./jobs.js";
 import * as motion from "./motion.js";
 import { isOpen, tell } from "./news.js";
@@ -71,19 +71,17 @@ function boxed(box) {
   return field(box.label, el("input", { value: held(box), placeholder: box.hint, ...given, oninput: event => { typing = true; put(box, event.target.value); typing = false; } }));
 }
 
-const opener = (name, accept, several, open) => el("input", { type: "file", accept, multiple: several, hidden: true, "data-upload": name, onchange: event => open([...event.target.files]) });
-
 function ruinFile() {
-  const files = opener("ruin", ".toml", false, async ([file]) => { if (file) change({ ruin: await file.text() }); });
+  const files = opener("ruin", async ([file]) => { if (file) change({ ruin: await file.text() }); }, { accept: ".toml" });
   return [el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Open ruin file …"), files,
     el("button", { type: "button", onclick: () => save("ruin.toml", text()) }, "Save ruin file"), el("button", { type: "button", class: "quiet", onclick: () => change({ ruin: "" }) }, "Begin anew")),
-  field("Ruin file", el("textarea", { rows: 24, spellcheck: "false", "data-field": "ruin", value: text(), oninput: event => { typing = true; change({ ruin: event.target.value }); typing = false; } }))];
+  field("Ruin file", el("textarea", { rows: 24, spellcheck: "false", "data-field": "ruin", value: text(), oninput: event => { typing = true; change({ ruin: event.target.value || "\n" }); typing = false; } }))];
 }
 
 // Runs that it rests on: a fragility of this page, or a table of runs of any other program.
 function source() {
   const done = jobs.all().filter(one => (one.files || []).includes("fragility/fragility.json"));
-  const files = opener("table", ".csv", false, async ([file]) => { if (file) change({ table: await file.text() }); });
+  const files = opener("table", async ([file]) => { if (file) change({ table: await file.text() }); }, { accept: ".csv" });
   return [field("Fragility", select([["", done.length ? "choose" : "none yet: compute one, or open a table"], ...done.map(one => [one.id, one.title])], state.table === null ? state.analysis.source : "",
     id => { state.table = null; set({ source: id }); }, { "data-field": "source" })),
   el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Open a table of runs …"), files,
@@ -92,10 +90,10 @@ function source() {
 
 function hazards() {
   const several = takes("hazards");
-  const files = opener("hazard", ".csv,.xml", several, async list => {
+  const files = opener("hazard", async list => {
     const texts = await Promise.all(list.map(async file => [file.name, await file.text()]));
     change({ hazards: { ...(several ? state.hazards : {}), ...Object.fromEntries(texts) } });
-  });
+  }, { accept: ".csv,.xml", multiple: several });
   const leave = name => () => change({ hazards: Object.fromEntries(Object.entries(state.hazards).filter(([one]) => one !== name)) });
   return el("fieldset", { "data-field": "hazard" }, el("legend", {}, labels.hazard), el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, several ? "Open hazard curves …" : "Open a hazard curve …"), files),
     Object.keys(state.hazards).length ? el("ul", { class: "pick" }, Object.keys(state.hazards).map(name => el("li", {}, el("span", {}, name), el("button", { type: "button", class: "quiet", "aria-label": `leave out ${name}`, onclick: leave(name) }, "Leave out"))))

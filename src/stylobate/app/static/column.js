@@ -2,7 +2,7 @@
 
 import * as assembly from "./assembly.js";
 import { check as ask, latest, postText, upload } from "./api.js";
-import { choice, el, facts, field, fill, find, later, length, mark, notice, number, redraw, save, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, later, length, mark, notice, number, opener, redraw, save, select, warnings } from "./dom.js";
 import { drawElevation } from "./elevation.js";
 import { change, listen, state } from "./state.js";
 import { isNumeral } from "./typed.js";
@@ -112,7 +112,7 @@ function summary(f) {
 function render() {
   const table = state.column;
   if (!table) return;
-  const files = el("input", { type: "file", accept: ".toml", hidden: true, "data-upload": "column", onchange: event => open(event.target.files[0]) });
+  const files = opener("column", ([file]) => open(file), { accept: ".toml" });
   if (state.assembly) { assembly.render(panel, files); return; }
   redraw(panel,
     el("h1", {}, "Column"),
@@ -290,7 +290,7 @@ export async function open(file) {
     const found = await upload("/api/column/file", file);
     if (found.assembly) change({ assembly: found.assembly, model: found.model, settings: {}, replicates: "" }); else replace(found.table);
     notice(`${file.name} is open.`);
-  } catch (error) { notice(error.error); }
+  } catch (error) { mark(panel, error); }
 }
 async function saveFile() {
   try {

@@ -66,6 +66,10 @@ export function select(options, value, onchange, given = {}) {
   return made;
 }
 
+// A hidden list of files to open. It forgets them, so that one that was mended can be opened again.
+export const opener = (name, open, given = {}) => el("input", { type: "file", hidden: true, "data-upload": name, ...given,
+  onchange: ({ target }) => { const files = [...target.files]; target.value = ""; open(files); } });
+
 // One of several, as buttons side by side that are radio buttons to the keyboard.
 export function choice(name, label, options, value, onchange) {
   return el("fieldset", {}, el("legend", {}, label), el("div", { class: "choice" }, options.map(([key, text]) =>
@@ -101,24 +105,31 @@ export function notice(text) {
   waiting = setTimeout(() => { place.hidden = true; }, 7000);
 }
 
+// A sentence begins with a capital, unless with the name of a file.
+export const capital = text => /^[^\s,;:]+\.\w/.test(text) ? text : text[0].toUpperCase() + text.slice(1);
+
+// The field of a panel by its name; the row where it has no box for that.
+export function control(panel, field) {
+  const place = name => find(`[data-field="${CSS.escape(name)}"]`, panel);
+  return field && (place(field) || (field.includes(".") && place(field.replace(/\.[^.]*$/, "")))) || null;
+}
+
 // Marks the field of a panel that a sentence is about, with the sentence under it; under the panel where it is about none.
 export function mark(panel, error) {
   for (const one of panel.querySelectorAll("[data-made=error]")) one.remove();
   for (const one of panel.querySelectorAll("[aria-invalid]")) { one.removeAttribute("aria-invalid"); one.removeAttribute("aria-describedby"); }
   if (!error) return;
-  const place = name => find(`[data-field="${CSS.escape(name)}"]`, panel);  // the row where it has no box for that
-  const control = error.field && (place(error.field) || (error.field.includes(".") && place(error.field.replace(/\.[^.]*$/, ""))));
-  const said = el("p", { class: "error", role: "alert", id: "error-" + panel.id, "data-made": "error" }, error.error[0].toUpperCase() + error.error.slice(1));
-  if (!control) { (find("[data-errors]", panel) || panel).append(said); return; }
-  const line = control.matches("textarea") && /\.(\d+)$/.exec(error.field);
-  if (control.matches("textarea")) control.style.backgroundPosition = `0 calc(.4rem + ${line ? line[1] - 1 : -99} * 1.45em)`;
-  if (line) said.append(" ", el("button", { type: "button", onclick: () => goTo(control, +line[1]) }, `Line ${line[1]}`));
-  control.setAttribute("aria-invalid", "true"); control.setAttribute("aria-describedby", said.id);
-  const hidden = control.closest("details:not([open])");
+  const box = control(panel, error.field), said = el("p", { class: "error", role: "alert", id: "error-" + panel.id, "data-made": "error" }, capital(error.error));
+  if (!box) { (find("[data-errors]", panel) || panel).append(said); return; }
+  const line = box.matches("textarea") && /\.(\d+)$/.exec(error.field);
+  if (box.matches("textarea")) box.style.backgroundPosition = `0 calc(.4rem + ${line ? line[1] - 1 : -99} * 1.45em)`;
+  if (line) said.append(" ", el("button", { type: "button", onclick: () => goTo(box, +line[1]) }, `Line ${line[1]}`));
+  box.setAttribute("aria-invalid", "true"); box.setAttribute("aria-describedby", said.id);
+  const hidden = box.closest("details:not([open])");
   if (hidden) hidden.open = true;
-  const row = control.closest("table.drums tr");
+  const row = box.closest("table.drums tr");
   if (row) row.after(el("tr", { "data-made": "error" }, el("td", { colspan: 9 }, said)));
-  else (control.closest(".field, .slider") || control).after(said);
+  else (box.closest(".field, .slider") || box).after(said);
 }
 
 // Goes to a line of a text that is edited, and selects it.

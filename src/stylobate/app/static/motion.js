@@ -2,7 +2,7 @@
 
 import { check as question, latest } from "./api.js";
 import { dial } from "./dial.js";
-import { choice, el, facts, field, fill, find, labels, later, mark, number, redraw, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, later, mark, number, opener, redraw, select, warnings } from "./dom.js";
 import { BLUE, GREY, INK, plot } from "./plot.js";
 import * as records from "./records.js";
 import { change, changeMotion, listen, state } from "./state.js";
@@ -97,7 +97,7 @@ const component = () => field(`${labels.component} (number, label or azimuth; as
   el("input", { value: state.motion.component, "data-field": "component", oninput: event => set({ component: event.target.value.trim() }) }));
 
 function record(m) {
-  const files = el("input", { type: "file", multiple: true, hidden: true, "data-upload": "record", onchange: event => take([...event.target.files]) });
+  const files = opener("record", take, { multiple: true });
   return [
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Upload a record …"), files),
     el("p", { class: "hint" }, "Any of the known strong-motion formats, up to 32 MB; the format is found. Several files at once are one record: its components, or its StationXML. Or drop files here."),
@@ -157,10 +157,10 @@ const check = later(async () => {
   if (state.motion.kind === "record" && !state.motion.record) { shown = null; mark(panel, null); fill(find("#motion-facts", panel), el("p", { class: "empty" }, "Upload a record to see it here.")); paint(); return; }
   const found = await ask();
   if (!found) return;
-  if (found instanceof Error) { shown = null; mark(panel, found); fill(find("#motion-facts", panel), el("p", { class: "hint" }, "No motion yet.")); paint(); return; }
+  if (found instanceof Error) { shown = null; mark(panel, { error: records.named(found.error), field: found.field }); fill(find("#motion-facts", panel), el("p", { class: "hint" }, "No motion yet.")); paint(); return; }
   shown = found;
   mark(panel, null);
-  fill(find("#motion-facts", panel), measures(found), warnings(found.warnings));
+  fill(find("#motion-facts", panel), measures(found), warnings(found.warnings.map(records.named)));
   paint();
 }, 120);
 

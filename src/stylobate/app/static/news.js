@@ -1,12 +1,13 @@
 // What is said of a job while it waits, is computed, and has ended. Buttons stay where they are while numbers change.
 
 import { post } from "./api.js";
-import { el, fill, find, mark, notice, number } from "./dom.js";
+import { capital, control, el, fill, find, mark, notice, number } from "./dom.js";
+import * as records from "./records.js";
 
 export const isOpen = job => job.state === "waiting" || job.state === "running";
 
 export function sentence(job) {
-  return { waiting: `Waits: ${job.place} before it.`, running: job.total ? `${number(job.done)} of ${number(job.total)} ${job.what}` : "It is computed …" }[job.state] || (job.sentence && job.sentence[0].toUpperCase() + job.sentence.slice(1));
+  return { waiting: `Waits: ${job.place} before it.`, running: job.total ? `${number(job.done)} of ${number(job.total)} ${job.what}` : "It is computed …" }[job.state] || (job.sentence && capital(records.named(job.sentence)));
 }
 
 const act = (job, what) => async () => { try { await post(`/api/jobs/${job.id}/${what}`); } catch (error) { notice(error.error); } };
@@ -32,5 +33,5 @@ export function tell(place, job, rest = () => []) {
     isOpen(job) && el("progress", { "aria-label": "progress", ...(job.total ? { max: job.total } : {}), ...(job.total ? { value: job.done } : {}) }),
     buttons.length > 0 && el("div", { class: "row" }, buttons), [rest()].flat(9));
   const panel = place.closest("section");
-  if (job.state === "refused" && job.field && panel && find(`[data-field="${CSS.escape(job.field)}"]`, panel)) mark(panel, { error: job.sentence, field: job.field });
+  if (job.state === "refused" && panel && control(panel, job.field)) mark(panel, { error: records.named(job.sentence), field: job.field });
 }

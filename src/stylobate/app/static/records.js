@@ -1,7 +1,7 @@
 // Records: samples and what was uploaded, in one list for all parts of the page that shake with them.
 
 import { remove, upload } from "./api.js";
-import { el, notice } from "./dom.js";
+import { el, notice, opener } from "./dom.js";
 
 let samples = [], uploaded = [];
 
@@ -39,8 +39,8 @@ export function pick(get, set, ordered = false) {
     const found = await take(files, false);
     set([...get(), ...found.filter(single).map(one => one.id)]);
   };
-  const files = el("input", { type: "file", multiple: true, hidden: true, "data-upload": "records", onchange: event => more([...event.target.files]) });
-  const folder = el("input", { type: "file", multiple: true, webkitdirectory: true, hidden: true, "data-upload": "folder", onchange: event => more([...event.target.files].filter(one => !one.name.startsWith("."))) });
+  const files = opener("records", more, { multiple: true });
+  const folder = opener("folder", list => more(list.filter(one => !one.name.startsWith("."))), { multiple: true, webkitdirectory: true });
   const tick = id => event => set(event.target.checked ? [...chosen, id] : chosen.filter(one => one !== id));
   return [
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Upload records …"), files,
