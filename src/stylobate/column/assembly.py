@@ -13,7 +13,17 @@ import numpy as np
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_range, warn
 from .assembly_fields import check_fields
-from .block import FAR_AWAY, TOUCHING, Block, FaceJoint, ground_block, separation, smallest_turn, touching_faces
+from .block import (
+    FAR_AWAY,
+    TOUCHING,
+    Block,
+    FaceJoint,
+    ground_block,
+    length_of,
+    separation,
+    smallest_turn,
+    touching_faces,
+)
 from .column import GRAVITIES
 from .faces import Bed, FacePair, face_between
 from .joint import Joint, given
@@ -206,7 +216,7 @@ class Assembly(Structure):
                 if gap < -OVERLAPPING * min(a.size, b.size) - 1e-15 * max(np.abs(b.corners).max(), 1.0):
                     where = "lies in the ground" if a.name == "ground" else f"and block {a.name!r} overlap"
                     raise InputError(
-                        f"block {b.name!r} {where} by {1000.0 * -gap:.3g} mm; move one of them or correct its vertices."
+                        f"block {b.name!r} {where} by {length_of(-gap)}; move one of them or correct its vertices."
                     )
                 if gap > near:
                     continue

@@ -234,6 +234,11 @@ def smallest_turn(a: np.ndarray, face: int, b: np.ndarray, other: int) -> float:
     return min(angles)
 
 
+def length_of(size: float) -> str:
+    """A length for people [m]."""
+    return f"{size:.3g} m" if size >= 1.0 else f"{1000.0 * size:.3g} mm"
+
+
 def _without_flat(corners: np.ndarray) -> np.ndarray:
     """Corners without those at which the outline goes straight on."""
     before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners

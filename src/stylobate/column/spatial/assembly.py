@@ -12,7 +12,7 @@ import numpy as np
 from ...constants import g as STANDARD_GRAVITY
 from ...errors import InputError, check_kind, check_range
 from ..assembly_fields import check_fields
-from ..block import FAR_AWAY, ground_block
+from ..block import FAR_AWAY, ground_block, length_of
 from ..column import GRAVITIES
 from ..faces import Bed
 from ..joint import Joint, given
@@ -235,7 +235,7 @@ class SpatialAssembly(Structure):
                 gap, _ = separation(one, other, near)
                 if gap < -OVERLAPPING * min(one.size, other.size):
                     names = f"block {self.stones[k].name!r} and block {self.stones[i].name!r}"
-                    raise InputError(f"{names} overlap by {_length(-gap)}; move one of them or correct its sizes.")
+                    raise InputError(f"{names} overlap by {length_of(-gap)}; move one of them or correct its sizes.")
                 if gap > near:
                     continue
                 met = True
@@ -255,7 +255,9 @@ class SpatialAssembly(Structure):
             gap, near = float(part.low[2]) - self.ground, TOUCHING * part.size
             if gap < -OVERLAPPING * part.size:
                 name = self.stones[i].name
-                raise InputError(f"block {name!r} lies in the ground by {_length(-gap)}; move it or correct its sizes.")
+                raise InputError(
+                    f"block {name!r} lies in the ground by {length_of(-gap)}; move it or correct its sizes."
+                )
             if gap > near:
                 continue
             pairs.append((0, i + 1))
@@ -298,7 +300,7 @@ class SpatialAssembly(Structure):
         if not best:
             return ""
         gap, name = min(best)
-        return f", {_length(gap)} from {name}"
+        return f", {length_of(gap)} from {name}"
 
     # -- what asks for less --------------------------------------------------------------------------------------------
 
@@ -356,11 +358,6 @@ def refuse_many(bodies: int) -> None:
         )
 
 
-def _length(size: float) -> str:
-    """A length for people [m]."""
-    return f"{size:.3g} m" if size >= 1.0 else f"{1000.0 * size:.3g} mm"
-
-
 def _check_parts(stone: Stone) -> None:
     """Refuse parts of a body that overlap, which would count twice, or that do not hang together."""
     solids = [Solid(part) for part in stone.pieces]
@@ -371,7 +368,7 @@ def _check_parts(stone: Stone) -> None:
         gap = gaps[i, k] = separation(solids[i], solids[k], TOUCHING * small)[0] / small
         if gap < -OVERLAPPING:
             raise InputError(
-                f"parts {i + 1} and {k + 1} of block {stone.name!r} overlap by {_length(-gap * small)}, which would "
+                f"parts {i + 1} and {k + 1} of block {stone.name!r} overlap by {length_of(-gap * small)}, which would "
                 "count twice; let them touch."
             )
     while True:
