@@ -37,7 +37,8 @@ function stop() { if (player && find("#play", panel) && find("#play", panel).tex
 
 function renderAsked() {
   const about = MODELS.find(one => one[0] === state.model), twins = !state.assembly || state.model === "dem3d";
-  find("#run-case", panel).textContent = `${called()}${state.assembly ? "" : `, ${((state.column || {}).drum || []).length} drums`} · ${motion.words()}`;
+  const drums = ((state.column || {}).drum || []).length;
+  find("#run-case", panel).textContent = `${called()}${state.assembly ? "" : `, ${drums === 1 ? "1 drum" : `${drums} drums`}`} · ${motion.words()}`;
   const place = find("#run-asked", panel);
   redraw(place,
     field(labels.model, select(MODELS.filter(([key]) => !state.assembly || key === state.model).map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
@@ -145,7 +146,7 @@ function said(job) {
     result && verdict(result, data && loaded === job.id ? data.sentence : ""),
     result && job.kind === "run" && !result.decided && result.outcome !== "failed" && el("div", { class: "row" },
       el("button", { type: "button", onclick: () => { change({ tail: String((Number(state.tail) || 0) + 5) }); go(); } }, "Go on for 5 s more")),
-    result && measures(result), warnings((job.warnings || []).map(records.named)), job.state === "done" && files(job),
+    result && measures(result), result && result.collapse_time_s !== null && result.peak_top_displacement_m !== undefined && el("p", { class: "hint" }, "Peaks are those before the fall; the film shows the fall as well, in which the top goes farther."), warnings((job.warnings || []).map(records.named)), job.state === "done" && files(job),
   ].flat());
 }
 
@@ -164,7 +165,7 @@ function verdict(r, words) {
 function measures(r) {
   const whole = r.peak_top_displacement_m !== undefined;  // a column; of an assembly its blocks are told
   return facts([
-    r.collapse_time_s !== null && ["collapse certain at", `${number(r.collapse_time_s)} s`], whole ? [r.collapse_time_s === null ? "peak top displacement" : "peak top displacement until then", length(r.peak_top_displacement_m)] : ["peak displacement", length(r.peak_displacement_m)],
+    r.collapse_time_s !== null && ["collapse certain at", `${number(r.collapse_time_s)} s`], whole ? [r.collapse_time_s === null ? "peak top displacement" : "peak top displacement before the fall", length(r.peak_top_displacement_m)] : ["peak displacement", length(r.peak_displacement_m)],
     whole ? r.residual_top_displacement_m !== null && ["residual", length(r.residual_top_displacement_m)] : r.residual_displacement_m !== null && ["residual", length(r.residual_displacement_m)],
     (r.fallen || []).length > 0 && ["fallen", r.fallen.join(", ")], r.peak_tilt_rad !== undefined && ["peak tilt", `${number(r.peak_tilt_rad)} rad`],
     r.peak_tilt_rad === undefined && ["peak rotation", `${number(r.peak_rotation_rad)} rad`], ["peak joint opening", length(r.peak_joint_opening_m)],
