@@ -257,6 +257,19 @@ def test_an_assembly_with_a_mistake_opens_to_be_mended(client):
     assert told["field"].startswith("assembly.")
 
 
+def test_keys_of_a_file_stay_as_they_are_written(client, asked):
+    """Who writes what the remedy says has it right."""
+    wrong = ASSEMBLY.replace("friction_angle", "friction_angel")
+    for answer in (
+        client.post("/api/assembly", json={"assembly": wrong}),
+        client.post("/api/column/file", content=wrong.encode()),
+        client.post("/api/column/file", content=b"section = 'circular'\n[joint]\nfriction_angel = 3\n"),
+    ):
+        assert "did you mean 'friction_angle'?" in answer.json()["error"]
+    ruin = client.post("/api/jobs", json=asked | {"kind": "infer", "ruin": "columns = []\n[prior]\npg_v = 1\n"}).json()
+    assert (ruin["field"].partition(".")[0], "'pg_v'" in ruin["error"]) == ("ruin", True)
+
+
 IN_SPACE = """\
 density = 2500
 [joint]

@@ -14,6 +14,9 @@ from ..errors import InputError, StylobateError
 from .guard import TooLarge, TooSlow
 from .words import in_page_words
 
+#: Fields that hold the text of a file, and a file that is opened.
+TEXTS = ("assembly", "ruin", "file")
+
 
 class Answer(JSONResponse):
     """A JSON object that every browser can read, whatever it holds."""
@@ -71,7 +74,9 @@ def missing(what: str) -> Response:
 
 
 def _about(error: Exception | str, code: int, **headers: str) -> Response:
-    return Answer({"error": in_page_words(str(error)), "field": getattr(error, "field", None)}, code, headers)
+    field = getattr(error, "field", None)
+    of_text = field is not None and field.partition(".")[0] in TEXTS
+    return Answer({"error": in_page_words(str(error), of_text), "field": field}, code, headers)
 
 
 async def _on_input(request: Request, error: Exception) -> Response:

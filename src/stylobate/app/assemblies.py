@@ -85,7 +85,7 @@ def describe(text: str) -> dict[str, Any]:
         with doubted() as doubts:
             assembly = assembly_of(text)
     except InputError as error:
-        error.without(f"{FILE}: ")  # it is the text at hand
+        error.args = (str(error).replace(f"{FILE}: ", "").replace(FILE, "the file"),)  # it is the text at hand
         raise
     from ..plots.view import OBLIQUE  # matplotlib is loaded for those who look at an assembly
     from ..plots.views import SEEN, solids_of

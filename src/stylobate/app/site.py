@@ -122,6 +122,7 @@ class Site:
                 return Answer({"table": await run_in_threadpool(columns.tables_in, path)})
             except InputError as error:
                 error.without(f"{folder}/")
+                error.field = "file"  # and none of the column that stands on the page
                 raise
 
     async def assembly(self, request: Request) -> Response:
@@ -175,7 +176,7 @@ async def _opened(text: str) -> Response:
     except InputError as error:
         if len(text) > assemblies.LARGEST:
             raise
-        found["error"] = in_page_words(str(error))
+        found["error"] = in_page_words(str(error), of_text=True)
     return Answer(found)
 
 

@@ -58,7 +58,7 @@ _HELP = re.compile(r"; see 'stylobate[^']*'")
 
 #: A quantity and what is allowed of it, in units that no field of the page has; those of its fields, in the same.
 _QUANTITY = re.compile(
-    r"(?<![\d.])(?<!gravity is )(?P<value>-?[\d.]+(?:e[+-]\d+)?) (?P<unit>m/s²|rad); "
+    r"(?<!gravity is )(?<![\d.])(?P<value>-?[\d.]+(?:e[+-]\d+)?) (?P<unit>m/s²|rad); "
     r"allowed is (?P<open>[\[(])(?P<low>\S+), (?P<high>\S+)(?P<close>[\])]) (?P=unit)"
 )
 _UNITS = {"m/s²": (g, " g"), "rad": (math.pi / 180.0, "°")}
@@ -66,7 +66,7 @@ _UNITS = {"m/s²": (g, " g"), "rad": (math.pi / 180.0, "°")}
 _ASIDE = re.compile(r"\s*\(([^()]*(?<![\w-])--[a-z][^()]*)\)")
 
 
-def in_page_words(said: Any) -> Any:
+def in_page_words(said: Any, of_text: bool = False) -> Any:
     """Sentences for somebody who sees fields, not parameters or options; in lists and in values of tables as well.
 
     What the page has a field for becomes the field's name; an aside about any other is left out.
@@ -74,16 +74,20 @@ def in_page_words(said: Any) -> Any:
     Parameters
     ----------
     said : text, list, dict, or anything else, which stays as it is
+    of_text : bool
+        It is about the text of a file, in which keys are written as they are.
     """
     if isinstance(said, str):
         said = reworded(said, lambda name: "--" + _OPTIONS.get(name, name).replace("_", "-"))
         if "--" in said:
             said = _OPTION.sub(_named, _ASIDE.sub(_kept, _HELP.sub("", said))).replace("'“", "“").replace("”'", "”")
+        if of_text:
+            return said
         return _KEYS.sub(lambda key: key[0].replace("_", " "), _QUANTITY.sub(_in_units_of_fields, said))
     if isinstance(said, dict):
-        return {key: in_page_words(value) for key, value in said.items()}
+        return {key: in_page_words(value, of_text) for key, value in said.items()}
     if isinstance(said, (list, tuple)):
-        return [in_page_words(value) for value in said]
+        return [in_page_words(value, of_text) for value in said]
     return said
 
 
