@@ -74,6 +74,8 @@ export function read() {
       found[key] = plain && key !== "settings" ? { ...START[key], ...rest[key] } : rest[key];
     }
   } catch { /* an address that was cut off: the start */ }
+  const { column } = found;
+  if (column !== null && !(Array.isArray(column.drum) && column.joint)) Object.assign(found, { column: null, preset: START.preset });  // no column
   return found;
 }
 
