@@ -113,6 +113,8 @@ def test_points_of_a_fragility_grow(open_page, tmp_path):
     until(grown, 240.0)
     assert len(pictures) > 1  # how many are drawn hangs on how busy the machine is
     assert growing.count() == 0
+    warned = page.locator("#fragility-found .warning").all_text_contents()
+    assert len(warned) == len(set(warned))  # an analysis and its fragility say the same of a record
     fits(page)
 
 

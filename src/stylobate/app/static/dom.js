@@ -94,7 +94,12 @@ export function length(value) {
   return Math.abs(value) >= 1 ? number(value) + " m" : number(1000 * value) + " mm";
 }
 
-export const warnings = list => (list || []).map(one => el("p", { class: "warning" }, one));
+// Each once; of many the first few, and the others where they can be opened: what was computed stands below.
+const SHOWN = 3;
+export function warnings(list) {
+  const made = [...new Set(list || [])].map(one => el("p", { class: "warning" }, one)), rest = made.slice(SHOWN);
+  return rest.length < 2 ? made : [...made.slice(0, SHOWN), el("details", {}, el("summary", {}, `${rest.length} more warnings`), rest)];
+}
 
 // Says something at the foot of the page for a while.
 let waiting = 0;

@@ -1,7 +1,7 @@
 // Domain: what stands and what falls over frequency and amplitude, cell by cell as it is computed.
 
 import { get, post } from "./api.js";
-import { el, field, fill, find, labels, later, length, mark, notice, number } from "./dom.js";
+import { el, field, fill, find, labels, later, length, mark, notice, number, warnings } from "./dom.js";
 import { tell } from "./news.js";
 import { CYCLE, INK, SAND, said, sharp, ticks } from "./plot.js";
 import * as run from "./run.js";
@@ -90,7 +90,7 @@ export function hear(news) {
   if (news.id !== state.domainJob) return;
   const where = find("#domain-said", panel);
   where.hidden = false;
-  tell(where, news, () => [el("p", { class: "hint" }, news.title), news.state === "done" && el("p", { class: "verdict" }, tally()), news.warnings.map(one => el("p", { class: "warning" }, one)), news.state === "done" && run.files(news)].flat());
+  tell(where, news, () => [el("p", { class: "hint" }, news.title), news.state === "done" && el("p", { class: "verdict" }, tally()), warnings(news.warnings), news.state === "done" && run.files(news)].flat());
 }
 function tally() {
   const found = {};

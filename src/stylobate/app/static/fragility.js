@@ -2,7 +2,7 @@
 
 import { get, post } from "./api.js";
 import * as curves from "./curves.js";
-import { choice, el, facts, field, fill, find, labels, mark, notice, number, redraw, select } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, mark, notice, number, redraw, select, warnings } from "./dom.js";
 import { isOpen, tell } from "./news.js";
 import * as motion from "./motion.js";
 import * as records from "./records.js";
@@ -66,8 +66,7 @@ export async function hear(news) {
     curve && el("p", { class: "verdict" }, records.named(curve.sentence)),
     curve && facts([["median", `${known(curve)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
       ["from", `${curve.runs} runs of ${curve.records} records`], ["undecided", curve.undecided || ""], ["failed", curve.failed || ""]]),
-    Object.entries((analysis || {}).refused || {}).map(([name, why]) => el("p", { class: "warning" }, records.named(`${name} was left out: ${why}`))),
-    (job.warnings || []).map(one => el("p", { class: "warning" }, records.named(one))), analysis && !isOpen(job) && run.files(job),
+    warnings([...Object.entries((analysis || {}).refused || {}).map(([name, why]) => `${name} was left out: ${why}`), ...(job.warnings || [])].map(records.named)), analysis && !isOpen(job) && run.files(job),
   ].flat());
   let figures = find(".figures", place);
   if (!card.isConnected || !figures) fill(place, card, figures = el("div", { class: "figures" }));
