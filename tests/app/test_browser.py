@@ -12,6 +12,10 @@ pytestmark = [
     pytest.mark.slow,
 ]
 
+#: Fields of drums that are narrower than what they hold.
+CUT_OFF = """[...document.querySelectorAll("table.drums input")]
+    .filter(one => one.scrollWidth > one.clientWidth + 1).map(one => one.value)"""
+
 #: Number of jobs, asked on the page.
 JOBS = "fetch('/api/jobs').then(answer => answer.json()).then(found => found.jobs.length)"
 
@@ -28,6 +32,9 @@ def test_the_whole_story(open_page, tmp_path):
     height.fill("-1")
     expect(page.locator("#column .error")).to_contain_text("Height of drum 3 is -1 m")
     expect(height).to_have_attribute("aria-invalid", "true")
+    for width in (390, 1440):  # and no number is cut off
+        page.set_viewport_size({"width": width, "height": 900})
+        assert page.evaluate(CUT_OFF) == [], width
     height.fill("0.5")
     expect(page.locator("#column .error")).to_have_count(0)
     expect(page.locator("#column-facts")).to_contain_text("5.08 m")

@@ -162,7 +162,7 @@ function drums(table) {
     });
     return el("tr", { "data-drum": number, onfocusin: () => { mind(number); } }, el("td", { class: "number" }, number), cells);
   }).reverse();
-  return el("table", { class: "drums" },
+  return el("table", { class: shown.length > 4 ? "drums many" : "drums" },
     el("thead", {}, el("tr", {}, el("th", {}, "#"), shown.map(([, label, unit]) => el("th", { scope: "col" }, round && /Bottom|Top/.test(label) ? `${label} ⌀` : label, " ", el("small", {}, unit))))),
     el("tbody", {}, rows));
 }

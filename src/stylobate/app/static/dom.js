@@ -133,7 +133,7 @@ export function mark(panel, error) {
   const hidden = box.closest("details:not([open])");
   if (hidden) hidden.open = true;
   const row = box.closest("table.drums tr");
-  if (row) row.after(el("tr", { "data-made": "error" }, el("td", { colspan: 9 }, said)));
+  if (row) row.after(el("tr", { "data-made": "error" }, el("td", { colspan: row.cells.length }, said)));
   else (box.closest(".field, .slider") || box).after(said);
 }
 
