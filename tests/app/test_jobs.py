@@ -274,3 +274,11 @@ def test_files_that_come_together_are_one_record(fresh, asked):
     assert (gone.status_code, "upload it again" in gone.json()["error"]) == (422, True)
     assert fresh.delete(f"/api/records/{both['id']}").status_code == 200
     assert len(fresh.get("/api/records").json()["records"]) == 2
+
+
+def test_what_the_page_asks_is_refused_without_a_failure_that_a_browser_notes(client, asked):
+    wrong = asked | {"column": None}
+    plain, told = (client.post("/api/jobs", json=wrong, headers=given) for given in ({}, {"x-page": "yes"}))
+    assert (plain.status_code, told.status_code, told.headers["x-refused"]) == (422, 200, "yes")
+    assert plain.json() == told.json()
+    assert "x-refused" not in client.post("/api/jobs", json=asked, headers={"x-page": "yes"}).headers

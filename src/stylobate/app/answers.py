@@ -14,6 +14,9 @@ from ..errors import InputError, StylobateError
 from .guard import TooLarge, TooSlow
 from .words import in_page_words
 
+#: Headers of what the page itself asks, and of an answer that refuses it: that is no failure, which a browser would note.
+ASKS, REFUSES = "x-page", "x-refused"
+
 #: Fields that hold the text of a file, and a file that is opened.
 TEXTS = ("assembly", "ruin", "file")
 
@@ -80,6 +83,8 @@ def _about(error: Exception | str, code: int, **headers: str) -> Response:
 
 
 async def _on_input(request: Request, error: Exception) -> Response:
+    if ASKS in request.headers:
+        return _about(error, 200, **{REFUSES: "yes"})
     return _about(error, 422)
 
 

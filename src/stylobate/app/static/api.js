@@ -6,9 +6,9 @@ export class Refused extends Error {
 
 async function ask(method, path, body, headers = {}) {
   let answer;
-  try { answer = await fetch(path, { method, body, headers }); }
+  try { answer = await fetch(path, { method, body, headers: { ...headers, "x-page": "yes" } }); }
   catch { throw new Refused(0, { error: "The page is not served any more: start it again, and open its new address." }); }
-  if (answer.ok) return answer;
+  if (answer.ok && !answer.headers.has("x-refused")) return answer;
   let said = null;
   try { said = await answer.json(); } catch { /* no sentence */ }
   throw new Refused(answer.status, said && said.error ? said : { error: `The page got no answer it knows (${answer.status}); reload it.` });
