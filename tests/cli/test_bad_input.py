@@ -329,16 +329,6 @@ def test_states_are_refused_before_anything_is_written(tmp_path, monkeypatch, re
     assert why in refused(*states, *arguments, "--out", tmp_path / "never")
 
 
-def test_states_are_refused_a_folder_with_another_result(tmp_path, refused):
-    """A report would tell the runs of the states as a study beside that result."""
-    out = tmp_path / "run"
-    out.mkdir()
-    (out / "asked-run.json").write_text("{}")
-    states = ("states", "--as-built", "paper-monolithic", "--with", "paper-12-drums", "--pulse", "ricker,1Hz,0.1g")
-    assert "run holds the result of run; give states an --out of its own" in refused(*states, "--out", out)
-    assert [file.name for file in out.iterdir()] == ["asked-run.json"]
-
-
 @pytest.mark.parametrize(
     "motion",
     [("--harmonic", "1Hz,0.1g,1s"), ("--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2", "--duration", "1s")],

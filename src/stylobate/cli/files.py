@@ -75,21 +75,7 @@ class Files(list[Path]):
             What runs it finds the ledger in the folder by itself.
         waits : bool
             While another process is at work on that ledger, instead of being refused.
-
-        Raises
-        ------
-        InputError
-            The runs would be a study beside the result of another command, which a report would tell as one of its own.
         """
-        from ..errors import InputError
-        from ..results.asked import others_in
-
-        fresh = in_folder and self.folder is not None and self.before is None
-        if fresh and (others := others_in(self.folder, self.command)):
-            raise InputError(
-                f"{self.folder} holds the result of {' and '.join(others)}; give {self.command} an --out of its own.",
-                "out",
-            )
         ledger = console.ledger(self.folder, waits=waits)
         with console.progress(title) as progress:
             yield dataclasses.replace(asked, ledger=None if in_folder else ledger, progress=progress)

@@ -218,7 +218,7 @@ def toml_text(tables: Mapping[str, Any], comments: Iterable[str] = ()) -> str:
             inner = {name: one for name, one in value.items() if not _listed(one)}
             parts.append(f"\n[{key}]\n{tomli_w.dumps(inner)}" if inner or not value else "")
             parts += [_list_of_tables(f"{key}.{name}", one) for name, one in value.items() if _listed(one)]
-        elif _headed(value):
+        elif isinstance(value, list) and _listed(value):
             parts.append(_list_of_tables(key, value))
     return "".join(parts)
 

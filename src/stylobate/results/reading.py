@@ -104,8 +104,9 @@ def read_folder(folder: str | Path) -> list[Result]:
     if not place.is_dir():
         raise InputError(f"{shown(place)} is a file; give the folder in which a command wrote its files.")
     markers = [reader for reader in _READERS if (place / reader).is_file()]
-    if "states.json" in markers and PLAN_FILE in markers:
-        markers.remove(PLAN_FILE)  # the runs of the states, which are compared
+    finished = (place / "study.json").is_file() and "states.json" not in markers
+    if PLAN_FILE in markers and len(markers) > 1 and not finished:
+        markers.remove(PLAN_FILE)  # the runs of the states, which are compared, or will be
     found: list[Result] = [_READERS[marker](place) for marker in markers]
     if not found and (runs := _runs_in(place)):
         found = [_several(place, runs)]
