@@ -105,6 +105,7 @@ def test_options_of_a_group_are_said_alike_wherever_they_are():
         ("compare", "settings"),
         ("reproduce", "out"),
         ("draw", "out"),
+        ("draw", "scale"),
         ("report", "out"),
         ("serve", "out"),
     }
