@@ -169,9 +169,7 @@ def test_a_median_beyond_all_runs_is_none(place, capsys):
         assert any(one["outside"] in note.texts[0] for note in result.items[1:])
         assert "> 0.4 m/s" in str(sections_of(read_results([place / folder])[0], set()))
     verdict = sections_of(read_results([place / "f"])[0], set())[0].items[0]
-    assert verdict.texts[0].startswith(
-        "The fitted median of collapse (pgv) lies above all runs (0.05 to 0.4 m/s); 95 %"
-    )
+    assert ": the fitted median of collapse (pgv) lies above all runs (0.05 to 0.4 m/s); 95 %" in verdict.texts[0]
 
 
 def test_what_is_undecided_is_told_of_a_median_beyond_all_runs(place, capsys):

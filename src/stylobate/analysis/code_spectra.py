@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..constants import g
-from ..errors import InputError, as_typed, check_choice, check_range, suggest
+from ..errors import InputError, as_typed, check_choice, check_range, suggest, within
 from ..motion.specs import parse_acceleration, parse_number, parse_time
 
 
@@ -320,6 +320,7 @@ def parse_code(text: str, more: Mapping[str, Mapping[str, str]] | None = None) -
     """
     further = {code: {} for code in CODES} if more is None else more
     code, *parts = (part.strip() for part in text.split(","))
+    code = code.lower()
     if code not in further:
         raise InputError(f"code {code!r} is not known here; {suggest(code, further)}codes are {', '.join(further)}.")
     needed, known = CODES[code][0], CODES[code][0] | CODES[code][1] | dict(further[code])
@@ -339,6 +340,12 @@ def parse_code(text: str, more: Mapping[str, Mapping[str, str]] | None = None) -
     return code, given
 
 
+def _acceleration(given: Mapping[str, str], name: str) -> float:
+    """What is typed under a name [m/s²]."""
+    with within(name):
+        return parse_acceleration(given[name])
+
+
 def assumed_of(code: str, given: Mapping[str, str]) -> str:
     """What is taken for a spectrum of a code and is not typed, such as ``type=1 assumed``; nothing where all is typed."""
     taken = ", ".join(f"{name}={value}" for name, value in ASSUMED.items() if name in CODES[code][1].keys() - given)
@@ -349,10 +356,8 @@ def spectrum_of_code(code: str, given: Mapping[str, str]) -> EurocodeSpectrum | 
     """The spectrum of a code from what :func:`parse_code` returns."""
     if code == "ec8-2":
         factors = (parse_number(name, given[name]) for name in ("F_alpha", "F_beta"))
-        return SecondEurocodeSpectrum(
-            *(parse_acceleration(given[name], name) for name in ("S_alpha", "S_beta")), *factors
-        )
-    ag, soil, other = parse_acceleration(given["ag"], "ag"), given["soil"], ASSUMED | dict(given)
+        return SecondEurocodeSpectrum(*(_acceleration(given, name) for name in ("S_alpha", "S_beta")), *factors)
+    ag, soil, other = _acceleration(given, "ag"), given["soil"], ASSUMED | dict(given)
     _check_acceleration("ag", ag)
     if code == "ec8":
         check_choice("type of the spectrum", other["type"], ("1", "2"), field="type")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import time
 from collections.abc import Sequence
 from contextlib import closing
 from functools import partial
@@ -160,12 +159,11 @@ def each_record(
         for motion, place in zip(motions, places, strict=True)
     ]
 
-    began = time.monotonic()
     cases = [Case(stone, motion) for motion in motions]
     request = Request(cases, Digests.of(each), [(np.arange(len(cases)), model, options)])
 
     def make(number: int) -> dict[str, Any]:
-        if time.monotonic() - began > console.FIRST_LINE:
+        if len(motions) > 1 and wait > console.FIRST_LINE:
             console.note(f"run {number + 1} of {len(motions)}: {motions[number].name}")
         summary = conclude(follow, stone, motions[number], model, places[number], True, drawn)
         files = {} if out is None else {"files": [str(Path(file).relative_to(out)) for file in summary["files"]]}

@@ -321,6 +321,10 @@ def _measure(text: str, where: str, example: str) -> tuple[str, float]:
     if unit is None:
         sample = None if "," in example else _QUANTITY.fullmatch(example)
         as_meant = f"with one, such as {number}{sample.group(2)}" if sample is not None else f"as {example!r}"
+        if (
+            sample is not None and sample.group(2) == "g" and number != "?" and abs(float(number)) > 5.0
+        ):  # beyond any record
+            as_meant = f"as {float(number) / 100.0:g}g if % of g is meant, and as {number}m/s2 if m/s² is"
         raise InputError(f"{where}: {text.strip()!r} has no unit; write it {as_meant}.", value=text)
     name = unit.lower()
     for kind, units in (("frequency", FREQUENCY_UNITS), ("time", TIME_UNITS), ("angle", ANGLE_UNITS)):
@@ -329,6 +333,13 @@ def _measure(text: str, where: str, example: str) -> tuple[str, float]:
     try:
         _, size = acceleration_unit(unit)
     except InputError:
+        if re.match(r",\d", unit):
+            raise InputError(
+                f"{where}: {text.strip()!r} has a decimal comma; write it as {number}.{unit[1:]}."
+            ) from None
+        if unit == "%" and number != "?":
+            meant = f"; of g it is {float(number) / 100.0:g}g"
+            raise InputError(f"{where}: {text.strip()!r} does not say of what it is a share{meant}.") from None
         raise InputError(f"{where}: unit {unit!r} is unknown here; write it as {example!r}.") from None
     return "acceleration", math.nan if number == "?" else _number(number, where) * size
 

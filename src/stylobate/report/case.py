@@ -199,7 +199,7 @@ def _case(result: Result, told: set[str], all_: Sequence[Result], language: Lang
     return {
         "cited": [text for item in sources if isinstance(item, page.Points) for text in item.texts],
         "title": _title(result, language),
-        "verdict": language.say(verdict),
+        "verdict": "\n".join(map(language.say, verdict.split("\n"))),
         "notes": known,
         "parts": [page.part(language.section(section)) for section in sections],
     }

@@ -67,6 +67,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     """
     asked = result.asked
     columns = [structure.stack for structure in result.structures if structure.stack is not None]
+    labels = _labels(result)
     if result.kind is Kind.STATES:
         parts = _states(result, columns, told)
     else:
@@ -77,13 +78,19 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
             result.kind in FROM_RUNS and "monuments" not in result.summary
         )  # several sites name no runs of one column
         parts += [basis_section(result)] if alone else []
-        parts += [once(structure_section(structure), structure.digest, told) for structure in result.structures[:5]]
+        for label, structure in zip(labels, result.structures[:5], strict=False):
+            section = structure_section(structure)
+            section = replace(section, title=f"The state “{label}”") if label else section
+            parts.append(once(section, structure.digest, told))
         parts += [motions_section(result)] if asked is not None and asked.motions else []
         parts.append(Section("What was found", body))
     if result.kind is Kind.PUSHOVER and columns:
         parts.append(code_check(columns[0], result, run))
     if columns and result.kind not in (Kind.LIMIT, Kind.PUSHOVER, Kind.STATES):
-        parts.append(once(statics_section(columns[0], None), f"statics {columns[0].digest}", told))
+        statics = statics_section(columns[0], None)
+        if labels[0]:
+            statics = replace(statics, items=[f"Of the state “{labels[0]}”.", *statics.items])
+        parts.append(once(statics, f"statics {columns[0].digest}", told))
     models = [str(model["name"]) for model in asked.models] if asked is not None else []
     models = models or [str(result.summary[key]) for key in ("model",) if key in result.summary]
     if result.kind in (Kind.PUSHOVER, Kind.LIMIT):
@@ -107,6 +114,13 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     return parts
 
 
+def _labels(result: Result) -> list[str]:
+    """Of each structure the state that curves of a fragility call it; empty where there is one, or no such name."""
+    curves = (result.summary.get("curves") or []) if result.kind is Kind.FRAGILITY else []
+    names = [str(curve["name"]) for curve in curves]
+    return names if len(names) == len(result.structures) > 1 else [""] * max(len(result.structures), 1)
+
+
 def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[Section]:
     """Advice and what it rests on; the first state in full, of the others what they differ by."""
     assert isinstance(result, Numbers)
@@ -121,6 +135,7 @@ def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[S
             parts.append(once(replace(whole, title=f"The state “{label}”"), structure.digest, told))
         else:
             parts.append(state_section(column, label, columns[0], labels[0]))
+            told.add(structure.digest)
     return [*parts, *([statics_of_states(dict(zip(labels, columns)))] if columns else [])]
 
 

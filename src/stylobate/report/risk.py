@@ -20,16 +20,9 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """Median, interval and fit of fragility curves."""
     curves = result.summary.get("curves") or [result.summary]
     one = curves[0]
-    unit = "" if one.get("unit") in (None, "-") else f" {one['unit']}"
-    limits = between(one.get("median_low"), one.get("median_high"), one.get("unit") or "-")
-    sentence = f"{one['sentence']} The 95 % interval of the median is {limits}."
-    if one.get("outside"):
-        levels = " to ".join(f"{level:.3g}" for level in one["levels"])
-        where = "above" if one["median"] > one["levels"][1] else "below"
-        sentence = f"The fitted median of {one['state']} ({one['im']}) lies {where} all runs ({levels}{unit}); "
-        sentence += f"95 % interval: {limits}."
-    elif one.get("bracket"):
-        sentence += " How capacities scatter is not seen."
+    said = [_of_curve(each) for each in curves[:MOST_TOLD]]
+    if len(curves) > MOST_TOLD:
+        said.append(f"{len(curves) - MOST_TOLD} more curves stand in the table.")
     for each in curves:
         each["records"] = None if each.get("records_are_one") else each["records"]
         each["known of the median"] = median_words(each) if each.get("outside") else None
@@ -42,8 +35,28 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     if float(one.get("p_value") or 1.0) < 0.05:
         items.append(Note(["A lognormal curve fits these points badly; read the points, not the curve."], "fair"))
     items.append(_HOLDS.format(_over(one)))
-    return (sentence + open_runs(one, "left out of the curve, and counted both ways in its interval"), ""), items
+    return ("\n".join(said), ""), items
 
+
+def _of_curve(one: Mapping[str, Any]) -> str:
+    """What one curve says, in sentences."""
+    unit = "" if one.get("unit") in (None, "-") else f" {one['unit']}"
+    limits = between(one.get("median_low"), one.get("median_high"), one.get("unit") or "-")
+    sentence = f"{one['sentence']} The 95 % interval of the median is {limits}."
+    if one.get("outside"):
+        levels = " to ".join(f"{level:.3g}" for level in one["levels"])
+        where = "above" if one["median"] > one["levels"][1] else "below"
+        sentence = (
+            f"{one['name']}: the fitted median of {one['state']} ({one['im']}) lies {where} all runs ({levels}{unit}); "
+        )
+        sentence += f"95 % interval: {limits}."
+    elif one.get("bracket"):
+        sentence += " How capacities scatter is not seen."
+    return sentence + open_runs(one, "left out of the curve, and counted both ways in its interval")
+
+
+#: Most curves whose medians are told in sentences.
+MOST_TOLD = 6
 
 #: Limits of the intervals of a fragility.
 _HOLDS = "The interval is over {}: it does not hold what the model or the survey may be wrong about."

@@ -58,10 +58,9 @@ def _column(column: Column) -> list[Item]:
 
 
 def _elevation(column: Column) -> Picture:
-    state = "as found" if column.as_found else "as built"
     words = "diameters (⌀)" if column.section == "circular" else "widths in the plane of motion"
     links = " with links" if column.links else ""
-    caption = f"Elevation of {column.name}, {state}{links}, seen along y with x to the right: heights and {words} in m."
+    caption = f"Elevation of {column.name}{links}, seen along y with x to the right: heights and {words} in m."
     if column.links:
         caption += " Blue: links."
     if column.as_found:
