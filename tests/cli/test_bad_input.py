@@ -340,6 +340,18 @@ def test_models_are_refused_before_the_first_of_them_is_run(tmp_path, monkeypatc
     assert "computes one block" in refused(*drums, "--out", tmp_path / "never")
 
 
+def test_workbooks_and_decimal_commas_are_told(tmp_path, monkeypatch, refused):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.xlsx").write_bytes(b"PK\x03\x04\xff\xfe")
+    assert "is the workbook of a spreadsheet; save the survey as CSV" in refused("columns", "a.xlsx")
+    (tmp_path / "a.toml").write_text('name = "a"\n[[drum]]\nheight = 0,845 # as measured\n')
+    assert "numbers have a decimal point: write 0.845." in refused("columns", "a.toml")
+    run = ("run", "paper-monolithic", "--model", "housner", "--harmonic", "1Hz,0.1g,1s")
+    assert "'0,3g' has a decimal comma; write it as 0.3g." in refused(*run, "--pga", "0,3g")
+    assert "write it as 0.3g if % of g is meant" in refused(*run, "--pga", "30")
+    assert "of g it is 0.3g" in refused(*run, "--pga", "30%")
+
+
 def test_a_survey_where_a_column_file_is_wanted_is_told_as_one(tmp_path, monkeypatch, refused):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "survey.csv").write_text(

@@ -126,7 +126,7 @@ def test_critical_answers_with_the_probability_over_the_factor(answer, column, r
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (("--replicates", "many"), "allowed is a whole number, such as 30"),
+        (("--replicates", "many"), "allowed is a whole number from 0 on, such as 30"),
         (("--replicates", "1000000"), "allowed is a whole number from 0 to 100000"),
         (("--seed", "3"), "give --replicates as well"),
         (("--replicates", "5", "--scatter", "colour=5%"), "names are friction"),

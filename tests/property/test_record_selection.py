@@ -103,3 +103,12 @@ def test_a_recording_in_two_files_counts_once(motions):
     alone = st.Motion(0.5 * motions[1].dt, 1.7 * fine, name="alone")
     found = select_records([alone, pair, *motions[3:]], target, 3, factors=(0.01, 100.0))
     assert found.refused == {"alone": "it is the recording of 'both' once more; a record counts once"}
+
+
+def test_a_target_in_another_unit_is_refused(tmp_path):
+    file = tmp_path / "target.csv"
+    file.write_text("period_s,sa_g\n0.1,7.35\n1,2.0\n")
+    with pytest.raises(
+        st.InputError, match=r"sa_g of .* is 7.35 at 0.1 s, .*; if m/s² is meant, call the column sa_m_s2"
+    ):
+        st.target_spectrum(str(file))

@@ -233,6 +233,15 @@ def _azimuth(drum: FoundDrum, name: str) -> str:
     return f" (azimuth {angle:g}°)" if angle else ""
 
 
+#: Chips of a drum: the field, its words, and from where the azimuth of the chips is its own [degrees].
+CHIPPED = (
+    ("chip_left", "on the left", 180.0),
+    ("chip_right", "on the right", 0.0),
+    ("chip_front", "in front", 270.0),
+    ("chip_back", "at the back", 90.0),
+)
+
+
 def _as_found(column: Column) -> dict[str, str]:
     """State as found, one line for the base and one for each drum."""
     facts = {}
@@ -242,18 +251,15 @@ def _as_found(column: Column) -> dict[str, str]:
         facts["as found, base"] = f"slopes by {column.as_found.base_tilt:g}°, up {towards}"
     for drum in column.as_found.drums:
         said = [
-            f"{word} {getattr(drum, name):g} {unit}" + _azimuth(drum, name.partition("_")[0])
-            for name, word, unit in (
-                ("offset", "offset", "m"),
-                ("tilt", "tilted", "degrees"),
-                ("chip_left", "chipped on the left by", "m"),
-                ("chip_right", "chipped on the right by", "m"),
-                ("chip_front", "chipped in front by", "m"),
-                ("chip_back", "chipped at the back by", "m"),
-                ("turn", "turned by", "degrees"),
-            )
+            f"{word} {getattr(drum, name):g} {unit}" + _azimuth(drum, name)
+            for name, word, unit in (("offset", "offset", "m"), ("tilt", "tilted", "degrees"))
             if getattr(drum, name) != 0.0
         ]
+        for name, word, towards in CHIPPED:
+            if size := getattr(drum, name):
+                azimuth = (drum.chip_azimuth + towards) % 360.0
+                said.append(f"chipped {f'towards {azimuth:g}°' if drum.chip_azimuth else word} by {size:g} m")
+        said += [f"turned by {drum.turn:g} degrees"] if drum.turn else []
         if said:
             facts[f"as found, drum {drum.drum}"] = ", ".join(said)
     return facts

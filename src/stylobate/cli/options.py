@@ -334,7 +334,9 @@ def field_of(option: str) -> str:
 def whole_number(option: str, text: str, example: int) -> int:
     """A whole number as typed after an option."""
     if not text.isdecimal():
-        raise InputError(f"{option} is {text!r}; allowed is a whole number, such as {example}.", field_of(option))
+        raise InputError(
+            f"{option} is {text!r}; allowed is a whole number from 0 on, such as {example}.", field_of(option)
+        )
     return int(text)
 
 

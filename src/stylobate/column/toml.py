@@ -59,15 +59,20 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
     try:
         found = tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
+        if data[:2] == b"PK" or Path(path).suffix.lower() in _WORKBOOKS:
+            raise InputError(f"{name} is the workbook of a spreadsheet; save the survey as CSV (UTF-8).") from None
         raise InputError(f"{name} is not a text file in UTF-8; give a TOML file.") from None
     except tomllib.TOMLDecodeError as error:
+        text = data.decode("utf-8-sig")
         other = (
             "" if Path(path).suffix.lower() == ".toml" else "; a TOML file of settings is expected here, not a record"
         )
-        if _SURVEY.search(data.decode("utf-8-sig")):
+        if _SURVEY.search(text):
+            called = "" if Path(path).suffix.lower() == ".csv" else "call it .csv, and "
             raise InputError(
-                f"{name} is a survey, drum by drum; turn it into a column file first, by `stylobate convert`."
+                f"{name} is a survey, drum by drum; {called}turn it into a column file first, by `stylobate convert`."
             ) from None
+        other = _point_meant(text, str(error)) or other
         raise InputError(f"{name} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}{other}.") from None
     except RecursionError:
         raise InputError(f"{name} is nested too deeply; {_NESTING}.") from None
@@ -81,6 +86,18 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
 _SURVEY = re.compile(
     r"\A(?:\s*(?:#.*)?\n)*(?=[^=\n]*height)(?=[^=\n]*bottom_width)[^=\n]*top_width[^=\n]*\n", re.IGNORECASE
 )
+
+#: Endings of files that spreadsheets save, which are no text.
+_WORKBOOKS = (".xls", ".xlsx", ".xlsm", ".ods", ".numbers")
+
+
+def _point_meant(text: str, error: str) -> str:
+    """What to write for a number with a decimal comma in the line that an error names; empty where it has none."""
+    place = re.search(r"at line (\d+)", error)
+    line = text.splitlines()[int(place[1]) - 1 :][:1] if place else []
+    number = re.search(r"=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", line[0]) if line else None
+    return "" if number is None else f"; numbers have a decimal point: write {number[1]}.{number[2]}"
+
 
 _NESTING = f"allowed are {DEEPEST} levels of tables and lists"
 #: Half of a character, as JSON and UTF-16 may write it: no file can hold it.

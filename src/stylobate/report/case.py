@@ -13,6 +13,7 @@ from markupsafe import Markup
 
 from ..analysis.difference import NO_MEASURE
 from ..atomic import output_folder
+from ..column.spatial.placing import NUMBERED
 from ..errors import InputError, StylobateError
 from ..results import Kind, Numbers, Result, RunResult, SeveralRuns, read_results
 from ..version import __version__
@@ -181,7 +182,7 @@ def _names(found: Sequence[Result]) -> set[str]:
     bodies = [body.name for stands in standing for body in stands.bodies if not (body.fixed and body.name == "ground")]
     return {
         *motions,
-        *bodies,
+        *(name for name in bodies if not NUMBERED.fullmatch(name)),
         *(label for label in labels if label not in NO_MEASURE),
         *(one.name for one in found),
         *(stands.name for one in found for stands in one.structures),

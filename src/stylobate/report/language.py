@@ -86,7 +86,7 @@ class Language:
         """A text in this language as far as it is known: whole, or sentence by sentence."""
         if not self.foreign or text in self.own or not _WORD.search(text):
             return text
-        if text not in self.table and "(" not in text and (found := self._listed(text, (", ",))) != text:
+        if text not in self.table and self._may_be_list(text) and (found := self._listed(text, (", ",))) != text:
             return found  # an entry could hold all of a list in one of its placeholders
         if (found := self._whole(text)) is not None:
             return found
@@ -101,6 +101,10 @@ class Language:
                     k = last
                     break
         return " ".join(said)
+
+    def _may_be_list(self, text: str) -> bool:
+        """Whether commas may part the entries of a list: not those in brackets and in names."""
+        return "(" not in text and not any(", " in name and name in text for name in self.own)
 
     def _listed(self, text: str, separators: Sequence[str] = ("; ", ", ")) -> str:
         """A list of which every entry is known, in this language; any other text as it is."""

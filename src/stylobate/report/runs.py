@@ -292,7 +292,7 @@ def _joints_of_blocks(r: Response, opening: list[float | None]) -> list[Item]:
     header = ["joint", "between", "peak opening [mm]", *([] if gone else ["residual slip [mm]", "residual twist [°]"])]
     body = []
     for k, (joint, gap) in enumerate(zip(joints, opening, strict=True)):
-        names = f"{structure.bodies[joint.lower].name}, {structure.bodies[joint.upper].name}"
+        names = f"{structure.bodies[joint.lower].name} – {structure.bodies[joint.upper].name}"
         row = [str(k + 1), names, n.NONE if gap is None else f"{1000.0 * gap:.2f}"]
         row += [] if gone else [f"{1000.0 * slip[k]:.2f}", f"{math.degrees(r.twist[-1, k]):.2f}"]
         body.append(row)

@@ -61,7 +61,9 @@ def motion_section(
     facts.append(("duration and time step", f"{motion.duration:.2f} s, {motion.dt:.4g} s"))
     metadata = known.get("metadata") or {}
     facts += [
-        (key.replace("_", " "), Own(metadata[key])) for key in SAID if metadata.get(key) not in (None, "", "None")
+        (key.replace("_", " "), str(metadata[key]) if key == "stage" else Own(metadata[key]))
+        for key in SAID
+        if metadata.get(key) not in (None, "", "None")
     ]
     done = [str(one) for one in (known.get("processing") or motion.processing)]
     recorded = any(metadata.get(key) for key in ("format", "station", "network", "event"))

@@ -90,6 +90,12 @@ def block_link(
 
 
 def _made(kind: str, kinds: Mapping[str, type[Link]]) -> Any:
+    if kind in KINDS and kind not in kinds:
+        raise InputError(
+            f"kind of a link is {kind!r}, which holds blocks side by side: give it in an assembly; a column takes "
+            f"{', '.join(kinds)}.",
+            "kind",
+        )
     check_choice("kind", kind, kinds, of="a link")
     return kinds[kind]
 

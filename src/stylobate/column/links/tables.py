@@ -90,7 +90,7 @@ def links_between(tables: Sequence[BlockLinkTable]) -> list[Link]:
 def _joints(table: LinkTable, joints: int) -> Sequence[int]:
     if table.joint is not None:
         raise InputError(f"joint = {table.joint} and joints are both given; keep one of the two.", "joint")
-    if table.kind in KINDS and KINDS[table.kind].lies != "joint":
+    if table.kind in COLUMN_KINDS and COLUMN_KINDS[table.kind].lies != "joint":
         raise InputError(f"a {table.kind} has no joints; give from_drum and to_drum.", "joint")
     if isinstance(table.joints, list):
         return table.joints
