@@ -34,6 +34,12 @@ WHICH_LEVEL = (
     "or the lowest where there is none."
 )
 
+#: Why an upper limit is infinite, in words.
+OPEN = (
+    "Where it says inf, it is beyond all that was computed, because runs collapse or lose the link, or there are "
+    "fewer than 21 records."
+)
+
 #: What is told of each: itself, and the limits of its interval.
 WHICH = ("value", "low", "high")
 
@@ -347,6 +353,25 @@ def worst_of(values: pandas.DataFrame, share: float = 0.84) -> pandas.DataFrame:
     known = known.assign(most=links[key].transform("max"), order=links.ngroup())
     known = known.sort_values(["state", "most", "order", key], ascending=[True, False, True, False], kind="stable")
     return known.drop(columns=["most", "order"])
+
+
+#: Units in which people read forces and ways, and how many of them are one of the SI.
+READ_IN = {"N": ("kN", 1e-3), "m": ("mm", 1e3)}
+
+
+def as_read(values: pandas.DataFrame) -> pandas.DataFrame:
+    """The same in kN and mm, which people read without powers of ten.
+
+    Parameters
+    ----------
+    values : pandas.DataFrame
+        As of :func:`design_values`, some of its rows.
+    """
+    units = [READ_IN[unit] for unit in values["unit"].tolist()]
+    size = np.array([factor for _, factor in units])
+    read = [str(name) for name in values if str(name).startswith(("capacity", "value_", "low_", "high_"))]
+    scaled = {name: values[name].to_numpy(dtype=float) * size for name in read}
+    return values.assign(**scaled, unit=[name for name, _ in units])
 
 
 def clearances(values: pandas.DataFrame) -> pandas.DataFrame:

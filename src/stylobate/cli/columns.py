@@ -194,6 +194,7 @@ def _facts(column: Column) -> dict[str, str]:
         "drums": f"{p['drums']}, {p['section']}",
         "height": f"{p['height_m']:g} m",
         "widths": f"{p['bottom_width_m']:g} m at the bottom, {p['top_width_m']:g} m at the top",
+        "height over width": f"{p['height_m'] / p['bottom_width_m']:.1f}",
         "mass": f"{p['mass_kg']:.0f} kg",
         "slenderness": f"{p['slenderness_rad']:.4f} rad",
         "frequency parameter": f"{p['frequency_parameter_rad_s']:.4f} rad/s",

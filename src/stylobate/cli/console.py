@@ -67,9 +67,10 @@ def say(sentence: str, facts: Mapping[str, str], files: list[Path] | None = None
 
 
 def print_files(files: Sequence[Path] | None) -> None:
-    """Say which files were written, and where; nothing where there are none."""
-    if files:
-        print(f"{counted(len(files), 'file')} in {files[0].parent}: {', '.join(file.name for file in files)}")
+    """Say which files were written, and where, folder by folder; nothing where there are none."""
+    for folder in dict.fromkeys(file.parent for file in files or ()):
+        names = [file.name for file in files or () if file.parent == folder]
+        print(f"{counted(len(names), 'file')} in {folder}: {', '.join(names)}")
 
 
 def counted(number: int, noun: str) -> str:

@@ -26,9 +26,10 @@ def write_design(values: pandas.DataFrame, files: Files) -> None:
 
 def describe_design(values: pandas.DataFrame) -> None:
     """Print the links used most of every state, and the clearance that layers need; nothing where there are none."""
+    import numpy as np
     import pandas
 
-    from ..analysis.design_values import WHICH_LEVEL, basis_of, clearances, where, worst_of
+    from ..analysis.design_values import OPEN, WHICH_LEVEL, as_read, basis_of, clearances, where, worst_of
     from . import console
 
     if not len(values):
@@ -37,7 +38,7 @@ def describe_design(values: pandas.DataFrame) -> None:
     words = f"{where(values)}: not exceeded under 84 % of the motions, with the 95 % interval {basis_of(values)}."
     if len(worst := worst_of(values)):
         print(f"Design values{words}")
-        some = worst.groupby("state", sort=False).head(6)
+        some = as_read(worst.groupby("state", sort=False).head(6))
         told: dict[str, Any] = {key: some[key] for key in ("state", *level, "link", "quantity", "unit")}
         told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
         told |= {
@@ -47,6 +48,8 @@ def describe_design(values: pandas.DataFrame) -> None:
         }
         told |= {"at [s]": some["instant_84_s"], "towards [°]": some["azimuth_84_deg"]}
         console.print_table(pandas.DataFrame(told), digits=3)
+        if not np.isfinite(some["high_84"].to_numpy(dtype=float)).all():
+            print(OPEN)
         if len(some) < len(worst):
             print(
                 f"{len(some)} of {len(worst)} rows, of the links used most; design.csv in --out has all, at every level."

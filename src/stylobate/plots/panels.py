@@ -40,7 +40,12 @@ def panels_for(count: int, figure: Figure | SubFigure | None, **options: Any) ->
     return figure, panels[:count]
 
 
+#: Width of a letter of a title over panels [inch].
+LETTER = 0.07
+
+
 def say(figure: Figure, title: str, left_out: int) -> None:
     """The title over the panels, and how many joints have none."""
     more = f" Without {left_out} joints that moved less." if left_out else ""
-    figure.suptitle(textwrap.fill(title + more, 58), x=0.02, ha="left", fontsize=8.0)
+    letters = min(max(int(figure.get_figwidth() / LETTER), 20), 110)
+    figure.suptitle(textwrap.fill(title + more, letters), x=0.02, ha="left", fontsize=8.0)

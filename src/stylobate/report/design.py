@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..analysis.design_values import WHICH_LEVEL, basis_of, clearances, where, worst_of
+from ..analysis.design_values import OPEN, WHICH_LEVEL, as_read, basis_of, clearances, where, worst_of
 from . import numbers as n
 from .page import Item, Rows
 from .pictures import kept
@@ -40,10 +40,7 @@ def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> 
     if values is None or not len(values):
         return []
     meant = f"what 84 % of the motions do not exceed, and its 95 % interval {basis_of(values)}."
-    open_ = (
-        "Where it says inf, it is beyond all that was computed, because runs collapse or lose the link, or there are "
-        "fewer than 21 records."
-    )
+    open_ = OPEN
     if where(values) and "told" in values:
         open_ += f" {WHICH_LEVEL}"
     items: list[Item] = []
@@ -72,5 +69,5 @@ def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> 
 
 
 def _rows(values: pandas.DataFrame, shown: dict[str, str], caption: str) -> Rows:
-    body = [[n.plain(one[key]) for key in shown.values()] for one in values.head(MOST).to_dict("records")]
+    body = [[n.plain(one[key]) for key in shown.values()] for one in as_read(values.head(MOST)).to_dict("records")]
     return Rows(list(shown), body, caption, numbers=True)

@@ -116,7 +116,7 @@ def assemble(
     if not horizontal:
         raise InputError(
             f"{name} holds only the vertical component {vertical[0].label!r}, and a motion needs a horizontal one; "
-            "give the horizontal files with it, or choose it as the horizontal input with `component='1'`.",
+            "give the horizontal files with it.",
             "component",
         )
     if len(horizontal) > 2 or len(vertical) > 1:
