@@ -350,6 +350,9 @@ def test_workbooks_and_decimal_commas_are_told(tmp_path, monkeypatch, refused):
     assert "'0,3g' has a decimal comma; write it as 0.3g." in refused(*run, "--pga", "0,3g")
     assert "write it as 0.3g if % of g is meant" in refused(*run, "--pga", "30")
     assert "of g it is 0.3g" in refused(*run, "--pga", "30%")
+    ida = ("ida", "paper-monolithic", "records", "--model", "housner", "--im", "pga")
+    assert "--runs is 'abc'; allowed is a whole number; see" in refused(*ida, "--runs", "abc")
+    assert "--runs is '1.5'; allowed is a whole number; see" in refused(*ida, "--runs=1.5")
 
 
 def test_a_survey_where_a_column_file_is_wanted_is_told_as_one(tmp_path, monkeypatch, refused):

@@ -205,7 +205,24 @@ def _usage(error: Any) -> str:
     context = getattr(error, "ctx", None)
     where = context.command_path if context is not None else "stylobate"
     message = " ".join(error.format_message().split())
+    kind = next((words for said, words in _NUMBERS.items() if said in message), None)
+    if kind is not None and (typed := _typed(getattr(getattr(error, "param", None), "opts", ()))) is not None:
+        return f"{typed[0]} is {typed[1]!r}; allowed is {kind}; see '{where} --help'."
     return f"{message.rstrip('.')}; see '{where} --help'."
+
+
+#: What the library says of an option that is no number, and what it should be, in words.
+_NUMBERS = {"valid integer": "a whole number", "valid number": "a number"}
+
+
+def _typed(names: Sequence[str]) -> tuple[str, str] | None:
+    """Name and value of an option as typed; None where it has no value."""
+    words = console.COMMAND
+    for place, word in enumerate(words):
+        name, sign, value = word.partition("=")
+        if name in names and (sign or place + 1 < len(words)):
+            return name, value if sign else words[place + 1]
+    return None
 
 
 def _complain(what: object, code: int) -> int:
