@@ -243,21 +243,21 @@ def select_records(
     t = np.geomspace(low, high, POINTS)
     aim = target.at(t)
     known = about or {}
-    kept: list[Motion] = []
-    spectra: list[np.ndarray] = []
-    sizes: list[float] = []
     refused: dict[str, str] = {}
-    again = recorded_again(motions)
-    for k, motion in enumerate(motions):
+    usable: list[tuple[Motion, np.ndarray, float]] = []
+    for motion in motions:
         reason, spectrum, size = _considered(motion, t, aim, horizontal, factors, wanted, known.get(motion.name, {}))
-        if reason is None and k in again:
-            reason = f"it is the recording of {motions[again[k]].name!r} once more; a record counts once"
         if reason is None:
-            kept.append(motion)
-            spectra.append(spectrum)
-            sizes.append(size)
+            usable.append((motion, spectrum, size))
         else:
             refused[motion.name] = reason
+    again = recorded_again([motion for motion, _, _ in usable])
+    for k, other in again.items():
+        name = usable[other][0].name
+        refused[usable[k][0].name] = f"it is the recording of {name!r} once more; a record counts once"
+    chosen_from = [one for k, one in enumerate(usable) if k not in again]
+    kept = [motion for motion, _, _ in chosen_from]
+    spectra, sizes = [spectrum for _, spectrum, _ in chosen_from], [size for _, _, size in chosen_from]
     if len(kept) < count:
         first = (
             f" The first reason: {next(iter(refused.items()))[0]}: {next(iter(refused.values()))}." if refused else ""

@@ -23,14 +23,19 @@ def recorded_again(motions: Sequence[Motion]) -> dict[int, int]:
     shapes: list[np.ndarray] = []
     for motion in motions:
         each = [pseudo_acceleration(motion, periods, component=axis) for axis in "xy" if axis in motion.components]
-        logs = np.log(np.maximum([one for one in each if one.min() > 0.0] or np.ones((0, len(periods))), 1e-300))
+        logs = np.log(np.array([one for one in each if one.min() > 0.0]).reshape(-1, len(periods)))
         shapes.append(logs - logs.mean(axis=1, keepdims=True))
-    again: dict[int, int] = {}
     order = sorted(range(len(motions)), key=lambda k: -len(motions[k].components))
-    for place, k in enumerate(order):
-        for other in order[:place]:
-            apart = np.abs(shapes[k][:, None] - shapes[other][None]).max(axis=2, initial=0.0)
-            if apart.size and apart.min() < ALIKE and other not in again:
-                again[k] = other
-                break
+    owner = np.array([k for k in order for _ in shapes[k]], dtype=int)
+    every = np.concatenate([np.empty((0, len(periods))), *(shapes[k] for k in order)])
+    again: dict[int, int] = {}
+    before = 0
+    for k in order:
+        near = np.zeros(before, dtype=bool)
+        for shape in shapes[k]:
+            near |= np.abs(every[:before] - shape).max(axis=1, initial=0.0) < ALIKE
+        others = [other for other in owner[:before][near].tolist() if other not in again]
+        if others:
+            again[k] = others[0]
+        before += len(shapes[k])
     return again
