@@ -107,7 +107,7 @@ def test_round_drums_of_an_assembly_are_told_with_diameters_offsets_and_chips(tm
 
 @pytest.mark.parametrize("scale", [None, 100])
 def test_sheets_are_drawn_to_the_scale_that_they_name(found, scale):
-    elevations, joints = plots.draw_to_scale(found, paper="A4", scale=scale)
+    elevations, joints = plots.sheets_to_scale(found, paper="A4", scale=scale)
     # 2.4 m and room for dimensions on 297 mm: 1:20 needs 120 mm; the faces of 1 m lie three beside one another
     for sheet, said in ((elevations, scale or 20), (joints, 20)):
         sheet.draw_without_rendering()
@@ -121,10 +121,10 @@ def test_sheets_are_drawn_to_the_scale_that_they_name(found, scale):
 
 def test_sheets_lie_across_where_that_shows_more_and_refuse_what_does_not_fit(tmp_path):
     scene = st.read_assembly(FOLDER / "colonnade.toml")
-    sheets = plots.draw_to_scale(scene, paper="A4")
+    sheets = plots.sheets_to_scale(scene, paper="A4")
     assert sheets[0].get_size_inches()[0] > sheets[0].get_size_inches()[1]
     with pytest.raises(st.InputError, match="scale is 1:1, at which the drawing does not fit on A4; the largest usual"):
-        plots.draw_to_scale(scene, paper="A4", scale=1)
+        plots.sheets_to_scale(scene, paper="A4", scale=1)
     (file,) = plots.save_sheets(sheets, tmp_path / "colonnade.pdf")
     assert len(sheets) > 1
     assert len(re.findall(rb"/Type /Page\b", file.read_bytes())) == len(sheets)

@@ -44,7 +44,7 @@ def draw(
     if paper is None:
         files = plots.save_as(plots.draw_sheet(structure, structure.name), out)
     else:
-        sheets = plots.draw_to_scale(structure, structure.name, paper=paper.upper(), scale=parse_scale(scale))
+        sheets = plots.sheets_to_scale(structure, structure.name, paper=paper.upper(), scale=parse_scale(scale))
         files = plots.save_sheets(sheets, out)
     moving = sum(not body.fixed for body in structure.bodies)
     if execution.emits({"name": structure.name, "bodies": moving, "files": [str(file) for file in files]}):

@@ -19,7 +19,7 @@ from .joints import draw_joints
 from .limit_directions import draw_limit_directions
 from .motion import draw_motion
 from .orbit import draw_orbit
-from .paper import PAPERS, draw_to_scale
+from .paper import PAPERS, sheets_to_scale
 from .probability import draw_probability
 from .pushover import draw_mechanism, draw_pushover
 from .record_selection import draw_record_selection
@@ -76,11 +76,11 @@ __all__ = [
     "draw_states",
     "draw_suite",
     "draw_survival",
-    "draw_to_scale",
     "draw_uplift",
     "draw_views",
     "draw_weighing",
     "save",
     "save_as",
     "save_sheets",
+    "sheets_to_scale",
 ]

@@ -47,7 +47,7 @@ class Place:
 
 
 @styled
-def draw_to_scale(
+def sheets_to_scale(
     structure: Structure, title: str | None = None, *, paper: str = "A4", scale: int | None = None
 ) -> tuple[Figure, ...]:
     """Sheets with elevations and plan of what stands at one scale, and with the plans of its joints at one scale.
