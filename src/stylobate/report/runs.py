@@ -37,6 +37,13 @@ IMBALANCE = 0.05
 LOOKS = {"at_rest": "good", "rocked": "good", "displaced": "fair", "collapsed": "bad", "failed": "bad"}
 
 
+#: Caption of the uplift of joints.
+UPLIFT = (
+    "Largest uplift along the rim of the drum above each joint, by direction. Where that rim lies beyond the face below, it "
+    "is larger than the opening, which is measured where faces overlap."
+)
+
+
 def run_sections(run: RunResult, told: set[str]) -> list[Section]:
     """All sections of one run.
 
@@ -204,7 +211,7 @@ def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]
         items.append(picture(plots.draw_joints(r, " "), "Opening of every joint over time, each to its own peak."))
     if space and r.histories.top is not None:
         items.append(picture(plots.draw_orbit(r, " "), "Orbit of the top in plan, relative to the base."))
-        items.append(picture(plots.draw_uplift(r, " "), "Largest uplift along the rim of each joint, by direction."))
+        items.append(picture(plots.draw_uplift(r, " "), UPLIFT))
         items.append(
             picture(
                 plots.draw_residuals(r, " "),
