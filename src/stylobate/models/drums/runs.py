@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -27,51 +26,10 @@ from .histories import ledger_imbalance
 from .links import acting, link_measures, link_snapshot
 from .pretension import held_at_start, set_free, without_tension
 from .records import LaneRecords, Packed
+from .started import Started
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
-
-
-@dataclass(frozen=True)
-class Started:
-    """How a run has begun, for those of the same column that begin alike: what does not hang on its motion otherwise.
-
-    Parameters
-    ----------
-    packed : Packed
-        The column.
-    dt : float
-        Time step [s].
-    ground : tuple of float
-        Acceleration of the base at the start [m/s²].
-    numbers : array
-        Numbers of the lane of what moves.
-    kept : tuple of array
-        What the block itself keeps of a lane.
-    """
-
-    packed: Packed
-    dt: float
-    ground: tuple[float, ...]
-    numbers: np.ndarray
-    kept: tuple[np.ndarray, ...]
-
-    @classmethod
-    def of(cls, block: LaneRuns, lane: int, ground: tuple[float, ...]) -> Started:
-        """That of a run that has begun in a lane."""
-        numbers = block.arrays.numbers[: block.arrays.moving, lane].copy()
-        kept = tuple(one[lane].copy() for one in block.beginning)
-        return cls(block.packed[lane], float(block.dt[lane]), ground, numbers, kept)
-
-    def serves(self, packed: Packed, dt: float, ground: tuple[float, ...]) -> bool:
-        """Whether another run begins so."""
-        return packed is self.packed and dt == self.dt and ground == self.ground
-
-    def put(self, block: LaneRuns, lane: int) -> None:
-        """Let a run begin so in a lane."""
-        block.arrays.numbers[: len(self.numbers), lane] = self.numbers
-        for one, own in zip(block.beginning, self.kept, strict=True):
-            one[lane] = own
 
 
 class LaneRuns:
