@@ -9,7 +9,8 @@ import pandas
 import pytest
 
 import stylobate as st
-from stylobate.analysis.design_values import clearances, fractile, values_of_runs, worst_of
+from stylobate.analysis.design_tables import clearances, worst_of
+from stylobate.analysis.design_values import fractile, values_of_runs
 from stylobate.campaign.twins import LAW
 from stylobate.cli.main import call
 from stylobate.column.files import write_column

@@ -17,7 +17,7 @@ from ..response.response import Response
 from . import verdicts as v
 from .compare import Comparison
 from .states import StateComparison
-from .unknown_law import few_laws, limits_under_another_law
+from .unknown_law import limits_under_another_law
 
 if TYPE_CHECKING:
     import pandas
@@ -32,12 +32,6 @@ MOST_COLLAPSED = 0.16
 WHICH_LEVEL = (
     "Unless another one was asked for, the level is the highest at which fewer than 16 % of the runs of a state collapse, "
     "or the lowest where there is none."
-)
-
-#: Why an upper limit is infinite, in words.
-OPEN = (
-    "Where it says inf, it is beyond all that was computed, because runs collapse or lose the link, or there are "
-    "fewer than 21 records."
 )
 
 #: What is told of each: itself, and the limits of its interval.
@@ -311,86 +305,6 @@ def _together(value: float, *limits: float) -> float:
 def _exp(value: float) -> float:
     """Power of e, infinite where it is too large for a number."""
     return math.inf if value > 700.0 else math.exp(value)
-
-
-def basis_of(values: pandas.DataFrame) -> str:
-    """What the intervals hold, in words.
-
-    Parameters
-    ----------
-    values : pandas.DataFrame
-        As of :func:`design_values`.
-    """
-    laws = max(values["laws"].tolist(), default=0) if "laws" in values else 0
-    if not laws:
-        return "over records; the law of the joints is taken as known"
-    return "over records and one more law of the joints" + (f"; {few}" if (few := few_laws(laws)) else "")
-
-
-def where(values: pandas.DataFrame) -> str:
-    """At which level values are told; empty where there is only one."""
-    which = " at one level" if "told" in values else " at the largest level"
-    return which if len(set(values["level"])) > 1 else ""
-
-
-def worst_of(values: pandas.DataFrame, share: float = 0.84) -> pandas.DataFrame:
-    """What has a capacity, at the level of every state that is told; links that are used most come first, else by place.
-
-    A ductile link at its capacity is judged by its slip, so that all quantities of a link stay together.
-
-    Parameters
-    ----------
-    values : pandas.DataFrame
-        As of :func:`design_values`.
-    share : float
-        Fractile [-].
-    """
-    key = f"use_value_{100 * share:g}"
-    known: Any = values[values[key].notna()] if len(values) else values
-    if not len(known):
-        return known
-    links = (known := _told(known)).groupby(["state", "link"], sort=False)
-    known = known.assign(most=links[key].transform("max"), order=links.ngroup())
-    known = known.sort_values(["state", "most", "order", key], ascending=[True, False, True, False], kind="stable")
-    return known.drop(columns=["most", "order"])
-
-
-#: Units in which people read forces and ways, and how many of them are one of the SI.
-READ_IN = {"N": ("kN", 1e-3), "m": ("mm", 1e3)}
-
-
-def as_read(values: pandas.DataFrame) -> pandas.DataFrame:
-    """The same in kN and mm, which people read without powers of ten.
-
-    Parameters
-    ----------
-    values : pandas.DataFrame
-        As of :func:`design_values`, some of its rows.
-    """
-    units = [READ_IN[unit] for unit in values["unit"].tolist()]
-    size = np.array([factor for _, factor in units])
-    read = [str(name) for name in values if str(name).startswith(("capacity", "value_", "low_", "high_"))]
-    scaled = {name: values[name].to_numpy(dtype=float) * size for name in read}
-    return values.assign(**scaled, unit=[name for name, _ in units])
-
-
-def clearances(values: pandas.DataFrame) -> pandas.DataFrame:
-    """Slip of layers at the level of every state that is told: the room that an isolated column needs around its foot.
-
-    Parameters
-    ----------
-    values : pandas.DataFrame
-        As of :func:`design_values`.
-    """
-    if not len(values):
-        return values
-    layers: Any = values[(values["kind"] == "layer") & (values["quantity"] == "slip")]
-    return _told(layers)
-
-
-def _told(values: Any) -> Any:
-    largest = values.groupby("state")["level"].transform("max")  # as earlier versions told them
-    return values[values["told"] if "told" in values else values["level"] == largest]
 
 
 def _has(link: PlacedLink, one: Quantity) -> bool:

@@ -17,7 +17,8 @@ from ..column.links.placed import PlacedLink
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
 from ..response.links import AT_CAPACITY
-from .design_values import WHICH, basis_of, design_values, worst_of
+from .design_tables import basis_of, worst_of
+from .design_values import WHICH, design_values
 from .evidence import evidence
 from .fragility import SAMPLES
 from .fragility_checks import FEWEST

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from ..analysis.design_values import basis_of, where, worst_of
+from ..analysis.design_tables import basis_of, where, worst_of
 from .style import CYCLE, GREY, WIDTH, page, plain, styled
 
 if TYPE_CHECKING:

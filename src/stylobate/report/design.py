@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..analysis.design_values import OPEN, WHICH_LEVEL, as_read, basis_of, clearances, where, worst_of
+from ..analysis.design_tables import OPEN, as_read, basis_of, clearances, where, worst_of
+from ..analysis.design_values import WHICH_LEVEL
 from . import numbers as n
 from .page import Item, Rows
 from .pictures import kept
