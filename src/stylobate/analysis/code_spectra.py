@@ -342,7 +342,7 @@ def parse_code(text: str, more: Mapping[str, Mapping[str, str]] | None = None) -
 
 def _acceleration(given: Mapping[str, str], name: str) -> float:
     """What is typed under a name [m/s²]."""
-    with within(name):
+    with within(name, name):
         return parse_acceleration(given[name])
 
 

@@ -13,7 +13,7 @@ from ..constants import g
 from ..errors import InputError, check_range
 from ..motion.specs import parse_acceleration, parse_time
 from . import tables
-from .code_spectra import CODES, LONGEST, assumed_of, parse_code, spectrum_of_code
+from .code_spectra import CODES, LARGEST, LONGEST, PLATEAU, assumed_of, parse_code, spectrum_of_code
 
 #: Shortest and longest period of Baker and Jayaram's correlations [s].
 CORRELATED = (0.01, 10.0)
@@ -27,8 +27,6 @@ FEWEST = 3
 
 _MOST = 1_000_000
 
-#: Acceleration beyond which no site has a design spectrum: a table that goes farther has another unit [m/s²].
-LARGEST = 5.0 * g
 _CONDITIONAL = re.compile(r"cms:(?P<file>.+),\s*T=(?P<period>[^,]+),\s*sa=(?P<level>[^,]+)")
 
 
@@ -178,16 +176,17 @@ def _read(path: str, column: str, *more: str) -> tuple[np.ndarray, ...]:
     level = np.array(table.numbers(there[0])) * units[there[0]]
     if len(period) < 2 or not np.isfinite(period).all() or (np.diff(period) <= 0.0).any() or period[0] < 0.0:
         raise InputError(f"periods of {path} must rise from 0 or more, two of them at least; sort the rows.")
-    if not np.isfinite(level).all() or (level <= 0.0).any() or level.max() > 1000.0:
+    if not np.isfinite(level).all() or (level <= 0.0).any():
         raise InputError(f"{there[0]} of {path} must be above 0, and finite; check the column.")
     k = int(level.argmax())
-    if level[k] > LARGEST:
+    most = LARGEST * PLATEAU
+    if level[k] > most * g:
         meant = (
             f"; if m/s² is meant, call the column {column}_m_s2" if there[0] != f"{column}_m_s2" else "; check the unit"
         )
         raise InputError(
             f"{there[0]} of {path} is {level[k] / units[there[0]]:g} at {period[k]:g} s, which is {level[k] / g:.3g} g; "
-            f"allowed is up to {LARGEST / g:g} g{meant}."
+            f"allowed is up to {most:g} g{meant}."
         )
     keep = period > 0.0  # the peak ground acceleration, which no logarithm has
     return period[keep], level[keep], *(np.array(table.numbers(name))[keep] for name in more)

@@ -16,16 +16,13 @@ from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_range, warn
 from ..percent import percent, percents
 from .integration import arias_growth, displacement
-from .motion import MAX_SAMPLES, Motion, integrate
+from .motion import MAX_SAMPLES, STRONGEST, Motion, integrate
 
 #: An end with less than this share of the peak is quiet.
 QUIET_SHARE = 0.01
 
 #: Scaling a record by more than this draws a warning [-].
 LARGEST_SCALING = 10.0
-
-#: Peak acceleration that no record has reached: the strongest have some 4 g [g].
-STRONGEST = 5.0
 
 
 def demean(motion: Motion, pre_event: float | None = None) -> Motion:

@@ -17,6 +17,9 @@ from ..errors import InputError, check_range
 
 MAX_SAMPLES = 20_000_000
 
+#: Peak acceleration that no record has reached, the strongest have some 4 g [g]: beyond it the unit is wrong.
+STRONGEST = 5.0
+
 #: What a motion may be multiplied by [-].
 FACTORS = (-1e6, 1e6)
 

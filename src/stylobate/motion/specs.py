@@ -12,7 +12,7 @@ from ..constants import g
 from ..errors import InputError, check_choice, within
 from . import pulses
 from .harmonic import harmonic
-from .motion import Motion
+from .motion import STRONGEST, Motion
 from .synthesis import stochastic_motion
 
 #: Units of acceleration that a person may type or a file may name, in m/s².
@@ -313,17 +313,21 @@ def _quantity(text: str, kind: str, example: str, name: str | None) -> float:
     return value
 
 
+def _usual_unit(example: str) -> str:
+    """Unit of the only number of an example; empty where it has more than one."""
+    sample = None if "," in example else _QUANTITY.fullmatch(example)
+    return "" if sample is None else sample.group(2) or ""
+
+
 def _measure(text: str, where: str, example: str) -> tuple[str, float]:
     match = _QUANTITY.fullmatch(text)
     if match is None:
         raise InputError(f"{where}: {text.strip()!r} is not a number with a unit; write it as {example!r}.", value=text)
     number, unit = match.group(1), match.group(2)
     if unit is None:
-        sample = None if "," in example else _QUANTITY.fullmatch(example)
-        as_meant = f"with one, such as {number}{sample.group(2)}" if sample is not None else f"as {example!r}"
-        if (
-            sample is not None and sample.group(2) == "g" and number != "?" and abs(float(number)) > 5.0
-        ):  # beyond any record
+        usual = _usual_unit(example)
+        as_meant = f"with one, such as {number}{usual}" if usual else f"as {example!r}"
+        if usual == "g" and number != "?" and abs(float(number)) > STRONGEST:
             as_meant = f"as {float(number) / 100.0:g}g if % of g is meant, and as {number}m/s2 if m/s² is"
         raise InputError(f"{where}: {text.strip()!r} has no unit; write it {as_meant}.", value=text)
     name = unit.lower()
@@ -338,7 +342,7 @@ def _measure(text: str, where: str, example: str) -> tuple[str, float]:
                 f"{where}: {text.strip()!r} has a decimal comma; write it as {number}.{unit[1:]}."
             ) from None
         if unit == "%" and number != "?":
-            meant = f"; of g it is {float(number) / 100.0:g}g"
+            meant = f"; of g it is {float(number) / 100.0:g}g" if _usual_unit(example) == "g" else ""
             raise InputError(f"{where}: {text.strip()!r} does not say of what it is a share{meant}.") from None
         raise InputError(f"{where}: unit {unit!r} is unknown here; write it as {example!r}.") from None
     return "acceleration", math.nan if number == "?" else _number(number, where) * size

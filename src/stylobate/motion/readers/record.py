@@ -11,15 +11,12 @@ from ...constants import g
 from ...errors import InputError, warn
 from ...percent import percent
 from ..drift import as_asked, best_of, cures_of
-from ..motion import MAX_SAMPLES, Motion, integrate
+from ..motion import MAX_SAMPLES, STRONGEST, Motion, integrate
 from .component import Component
 from .steps import resampled, same_step
 
 #: A mean beyond this share of the peak is not an earthquake: an instrument's offset was left in.
 OFFSET_SHARE = 0.1
-
-#: A peak beyond every recorded one [g]: the unit is wrong.
-LARGEST_PEAK = 5.0
 
 #: A smaller peak is not recorded on purpose [g]: the unit is wrong, or the numbers are raw counts.
 SMALLEST_PEAK = 1e-3
@@ -205,7 +202,7 @@ def _doubt(text: str) -> None:
 def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None:
     peaks = {axis: float(np.abs(array).max(initial=0.0)) / g for axis, array in values.items()}
     for axis, peak in peaks.items():
-        if peak > LARGEST_PEAK:
+        if peak > STRONGEST:
             _doubt(
                 f"{name}: the peak of component {axis} is {peak:.3g} g, more than was ever recorded; check the unit."
             )
@@ -216,7 +213,7 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
         )
     for axis, array in values.items():
         fastest = float(np.abs(integrate(array, step)).max())
-        if fastest > LARGEST_VELOCITY and peaks[axis] <= LARGEST_PEAK:
+        if fastest > LARGEST_VELOCITY and peaks[axis] <= STRONGEST:
             cure = best_of(cures_of(array, step, LARGEST_VELOCITY))
             drift = "" if cure is None else f", or take off the drift of the baseline ({as_asked(cure)})"
             _doubt(
