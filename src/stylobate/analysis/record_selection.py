@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -27,6 +28,9 @@ HORIZONTAL = ("geomean", "larger", "rotd50", "rotd100", "x")
 
 #: Periods at which spectra are compared, evenly spaced in their logarithm.
 POINTS = 100
+
+#: Words by which the name of a station tells that it stands on a structure.
+ON_A_STRUCTURE = re.compile(r"\b(dam|crest|abutment|roof|floor|overpass|bldg)\b", re.IGNORECASE)
 
 #: Fewest records of which EN 1998-1 and NTC 2018 take the mean of the responses.
 FOR_MEANS = 7
@@ -154,6 +158,9 @@ class RecordSelection(Shown):
             said += (
                 f" The files of {names} do not tell of which earthquake they are: see that it is none of the others'."
             )
+        if on_structures := self.table["record"][self.table["on_structure"]].tolist():
+            names = ", ".join(on_structures)
+            said += f" By their stations these are on structures, whose shaking is not that of the ground: {names}."
         return said
 
     def summary(self) -> dict[str, Any]:
@@ -357,6 +364,13 @@ def _row(
         "event": motion.metadata.get("event"),
         "magnitude": about.get("magnitude"),
         "distance_km": about.get("distance_km"),
+        "on_structure": on_a_structure(motion),
         "drift_m": drift,
         "cure": cure_of(motion) if drift else None,
     }
+
+
+def on_a_structure(motion: Motion) -> bool:
+    """Whether the name of the station of a record says that it stands on a structure, and not on the ground."""
+    told = (str(motion.metadata.get(key) or "") for key in ("station", "station_name", "location"))
+    return bool(ON_A_STRUCTURE.search(" ".join(told)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,14 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..analysis.record_selection import Wanted
-    from ..motion import Motion
 
 #: Columns of the table that are printed.
 SHOWN = ("record", "factor", "compared_by", "misfit", "pga_g", "pgv_m_s", "magnitude", "distance_km")
-
-
-#: Words of a station that stands on a structure.
-_STRUCTURE = re.compile(r"\b(dam|crest|abutment|roof|floor|overpass|bldg)\b", re.IGNORECASE)
 
 
 def records(
@@ -104,17 +98,8 @@ def records(
             steps = cure.split(THEN) if isinstance(cure, str) else []
             remedy = " ".join(f"--condition {step}" for step in steps) or "no conditioning that is known here mends it"
             print(f"{row['record']}: displacements drift by {row['drift_m']:.2g} m after double integration; {remedy}")
-    for motion in found.motions:
-        if on_a_structure(motion):
-            print(f"{motion.name}: its station seems to be on a structure, whose shaking is not that of the ground")
     console.print_refused(refused)
     console.print_files(files)
-
-
-def on_a_structure(motion: Motion) -> bool:
-    """Whether the name of the station of a record says that it stands on a structure, and not on the ground."""
-    said = (str(motion.metadata.get(key) or "") for key in ("station", "station_name", "location"))
-    return bool(_STRUCTURE.search(" ".join(said)))
 
 
 def _pair(option: str, text: str, parse: Callable[[str], float], example: str) -> tuple[float, float]:
