@@ -57,6 +57,6 @@ def parse_scale(text: str | None) -> int | None:
     if text is None:
         return None
     one, _, number = text.partition(":")
-    if one.strip() != "1" or not number.strip().isdecimal() or not 1 <= int(number) <= 1000:
+    if one.strip() != "1" or not number.strip().isdecimal():
         raise InputError(f"--scale is {text!r}; allowed is 1:N with N from 1 to 1000, such as 1:50.", "scale")
     return int(number)

@@ -100,8 +100,8 @@ def ida(
     console.say(
         f"{stone.name}, {how.name}: {console.counted(len(curves), 'curve')} over {measure.words}.", facts, files
     )
-    if len(best) and (known_of := int(best["records"].to_numpy().max())) < FEWEST:
-        print(f"Which measure tells most is told from {FEWEST} records; there are {known_of}.")
+    if len(best) and (most := int(best["records"].to_numpy().max())) < FEWEST:
+        print(f"Which measure tells most is told from {FEWEST} records; there are {most}.")
     elif len(best):
         console.print_table(best.drop(columns=["median", "unit"]).dropna(axis=1, how="all"), digits=3)
     console.print_refused(records.refused)

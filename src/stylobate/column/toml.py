@@ -223,6 +223,7 @@ def toml_text(tables: Mapping[str, Any], comments: Iterable[str] = ()) -> str:
     Parameters
     ----------
     tables : mapping
+        Of keys that need no quotes in TOML.
     comments : iterable of str
         Lines above them.
     """

@@ -110,13 +110,12 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
     if layout not in LAYOUTS:
         raise InputError(f"`compas` is {layout!r}; allowed are {', '.join(LAYOUTS)}.", "compas")
     refuse_existing(path)
-    suffix_of = Path(model).suffix.lower()
-    foreign = suffix_of in READ
+    read_from = Path(model).suffix.lower()
+    foreign = read_from in READ
     structure, tables, words = read_model(Path(model), reading) if foreign else (load_structure(model), None, [])
     if suffix == ".toml":
-        content = (
-            _file_of(structure) if tables is None else toml_text(tables, words if suffix_of == ".csv" else ()).encode()
-        )
+        comments = words if read_from == ".csv" else ()
+        content = _file_of(structure) if tables is None else toml_text(tables, comments).encode()
     elif suffix == ".csv":
         column = structure.stack
         if column is None:

@@ -19,7 +19,7 @@ from .joints import draw_joints
 from .limit_directions import draw_limit_directions
 from .motion import draw_motion
 from .orbit import draw_orbit
-from .paper import PAPERS, sheets_to_scale
+from .paper import sheets_to_scale
 from .probability import draw_probability
 from .pushover import draw_mechanism, draw_pushover
 from .record_selection import draw_record_selection
@@ -37,7 +37,6 @@ from .views import draw_views
 from .weighing import draw_weighing
 
 __all__ = [
-    "PAPERS",
     "draw_amplitudes",
     "draw_boundaries",
     "draw_calibration",

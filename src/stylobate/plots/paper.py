@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..column.structure import Structure
-from ..errors import InputError, check_choice
+from ..errors import InputError, check_choice, check_whole
 from ..version import __version__
 from .joint_plans import LINE, JointPlan, draw_plan, joint_plans, lines_under, plan_axes, plan_reach
 from .style import BLACK, GREY, styled
@@ -73,6 +73,8 @@ def sheets_to_scale(
         An unknown paper, or a scale at which the elevations do not fit.
     """
     check_choice("paper", paper, PAPERS)
+    if scale is not None:
+        check_whole("scale", scale, 1, SCALES[-1])
     name = title or structure.name
     seen = Seen.of(structure)
     size, scale, places = _fitting(seen, paper, scale)

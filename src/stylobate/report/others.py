@@ -10,6 +10,7 @@ import numpy as np
 
 from ..analysis.compare import Comparison as SideBySide
 from ..analysis.design_values import design_values
+from ..analysis.efficiency import FEWEST
 from ..analysis.ida_curves import median_of
 from ..analysis.population import CHANCE, chance_words
 from ..analysis.probability import CollapseProbability
@@ -115,9 +116,9 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
 
 
 def _labels(result: Result) -> list[str]:
-    """Of each structure the state that curves of a fragility call it; empty where there is one, or no such name."""
-    curves = (result.summary.get("curves") or []) if result.kind is Kind.FRAGILITY else []
-    names = [str(curve["name"]) for curve in curves]
+    """Of each structure the state that it was computed as; empty where there is one, or where its runs name none."""
+    kept = result.asked.structures if result.asked is not None else ()
+    names = [str(one.get("state") or "") for one in kept]
     return names if len(names) == len(result.structures) > 1 else [""] * max(len(result.structures), 1)
 
 
@@ -227,7 +228,7 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     keys = ["motion", "realisation", "stands_until", "collapses_from", "resurrections", "runs", "open"]
     items: list[Item] = [table(rows, keys, "Capacity under each motion.")]
     items += kept(result.pictures, "ida", "Response over the intensity, a curve for each record.")
-    if s.get("measures"):
+    if max((one.get("records") or 0 for one in s.get("measures") or ()), default=0) >= FEWEST:
         items.append(
             table(
                 s["measures"],

@@ -72,7 +72,7 @@ class Source:
         kept = asked.structures if asked is not None else ()
         labels = asked.options.get("states") if asked is not None else None
         if labels and len(labels) == len(kept):
-            return [one for label, one in zip(labels, kept) if label in names]
+            return [one | {"state": label} for label, one in zip(labels, kept) if label in names]
         return [one for one in kept if not names or any(_named(one, name) for name in names)]
 
     @property
