@@ -191,10 +191,7 @@ class Motion:
             "processing": self.processing,
         }
         other = {"acceleration": "ax", "lateral": "ay", "vertical": "az"}
-        changed = Motion(**fields | {other.get(key, key): value for key, value in changes.items()})
-        if changed.samples is self.samples:  # a domain has one record at thousands of levels
-            vars(changed)["_peak"] = self._peak
-        return changed
+        return Motion(**fields | {other.get(key, key): value for key, value in changes.items()})
 
     def scaled(self, factor: float) -> Motion:
         """A copy with every component multiplied by ``factor`` [-], which its name says; the samples are shared.
@@ -202,8 +199,14 @@ class Motion:
         It stays the same record: copies of one record are no independent evidence, however they are named.
         """
         times = check_range("factor", factor, *FACTORS)
-        kept = {**self.metadata, "record": self.record}
-        return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}", metadata=kept)
+        changed = object.__new__(Motion)  # of samples that are checked: a domain has one record at thousands of levels
+        vars(changed).update({key: vars(self)[key] for key in _SHARED}, _peak=self._peak)
+        vars(changed).update(
+            factor=check_range("factor", self.factor * times, -1e9, 1e9, of="a motion"),
+            name=f"{self.name} × {times:g}",
+            metadata=MappingProxyType({**self.metadata, "record": self.record}),
+        )
+        return changed
 
     def scaled_to_pga(self, pga: float) -> Motion:
         """A copy whose horizontal peak along x is ``pga`` [m/s²]; every component is multiplied alike.
@@ -254,6 +257,10 @@ class Motion:
         peak, axis = self.horizontal_peak
         along = "" if self.lateral is None else f" along {axis}"
         return f"{self.name}: {self.duration:g} s, dt {self.dt:g} s, PGA {peak / g:.3g} g{along}"
+
+
+#: Attributes of a motion that its scaled copies have as well.
+_SHARED = ("dt", "samples", "y_samples", "z_samples", "processing")
 
 
 def _checked(value: np.ndarray, label: str, name: str) -> np.ndarray:

@@ -16,6 +16,9 @@ _NOTHING, _NONE, _VALUE = 0, 1, 2
 #: Stored form of values of a type; texts as their place in a list of all texts.
 _TYPES = {bool: np.int8, int: np.int64, float: np.float64, str: np.int32}
 
+#: Kinds of values that are told by their type alone.
+_PLAIN = {one: (one,) for one in (bool, float, str)}
+
 
 class Rows(Sequence[Any]):
     """Rows (``Measures.row()``) by number; None where there is none.
@@ -183,6 +186,8 @@ class _Column:
 
 def _kind(value: Any) -> tuple:
     """The type of a value, and the length of a list of floats; object for anything else."""
+    if (kind := _PLAIN.get(type(value))) is not None:
+        return kind
     for one in (float, bool, int, str):
         if isinstance(value, one):
             return (object,) if one is int and not -(2**63) <= value < 2**63 else (one,)
