@@ -6,7 +6,7 @@ import sys
 import time
 
 from ...atomic import replacing
-from .kinds import FOLDER, OLDEST, kinds, missing, stamp
+from .kinds import FOLDER, OLDEST, REGISTERS, kinds, missing, stamp
 
 
 def build(*names: str) -> None:
@@ -24,7 +24,7 @@ def build(*names: str) -> None:
     FOLDER.mkdir(exist_ok=True)
     for name in [name for name in missing() if not names or name in names]:
         started = time.monotonic()
-        text = compiled(kinds()[name])
+        text = compiled(kinds()[name], REGISTERS.get(name, 0))
         with replacing(FOLDER / f"{name}.ptx") as partial:
             partial.write_text(f"{stamp()}\n{text}")
         print(f"{name}: {len(text) // 1024} kB in {time.monotonic() - started:.0f} s", flush=True)

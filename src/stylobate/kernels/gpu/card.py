@@ -7,8 +7,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..run_codes import CHUNK, FREE, RUNNING
-from .kinds import ARGUMENTS, Types, kinds, site_type
+from ..run_codes import FREE, RUNNING
+from .kinds import AHEAD, ARGUMENTS, Types, kinds, site_type
 
 #: Records of lanes that the kernel changes; those of sites come first among its arguments.
 OF_LANES = ("lane", "feed", "watch")
@@ -62,7 +62,7 @@ def fits(device: Device, name: str, drums: int) -> bool:
     """Whether columns of so many drums fit on a card, with the kernel of a name."""
     types = kinds()[name]
     threads = types["watch"]["status"].shape[0] * drums
-    room = shared_memory(types, drums) + types["ground"].itemsize * (CHUNK + 1)
+    room = shared_memory(types, drums) + types["ground"].itemsize * (AHEAD + 1)
     return room <= device.shared and threads <= device.kernel(name, shared_memory(types, drums))[1]
 
 

@@ -25,7 +25,7 @@ from numba import cuda, from_dtype, int64
 from ..jit import law
 from ..run_codes import CHUNK
 from ..shared.frame import end_run, go_on, goes_on
-from .kinds import ARGUMENTS, ENTRY, OLDEST, site_type
+from .kinds import AHEAD, ARGUMENTS, ENTRY, OLDEST, site_type
 from .laws import Laws, laws_for
 
 
@@ -51,12 +51,16 @@ def kernel_for(types: Mapping[str, np.dtype]):
     return _kernel_on(site_type(types), types["ground"], types["watch"]["status"].shape[0], laws_for(types))
 
 
-def compiled(types: Mapping[str, np.dtype]) -> str:
-    """The same as PTX for cards from :data:`OLDEST` upwards, none of which need be there, under the name :data:`ENTRY`."""
+def compiled(types: Mapping[str, np.dtype], registers: int = 0) -> str:
+    """The same as PTX for cards from :data:`OLDEST` upwards, none of which need be there, under the name :data:`ENTRY`.
+
+    Its threads have so many registers at most; 0 leaves that to the compiler of the driver.
+    """
     site = from_dtype(site_type(types))[:, ::1]
     own = (from_dtype(types[name])[::1] for name in ARGUMENTS)
     text = cuda.compile_ptx(kernel_for(types).py_func, (site, *own, int64), cc=OLDEST)[0]
-    return text.replace(text.split(".entry", 1)[1].split("(", 1)[0].strip(), ENTRY)
+    head, entry, body = text.replace(text.split(".entry", 1)[1].split("(", 1)[0].strip(), ENTRY).partition(".entry")
+    return head + entry + (body.replace("\n)\n", f"\n)\n.maxnreg {registers}\n", 1) if registers else body)
 
 
 @cache
@@ -68,7 +72,7 @@ def _kernel_on(site_of_types: np.dtype, ground: np.dtype, lanes: int, laws: Laws
     """
     joint_force, move, no_momentum, add_work, ground_at, look = laws[:6]
     site_record, ground_record = from_dtype(site_of_types), from_dtype(ground)
-    rows = CHUNK + 1
+    rows = AHEAD + 1
 
     @cuda.jit
     def advance(site, lane, feed, watch, hold, chunks):
@@ -99,18 +103,19 @@ def _kernel_on(site_of_types: np.dtype, ground: np.dtype, lanes: int, laws: Laws
             own = goes_on(w, l)
             if going == 0:
                 break
-            for k in range(j, rows, drums):
-                ground_at(g[k], f, own, k, l)
-            for k in range(CHUNK):
+            for first in range(0, CHUNK, AHEAD):
+                for k in range(j, rows, drums):
+                    ground_at(g[k], f, own, first + k, l)
+                for k in range(AHEAD):
+                    cuda.syncthreads()
+                    if own:
+                        joint_force(u, v, e, under, o, sums, l)
+                    cuda.syncthreads()
+                    if own:
+                        no_momentum(sums, l)
+                        move(u, under, above, o, sums, g[k], l)
+                        add_work(o, sums, g[k], g[k + 1], l)
                 cuda.syncthreads()
-                if own:
-                    joint_force(u, v, e, under, o, sums, l)
-                cuda.syncthreads()
-                if own:
-                    no_momentum(sums, l)
-                    move(u, under, above, o, sums, g[k], l)
-                    add_work(o, sums, g[k], g[k + 1], l)
-            cuda.syncthreads()
             if own and j == 0:
                 for i in range(drums):
                     add_sums(o, s[i]["sums"], l)

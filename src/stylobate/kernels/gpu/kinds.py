@@ -16,6 +16,7 @@ from ...errors import InputError
 from ..dem3d import records as in_space
 from ..jit import source_digest
 from ..plane import records as in_plane
+from ..run_codes import CHUNK
 from .laws import laws_for
 
 #: Compute capability of the oldest cards for which kernels are built.
@@ -28,11 +29,21 @@ ENTRY = "advance"
 ARGUMENTS = ("lane", "feed", "watch", "hold")
 NUMBERS = 9 + 7 * len(ARGUMENTS) + 1
 
-#: Lanes of a block: as many as keep a column of a dozen drums within the shared memory that every card has for one.
-PLANE_LANES, SPACE_LANES = 8, 4
+#: Lanes of a block: with a dozen drums whole groups of threads, of 32 each, and memory for several blocks on a processor.
+PLANE_LANES, SPACE_LANES = 8, 8
 
 #: Contact points of a joint in the plane, and faces of drums in space, for which there are kernels.
 POINTS, FACES = 2, ("rim", "corner")
+
+#: Most registers of a thread, by the kernel: each quarter of a processor shares out 16,384 among its groups of 32 threads, so
+#: that it has five of them at a time in the plane, and three in space. Others have what their compiler gives them.
+REGISTERS = {"plane": 96, "rim": 168}
+
+#: Steps for which a block holds the motion of its base at a time, of a chunk: its memory is short.
+AHEAD = CHUNK // 2
+
+#: Last fields of a body in the plane, which the loads under and over it tell.
+IN_LOADS = ("fx", "fz", "mo")
 
 #: Folder of the files.
 FOLDER = Path(__file__).parent / "built"
@@ -57,7 +68,8 @@ def kinds() -> dict[str, Types]:
     found: dict[str, Types] = {}
     for damped in (False, True):
         joint = in_plane.point_joint(POINTS, damped, PLANE_LANES)
-        found[plane_kernel(damped)] = in_plane.types(joint, damped, POINTS, PLANE_LANES, False)
+        own = in_plane.types(joint, damped, POINTS, PLANE_LANES, False)
+        found[plane_kernel(damped)] = own | {"body": _without(own["body"], IN_LOADS)}
         for face in FACES:
             found[space_kernel(face, damped, False)] = in_space.types(face, damped, lanes=SPACE_LANES)
     found[space_kernel("rim", True, True)] = in_space.types("rim", True, True, lanes=SPACE_LANES)
@@ -67,6 +79,17 @@ def kinds() -> dict[str, Types]:
 def lanes_of(name: str) -> int:
     """Lanes of a block of the kernel of a name."""
     return kinds()[name]["watch"]["status"].shape[0]
+
+
+def _without(record: np.dtype, last: tuple[str, ...]) -> np.dtype:
+    """A record without its last fields."""
+    names = record.names or ()
+    assert names[-len(last) :] == last
+    return np.dtype([(name, *_described(record[name])) for name in names[: -len(last)]])
+
+
+def _described(field: np.dtype) -> tuple[np.dtype, tuple[int, ...]]:
+    return field.base, field.shape
 
 
 def site_type(types: Types) -> np.dtype:

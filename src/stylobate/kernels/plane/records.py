@@ -11,7 +11,7 @@ positions at t_n, velocities at t_{n−1/2})::
     body[i]    x z th c s     centroid [m], rotation [rad], its cosine and sine
                vx vz w        velocities [m/s], [rad/s]
                m i im ii      mass [kg], inertia [kg m²], and their inverses (0 where fixed)
-               fx fz mo       force [N] and moment about the centroid [N m] of all contacts
+               fx fz mo       force [N] and moment about the centroid [N m] of all contacts; not on graphics cards
     load[k]    fx fz mu_ ml   force of contact k on its upper body [N], moments on the upper and the lower one about their
                               centroids [N m]
     joint[j]   ht wl wr       of the lower body: centroid to its face; from the centroid's foot to the face's left and right

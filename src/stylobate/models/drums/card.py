@@ -134,7 +134,7 @@ class CardLanes:
         """Write lanes of a block here for the card."""
         block, there = self.blocks[number], self._there(number, own)
         for name, view in self.views.items():
-            view[(slice(None), slice(None), *there)] = block.arrays.rows[name][:, own].reshape(*view.shape[:2], -1)
+            view[(slice(None), slice(None), *there)] = _fields(block, name, view)[..., own]
         feed = self.card.here["feed"]
         for one, *place in zip(own.tolist(), *there, strict=True):
             case = block.cases[one]
@@ -151,13 +151,19 @@ class CardLanes:
         block.ledgers.clear()
         for name, view in self.views.items():
             if name != "feed":
-                block.arrays.rows[name][:, own] = view[(slice(None), slice(None), *there)].reshape(-1, len(own))
+                _fields(block, name, view)[..., own] = view[(slice(None), slice(None), *there)]
         block.feed["step"][0, own] = self.card.here["feed"]["step"][there]
 
     def _in_use(self) -> set[int]:
         cases = [case for block in self.blocks for case in block.cases if case is not None]
         every = [samples for case in cases for samples in _components(case).values()]
         return {samples.ctypes.data for samples in every if samples is not None}
+
+
+def _fields(block: LaneRuns, name: str, view: np.ndarray) -> np.ndarray:
+    """Numbers of a record here that the card has as well, its first fields: shape (rows, fields, lanes)."""
+    rows, fields = view.shape[:2]
+    return block.arrays.rows[name].reshape(rows, -1, block.lanes)[:, :fields]
 
 
 def _components(case: Case) -> dict[str, np.ndarray | None]:
