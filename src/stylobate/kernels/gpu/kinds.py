@@ -35,8 +35,8 @@ PLANE_LANES, SPACE_LANES = 8, 8
 #: Contact points of a joint in the plane, and faces of drums in space, for which there are kernels.
 POINTS, FACES = 2, ("rim", "corner")
 
-#: Most registers of a thread, by the kernel: each quarter of a processor shares out 16,384 among its groups of 32 threads, so
-#: that it has five of them at a time in the plane, and three in space. Others have what their compiler gives them.
+#: Most registers of a thread, by the kernel: each quarter of a processor shares out 16,384 among its groups of 32 threads,
+#: so that it has five of them at a time in the plane, and three in space. Others have what their compiler gives them.
 REGISTERS = {"plane": 96, "rim": 168}
 
 #: Steps for which a block holds the motion of its base at a time, of a chunk: its memory is short.

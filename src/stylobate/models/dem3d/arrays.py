@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -67,11 +67,20 @@ class Records(LaneRecords):
 
     def axes(self, lane: int) -> np.ndarray:
         """Axes of every body as the columns of a matrix [-], shape (n, 3, 3)."""
-        return np.stack([self.vectors(lane, f"{a}x {a}y {a}z") for a in "ijk"], axis=-1)
+        found = np.empty((len(self.body) - 1, 3, 3))
+        for axis, a in enumerate("ijk"):
+            self._put(found[:, :, axis], lane, (f"{a}x", f"{a}y", f"{a}z"))
+        return found
 
     def vectors(self, lane: int, names: str) -> np.ndarray:
         """Vectors of all bodies but the base, by the names of their fields, shape (n, 3)."""
-        return np.stack([self.body[name][1:, lane] for name in names.split()], axis=-1)
+        found = np.empty((len(self.body) - 1, 3))
+        self._put(found, lane, names.split())
+        return found
+
+    def _put(self, found: np.ndarray, lane: int, names: Sequence[str]) -> None:
+        for c, name in enumerate(names):
+            found[:, c] = self.body[name][1:, lane]
 
     def acceleration(self, lane: int) -> float:
         """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""

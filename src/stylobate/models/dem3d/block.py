@@ -161,12 +161,11 @@ class SpaceBlock(LaneRuns):
     def shake(self, lane: int, motion: Motion) -> None:
         """Note how the base of a lane moves."""
         feed, watch = self.feed[0], self.watch[0]
-        along, high = motion.samples**2, 0.0
+        flat, high = motion.pga, 0.0
         if motion.y_samples is not None:
-            along = along + motion.y_samples**2
+            flat = math.sqrt(float((motion.samples**2 + motion.y_samples**2).max())) * abs(motion.factor)
         if motion.z_samples is not None:
             high = float(np.abs(motion.z_samples).max()) * abs(motion.factor)
-        flat = math.sqrt(float(along.max())) * abs(motion.factor)
         level, slope = float(feed["r"][8, lane]), math.hypot(feed["r"][2, lane], feed["r"][5, lane])
         watch["amax"][lane] = flat + slope * high
         watch["vmax"][lane] = level * high + slope * flat
