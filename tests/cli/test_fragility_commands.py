@@ -283,6 +283,7 @@ def test_states_are_chosen_among_as_columns_are(tmp_path, records, capsys):
     (told,) = result.asked.sources
     assert (told["columns"], told["not_told"], told["command"][0]) == (["as found"], None, "states")
     assert [one.name for one in result.asked.stood] == [rocking_block(2.0, 0.15).name]
+    assert [one["state"] for one in result.asked.structures] == ["as found"]
     assert "no runs of a column or state 'core'; it has as built" in said(capsys, "risk", out, "--of", "core", "--hazard",
                                                                         hazard, code=2).err  # fmt: skip
 
