@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, check_kind, warn, within
+from ..errors import InputError, check_choice, check_kind, check_range, warn, within
 from ..reading import shown
 from .as_found import AsFound, FoundDrum
-from .drum import Drum
+from .drum import DENSITIES, LENGTHS, SECTIONS, Drum
 from .joint import FRICTION, Joint, given
 from .links.tables import LinkTable, links_of
 from .materials import JOINT_VALUES, Material, material
@@ -231,6 +231,10 @@ def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
     density = table.density if table.density is not None or stone is None else stone.density.value
     if table.tapered is not None and table.drum is not None:
         raise InputError("both [tapered] and [[drum]] are given; keep one of the two.")
+    check_choice("section", table.section, SECTIONS)  # what all drums share is told of at its own place
+    for key, limits, unit in (("density", DENSITIES, "kg/m³"), ("depth", LENGTHS, "m")):
+        if getattr(table, key) is not None:
+            check_range(key, getattr(table, key), *limits, unit=unit, remedy="use SI units")
     if table.section == "circular" and table.depth is not None:
         raise InputError(f"depth is {table.depth:g} m for a circular section; leave it out.", "depth")
     name = default_name if table.name is None else table.name
