@@ -40,7 +40,7 @@ def memory_of_a_block(self: Any, shape: Any, dtype: Any) -> np.ndarray:
 kernelapi.FakeCUDAShared.array = memory_of_a_block
 lanes.THREADS = 1  # the simulator has one card, which does one thing at a time
 sys.setswitchinterval(1e-5)  # its threads wait for one another in loops
-kinds.PLANE_LANES = kinds.SPACE_LANES = 2  # so that a block is half empty, and others are all
+kinds.BLOCK_LANES = 2  # so that a block is half empty, and others are all
 for module in (column, laws):
     for law in vars(module).values():
         if isinstance(law, Dispatcher) and law.targetoptions.get("inline") == "always":

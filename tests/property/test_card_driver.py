@@ -182,7 +182,7 @@ def test_views_are_of_the_numbers_of_every_lane(drive):
     views = records.views()
     names = {name: kinds.kinds()["rim"][name] for name in views}
     first = {
-        name: [field[1] // 8 // kinds.SPACE_LANES for field in dtype.fields.values()] for name, dtype in names.items()
+        name: [field[1] // 8 // kinds.BLOCK_LANES for field in dtype.fields.values()] for name, dtype in names.items()
     }
     place = {name: dict(zip(dtype.names, first[name], strict=True)) for name, dtype in names.items()}
     assert views["body"].shape[0] == 4
@@ -198,7 +198,7 @@ def test_a_launch_is_told_every_array_as_compiled_code_takes_it(drive):
     records.advance(7)
     (function, blocks, _, _, threads, _, _, shared, stream, (values, kinds_of), extra), *_ = made.launched
     assert function == (kinds.text_of("rim").encode() + b"\0", b"advance")
-    assert (blocks, threads, stream, extra) == (5, 3 * kinds.SPACE_LANES, "queue", 0)
+    assert (blocks, threads, stream, extra) == (5, 3 * kinds.BLOCK_LANES, "queue", 0)
     assert shared == made.set["DYNAMIC"] == records.here["site"].itemsize * 4
     assert len(values) == len(kinds_of) == kinds.NUMBERS
     site = records.here["site"]

@@ -160,7 +160,10 @@ class RecordSelection(Shown):
             )
         if on_structures := self.table["record"][self.table["on_structure"]].tolist():
             names = ", ".join(on_structures)
-            said += f" By their stations these are on structures, whose shaking is not that of the ground: {names}."
+            said += (
+                " By the names of their stations these records were taken on structures, "
+                f"which shake otherwise than the ground: {names}."
+            )
         return said
 
     def summary(self) -> dict[str, Any]:

@@ -56,7 +56,9 @@ def parse_scale(text: str | None) -> int | None:
     """A scale such as ``1:50``, one to so much."""
     if text is None:
         return None
+    from ..plots.paper import SCALES
+
     one, _, number = text.partition(":")
-    if one.strip() != "1" or not number.strip().isdecimal():
-        raise InputError(f"--scale is {text!r}; allowed is 1:N with N from 1 to 1000, such as 1:50.", "scale")
+    if one.strip() != "1" or not number.strip().isdecimal() or not 1 <= int(number) <= SCALES[-1]:
+        raise InputError(f"--scale is {text!r}; allowed is 1:N with N from 1 to {SCALES[-1]}, such as 1:50.", "scale")
     return int(number)

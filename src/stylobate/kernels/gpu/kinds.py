@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from numpy.lib.recfunctions import repack_fields
 
 from ...errors import InputError
 from ..dem3d import records as in_space
@@ -30,7 +31,7 @@ ARGUMENTS = ("lane", "feed", "watch", "hold")
 NUMBERS = 9 + 7 * len(ARGUMENTS) + 1
 
 #: Lanes of a block: with a dozen drums whole groups of threads, of 32 each, and memory for several blocks on a processor.
-PLANE_LANES, SPACE_LANES = 8, 8
+BLOCK_LANES = 8
 
 #: Contact points of a joint in the plane, and faces of drums in space, for which there are kernels.
 POINTS, FACES = 2, ("rim", "corner")
@@ -67,12 +68,12 @@ def kinds() -> dict[str, Types]:
     """Record types of every kernel that is built, by its name."""
     found: dict[str, Types] = {}
     for damped in (False, True):
-        joint = in_plane.point_joint(POINTS, damped, PLANE_LANES)
-        own = in_plane.types(joint, damped, POINTS, PLANE_LANES, False)
+        joint = in_plane.point_joint(POINTS, damped, BLOCK_LANES)
+        own = in_plane.types(joint, damped, POINTS, BLOCK_LANES, False)
         found[plane_kernel(damped)] = own | {"body": _without(own["body"], IN_LOADS)}
         for face in FACES:
-            found[space_kernel(face, damped, False)] = in_space.types(face, damped, lanes=SPACE_LANES)
-    found[space_kernel("rim", True, True)] = in_space.types("rim", True, True, lanes=SPACE_LANES)
+            found[space_kernel(face, damped, False)] = in_space.types(face, damped, lanes=BLOCK_LANES)
+    found[space_kernel("rim", True, True)] = in_space.types("rim", True, True, lanes=BLOCK_LANES)
     return found
 
 
@@ -85,11 +86,7 @@ def _without(record: np.dtype, last: tuple[str, ...]) -> np.dtype:
     """A record without its last fields."""
     names = record.names or ()
     assert names[-len(last) :] == last
-    return np.dtype([(name, *_described(record[name])) for name in names[: -len(last)]])
-
-
-def _described(field: np.dtype) -> tuple[np.dtype, tuple[int, ...]]:
-    return field.base, field.shape
+    return repack_fields(record[list(names[: -len(last)])])
 
 
 def site_type(types: Types) -> np.dtype:
