@@ -19,7 +19,7 @@ COLUMNS = [
     (("joint", "normal_stiffness"), 0.0, "joint.normal_stiffness", ["is 0 N/m³", "[1, 1e+15] N/m³", "such as 5e10"]),
     (("joint", "friction_coefficient"), -0.1, "joint.friction_coefficient", ["is -0.1", "[0, 1e+06]"]),
     (("gravity",), 1e4, "gravity", ["is 10000 m/s²", "[0.01, 100] m/s²"]),
-    (("section",), "oval", "drum.1.section", ["is 'oval'", "circular, rectangular"]),
+    (("section",), "oval", "section", ["is 'oval'", "circular, rectangular"]),
     (("as_found",), {"base_tilt": 80.0}, "base_tilt", ["is 80 degrees", "[-45, 45] degrees"]),
     (("as_found",), {"drum": [{"index": 2, "tilt": 80.0}]}, "found.2.tilt", ["is 80 degrees", "[-30, 30] degrees"]),
 ]
