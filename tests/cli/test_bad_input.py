@@ -343,7 +343,7 @@ def test_models_are_refused_before_the_first_of_them_is_run(tmp_path, monkeypatc
 def test_workbooks_and_decimal_commas_are_told(tmp_path, monkeypatch, refused):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "a.xlsx").write_bytes(b"PK\x03\x04\xff\xfe")
-    assert "is the workbook of a spreadsheet; save the survey as CSV" in refused("columns", "a.xlsx")
+    assert "is the workbook of a spreadsheet; turn the survey into a column file first" in refused("columns", "a.xlsx")
     (tmp_path / "a.toml").write_text('name = "a"\n[[drum]]\nheight = 0,845 # as measured\n')
     assert "numbers have a decimal point: write 0.845." in refused("columns", "a.toml")
     run = ("run", "paper-monolithic", "--model", "housner", "--harmonic", "1Hz,0.1g,1s")

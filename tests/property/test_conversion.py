@@ -2,9 +2,11 @@
 
 import json
 import math
+from datetime import datetime
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 import trimesh
 from hypothesis import given, settings
@@ -279,6 +281,62 @@ def test_a_survey_from_a_spreadsheet(tmp_path):
     convert(str(files[0]), tmp_path / "b.csv", Reading())
     again, *_ = read_model(tmp_path / "b.csv", Reading())
     assert again.to_dict() == column.to_dict()
+
+
+def workbook(path, *sheets):
+    """A workbook with sheets of rows of cells."""
+    book = openpyxl.Workbook()
+    book.remove(book.active)
+    for rows in sheets:
+        sheet = book.create_sheet()
+        for row in rows:
+            sheet.append(row)
+    book.save(path)
+    return str(path)
+
+
+SHEET = [
+    ["# name: north, 3"],
+    ["# material: marble"],
+    ["drum", "height_m", "bottom_width_m", "top_width_m", "offset_mm", "note"],
+    [1, 0.8125, 1, 0.98, None, "cracked, at NE"],
+    [2, 0.79, 0.98, 0.96, 12.5, None],
+]
+
+
+def test_a_survey_in_a_workbook(tmp_path):
+    column, tables, words = read_model(Path(workbook(tmp_path / "a.xlsx", SHEET, [])), Reading())
+    (tmp_path / "a.csv").write_text(survey_text(column))
+    assert read_model(tmp_path / "a.csv", Reading())[0].to_dict() == column.to_dict()
+    assert (column.name, [drum.height for drum in column.drums]) == ("north, 3", [0.8125, 0.79])
+    assert column.as_found.of(2).offset == 0.0125
+    assert words[1:] == ["drum 1: cracked, at NE"]
+
+
+@pytest.mark.parametrize(
+    ("cell", "says"),
+    [
+        ("#REF!", "has a cell '#REF!', where a formula of the spreadsheet has failed"),
+        ("=D4-0.02", "has a formula without a value in E5; open it in the spreadsheet"),
+        ("12,5", "offset in row 2 of .* is '12,5'; give a number"),
+        (datetime(2026, 5, 12), "offset in row 2 of .* is '2026-05-12 00:00:00'; give a number"),
+    ],
+)
+def test_what_a_cell_of_a_workbook_cannot_be(cell, says, tmp_path):
+    wrong = [*SHEET[:-1], [2, 0.79, 0.98, 0.96, cell]]
+    with pytest.raises(st.InputError, match=says):
+        convert(workbook(tmp_path / "a.xlsx", wrong), tmp_path / "b.toml", Reading())
+    assert not (tmp_path / "b.toml").exists()
+
+
+def test_a_workbook_of_several_surveys_or_of_none(tmp_path):
+    with pytest.raises(st.InputError, match="has 2 sheets that hold something"):
+        read_model(Path(workbook(tmp_path / "a.xlsx", SHEET, SHEET)), Reading())
+    with pytest.raises(st.InputError, match="holds no row of a drum"):
+        read_model(Path(workbook(tmp_path / "b.xlsx", [])), Reading())
+    (tmp_path / "c.xlsx").write_bytes(b"PK\x03\x04\xff\xfe")
+    with pytest.raises(st.InputError, match=r"is no workbook of a spreadsheet \(BadZipFile\); save the survey as CSV"):
+        read_model(tmp_path / "c.xlsx", Reading())
 
 
 HEAD = "drum,height_m,bottom_width_m,top_width_m"

@@ -60,7 +60,9 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
         found = tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
         if data[:2] == b"PK" or Path(path).suffix.lower() in _WORKBOOKS:
-            raise InputError(f"{name} is the workbook of a spreadsheet; save the survey as CSV (UTF-8).") from None
+            raise InputError(
+                f"{name} is the workbook of a spreadsheet; turn the survey into a column file first, by `stylobate convert`."
+            ) from None
         raise InputError(f"{name} is not a text file in UTF-8; give a TOML file.") from None
     except tomllib.TOMLDecodeError as error:
         text = data.decode("utf-8-sig")

@@ -26,11 +26,12 @@ from .export import refuse_existing
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND
 from .stones import assembly_tables, column_tables, distance_of, fit_all, near
-from .survey import survey_tables, survey_text
+from .survey import WORKBOOKS, survey_tables, survey_text
 
 #: Endings of what is written; of what is read besides column and assembly files.
 WRITTEN = (".toml", ".json", ".csv", ".obj", ".ply", ".stl", ".glb")
-READ = (*MESHES, ".json", ".csv")
+SURVEYS = (".csv", *WORKBOOKS)
+READ = (*MESHES, ".json", *SURVEYS)
 
 #: Largest distance of a mesh from what stands for it unless told otherwise [m].
 TOLERANCE = 0.001
@@ -85,7 +86,7 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
     Parameters
     ----------
     model : str
-        A preset, a file of a column or of an assembly, a mesh, COMPAS JSON or a survey (CSV).
+        A preset, a file of a column or of an assembly, a mesh, COMPAS JSON or a survey (CSV or a workbook).
     path : Path
         Nothing may be there.
     reading : Reading
@@ -114,7 +115,7 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
     foreign = read_from in READ
     structure, tables, words = read_model(Path(model), reading) if foreign else (load_structure(model), None, [])
     if suffix == ".toml":
-        comments = words if read_from == ".csv" else ()
+        comments = words if read_from in SURVEYS else ()
         content = _file_of(structure) if tables is None else toml_text(tables, comments).encode()
     elif suffix == ".csv":
         column = structure.stack
@@ -141,7 +142,7 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
     ------
     InputError
     """
-    if path.suffix.lower() == ".csv":
+    if path.suffix.lower() in SURVEYS:
         tables, notes = survey_tables(path, reading.material)
         tables.setdefault("name", path.stem)
         column = made_of(Column, tables, shown(path))

@@ -1,4 +1,4 @@
-"""Surveys of columns drum by drum as a table (CSV), to column files and back without loss."""
+"""Surveys of columns drum by drum as a table (CSV, or the workbook of a spreadsheet), to column files and back without loss."""
 
 from __future__ import annotations
 
@@ -35,6 +35,10 @@ JOINT = {
 
 #: What the surveyor has to say of a drum: a comment of the column file.
 NOTE = "note"
+
+#: Endings of workbooks of spreadsheets that are read; what they show where a formula has failed.
+WORKBOOKS = (".xlsx", ".xlsm")
+WRONG_CELLS = ("#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL!", "#N/A")
 
 #: What is said of the whole column, in lines ``# key: value`` above the table.
 FACTS = ("name", "section", "material", "gravity", "base_tilt", "base_azimuth")
@@ -86,8 +90,9 @@ def _header(name: str) -> str:
 def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any], list[str]]:
     """Content of a column file of a survey, and what the surveyor has to say of drums, "drum 3: …".
 
-    Separated by commas, semicolons or tabs; decimal commas are read where commas do not separate. The first row names
-    the columns; lengths say their unit there (``height_mm``), which is m otherwise.
+    Separated by commas, semicolons or tabs; decimal commas are read where commas do not separate. Of a workbook the one
+    sheet that holds something, with the values that its formulas had when it was saved. The first row names the columns;
+    lengths say their unit there (``height_mm``), which is m otherwise.
 
     Parameters
     ----------
@@ -100,9 +105,9 @@ def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any],
     InputError
         What cannot be, in one sentence that names row and column.
     """
-    name = shown(path)
+    name, content = shown(path), read_bytes(path, SETTINGS, "a survey is smaller")
     try:
-        text = read_bytes(path, SETTINGS, "a survey is smaller").decode("utf-8-sig")
+        text = _of_workbook(content, name) if path.suffix.lower() in WORKBOOKS else content.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InputError(f"{name} is not a text file in UTF-8; save the survey as CSV (UTF-8).") from None
     facts, lines = _facts([line for line in text.splitlines() if line.strip()], name)
@@ -135,6 +140,39 @@ def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any],
         )
     notes = [f"drum {i}: {note}" for i, row in enumerate(rows, 1) if (note := _note(row, known))]
     return _tables(facts, read, stone, name), notes
+
+
+def _of_workbook(content: bytes, name: str) -> str:
+    """The only sheet of a workbook that holds something, as CSV."""
+    try:
+        from openpyxl import load_workbook
+    except ImportError:
+        raise InputError(
+            f"{name} is the workbook of a spreadsheet, and openpyxl, which reads them, is not installed; install "
+            "stylobate[spreadsheet], or save the survey as CSV (UTF-8)."
+        ) from None
+    try:
+        found, written = (load_workbook(io.BytesIO(content), data_only=values).worksheets for values in (True, False))
+    except Exception as error:  # openpyxl raises whatever its parts do
+        raise InputError(
+            f"{name} is no workbook of a spreadsheet ({type(error).__name__}); save the survey as CSV (UTF-8)."
+        ) from None
+    sheets = {sheet.title: list(sheet.values) for sheet in found}
+    full = [sheet for sheet, rows in sheets.items() if any(cell is not None for row in rows for cell in row)]
+    if len(full) > 1:
+        raise InputError(
+            f"{name} has {len(full)} sheets that hold something ({', '.join(map(repr, full))}); leave the survey alone in it, "
+            "or save its sheet as CSV (UTF-8)."
+        )
+    for sheet, formulas in zip(found, written, strict=True):
+        for cell in (cell for row in formulas for cell in row if cell.data_type == "f"):
+            if sheet[cell.coordinate].value is None:
+                raise InputError(
+                    f"{name} has a formula without a value in {cell.coordinate}; open it in the spreadsheet, and save it again."
+                )
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(sheets[full[0]] if full else [])
+    return text.getvalue()
 
 
 def _note(row: list[str], columns: list[str]) -> str:
@@ -177,6 +215,9 @@ def _facts(lines: list[str], name: str) -> tuple[dict[str, Any], list[str]]:
     rest = []
     for line in lines:
         said = line.strip().strip('";,\t ')
+        wrong = next((one for one in WRONG_CELLS if one in line.upper()), None)
+        if wrong is not None:
+            raise InputError(f"{name} has a cell {wrong!r}, where a formula of the spreadsheet has failed; mend it there.")
         if not said.startswith("#"):
             rest.append(line)
             continue
