@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -19,6 +20,9 @@ _TYPES = {bool: np.int8, int: np.int64, float: np.float64, str: np.int32}
 #: Kinds of values that are told by their type alone.
 _PLAIN = {one: (one,) for one in (bool, float, str)}
 
+#: Most rows that wait until they are put into columns together, which costs a fifth of one after the other.
+_WAITING = 512
+
 
 class Rows(Sequence[Any]):
     """Rows (``Measures.row()``) by number; None where there is none.
@@ -34,7 +38,8 @@ class Rows(Sequence[Any]):
 
     def __init__(self, count: int) -> None:
         self.made = np.zeros(count, dtype=bool)
-        self._columns: dict[str, _Column] = {}
+        self._there: dict[str, _Column] = {}
+        self._waiting: list[tuple[int, Mapping[str, Any]]] = []
 
     @classmethod
     def of(cls, rows: Iterable[Mapping[str, Any] | None]) -> Rows:
@@ -47,6 +52,27 @@ class Rows(Sequence[Any]):
             if row is not None:
                 found[number] = row
         return found
+
+    @property
+    def _columns(self) -> dict[str, _Column]:
+        """All columns, with all rows."""
+        if self._waiting:
+            waiting, self._waiting = self._waiting, []
+            names = [tuple(row) for _, row in waiting]
+            if len(set(names)) == 1:
+                numbers, rows = zip(*waiting, strict=True)
+                for name, *values in zip(names[0], *(row.values() for row in rows), strict=True):
+                    self._column(name).put_all(numbers, values)
+            else:
+                for number, row in waiting:
+                    for name, value in row.items():
+                        self._column(name).put(number, value)
+        return self._there
+
+    def _column(self, name: str) -> _Column:
+        if name not in self._there:
+            self._there[name] = _Column(np.zeros(len(self), dtype=np.uint8))
+        return self._there[name]
 
     @property
     def finished(self) -> int:
@@ -74,12 +100,10 @@ class Rows(Sequence[Any]):
         return len(self.made)
 
     def __setitem__(self, number: int, row: Mapping[str, Any]) -> None:
-        for name, value in row.items():
-            column = self._columns.get(name)
-            if column is None:
-                column = self._columns[name] = _Column(np.zeros(len(self), dtype=np.uint8))
-            column.put(number, value)
+        self._waiting.append((number, row))
         self.made[number] = True
+        if len(self._waiting) >= _WAITING:
+            _ = self._columns
 
     @overload
     def __getitem__(self, index: int) -> dict[str, Any] | None: ...
@@ -89,7 +113,7 @@ class Rows(Sequence[Any]):
         if isinstance(index, slice):
             part = Rows(0)
             part.made = self.made[index]
-            part._columns = {name: one.part(index) for name, one in self._columns.items()}
+            part._there = {name: one.part(index) for name, one in self._columns.items()}
             return part
         if not self.made[index]:
             return None
@@ -121,13 +145,32 @@ class _Column:
             return
         if self.kind != (kind := _kind(value)):
             kind = self._take(kind)
-        if kind == (str,):
-            code = self.codes.setdefault(value, len(self.texts))
-            if code == len(self.texts):
-                self.texts.append(value)
-            value = code
-        self.values[number] = value
+        self.values[number] = self._coded(value) if kind == (str,) else value
         self.state[number] = _VALUE
+
+    def put_all(self, numbers: Sequence[int], values: Sequence[Any]) -> None:
+        """Keep values of many rows."""
+        types, there = set(map(type, values)), list(numbers)
+        kind = _kind(values[0])
+        if types == {type(None)}:
+            self.state[there] = _NONE
+            return
+        alike = len(types) == 1 and (kind in _PLAIN.values() or _all_alike(kind, values))
+        if not alike or self.kind not in (None, kind):
+            for number, value in zip(numbers, values, strict=True):
+                self.put(number, value)
+            return
+        if self.kind is None:
+            self._take(kind)
+        self.values[there] = [self._coded(value) for value in values] if kind == (str,) else values
+        self.state[there] = _VALUE
+
+    def _coded(self, text: str) -> int:
+        """Place of a text in the list of all."""
+        code = self.codes.setdefault(text, len(self.texts))
+        if code == len(self.texts):
+            self.texts.append(text)
+        return code
 
     def get(self, number: int) -> Any:
         """The value as it was given."""
@@ -182,6 +225,13 @@ class _Column:
             self.values = [self.get(number) for number in range(len(self.state))]
             self.kind = (object,)
         return self.kind
+
+
+def _all_alike(kind: tuple, values: Sequence[Any]) -> bool:
+    """Whether all values, of the type of the first, are of its kind: whole numbers, or lists of so many floats."""
+    if kind == (int,):
+        return all(-(2**63) <= value < 2**63 for value in values)
+    return len(kind) == 2 and set(map(len, values)) == {kind[1]} and set(map(type, chain(*values))) <= {float}
 
 
 def _kind(value: Any) -> tuple:
