@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import combinations
 
 import numpy as np
@@ -91,6 +92,17 @@ def test_ranges_and_events(motions):
     assert set(found.refused) == {"record 0", "record 1", "record 2"}
     with pytest.raises(st.InputError, match="0 of 8 records can be used, and 3 are asked for"):
         select_records(motions, target, 3, wanted=[Wanted("distance_km", 0.0, 10.0)])
+
+
+def test_wider_limits_that_are_told_let_in_as_many_as_are_asked_for(motions):
+    target = st.target_spectrum("ec8,ag=0.2g,soil=B")
+    spread = [one.scaled(1.6**k) for k, one in enumerate(motions)]
+    with pytest.raises(st.InputError, match="Factors from ") as caught:
+        select_records(spread, target, 6, factors=(0.9, 1.1))
+    low, high = map(float, re.search(r"Factors from (\S+) to (\S+) would let in as many", str(caught.value)).groups())
+    assert len(select_records(spread, target, 6, factors=(low, high)).table) == 6
+    with pytest.raises(st.InputError, match="[45] of 8 records can be used, and 6 are asked for"):
+        select_records(spread, target, 6, factors=(1.005 * low if low < 0.9 else low, high / 1.01 if high > 1.1 else high))
 
 
 def test_a_recording_in_two_files_counts_once(motions):

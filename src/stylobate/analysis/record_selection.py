@@ -255,12 +255,17 @@ def select_records(
     known = about or {}
     refused: dict[str, str] = {}
     usable: list[tuple[Motion, np.ndarray, float]] = []
+    beyond: list[tuple[Motion, float]] = []  # what follows the target by a factor outside the limits alone
     for motion in motions:
-        reason, spectrum, size = _considered(motion, t, aim, horizontal, factors, wanted, known.get(motion.name, {}))
-        if reason is None:
+        reason, spectrum, size = _considered(motion, t, aim, horizontal, wanted, known.get(motion.name, {}))
+        if reason is not None:
+            refused[motion.name] = reason
+        elif factors[0] <= size <= factors[1]:
             usable.append((motion, spectrum, size))
         else:
-            refused[motion.name] = reason
+            beyond.append((motion, size))
+            allowed = f"{factors[0]:g} to {factors[1]:g} is allowed"
+            refused[motion.name] = f"it would have to be multiplied by {size:.3g}, and {allowed}"
     again = recorded_again([motion for motion, _, _ in usable])
     for k, other in again.items():
         name = usable[other][0].name
@@ -274,7 +279,7 @@ def select_records(
         )
         raise InputError(
             f"{len(kept)} of {len(motions)} records can be used, and {count} are asked for; ask for fewer, or give more."
-            f"{first}",
+            f"{_other_factors(kept, beyond, count, factors)}{first}",
             "count",
         )
     scaled = np.array(sizes)[:, None] * np.array(spectra)
@@ -303,25 +308,34 @@ def _considered(
     periods: np.ndarray,
     aim: np.ndarray,
     horizontal: str,
-    factors: tuple[float, float],
     wanted: Sequence[Wanted],
     about: Mapping[str, float],
 ) -> tuple[str | None, np.ndarray, float]:
-    """Why a record is left out, or None; its spectrum [m/s²], and the factor that makes it follow the target."""
+    """Why a record is left out, or None; its spectrum [m/s²], and the factor that makes it follow the target best."""
     reason = next((told for one in wanted if (told := one.refusal(motion, about)) is not None), None)
     if reason is not None:
         return reason, aim, 1.0
     spectrum = _spectrum(motion, periods, horizontal)
     if not (spectrum > 0.0).all():
         return "it has nothing along a component", aim, 1.0
-    best = float(np.exp(np.log(aim / spectrum).mean()))
-    if not factors[0] <= best <= factors[1]:
-        return (
-            f"it would have to be multiplied by {best:.3g}, and {factors[0]:g} to {factors[1]:g} is allowed",
-            aim,
-            1.0,
-        )
-    return None, spectrum, best
+    return None, spectrum, float(np.exp(np.log(aim / spectrum).mean()))
+
+
+def _other_factors(
+    kept: Sequence[Motion], beyond: Sequence[tuple[Motion, float]], count: int, factors: tuple[float, float]
+) -> str:
+    """Limits of the factor within which as many records can be used as are asked for; empty where none would do."""
+    motions = [*kept, *(motion for motion, _ in beyond)]
+    again = recorded_again(motions)
+    others = [size for k, (_, size) in enumerate(beyond, len(kept)) if k not in again]
+    wider = sorted(others, key=lambda size: abs(np.log(size)))[: count - len(kept)]
+    if len(kept) + len(wider) < count:
+        return ""
+    low = min(factors[0], *(np.floor(1000.0 * size) / 1000.0 for size in wider))
+    high = max(factors[1], *(np.ceil(100.0 * size) / 100.0 for size in wider))
+    if not (low >= 0.01 and high <= 100.0):
+        return ""
+    return f" Factors from {low:.3g} to {high:.4g} would let in as many; what they do to a record is for you to judge."
 
 
 def _spectrum(motion: Motion, periods: np.ndarray, horizontal: str) -> np.ndarray:
