@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+import re
 
 import numpy as np
 import pandas
@@ -139,9 +140,12 @@ def test_the_command_prints_writes_and_reports_them(tmp_path, capsys):
     assert told[1]["high_84"] is None  # beyond all that was computed
     assert worst_of(table)["quantity"].tolist() == ["shear force", "slip"]
     assert (out / "design.png").is_file()
-    page = tmp_path / "page.html"
-    assert call(["report", str(out), "--out", str(page)]) == 0
-    assert "Design values: what" in page.read_text()
+    project, page = tmp_path / "project.toml", tmp_path / "page.html"
+    project.write_text('client = "A"\nsite = "B"\nengineer = "C"\n')
+    assert call(["report", str(out), "--project", str(project), "--out", str(page)]) == 0
+    front, case = page.read_text().split("Sources of the results", 1)
+    assert re.search(r"Design values that govern.*>× 1<.*>shear force<.*>kN<", front, re.DOTALL)
+    assert "Design values: what" in case
 
 
 def test_a_layer_with_a_spring_needs_the_clearance_of_its_slip():

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..analysis.design_tables import OPEN, as_read, basis_of, clearances, where, worst_of
 from ..analysis.design_values import WHICH_LEVEL
+from ..motion.intensity_specs import parse_measure
 from . import numbers as n
 from .page import Item, Rows
 from .pictures import kept
@@ -23,12 +24,29 @@ SHOWN = {
     "from": "low_84", "to": "high_84", "undecided": "undecided", "over capacity": "use_value_84", "at most": "use_high_84",
 }  # fmt: skip
 
+#: Columns of the first page of a report, which tells what governs alone.
+FRONT = {key: name for key, name in SHOWN.items() if key not in ("undecided", "at most")}
+
 #: The same of what bears least, and of when and where to a force acts, which older tables do not tell.
 LIMITED = {"limited by": "limited_by"}
 ACTS = {"at [s]": "instant_84_s", "towards [°]": "azimuth_84_deg"}
 
 
-def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> list[Item]:
+def level_words(runs: pandas.DataFrame | None) -> str:
+    """How a level is told: of scaled motions with its measure and unit, of others as their factor.
+
+    Parameters
+    ----------
+    runs : pandas.DataFrame, optional
+        Of the states, whose column ``measure`` names it; of motions as they are there is none.
+    """
+    measure = "factor" if runs is None or not len(runs) else str(runs["measure"].iloc[0])
+    return "× {}" if measure == "factor" else f"{measure} {{}} {parse_measure(measure).unit}"
+
+
+def design_items(
+    values: pandas.DataFrame | None, pictures: dict[str, Path], runs: pandas.DataFrame | None = None
+) -> list[Item]:
     """Tables and picture of design values; nothing where there are none.
 
     Parameters
@@ -37,9 +55,12 @@ def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> 
         As of :func:`stylobate.design_values`, or read from ``design.csv``.
     pictures : dict of str to path
         Of the folder.
+    runs : pandas.DataFrame, optional
+        As of :func:`level_words`.
     """
     if values is None or not len(values):
         return []
+    level = level_words(runs)
     meant = f"what 84 % of the motions do not exceed, and its 95 % interval {basis_of(values)}."
     open_ = OPEN
     if where(values) and "told" in values:
@@ -58,17 +79,39 @@ def design_items(values: pandas.DataFrame | None, pictures: dict[str, Path]) -> 
             caption += "towards an azimuth."
         if len(worst) > MOST:
             caption += " Rows beyond these are of links that are used less, and stand there."
-        items.append(_rows(worst, SHOWN | limited | acts, caption))
+        items.append(_rows(worst, SHOWN | limited | acts, caption, level))
         caption = (
             "Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all "
         )
         items += kept(pictures, "design", caption + "that ran.")
     if len(wide := clearances(values)):
         caption = f"Clearance that layers need around the foot{where(values)}: {meant} {open_}"
-        items.append(_rows(wide, dict(list(SHOWN.items())[:-2]), caption))
+        items.append(_rows(wide, dict(list(SHOWN.items())[:-2]), caption, level))
     return items
 
 
-def _rows(values: pandas.DataFrame, shown: dict[str, str], caption: str) -> Rows:
-    body = [[n.plain(one[key]) for key in shown.values()] for one in as_read(values.head(MOST)).to_dict("records")]
-    return Rows(list(shown), body, caption, numbers=True)
+def governing_rows(values: pandas.DataFrame, runs: pandas.DataFrame | None) -> list[list[str]]:
+    """Of every state the row that is used most, or the slip of layers where nothing has a capacity, as of :data:`FRONT`.
+
+    Parameters
+    ----------
+    values : pandas.DataFrame
+        As of :func:`design_items`.
+    runs : pandas.DataFrame, optional
+        As of :func:`level_words`.
+    """
+    found: list[list[str]] = []
+    for state in dict.fromkeys(values["state"]):
+        mine = values[values["state"] == state]
+        told = worst_of(mine) if len(worst_of(mine)) else clearances(mine)
+        found += _texts(told.head(1), FRONT, level_words(runs))
+    return found
+
+
+def _rows(values: pandas.DataFrame, shown: dict[str, str], caption: str, level: str) -> Rows:
+    return Rows(list(shown), _texts(values.head(MOST), shown, level), caption, numbers=True)
+
+
+def _texts(values: pandas.DataFrame, shown: dict[str, str], level: str) -> list[list[str]]:
+    rows = as_read(values.assign(level=[level.format(n.plain(one)) for one in values["level"].tolist()]))
+    return [[n.plain(one[key]) for key in shown.values()] for one in rows.to_dict("records")]

@@ -12,8 +12,9 @@ from pydantic import field_validator
 from ..column.toml import Table, read_table
 from ..errors import InputError
 from ..reading import shown
-from ..results import Result, RunResult, SeveralRuns
+from ..results import Numbers, Result, RunResult, SeveralRuns
 from ..version import __version__
+from .design import FRONT, governing_rows
 from .language import language_of
 from .page import Facts, Item, Own, Points, Rows, Section
 from .record import known_model, titled
@@ -79,10 +80,26 @@ def front_sections(
     return [
         Section("Project", [Facts(known)]),
         Section("Answers", [Rows(["case", "result", "answer"], answers)]),
+        *_design_values(results),
         Section("Assumptions of this report", [Points(said), "What the models assume stands with each case."]),
         Section("Limits: what is not covered", _limits(results)),
         Section("Sources of the results", _sources(results, cited)),
     ]
+
+
+def _design_values(results: Sequence[Result]) -> list[Section]:
+    """Of every state the design value that governs, where there are some."""
+    body = [
+        [str(k), *row]
+        for k, one in enumerate(results, start=1)
+        if isinstance(one, Numbers) and "design" in one.tables
+        for row in governing_rows(one.tables["design"], one.tables.get("states"))
+    ]
+    caption = (
+        "Of every state the link that is used most, at the level that is told: what 84 % of the motions do not exceed, and its "
+        "95 % interval. What else bears how much, and at which other levels, stands with each case."
+    )
+    return [Section("Design values that govern", [Rows(["case", *FRONT], body, caption, numbers=True)])] if body else []
 
 
 def _limits(results: Sequence[Result]) -> list[Item]:

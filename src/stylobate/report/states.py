@@ -78,7 +78,7 @@ def states_items(result: Numbers) -> list[Item]:
     if best := s.get("best"):
         keys = ("candidate", "share_low", "share_high", "use", "use_high", "difference_low", "difference_high", "alike")
         items.append(table(best["candidates"], keys, best["words"]))
-    return items + design_items(result.tables.get("design"), result.pictures)
+    return items + design_items(result.tables.get("design"), result.pictures, result.tables.get("states"))
 
 
 def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
