@@ -96,12 +96,12 @@ HAZARDS = {"site A.csv": HAZARD}
         (
             "risk",
             {"table": RUNS, "hazards": HAZARDS, "options": {"im": " pgv ", "state": "top:1d"}},
-            "risk runs.csv '--hazard=hazards/site A.csv' --state=top:1d --im=pgv",
+            "risk opened-table.csv '--hazard=hazards/site A.csv' --state=top:1d --im=pgv",
         ),
         (
             "survival",
             {"table": RUNS, "hazards": {"../../a.csv": "", ".b": ""}, "options": {"age": "2400"}},
-            "survival runs.csv --hazard=hazards/_.._a.csv --hazard=hazards/b --age=2400y --state=collapse",
+            "survival opened-table.csv --hazard=hazards/_.._a.csv --hazard=hazards/b --age=2400y --state=collapse",
         ),
     ],
 )
@@ -112,7 +112,7 @@ def test_an_analysis_is_a_command_line(fresh, asked, kind, more, line):
     assert made.status_code == 201, made.text
     job = ended(fresh, made.json()["id"])
     assert job["commands"] == [f"stylobate {line} --out=result"]
-    assert all((one in job["files"]) == (one in line) for one in ("column.toml", "runs.csv"))
+    assert all((one in job["files"]) == (one in line) for one in ("column.toml", "opened-table.csv"))
     assert all(one in line for one in job["files"] if one.startswith("hazards/"))
 
 

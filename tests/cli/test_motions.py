@@ -54,12 +54,12 @@ def refused(capsys):
     return run
 
 
-def shaking(size=0.4):
+def shaking(size=0.4, pace=1.0):
     """Three components towards 30°, 300° and up: two pulses, and a short vertical one in the middle of the first."""
     time = np.arange(1201) * 0.01
     pulses = (
-        (ricker(0.8, size * st.g), 0.0),
-        (ricker(1.3, 0.6 * size * st.g), 0.0),
+        (ricker(0.8 * pace, size * st.g), 0.0),
+        (ricker(1.3 * pace, 0.6 * size * st.g), 0.0),
         (ricker(3.0, 0.25 * size * st.g), 1.6),
     )
     parts = [np.interp(time - late, one.time, one.acceleration, left=0.0, right=0.0) for one, late in pulses]
@@ -75,8 +75,8 @@ def record(tmp_path):
 def folder(tmp_path):
     place = tmp_path / "records"
     place.mkdir()
-    for name, size in (("strong.csv", 1.2), ("weak.csv", 0.05)):
-        write_csv(shaking(size), place / name)
+    for name, size, pace in (("strong.csv", 1.2, 1.0), ("weak.csv", 0.05, 1.1)):
+        write_csv(shaking(size, pace), place / name)
     (place / "README.txt").write_text("words only\n")
     return place
 

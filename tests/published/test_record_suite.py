@@ -16,7 +16,7 @@ from stylobate.motion import half_sine_pulse, read_suite, write_csv
 
 def test_a_folder_with_a_file_that_is_no_record(tmp_path):
     for name, size in (("b.csv", 0.3), ("a.csv", 0.1)):
-        write_csv(half_sine_pulse(1.0, size * g, 4.0), tmp_path / name)
+        write_csv(half_sine_pulse(1.0 + size, size * g, 4.0), tmp_path / name)
     (tmp_path / "README.md").write_text("# Records\n")
     (tmp_path / "bare.txt").write_text("0.1\n-0.1\n0.1\n-0.1\n")
     suite = read_suite(tmp_path)
@@ -40,6 +40,14 @@ def test_a_record_that_is_there_twice_counts_once(tmp_path):
     assert suite.refused == {"one.csv": "it holds the motion of 'copy.csv' once more; a record counts once"}
     with pytest.raises(InputError, match=r"two records are called 'one\.csv'"):
         read_suite([tmp_path / folder / "one.csv" for folder in "ab"])
+
+
+def test_a_recording_in_two_files_of_different_size_is_told(tmp_path):
+    """As a suite of motions as they are it may be meant; where intervals are over records it is one."""
+    for name, length, size in (("a", 1.0, 1.0), ("b", 1.0, 2.0), ("c", 1.3, 1.0)):
+        write_csv(half_sine_pulse(length, size, 4.0), tmp_path / f"{name}.csv")
+    with pytest.warns(OutOfRangeWarning, match=r"1 of 3 records .* \('b\.csv' of 'a\.csv'\): .* narrower than what is known"):
+        assert len(read_suite(tmp_path)) == 3
 
 
 def test_the_table_holds_outcomes_and_measures(tmp_path):

@@ -22,8 +22,8 @@ COLUMN, ASSEMBLY, STUDY, RUIN, RESULT, FRAGILITY, REPORT = (
     *("column.toml", "assembly.toml", "study.toml", "ruin.toml", "result", "fragility", "report.html"),
 )
 
-#: The runs that a job rests on, the folder of another one or a table; and the folder of its hazard curves.
-RUNS, TABLE, HAZARDS = "runs", "runs.csv", "hazards"
+#: The runs that a job rests on, the folder of another one or a table that was opened; and the folder of its hazard curves.
+RUNS, TABLE, HAZARDS = "runs", "opened-table.csv", "hazards"
 
 #: Most cells of a domain.
 CELLS = 20_000

@@ -138,7 +138,7 @@ class JobAnswers:
         if asked.table is not None:
             return None
         found = self.workshop.jobs.get(asked.source or "")
-        if found is None or not (found.folder / RESULT / TABLE).is_file():
+        if found is None or not (found.folder / RESULT / "runs.csv").is_file():
             raise InputError("no fragility is chosen; compute one, or open a table of runs.", "source")
         return found
 

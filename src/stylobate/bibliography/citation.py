@@ -107,5 +107,5 @@ def cite_run(provenance: Mapping[str, Any]) -> Citation:
     if set(source) <= {"reference"}:  # a formula or a simulation: its sources are in the references
         source = {}
     elif set(source) == {"file"}:
-        source["file"] += " (it names no source: say who recorded it, and where you have it from)"
+        source["file"] += " (it names no source: say who recorded or computed it, and where you have it from)"
     return Citation(found.about, found.references, source, found.unknown)

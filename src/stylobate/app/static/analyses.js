@@ -88,11 +88,21 @@ function source() {
     state.table === null ? el("small", { class: "hint" }, "with the columns record, im, collapsed") : [el("small", { class: "hint" }, "a table of runs is open"), el("button", { type: "button", class: "quiet", onclick: () => change({ table: null }) }, "Leave it out")])];
 }
 
+// The name of a file, told apart from that of another open file with other content.
+function apart(name, text, open) {
+  const end = name.lastIndexOf(".") > 0 ? name.lastIndexOf(".") : name.length;
+  let called = name;
+  for (let k = 2; called in open && open[called] !== text; k++) called = `${name.slice(0, end)}-${k}${name.slice(end)}`;
+  return called;
+}
+
 function hazards() {
   const several = takes("hazards");
   const files = opener("hazard", async list => {
     const texts = await Promise.all(list.map(async file => [file.name, await file.text()]));
-    change({ hazards: { ...(several ? state.hazards : {}), ...Object.fromEntries(texts) } });
+    const open = several ? { ...state.hazards } : {};
+    for (const [name, text] of texts) open[apart(name, text, open)] = text;
+    change({ hazards: open });
   }, { accept: ".csv,.xml", multiple: several });
   const leave = name => () => change({ hazards: Object.fromEntries(Object.entries(state.hazards).filter(([one]) => one !== name)) });
   return el("fieldset", { "data-field": "hazard" }, el("legend", {}, labels.hazard), el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, several ? "Open hazard curves …" : "Open a hazard curve …"), files),

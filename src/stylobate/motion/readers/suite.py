@@ -6,14 +6,18 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...errors import InputError, check_all
+from ...errors import InputError, check_all, warn
 from ...reading import shown
 from ..motion import Motion
+from ..recordings import recorded_again
 from .component import UnstatedError
 from .registry import read_motion
 
 #: Largest number of files looked into.
 MAX_FILES = 10_000
+
+#: Most records that a warning names.
+TOLD = 3
 
 
 @dataclass(frozen=True)
@@ -66,6 +70,11 @@ def read_suite(
     ------
     InputError
         No such folder, or not one file in it that can be used.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        Some are one recording in several files, by the shapes of their spectra.
     """
     folder = Path(source) if isinstance(source, (str, Path)) else None
     if folder is not None:
@@ -101,6 +110,14 @@ def read_suite(
         given = " and ".join(map(shown, where))
         raise InputError(
             f"{given} {'hold' if len(where) > 1 else 'holds'} no record that can be used; the first reason: {first[1]}"
+        )
+    again = recorded_again(motions)
+    if again:
+        pairs = [f"{motions[one].name!r} of {motions[other].name!r}" for one, other in again.items()]
+        named = ", ".join(pairs[:TOLD]) + (", …" if len(pairs) > TOLD else "")
+        warn(
+            f"{len(again)} of {len(motions)} records are recordings of others once more, scaled or in another format ({named}): "
+            "where each counts as a record of its own, intervals are narrower than what is known; leave them out."
         )
     return Suite(tuple(motions), refused)
 
