@@ -305,7 +305,7 @@ SHEET = [
 
 
 def test_a_survey_in_a_workbook(tmp_path):
-    column, tables, words = read_model(Path(workbook(tmp_path / "a.xlsx", SHEET, [])), Reading())
+    column, _, words = read_model(Path(workbook(tmp_path / "a.xlsx", SHEET, [])), Reading())
     (tmp_path / "a.csv").write_text(survey_text(column))
     assert read_model(tmp_path / "a.csv", Reading())[0].to_dict() == column.to_dict()
     assert (column.name, [drum.height for drum in column.drums]) == ("north, 3", [0.8125, 0.79])

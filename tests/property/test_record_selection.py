@@ -101,8 +101,10 @@ def test_wider_limits_that_are_told_let_in_as_many_as_are_asked_for(motions):
         select_records(spread, target, 6, factors=(0.9, 1.1))
     low, high = map(float, re.search(r"Factors from (\S+) to (\S+) would let in as many", str(caught.value)).groups())
     assert len(select_records(spread, target, 6, factors=(low, high)).table) == 6
-    with pytest.raises(st.InputError, match="[45] of 8 records can be used, and 6 are asked for"):
-        select_records(spread, target, 6, factors=(1.005 * low if low < 0.9 else low, high / 1.01 if high > 1.1 else high))
+    with pytest.raises(st.InputError, match=r"[45] of 8 records can be used, and 6 are asked for"):
+        select_records(
+            spread, target, 6, factors=(1.005 * low if low < 0.9 else low, high / 1.01 if high > 1.1 else high)
+        )
 
 
 def test_a_recording_in_two_files_counts_once(motions):

@@ -1,4 +1,4 @@
-"""Surveys of columns drum by drum as a table (CSV, or the workbook of a spreadsheet), to column files and back without loss."""
+"""Surveys of columns drum by drum as a table (CSV, or a workbook), to column files and back without loss."""
 
 from __future__ import annotations
 
@@ -161,14 +161,15 @@ def _of_workbook(content: bytes, name: str) -> str:
     full = [sheet for sheet, rows in sheets.items() if any(cell is not None for row in rows for cell in row)]
     if len(full) > 1:
         raise InputError(
-            f"{name} has {len(full)} sheets that hold something ({', '.join(map(repr, full))}); leave the survey alone in it, "
-            "or save its sheet as CSV (UTF-8)."
+            f"{name} has {len(full)} sheets that hold something ({', '.join(map(repr, full))}); leave the survey alone in "
+            "it, or save its sheet as CSV (UTF-8)."
         )
     for sheet, formulas in zip(found, written, strict=True):
         for cell in (cell for row in formulas for cell in row if cell.data_type == "f"):
             if sheet[cell.coordinate].value is None:
                 raise InputError(
-                    f"{name} has a formula without a value in {cell.coordinate}; open it in the spreadsheet, and save it again."
+                    f"{name} has a formula without a value in {cell.coordinate}; open it in the spreadsheet, and save it "
+                    "again."
                 )
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(sheets[full[0]] if full else [])
@@ -217,7 +218,9 @@ def _facts(lines: list[str], name: str) -> tuple[dict[str, Any], list[str]]:
         said = line.strip().strip('";,\t ')
         wrong = next((one for one in WRONG_CELLS if one in line.upper()), None)
         if wrong is not None:
-            raise InputError(f"{name} has a cell {wrong!r}, where a formula of the spreadsheet has failed; mend it there.")
+            raise InputError(
+                f"{name} has a cell {wrong!r}, where a formula of the spreadsheet has failed; mend it there."
+            )
         if not said.startswith("#"):
             rest.append(line)
             continue

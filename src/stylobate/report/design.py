@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..analysis.design_tables import OPEN, as_read, basis_of, clearances, where, worst_of
 from ..analysis.design_values import WHICH_LEVEL
@@ -102,7 +102,7 @@ def governing_rows(values: pandas.DataFrame, runs: pandas.DataFrame | None) -> l
     """
     found: list[list[str]] = []
     for state in dict.fromkeys(values["state"]):
-        mine = values[values["state"] == state]
+        mine: Any = values[values["state"] == state]
         told = worst_of(mine) if len(worst_of(mine)) else clearances(mine)
         found += _texts(told.head(1), FRONT, level_words(runs))
     return found

@@ -96,8 +96,8 @@ def _design_values(results: Sequence[Result]) -> list[Section]:
         for row in governing_rows(one.tables["design"], one.tables.get("states"))
     ]
     caption = (
-        "Of every state the link that is used most, at the level that is told: what 84 % of the motions do not exceed, and its "
-        "95 % interval. What else bears how much, and at which other levels, stands with each case."
+        "Of every state the link that is used most, at the level that is told: what 84 % of the motions do not exceed, and "
+        "its 95 % interval. What else bears how much, and at which other levels, stands with each case."
     )
     return [Section("Design values that govern", [Rows(["case", *FRONT], body, caption, numbers=True)])] if body else []
 

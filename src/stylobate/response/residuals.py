@@ -42,8 +42,14 @@ class Residuals:
     @classmethod
     def in_plane(cls, slip: np.ndarray, x: np.ndarray, z: np.ndarray, rotation: np.ndarray) -> Residuals:
         """From slips [m], shape (J,), displacements [m] and rotations, counter-clockwise [rad], shape (n,)."""
+        return cls.all_in_plane(slip[None], x[None], z[None], rotation[None])[0]
+
+    @classmethod
+    def all_in_plane(cls, slip: np.ndarray, x: np.ndarray, z: np.ndarray, rotation: np.ndarray) -> list[Residuals]:
+        """Those of many runs, whose axis comes first."""
         tilt = np.arctan2(-np.sin(rotation), np.cos(rotation)) + 0.0  # no -0.0
-        return cls(_plain(slip), moved_x=_plain(x), moved_z=_plain(z), tilt_x=_plain(tilt))
+        rows = zip(*map(_rows, (slip, x, z, tilt)), strict=True)
+        return [cls(slips, moved_x=right, moved_z=up, tilt_x=lean) for slips, right, up, lean in rows]
 
     @classmethod
     def of_one(cls, slip: float, x: float, z: float, tilt: float) -> Residuals:
@@ -61,11 +67,17 @@ class Residuals:
         moved, up : array
             Shape (n, 3); ``up`` are unit vectors.
         """
-        x, y, z = up.T
+        return cls.all_in_space(slip[None], twist[None], moved[None], up[None])[0]
+
+    @classmethod
+    def all_in_space(cls, slip: np.ndarray, twist: np.ndarray, moved: np.ndarray, up: np.ndarray) -> list[Residuals]:
+        """Those of many runs, whose axis comes first."""
+        x, y, z = np.moveaxis(up, -1, 0)
         flat = np.hypot(x, y)
         angle, along = np.arctan2(flat, z), np.where(flat > 0.0, flat, 1.0)
         tilt = angle * np.where(flat > 0.0, x / along, 1.0), angle * np.where(flat > 0.0, y / along, 0.0)
-        return cls(*map(_plain, (*slip.T, twist, *moved.T, *tilt)))
+        fields = (*np.moveaxis(slip, -1, 0), twist, *np.moveaxis(moved, -1, 0), *tilt)
+        return [cls(*row) for row in zip(*map(_rows, fields), strict=True)]
 
     @property
     def slips(self) -> tuple[float, ...]:
@@ -112,7 +124,7 @@ def no_residuals(*, space: bool) -> Residuals:
 
 def turned_up(axes: np.ndarray, first: np.ndarray) -> np.ndarray:
     """What was vertical at first [-], in the axes of space, by axes of bodies as columns, shape (…, n, 3, 3)."""
-    return np.einsum("...nij,nj->...ni", axes, first[:, 2, :])
+    return np.einsum("...nij,...nj->...ni", axes, first[..., 2, :])
 
 
 def residuals_of(structure: Structure, histories: Histories, since: int | None = None) -> Residuals:
@@ -133,3 +145,7 @@ def residuals_of(structure: Structure, histories: Histories, since: int | None =
 
 def _plain(values: np.ndarray) -> tuple[float, ...]:
     return tuple(np.asarray(values, dtype=float).tolist())
+
+
+def _rows(values: np.ndarray) -> list[tuple[float, ...]]:
+    return [tuple(row) for row in np.asarray(values, dtype=float).tolist()]

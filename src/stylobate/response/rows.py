@@ -206,12 +206,17 @@ class _Column:
 
     def listed(self, which: np.ndarray) -> Any:
         """Values where ``which`` is true, as a column of a table: an array where there are numbers only."""
-        numbers, there = np.flatnonzero(which).tolist(), self.state[which] == _VALUE
+        there = self.state[which] == _VALUE
         if self.kind in (None, (float,)) or (self.kind == (int,) and not there.all()):
             return self.floats()[which]
         if self.kind in ((int,), (bool,)) and there.all():
             return self.values[which].astype(bool if self.kind == (bool,) else np.int64)
-        return np.fromiter((self.get(number) for number in numbers), dtype=object, count=len(numbers))
+        if self.kind in ((str,), (object,)):
+            numbers = np.flatnonzero(which).tolist()
+            return np.fromiter((self.get(number) for number in numbers), dtype=object, count=len(numbers))
+        given = self.values[which].astype(bool) if self.kind == (bool,) else self.values[which]
+        values = (value if known else None for value, known in zip(given.tolist(), there.tolist(), strict=True))
+        return np.fromiter(values, dtype=object, count=len(there))
 
     def _take(self, kind: tuple) -> tuple:
         if self.kind is None:

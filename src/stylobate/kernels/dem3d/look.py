@@ -2,7 +2,7 @@
 
 import math
 
-from ..ground import sample
+from ..ground import BEFORE, MEAN, sample
 from ..jit import kernel, law, long_law, strict
 from ..run_codes import CHUNK, FAILED, RUNNING, SUPPORT_MARGIN
 from ..shared.overturning import going_and_lost
@@ -28,18 +28,33 @@ ON_EDGE = 0.1
 UPRIGHT = 1e-3
 
 
+@law
+def base_acceleration(f, l, place, side):
+    """Acceleration of the base in its own axes at a place of a lane's record [m/s²]."""
+    last, factor = f.last[l], f.factor[l]
+    x = factor * sample(f.x[l], last, place, side)
+    y = factor * sample(f.y[l], last, place, side) if f.y[l] != 0 else 0.0
+    z = factor * sample(f.z[l], last, place, side) if f.z[l] != 0 else 0.0
+    return (
+        f.r[0, l] * x + f.r[1, l] * y + f.r[2, l] * z,
+        f.r[3, l] * x + f.r[4, l] * y + f.r[5, l] * z,
+        f.r[6, l] * x + f.r[7, l] * y + f.r[8, l] * z,
+    )
+
+
+@strict
+def bases(feed, lanes, places, out):
+    """Acceleration of the bases of some lanes at a place of each record [m/s²], shape (lanes, 3)."""
+    for k in range(lanes.shape[0]):
+        out[k, 0], out[k, 1], out[k, 2] = base_acceleration(feed[0], lanes[k], places[k], BEFORE)
+
+
 @long_law
 def ground_at(g, f, running, k, l):
     """Acceleration of the base at step k of the chunk, in its own axes; none where no run goes on."""
     a = g.a
     if running:
-        place = (f.step[l] + k) * f.ratio[l]
-        last, factor = f.last[l], f.factor[l]
-        x = factor * sample(f.x[l], last, place)
-        y = factor * sample(f.y[l], last, place) if f.y[l] != 0 else 0.0
-        z = factor * sample(f.z[l], last, place) if f.z[l] != 0 else 0.0
-        for c in range(3):
-            a[c, l] = f.r[3 * c, l] * x + f.r[3 * c + 1, l] * y + f.r[3 * c + 2, l] * z
+        a[0, l], a[1, l], a[2, l] = base_acceleration(f, l, (f.step[l] + k) * f.ratio[l], MEAN)
     else:
         for c in range(3):
             a[c, l] = 0.0

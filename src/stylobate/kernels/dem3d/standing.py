@@ -180,6 +180,13 @@ def turns_of(body, l):
 
 
 @strict_of_arrays
+def all_stand(stand, slip, energy, gravity, walks, body, joint, lane, lanes, out):
+    """Whether columns as built in some lanes stand for good, shape (lanes,): see :func:`stands`; numbers of each in rows."""
+    for k in range(lanes.shape[0]):
+        out[k] = stands(stand[k], slip[k], energy[k], gravity[k], walks, body, joint, lane, lanes[k])
+
+
+@strict_of_arrays
 def stands(stand, slip, energy, gravity, walks, body, joint, lane, l):
     """Whether a column as built, with these slips and this energy [J], stands for good: see ``models/dem3d/verdict.py``."""
     if not centroids_inside(body, joint, lane, l):

@@ -28,13 +28,13 @@ from . import vertices
 from .beds import disc_beds, ring_beds
 from .corners import on_corners
 from .links import add_links, look_at_all, look_for_slack
-from .look import check_finite, column_state, fill_ground, look_at_column
+from .look import bases, check_finite, column_state, fill_ground, look_at_column
 from .move import gather_all, kinetic_and_gravitational, move_all, stored_in_faces
 from .rims import chipped_rims, whole_rims
 from .round_faces import on_face
 
 #: The models read these here.
-__all__ = ["advance", "forces", "gather", "joint_state", "ledger"]
+__all__ = ["advance", "bases", "forces", "gather", "joint_states", "ledgers"]
 
 
 @law
@@ -193,28 +193,35 @@ def look(state):
 
 
 @strict
-def ledger(state, k, dt, l, out):
-    """Ledger of one lane at t_n, after :func:`gather`, with velocities brought to the whole step.  # Eq. (D5)
+def ledgers(state, dt, lanes, out):
+    """Ledgers of some lanes at t_n, after :func:`gather`, with velocities brought to the whole step.  # Eq. (D5)
 
-    Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J]. What links hold is elastic.
-    ``dt`` is the step of the lane (its own is 0 once it stands still), ``k`` the row of ``ground`` that holds t_n.
+    Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J], shape (lanes, 6). What links
+    hold is elastic. ``dt`` is the step of each lane (its own is 0 once it stands still); the first row of ``ground`` holds
+    t_n.
     """
     o = state[LANE][0]
-    kinetic, height = kinetic_and_gravitational(state[BODY], state[LANE], state[GROUND], k, dt, l)
-    elastic, held = stored(state[JOINT], state[LANE], l)
-    out[0] = o.work[l]
-    out[1] = kinetic
-    out[2] = height
-    out[3] = elastic + held
-    out[4] = o.shear[l] - held
-    out[5] = o.visc[l]
-    ledger_of_links(state[LINK], state[BOND], l, out)
+    for k in range(lanes.shape[0]):
+        l = lanes[k]
+        kinetic, height = kinetic_and_gravitational(state[BODY], state[LANE], state[GROUND], 0, dt[k], l)
+        elastic, held = stored(state[JOINT], state[LANE], l)
+        out[k, 0] = o.work[l]
+        out[k, 1] = kinetic
+        out[k, 2] = height
+        out[k, 3] = elastic + held
+        out[k, 4] = o.shear[l] - held
+        out[k, 5] = o.visc[l]
+        ledger_of_links(state[LINK], state[BOND], l, out[k])
 
 
 @strict
-def joint_state(state, l, opening, slip, twist):
-    """Opening of every joint of a lane [m], its slip [m] and twist [rad] since the start; shapes (n,), (n, 2), (n,)."""
-    state_of_joints(state[BODY], state[JOINT], state[WATCH], l, opening, slip, twist)
+def joint_states(state, lanes, opening, slip, twist):
+    """Opening of every joint of some lanes [m], its slip [m] and twist [rad] since the start.
+
+    Shapes (lanes, n), (lanes, n, 2), (lanes, n).
+    """
+    for k in range(lanes.shape[0]):
+        state_of_joints(state[BODY], state[JOINT], state[WATCH], lanes[k], opening[k], slip[k], twist[k])
 
 
 @kernel

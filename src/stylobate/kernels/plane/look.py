@@ -3,7 +3,7 @@
 Records: ``records.py``.
 """
 
-from ..ground import MEAN, sample
+from ..ground import BEFORE, MEAN, sample
 from ..jit import apart, kernel, law, strict
 from ..run_codes import CHUNK, FAILED, RUNNING, SUPPORT_MARGIN
 from ..shared.overturning import going_and_lost
@@ -21,18 +21,25 @@ def along_base(ax, az, c, s):
 
 
 @law
-def base_acceleration(f, l, place):
+def base_acceleration(f, l, place, side):
     """Acceleration of the base along and normal to it at a place of a lane's record [m/s²]."""
-    ax = f.factor[l] * sample(f.x[l], f.last[l], place, MEAN) if f.x[l] != 0 else 0.0
-    az = f.factor[l] * sample(f.z[l], f.last[l], place, MEAN) if f.z[l] != 0 else 0.0
+    ax = f.factor[l] * sample(f.x[l], f.last[l], place, side) if f.x[l] != 0 else 0.0
+    az = f.factor[l] * sample(f.z[l], f.last[l], place, side) if f.z[l] != 0 else 0.0
     return along_base(ax, az, f.bc[l], f.bs[l])
+
+
+@strict
+def bases(feed, lanes, places, out):
+    """Acceleration of the bases of some lanes at a place of each record [m/s²], shape (lanes, 2)."""
+    for k in range(lanes.shape[0]):
+        out[k, 0], out[k, 1] = base_acceleration(feed[0], lanes[k], places[k], BEFORE)
 
 
 @law
 def ground_at(g, f, running, k, l):
     """Acceleration of the base at step k of the chunk; none where no run goes on."""
     if running:
-        g.ax[l], g.az[l] = base_acceleration(f, l, (f.step[l] + k) * f.ratio[l])
+        g.ax[l], g.az[l] = base_acceleration(f, l, (f.step[l] + k) * f.ratio[l], MEAN)
     else:
         g.ax[l] = 0.0
         g.az[l] = 0.0

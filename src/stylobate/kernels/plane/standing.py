@@ -107,6 +107,13 @@ def centroids_inside(body, joint, n, slope, l):
 
 
 @strict
+def all_stand(stand, offset, gravity, slope, energy, body, joint, lanes, out):
+    """Whether columns in some lanes stand for good, shape (lanes,): see :func:`stands`; numbers of each are in rows."""
+    for k in range(lanes.shape[0]):
+        out[k] = stands(stand[k], offset[k], gravity[k], slope[k], energy[k], body, joint, lanes[k])
+
+
+@strict
 def stands(stand, offset, gravity, slope, energy, body, joint, l):
     """Whether a column that no input shakes any more can neither overturn nor slide apart; see ``models/plane/standing.py``.
 

@@ -30,7 +30,7 @@ from .motion import gather as gather_loads
 from .motion import kinetic_and_gravitational
 from .motion import move as move_bodies
 
-fill_base = look.fill_ground
+fill_base, bases = look.fill_ground, look.bases
 
 
 @chosen
@@ -134,13 +134,18 @@ def gather(state):
 
 
 @strict
-def ledger(state, gx, gz, dt, l, out):
-    """Ledger of bodies on joints and links: see :func:`energies`."""
-    elastic, held = stored(state[JOINT], state[LANE], l)
-    energies(state, elastic, held, gx, gz, dt, l, out)
+def ledgers(state, base, dt, lanes, out):
+    """Ledgers of bodies on joints and links in some lanes, shape (lanes, 6): see :func:`energies`.
+
+    ``base`` is the acceleration of their bases, shape (lanes, 2), ``dt`` of shape (lanes,).
+    """
+    for k in range(lanes.shape[0]):
+        elastic, held = stored(state[JOINT], state[LANE], lanes[k])
+        energies(state, elastic, held, base[k, 0], base[k, 1], dt[k], lanes[k], out[k])
 
 
 @kernel
-def joint_state(state, l, opening, slip):
-    """Opening and slip of every joint of one lane [m]."""
-    look.joint_state(state[BODY], state[JOINT], state[PAIR], l, opening, slip)
+def joint_states(state, lanes, opening, slip):
+    """Opening and slip of every joint of some lanes [m], shapes (lanes, joints)."""
+    for k in range(lanes.shape[0]):
+        look.joint_state(state[BODY], state[JOINT], state[PAIR], lanes[k], opening[k], slip[k])

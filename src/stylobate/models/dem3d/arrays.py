@@ -21,6 +21,8 @@ class Records(LaneRecords):
         Of the engine.
     """
 
+    axes_of_base = 3
+
     def __init__(self, kernel: Any, types: Mapping[str, np.dtype], topology: Topology, joints: int) -> None:
         super().__init__(types, topology, joints, spare=1)  # for what all loads of a body add up to
         self.kernel = kernel
@@ -39,10 +41,12 @@ class Records(LaneRecords):
 
     # -- looks at a lane, which change nothing that matters ------------------------------------------------------
 
-    def ledger(self, state: tuple[Any, ...], lane: int, dt: float, base: np.ndarray, out: np.ndarray) -> None:
-        """Write the ledger of a lane of a state whose forces are those of its positions."""
-        state[GROUND]["a"][0, :, lane] = base  # filled anew before the next step
-        self.kernel.ledger(state, 0, dt, lane, out)
+    def ledgers(
+        self, state: tuple[Any, ...], lanes: np.ndarray, dt: np.ndarray, bases: np.ndarray, out: np.ndarray
+    ) -> None:
+        """Write the ledgers of lanes of a state whose forces are those of its positions."""
+        state[GROUND]["a"][0][:, lanes] = bases.T  # filled anew before the next step
+        self.kernel.ledgers(state, dt, lanes, out)
 
     def net(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Forces [N] and moments [N m] of their contacts on every body in its present position, each of shape (n, 3)."""
@@ -51,36 +55,38 @@ class Records(LaneRecords):
         self.kernel.gather(state)
         return self.body["f"][1:, :, lane], self.body["mo"][1:, :, lane]
 
-    def joints(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def joints(self, lanes: Sequence[int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Opening of every joint [m], and since the start its slip where it is closest [m], and twist with full turns [rad].
 
-        Shapes (n,), (n, 2), (n,).
+        Shapes (lanes, n), (lanes, n, 2), (lanes, n).
         """
-        n = len(self.body) - 1
-        opening, slip, twist = np.empty(n), np.empty((n, 2)), np.empty(n)
-        self.kernel.joint_state(self.state, lane, opening, slip, twist)
+        size = len(lanes), len(self.body) - 1
+        opening, slip, twist = np.empty(size), np.empty((*size, 2)), np.empty(size)
+        self.kernel.joint_states(self.state, np.array(lanes, dtype=np.int64), opening, slip, twist)
         return opening, slip, twist
 
-    def places(self, lane: int) -> np.ndarray:
-        """Centroids of all bodies [m], shape (n, 3)."""
+    # of a lane, or of an array of them, whose axis comes first
+
+    def places(self, lane: int | np.ndarray) -> np.ndarray:
+        """Centroids of all bodies [m], shape (…, n, 3)."""
         return self.vectors(lane, "x y z")
 
-    def axes(self, lane: int) -> np.ndarray:
-        """Axes of every body as the columns of a matrix [-], shape (n, 3, 3)."""
-        found = np.empty((len(self.body) - 1, 3, 3))
+    def axes(self, lane: int | np.ndarray) -> np.ndarray:
+        """Axes of every body as the columns of a matrix [-], shape (…, n, 3, 3)."""
+        found = np.empty((*np.shape(lane), len(self.body) - 1, 3, 3))
         for axis, a in enumerate("ijk"):
-            self._put(found[:, :, axis], lane, (f"{a}x", f"{a}y", f"{a}z"))
+            self._put(found[..., axis], lane, (f"{a}x", f"{a}y", f"{a}z"))
         return found
 
-    def vectors(self, lane: int, names: str) -> np.ndarray:
-        """Vectors of all bodies but the base, by the names of their fields, shape (n, 3)."""
-        found = np.empty((len(self.body) - 1, 3))
+    def vectors(self, lane: int | np.ndarray, names: str) -> np.ndarray:
+        """Vectors of all bodies but the base, by the names of their fields, shape (…, n, 3)."""
+        found = np.empty((*np.shape(lane), len(self.body) - 1, 3))
         self._put(found, lane, names.split())
         return found
 
-    def _put(self, found: np.ndarray, lane: int, names: Sequence[str]) -> None:
+    def _put(self, found: np.ndarray, lane: int | np.ndarray, names: Sequence[str]) -> None:
         for c, name in enumerate(names):
-            found[:, c] = self.body[name][1:, lane]
+            found[..., c] = self.body[name][1:, lane].T
 
     def acceleration(self, lane: int) -> float:
         """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""

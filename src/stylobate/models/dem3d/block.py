@@ -6,7 +6,7 @@ What drums on one another and a single body do each in their own way is asked of
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,13 +14,13 @@ import numpy as np
 from ...column import Column
 from ...kernels.shared.records import LANE, STATE
 from ...motion import Motion
-from ...response import Collapse, Measures
+from ...response import Collapse
 from ...response.collapse import OVERTURNED, SLID_OFF, what_is_lost
 from ...response.measures import SpaceMeasures
 from ...response.residuals import Residuals, turned_up
 from ..base import RunOptions
 from ..drums.records import Packed, sink
-from ..drums.runs import LaneRuns
+from ..drums.runs import LaneRuns, Left
 from ..shared.lanes import in_rows
 from ..start import check_in_plane, check_takes_pose
 from .arrays import Records
@@ -62,10 +62,10 @@ class Stack:
 
         sink(records.body["z"], lane, force, carried)
 
-    def top(self, records: Records, lane: int) -> np.ndarray:
-        """Place of the middle of the topmost face along the base [m], shape (2,)."""
+    def top(self, records: Records, lanes: np.ndarray) -> np.ndarray:
+        """Place of the middle of the topmost face along the base [m], shape (lanes, 2)."""
         d = records.body[-1]
-        return np.array([d[c][lane] + d["ht"][lane] * d["k" + c][lane] for c in "xy"])
+        return np.stack([d[c][lanes] + d["ht"][lanes] * d["k" + c][lanes] for c in "xy"], axis=-1)
 
     def leaning(self, records: Records) -> np.ndarray:
         """Component towards +x of the axis of the lowest drum of each lane [-]."""
@@ -75,27 +75,55 @@ class Stack:
         """Place of the middle of the lowest face [m], shape (3,)."""
         return records.places(lane)[0] + records.axes(lane)[0] @ records.vectors(lane, "fx fy fz")[0]
 
-    def stays(
-        self, packed: Packed, records: Records, lane: int, structure: Column, energy: float, slip: np.ndarray
-    ) -> bool:
-        """Whether the column in a lane with so much energy above that at rest [J] stands for good. Eq. (V1), in space.
+    def stay(
+        self,
+        packed: Sequence[Packed],
+        records: Records,
+        lanes: np.ndarray,
+        structures: Sequence[Column],
+        energy: np.ndarray,
+        slip: np.ndarray,
+    ) -> np.ndarray:
+        """Whether columns in lanes with so much energy above that at rest [J] stand for good. Eq. (V1), in space.
 
         A drum that wobbles on another one may walk: joints between drums have their support narrowed by ``WALK``
         (``kernels/dem3d/standing.py``). Walking without slip costs nothing, so that no bound by energy is a proof; the
         margin is measured, see the theory page. What drums that pivot freely turn costs nothing either, and slopes, offsets
         and chips turn with them: nothing bounds where they come to.
         """
-        from ...kernels.dem3d.standing import stands
+        from ...kernels.dem3d.standing import all_stand
+
+        walks, of_lanes = not self.planar, (records.body, records.joint, records.lane)
+        stays = np.zeros(len(lanes), dtype=bool)
+        built = np.array([not one.as_found for one in structures])
+        if built.any():
+            stand, gravity = zip(
+                *((packed[k].stand, structures[k].gravity) for k in np.flatnonzero(built).tolist()), strict=True
+            )
+            stand = np.array([one.view(float) for one in stand]).view(
+                stand[0].dtype
+            )  # numpy stacks records field by field
+            numbers = stand, slip[built], energy[built], np.array(gravity)
+            found = np.zeros(len(stand), dtype=bool)
+            all_stand(*numbers, walks, *of_lanes, lanes[built], found)
+            stays[built] = found
+        for k in np.flatnonzero(~built).tolist():
+            stays[k] = self._stays_as_found(
+                packed[k], structures[k], float(energy[k]), slip[k], *of_lanes, int(lanes[k])
+            )
+        return stays
+
+    def _stays_as_found(
+        self, packed: Packed, structure: Column, energy: float, slip: np.ndarray, *of_lane: Any
+    ) -> bool:
+        """The same of a column that is not as built; ``of_lane`` are records of bodies, joints and lanes, and its lane."""
         from ...kernels.dem3d.standing_found import stands_as_found
 
-        walks, of_lane = not self.planar, (records.body, records.joint, records.lane, lane)
-        if not structure.as_found:
-            return bool(stands(packed.stand, slip, energy, structure.gravity, walks, *of_lane))
         drums = structure.as_found.drums
         if self.pivots and structure.section == "circular" and any(d.offset or d.tilt or d.chipped for d in drums):
             return False
         found, up, high = found_numbers(structure)
-        numbers = found, packed.stand, slip, energy, high, up, structure.gravity, walks
+        numbers = found, packed.stand, slip, energy, high, up, structure.gravity, not self.planar
         return bool(stands_as_found(*numbers, *of_lane))
 
     def lost(self, collapse: Collapse, structure: Column) -> str:
@@ -214,7 +242,7 @@ class SpaceBlock(LaneRuns):
             rows[:, lane] = numbers[begin:end]
         link = state[STATE.index("link")]
         link["on"][:, lane] = link["ft"][:, lane] = 0.0
-        return self.records.energies([lane], self.dt, [self.ground_acceleration(lane)], state)[0]
+        return self.records.energies([lane], self.dt, self.ground_accelerations([lane]), state)[0]
 
     # -- how it goes on ------------------------------------------------------------------------------------------
 
@@ -224,27 +252,17 @@ class SpaceBlock(LaneRuns):
 
     # -- what it tells -------------------------------------------------------------------------------------------
 
-    def ground_acceleration(self, lane: int) -> np.ndarray:
-        """Acceleration of the base in its own axes now [m/s²], shape (3,)."""
-        from ...kernels.ground import BEFORE, sample_one
-
-        case, feed, a = self.cases[lane], self.feed[0], np.zeros(3)
-        assert case is not None
-        place, last = self.time(lane) / case.motion.dt, int(feed["last"][lane])
-        for c, name in enumerate("xyz"):
-            if address := int(feed[name][lane]):
-                a[c] = sample_one(address, last, place, BEFORE) * case.motion.factor
-        return feed["r"][:, lane].reshape(3, 3) @ a
-
-    def top(self, lane: int) -> np.ndarray:
-        """Displacement of the top along the base [m], shape (2,)."""
-        return self.bodies.top(self.records, lane) - [self.watch[name][0, lane] for name in ("sx", "sy")]
+    def top(self, lanes: np.ndarray) -> np.ndarray:
+        """Displacement of the top along the base [m], shape (lanes, 2)."""
+        return self.bodies.top(self.records, lanes) - np.stack(
+            [self.watch[name][0, lanes] for name in ("sx", "sy")], axis=-1
+        )
 
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
         column = self.column(lane)
         axes, own = self.records.axes(lane), self.packed[lane].axes
-        opening, slip, twist = self.records.joints(lane)
+        (opening,), (slip,), (twist,) = self.records.joints([lane])
         return {
             "time": self.time(lane),
             "position": self.records.places(lane),
@@ -253,28 +271,29 @@ class SpaceBlock(LaneRuns):
             "slip": slip,
             "twist": twist,
             "base": self.bodies.foot(self.records, lane, column)[:2],
-            "top": self.top(lane),
+            "top": self.top(np.array([lane]))[0],
             "energy": self.energies(lane),
         } | self.links_now(lane)
 
-    def collect(self, lane: int) -> Measures:
-        """Measures of a lane whose run is over."""
-        _, slip, twist = self.records.joints(lane)
-        place, axes = (one[lane] for one in self.placed)
-        up = turned_up(self.records.axes(lane), axes)
-        left = Residuals.in_space(slip, twist, self.records.places(lane) - place, up)
-        lean, tilt = (math.acos(max(-1.0, 1.0 - self.peak(lane, name))) for name in ("lean", "turn"))
-        space = SpaceMeasures(
-            peak_top_x=self.peak(lane, "topx"),
-            peak_top_y=self.peak(lane, "topy"),
-            peak_tilt=tilt,
-            peak_twist=self.peak(lane, "spin"),
+    def left(self, lanes: list[int]) -> Left:
+        """What the runs of some lanes leave behind."""
+        which, records = np.array(lanes, dtype=np.int64), self.records
+        _, slip, twist = records.joints(lanes)
+        place, axes = (one[which] for one in self.placed)
+        up = turned_up(records.axes(which), axes)
+        residuals = Residuals.all_in_space(slip, twist, records.places(which) - place, up)
+        topx, topy, lean, turn, spin = (
+            self.peaks(lanes, name).tolist() for name in ("topx", "topy", "lean", "turn", "spin")
         )
-        return self.measures(lane, left, slip, float(np.hypot(*self.top(lane))), lean, space)
+        lean, tilt = ([math.acos(max(-1.0, 1.0 - one)) for one in peaks] for peaks in (lean, turn))
+        space = [SpaceMeasures(*row) for row in zip(topx, topy, tilt, spin, strict=True)]
+        top = np.hypot(*self.top(which).T)
+        return Left(residuals, np.hypot(*np.moveaxis(slip, -1, 0)), slip, top, np.array(lean), space)
 
-    def stays(self, lane: int, energy: float, slip: np.ndarray) -> bool:
-        """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
-        return self.bodies.stays(self.packed[lane], self.records, lane, self.column(lane), energy, slip)
+    def stay(self, lanes: list[int], energy: np.ndarray, slip: np.ndarray) -> np.ndarray:
+        """Whether what stands in lanes with so much energy above that at rest [J] stands for good, shape (lanes,)."""
+        packed, columns = zip(*((self.packed[lane], self.column(lane)) for lane in lanes), strict=True)
+        return self.bodies.stay(packed, self.records, np.array(lanes, dtype=np.int64), columns, energy, slip)
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane, with its direction in plan."""

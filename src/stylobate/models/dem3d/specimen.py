@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -142,7 +142,7 @@ def pack_specimen(records: Records, specimen: Specimen, damping: tuple[float, fl
     for c, place in zip("xyz", bodies.foot(records, 0, specimen), strict=True):  # the base's record keeps how it stood
         for name in (c, *(axis + c for axis in "ijk")):
             records.body[name][0, 0] = place if name == c else records.body[name][1, 0]
-    records.fill(0, watch=UNSEEN | dict(zip(("sx", "sy"), bodies.top(records, 0), strict=True)))
+    records.fill(0, watch=UNSEEN | dict(zip(("sx", "sy"), bodies.top(records, np.array([0]))[0], strict=True)))
     least = height_barrier(specimen)
     lowest = specimen.mass * specimen.gravity * (least.max() - rest.height)
     width = np.array([math.sqrt(rest.area)])
@@ -219,16 +219,32 @@ class FreeBody:
         body = records.body
         return np.sum([body[axis + "x"][1] * body["n" + c][1] for axis, c in zip("ijk", "xyz", strict=True)], axis=0)
 
-    def top(self, records: Records, lane: int) -> np.ndarray:
-        """Place in plan of the point that is as high as the highest vertex, above the centroid at rest [m], shape (2,)."""
+    def top(self, records: Records, lanes: np.ndarray) -> np.ndarray:
+        """Place in plan of the point that is as high as the highest vertex, above the centroid at rest [m].
+
+        Shape (lanes, 2).
+        """
+        return np.array([self._top(records, lane) for lane in lanes.tolist()])
+
+    def _top(self, records: Records, lane: int) -> np.ndarray:
         axes, up = records.axes(lane)[0], records.vectors(lane, "nx ny nz")[0]
         return (records.places(lane)[0] + records.body["ht"][1, lane] * axes @ up)[:2]
 
-    def stays(
-        self, packed: Packed, records: Records, lane: int, structure: Specimen, energy: float, slip: np.ndarray
-    ) -> bool:
-        """Whether the energy that is left lifts the body over no ring of tilts between its own and 45°."""
+    def stay(
+        self,
+        packed: Sequence[Packed],
+        records: Records,
+        lanes: np.ndarray,
+        structures: Sequence[Specimen],
+        energy: np.ndarray,
+        slip: np.ndarray,
+    ) -> np.ndarray:
+        """Whether the energy that is left lifts bodies over no ring of tilts between their own and 45°, shape (lanes,)."""
         del slip
+        each = zip(packed, lanes.tolist(), structures, energy.tolist(), strict=True)
+        return np.array([self._stays(one, records, lane, body, left) for one, lane, body, left in each])
+
+    def _stays(self, packed: Packed, records: Records, lane: int, structure: Specimen, energy: float) -> bool:
         least = packed.stand
         up = (records.axes(lane)[0] @ records.vectors(lane, "nx ny nz")[0])[2]
         tilt = math.acos(max(-1.0, min(1.0, float(up))))

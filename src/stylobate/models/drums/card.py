@@ -117,10 +117,10 @@ class CardLanes:
             block, first = self.blocks[number], number * self.each
             lanes = np.flatnonzero(ended[first : first + self.each])
             self._take(number, lanes)
-            for own in lanes.tolist():
-                if not block.is_over(own):
-                    self.waiting.setdefault(number, []).append(own)
-                    continue
+            over = [own for own in lanes.tolist() if block.is_over(own)]
+            if again := [own for own in lanes.tolist() if own not in over]:
+                self.waiting.setdefault(number, []).extend(again)
+            for own in over:
                 try:
                     self.ended[first + own] = block.collect(own)
                 except NOT_COMPUTED as error:
@@ -149,6 +149,7 @@ class CardLanes:
         """Take lanes of a block as the card has left them; addresses of samples are those here."""
         block, there = self.blocks[number], self._there(number, own)
         block.ledgers.clear()
+        block.ended.clear()
         for name, view in self.views.items():
             if name != "feed":
                 _fields(block, name, view)[..., own] = view[(slice(None), slice(None), *there)]

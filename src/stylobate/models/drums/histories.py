@@ -15,12 +15,12 @@ from ..shared.ground import ground_histories
 from .links import with_link_histories
 
 
-def ledger_imbalance(change: np.ndarray, work: float, start: float, barrier: float) -> float:
+def ledger_imbalance(change: ledger.Row, work: float, start: float, barrier: float) -> float:
     """Energy imbalance of a run of drums [-].
 
     Parameters
     ----------
-    change : array
+    change : array or sequence of float
         The ledger, shape (6,) [J].
     work, start : float
         Largest input work so far, and the elastic energy at rest [J].

@@ -71,6 +71,8 @@ class LaneRecords:
     ----------
     kernel : module
         Of the engine.
+    axes_of_base : int
+        Along which its acceleration is told: along and normal to it in the plane, three in space.
     numbers : array
         All numbers of lanes as bits, shape (fields, lanes): those of what moves first.
     moving : int
@@ -80,6 +82,7 @@ class LaneRecords:
     """
 
     kernel: Any
+    axes_of_base: int
 
     def __init__(self, types: Mapping[str, np.dtype], topology: Topology, joints: int, spare: int = 0) -> None:
         self.topology, self.lanes = topology, int(types["body"]["x"].shape[0])
@@ -144,7 +147,7 @@ class LaneRecords:
         feed["ratio"][lane], feed["factor"][lane] = dt / motion.dt, motion.factor
 
     def energies(
-        self, lanes: Sequence[int], dt: np.ndarray, bases: Sequence[Any], state: tuple[Any, ...] | None = None
+        self, lanes: Sequence[int], dt: np.ndarray, bases: np.ndarray, state: tuple[Any, ...] | None = None
     ) -> np.ndarray:
         """Ledgers of lanes now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].
 
@@ -155,21 +158,35 @@ class LaneRecords:
         lanes : sequence of int
         dt : array
             Time steps of all lanes [s].
-        bases : sequence
-            Acceleration of the base of each of these lanes [m/s²].
+        bases : array
+            Acceleration of the base of each of these lanes [m/s²], shape (lanes, axes).
         state : tuple, optional
             What is looked at, and changed, in place of a copy of these records.
         """
-        state, out = self.now() if state is None else state, np.empty((len(lanes), 6))
-        state[LANE]["dt"][0, lanes] = dt[lanes]
+        state, which, out = (
+            self.now() if state is None else state,
+            np.array(lanes, dtype=np.int64),
+            np.empty((len(lanes), 6)),
+        )
+        state[LANE]["dt"][0, which] = dt[which]
         self.kernel.gather(state)
-        for lane, base, row in zip(lanes, bases, out, strict=True):
-            self.ledger(state, lane, float(dt[lane]), base, row)
+        self.ledgers(state, which, dt[which], bases, out)
         return out
 
-    def ledger(self, state: tuple[Any, ...], lane: int, dt: float, base: Any, out: np.ndarray) -> None:
-        """Write the ledger of a lane of a state whose forces are those of its positions."""
+    def ledgers(
+        self, state: tuple[Any, ...], lanes: np.ndarray, dt: np.ndarray, bases: np.ndarray, out: np.ndarray
+    ) -> None:
+        """Write the ledgers of lanes of a state whose forces are those of its positions; ``dt`` is that of each of them."""
         raise NotImplementedError
+
+    def bases(self, lanes: Sequence[int], places: np.ndarray) -> np.ndarray:
+        """Acceleration of the bases of lanes in their own axes [m/s²], shape (lanes, axes).
+
+        ``places`` are those in their records, in samples from the first one, shape (lanes,).
+        """
+        out = np.empty((len(lanes), self.axes_of_base))
+        self.kernel.bases(self.feed, np.array(lanes, dtype=np.int64), places, out)
+        return out
 
     def acceleration(self, lane: int) -> float:
         """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ from ...kernels.shared.records import STATE
 from ...motion import Motion
 from ..drums.bodies import Topology
 from ..drums.records import LaneRecords
-from ..shared.ground import along_base
 from .laws import Types
 
 
@@ -23,6 +23,8 @@ class Records(LaneRecords):
     types : mapping of str to dtype
         Of :mod:`stylobate.models.plane.laws`.
     """
+
+    axes_of_base = 2
 
     def __init__(self, types: Types, topology: Topology, spare: int = 0) -> None:
         from ...kernels.plane import step
@@ -38,14 +40,16 @@ class Records(LaneRecords):
         body = state[STATE.index("body")]
         return tuple(body[name][:, lane] for name in ("fx", "fz", "mo"))
 
-    def ledger(self, state: tuple[Any, ...], lane: int, dt: float, base: tuple[float, float], out: np.ndarray) -> None:
-        """Write the ledger of a lane of a state whose forces are those of its positions."""
-        self.kernel.ledger(state, base[0], base[1], dt, lane, out)
+    def ledgers(
+        self, state: tuple[Any, ...], lanes: np.ndarray, dt: np.ndarray, bases: np.ndarray, out: np.ndarray
+    ) -> None:
+        """Write the ledgers of lanes of a state whose forces are those of its positions."""
+        self.kernel.ledgers(state, np.ascontiguousarray(bases), dt, lanes, out)
 
-    def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
-        """Opening of every joint, and where the body above it is along it [m], each of shape (joints,)."""
-        opening, slip = np.empty(len(self.joint)), np.empty(len(self.joint))
-        self.kernel.joint_state(self.state, lane, opening, slip)
+    def joint_states(self, lanes: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+        """Opening of every joint, and where the body above it is along it [m], each of shape (lanes, joints)."""
+        opening, slip = np.empty((2, len(lanes), len(self.joint)))
+        self.kernel.joint_states(self.state, np.array(lanes, dtype=np.int64), opening, slip)
         return opening, slip
 
     def acceleration(self, lane: int) -> float:
@@ -71,8 +75,3 @@ def slope_base(records: Records, lane: int, motion: Motion, slope: float) -> Non
     peak_x, peak_z = motion.pga, 0.0 if z is None else float(np.abs(z).max()) * abs(motion.factor)
     watch["amax"][lane] = peak_x * math.cos(slope) + peak_z * abs(math.sin(slope))
     watch["vmax"][lane] = peak_x * abs(math.sin(slope)) + peak_z * math.cos(slope)
-
-
-def base_acceleration(records: Records, lane: int, motion: Motion, time: float) -> tuple[float, float]:
-    """Acceleration of the base along and normal to it at a time [m/s²]."""
-    return along_base(motion, time, float(records.feed["bc"][0, lane]), float(records.feed["bs"][0, lane]))

@@ -16,6 +16,7 @@ from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..base import LONGEST_WAIT, Case, RunOptions
 from ..drums.histories import histories
+from ..drums.runs import Left
 from .columns import ColumnLanes, residuals_in
 from .loose import ENDLESS, Contacts, Loose
 from .packing import OF_BODY
@@ -205,6 +206,8 @@ class _ColumnRun:
             watch["status"][0] = COLLAPSED
         residual = float(found.top_displacement[-1])
         change = last["energy"] - self.start
-        slip, turn = block.poses(0)["slip"], block.peak(0, "turn")
-        measures = block.measures(0, residuals_in(last), slip, residual, turn, since=change)
+        residuals, slip = residuals_in(last), block.poses([0])["slip"]
+        offset = np.array([residuals.slips])
+        left = Left([residuals], offset, slip, np.array([residual]), block.peaks([0], "turn"))
+        (measures,) = block.measures([0], left, since=change[None])
         return measures if measures.collapse is None else replace(measures, collapse=self.collapse(found))

@@ -10,15 +10,15 @@ import numpy as np
 from ...column import Column
 from ...constants import DEGREE
 from ...motion import Motion
-from ...response import Collapse, Measures
+from ...response import Collapse
 from ...response.collapse import in_plane
 from ...response.residuals import Residuals
 from ..base import RunOptions
 from ..drums.bodies import Topology
 from ..drums.records import Packed
-from ..drums.runs import LaneRuns
+from ..drums.runs import LaneRuns, Left
 from ..start import check_in_plane
-from .block import Records, base_acceleration, slope_base
+from .block import Records, slope_base
 from .laws import Types
 from .pose import leans_right, placed, sink_in
 from .standing import numbers_for
@@ -76,7 +76,7 @@ class ColumnLanes(LaneRuns):
     def stand(self, lane: int) -> None:
         """Note how a column stands in a lane."""
         body = self.records.body
-        self.slip[lane] = self.records.joint_state(lane)[1]
+        self.slip[lane] = self.records.joint_states([lane])[1][0]
         self.placed[lane] = body["x"][1:, lane], body["z"][1:, lane]
         self.watch["stood"][0, lane] = self.top(lane)
 
@@ -100,7 +100,7 @@ class ColumnLanes(LaneRuns):
         packed = self.pack(bare)
         records.put(0, packed.lane)
         records.bond[...], records.feed[...] = packed.bond, self.feed
-        return records.energies([0], self.dt[lane:], [self.ground_acceleration(lane)])[0]
+        return records.energies([0], self.dt[lane:], self.ground_accelerations([lane]))[0]
 
     def half_a_step_back(self, lane: int) -> None:
         """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
@@ -121,46 +121,46 @@ class ColumnLanes(LaneRuns):
 
     # -- what it tells -------------------------------------------------------------------------------------------
 
-    def ground_acceleration(self, lane: int) -> tuple[float, float]:
-        """Acceleration of the base along and normal to it now [m/s²]."""
-        case = self.cases[lane]
-        assert case is not None
-        return base_acceleration(self.records, lane, case.motion, self.time(lane))
-
-    def top(self, lane: int) -> float:
-        """Place of the middle of the topmost face along the base [m]."""
+    def top(self, lanes: Any) -> Any:
+        """Place of the middle of the topmost face along the base [m], of a lane or of several."""
         b, w = self.records.body[-1], self.watch[0]
-        return float(b["x"][lane] - (b["s"][lane] * w["tc"][lane] + b["c"][lane] * w["ts"][lane]) * w["th"][lane])
+        return b["x"][lanes] - (b["s"][lanes] * w["tc"][lanes] + b["c"][lanes] * w["ts"][lanes]) * w["th"][lanes]
 
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
         bottom = self.records.body[1]
-        state = self.poses(lane) | {
+        state = {name: values[0] for name, values in self.poses([lane]).items()} | {
             "time": self.time(lane),
             "base": bottom["x"][lane] + bottom["s"][lane] * self.records.joint["hb"][0, lane],
-            "top": self.top(lane) - self.watch["stood"][0, lane],
+            "top": float(self.top(lane) - self.watch["stood"][0, lane]),
             "energy": self.energies(lane),
         }
         return state | self.links_now(lane)
 
-    def poses(self, lane: int) -> dict[str, np.ndarray]:
-        """Displacements and rotations of drums, openings and slips of joints, from how the column stood."""
-        body, (opening, slip) = self.records.body, self.records.joint_state(lane)
+    def poses(self, lanes: list[int]) -> dict[str, np.ndarray]:
+        """Displacements and rotations of drums, openings and slips of joints, from how the columns stood.
+
+        Of shape (lanes, n).
+        """
+        body, (opening, slip) = self.records.body, self.records.joint_states(lanes)
+        x, z, rotation = (body[name][1:, lanes].T for name in ("x", "z", "th"))
         return {
-            "x": body["x"][1:, lane] - self.placed[lane, 0],
-            "z": body["z"][1:, lane] - self.placed[lane, 1],
-            "rotation": body["th"][1:, lane].copy(),
+            "x": x - self.placed[lanes, 0],
+            "z": z - self.placed[lanes, 1],
+            "rotation": rotation,
             "opening": opening,
-            "slip": slip - self.slip[lane],
+            "slip": slip - self.slip[lanes],
         }
 
-    def collect(self, lane: int) -> Measures:
-        """Measures of a lane whose run is over."""
-        residual, state = self.top(lane) - float(self.watch["stood"][0, lane]), self.poses(lane)
-        return self.measures(lane, residuals_in(state), state["slip"], residual, self.peak(lane, "turn"))
+    def left(self, lanes: list[int]) -> Left:
+        """What the runs of some lanes leave behind."""
+        state = self.poses(lanes)
+        slip, residuals = state["slip"], Residuals.all_in_plane(*(state[one] for one in ("slip", "x", "z", "rotation")))
+        top = self.top(lanes) - self.watch["stood"][0, lanes]
+        return Left(residuals, np.abs(slip), slip, top, self.peaks(lanes, "turn"))
 
-    def stays(self, lane: int, energy: float, slip: np.ndarray) -> bool:
-        """Whether a column that no input shakes any more can neither overturn nor slide apart.
+    def stay(self, lanes: list[int], energy: np.ndarray, slip: np.ndarray) -> np.ndarray:
+        """Whether columns that no input shakes any more can neither overturn nor slide apart, shape (lanes,).
 
         Two conditions, Eq. (V1). As the column is, the centroid of every part stands within its contact: it is on the near
         side of every barrier. And the energy is below the lowest barrier of the column put down flat with its present
@@ -169,14 +169,17 @@ class ColumnLanes(LaneRuns):
         m g [tan φ b − H (1 − √(1 − tan² φ))]. On a slope H and b are measured along and across gravity, and friction is what
         the slope of the joint leaves of it. Soft joints give, and the barrier is lower by that.
         """
-        from ...kernels.plane.standing import stands
+        from ...kernels.plane.standing import all_stand
 
-        column, records = self.column(lane), self.records
-        numbers, offsets = numbers_for(column)
-        stand, slope = numbers.copy(), column.as_found.base_tilt * DEGREE
-        stand["toe"] = self.packed[lane].stand
-        where = records.body, records.joint, lane
-        return bool(stands(stand, offsets + slip, column.gravity, slope, energy, *where))
+        columns, records = [self.column(lane) for lane in lanes], self.records
+        stand, offsets = zip(*map(numbers_for, columns), strict=True)
+        stand = np.array([one.view(float) for one in stand]).view(stand[0].dtype)  # numpy stacks records field by field
+        stand["toe"] = [self.packed[lane].stand for lane in lanes]
+        gravity, slope = np.array([(one.gravity, one.as_found.base_tilt * DEGREE) for one in columns]).T
+        where, stays = np.array(lanes, dtype=np.int64), np.zeros(len(lanes), dtype=bool)
+        numbers = offsets + slip, gravity.copy(), slope.copy(), energy
+        all_stand(stand, *numbers, records.body, records.joint, where, stays)
+        return stays
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane: what is lost turns about the joint that is widest open, there or higher up."""

@@ -23,7 +23,7 @@ from ..shared.lanes import longest_piece
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.stable_step import whole_steps
 from .beds import bed_laws, fill_hands, fill_shapes
-from .block import Records, base_acceleration, slope_base
+from .block import Records, slope_base
 from .laws import point_law
 from .links import links_at_rest
 from .packing import joint_fields, lane_fields
@@ -193,7 +193,8 @@ class Loose:
 
     def ground_acceleration(self, time: float) -> tuple[float, float]:
         """Acceleration of the base along and normal to it at a time [m/s²]."""
-        return base_acceleration(self.records, 0, self.motion, time)
+        along, normal = self.records.bases([0], np.array([time / self.motion.dt]))[0]
+        return float(along), float(normal)
 
     def _push(self) -> None:
         """Velocities half a step before the start, of bodies that do not move yet, whatever accelerates them."""

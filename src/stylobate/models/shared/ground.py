@@ -35,23 +35,6 @@ def values_at(samples: np.ndarray, positions: np.ndarray, side: int = BEFORE) ->
     return out
 
 
-def along_base(motion: Motion, time: float, cosine: float, sine: float) -> tuple[float, float]:
-    """Acceleration of the base along and normal to it [m/s²], at a time up to which a step goes.
-
-    Parameters
-    ----------
-    motion : Motion
-    time : float
-        [s]
-    cosine, sine : float
-        Of the base's slope, along which the motion is taken.
-    """
-    place = time / motion.dt
-    ax = value_at(motion.samples, place) * motion.factor
-    az = 0.0 if motion.z_samples is None else value_at(motion.z_samples, place) * motion.factor
-    return ax * cosine + az * sine, az * cosine - ax * sine
-
-
 def ground_history(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Acceleration and displacement of the base along x at given times, from rest [m/s²], [m], shape of ``time``.
 

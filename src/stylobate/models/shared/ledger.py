@@ -6,6 +6,8 @@ what is not accounted for.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 #: Terms of a ledger.
@@ -20,12 +22,16 @@ MADE_ENERGY = (
 )
 
 
-def unaccounted(row: np.ndarray) -> float:
+#: A ledger, as an array or as floats.
+Row = np.ndarray | Sequence[float]
+
+
+def unaccounted(row: Row) -> float:
     """Energy that a ledger misses [J]."""
-    return abs(float(row[0] - row[1:].sum()))
+    return abs(float(row[0] - (row[1] + row[2] + row[3] + row[4] + row[5])))
 
 
-def released(row: np.ndarray) -> float:
+def released(row: Row) -> float:
     """By how much the potential energy, gravitational and elastic, is less than at the start [J]; 0 if it is more."""
     return max(0.0, -float(row[2] + row[3]))
 

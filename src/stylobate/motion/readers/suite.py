@@ -116,8 +116,9 @@ def read_suite(
         pairs = [f"{motions[one].name!r} of {motions[other].name!r}" for one, other in again.items()]
         named = ", ".join(pairs[:TOLD]) + (", …" if len(pairs) > TOLD else "")
         warn(
-            f"{len(again)} of {len(motions)} records are recordings of others once more, scaled or in another format ({named}): "
-            "where each counts as a record of its own, intervals are narrower than what is known; leave them out."
+            f"{len(again)} of {len(motions)} records are recordings of others once more, scaled or in another format "
+            f"({named}): where each counts as a record of its own, intervals are narrower than what is known; leave them "
+            "out."
         )
     return Suite(tuple(motions), refused)
 
