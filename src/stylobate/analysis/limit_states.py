@@ -136,8 +136,10 @@ def parse_state(text: str) -> LimitState:
     if found is None or not 0.0 < level < 1e6:
         raise InputError(
             f"state {text!r} cannot be read; allowed is collapse, a level in base diameters such as {', '.join(LEVELS)}, "
-            "or a measure of runs and its level, such as peak_rotation_rad:0.05."
+            "or a measure of runs and its level, such as peak_rotation_rad:0.05.",
+            "state",
         )
     if found["what"] in SHORT and found["unit"] is None:
-        raise InputError(f"state {text!r} has no unit; write {text.strip()}d for base diameters, or {text.strip()}m.")
+        unit = f"write {text.strip()}d for base diameters, or {text.strip()}m"
+        raise InputError(f"state {text!r} has no unit; {unit}.", "state")
     return LimitState(SHORT.get(found["what"], found["what"]), level, found["unit"] == "d")

@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..constants import g
-from ..errors import InputError, suggest
+from ..errors import InputError, suggest, within
 from .intensity import (
     arias_intensity,
     cumulative_absolute_velocity,
@@ -219,6 +219,11 @@ def parse_measure(text: str) -> IntensityMeasure:
     InputError
         No such measure; the message names those that are.
     """
+    with within("", "im"):
+        return _measure(text)
+
+
+def _measure(text: str) -> IntensityMeasure:
     found = _SPEC.fullmatch(text.strip().lower())
     if found is None or found["kind"] not in KINDS:
         word = text if found is None else found["kind"]
@@ -234,7 +239,8 @@ def parse_measure(text: str) -> IntensityMeasure:
     typed = found["periods"].split("-") if found["periods"] else []
     if not all(typed):
         raise InputError(f"a period of intensity measure {text!r} is negative, or missing; write it as sa:1.0s.")
-    periods = tuple(map(parse_time, typed))
+    with within(f"intensity measure {text!r}"):
+        periods = tuple(map(parse_time, typed))
     if kind == "avgsa" and not periods:
         periods = AVERAGED
     wanted = {"sa": 1, "avgsa": 2}.get(kind, 0)

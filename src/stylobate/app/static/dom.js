@@ -113,10 +113,13 @@ export function notice(text) {
 // A sentence begins with a capital, unless with the name of a file.
 export const capital = text => /^[^\s,;:]+\.\w/.test(text) ? text : text[0].toUpperCase() + text.slice(1);
 
-// The field of a panel by its name; the row where it has no box for that.
+// Boxes that hold several parameters, by these.
+const WITHIN = { region: "synthetic", magnitude: "synthetic", distance: "synthetic", seed: "synthetic", factor: "factors" };
+
+// The field of a panel by its name; the row, or the box of several parameters, where it has no box for that.
 export function control(panel, field) {
-  const place = name => find(`[data-field="${CSS.escape(name)}"]`, panel);
-  return field && (place(field) || (field.includes(".") && place(field.replace(/\.[^.]*$/, "")))) || null;
+  const place = name => name && find(`[data-field="${CSS.escape(name)}"]`, panel);
+  return field && (place(field) || place(WITHIN[field]) || (field.includes(".") && place(field.replace(/\.[^.]*$/, "")))) || null;
 }
 
 // Marks the field of a panel that a sentence is about, with the sentence under it; under the panel where it is about none.
