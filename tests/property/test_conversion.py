@@ -304,8 +304,10 @@ SHEET = [
 ]
 
 
-def test_a_survey_in_a_workbook(tmp_path):
-    column, _, words = read_model(Path(workbook(tmp_path / "a.xlsx", SHEET, [])), Reading())
+@pytest.mark.parametrize("beside", [[], [None, " "]], ids=["from A1", "from B2, and with a blank cell behind"])
+def test_a_survey_in_a_workbook(beside, tmp_path):
+    rows = [beside, *([*beside[:1], *row, *beside] for row in SHEET)]
+    column, _, words = read_model(Path(workbook(tmp_path / "a.xlsx", rows, [])), Reading())
     (tmp_path / "a.csv").write_text(survey_text(column))
     assert read_model(tmp_path / "a.csv", Reading())[0].to_dict() == column.to_dict()
     assert (column.name, [drum.height for drum in column.drums]) == ("north, 3", [0.8125, 0.79])

@@ -118,6 +118,9 @@ def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any],
         head, *rows = [row for row in csv.reader(lines, delimiter=separator) if any(cell.strip() for cell in row)]
     except csv.Error as error:
         raise InputError(f"{name} is no table: {error}; save the survey as CSV.") from None
+    # spreadsheets save columns that were formatted, or left free, as well
+    free = {k for k, cell in enumerate(head) if not any(one[k].strip() for one in (head, *rows) if k < len(one))}
+    head, *rows = ([cell for k, cell in enumerate(row) if k not in free] for row in (head, *rows))
     columns = [_column(cell, name) for cell in head]
     known = [one for one, _ in columns]
     double = next((one for one in known if known.count(one) > 1), None)
