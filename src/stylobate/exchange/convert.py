@@ -146,7 +146,7 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
         tables, notes = survey_tables(path, reading.material)
         tables.setdefault("name", path.stem)
         column = made_of(Column, tables, shown(path))
-        return column, tables, [f"{column.n} drums, {column.height:g} m high", *notes]
+        return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]
     if path.suffix.lower() == ".json":
         name, blocks = read_compas(path)
         parts = parts_of(blocks)
