@@ -12,6 +12,7 @@ import pytest
 import stylobate as st
 from stylobate.errors import OutOfRangeWarning
 from stylobate.models.base import Case
+from stylobate.models.plane.columns import ColumnLanes
 from stylobate.models.shared.lanes import LONGEST_CALL, MOST_ALONE, WINDOW, run_alike, run_lanes
 from stylobate.simulate import simulate_iter
 
@@ -156,6 +157,26 @@ def test_models_take_sequences_that_make_their_cases(model):
     listed = dict(simulate_iter(list(cases), model, threads=1))
     assert {k: one.row() for k, one in lazily.items()} == {k: one.row() for k, one in listed.items()}
     assert sorted(lazily) == list(range(40))
+
+
+def test_of_runs_that_end_together_each_has_its_own_measures_or_its_own_error(monkeypatch):
+    """Eight runs of one length in one block: together to the bits of each alone; an error belongs to one of them."""
+    stone, time = column(), np.arange(0.0, 0.5, 0.01)
+    motions = [st.Motion(0.01, size * np.sin(9.0 * time)) for size in np.linspace(0.1, 4.0, 8)]
+    cases, model = [Case(stone, motion) for motion in motions], st.DistinctElement2D()
+    alone = [dict(simulate_iter([case], model, threads=1))[0] for case in cases]
+    assert dict(simulate_iter(cases, model, threads=1)) == dict(enumerate(alone))
+    stay = ColumnLanes.stay
+
+    def odd(block, lanes, *given):
+        if any(block.case(lane).motion is motions[3] for lane in lanes):
+            raise st.InputError("this one is odd.")
+        return stay(block, lanes, *given)
+
+    monkeypatch.setattr(ColumnLanes, "stay", odd)
+    found = dict(simulate_iter(cases, model, threads=1))
+    assert found.pop(3).reason == "this one is odd"
+    assert found == {number: measures for number, measures in enumerate(alone) if number != 3}
 
 
 def test_a_beam_on_joints_that_do_not_hold_it_is_failed_and_aborts_no_batch():
