@@ -25,7 +25,7 @@ def top_after(step: float) -> np.ndarray:
     while not block.is_over(0):
         block.advance()
     assert block.time(0) == pytest.approx(0.4, abs=1e-12)
-    return block.bodies.top(block.records, 0)
+    return block.bodies.top(block.records, np.array([0]))[0]
 
 
 def test_second_order_in_the_time_step():

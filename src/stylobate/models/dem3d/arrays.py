@@ -55,17 +55,18 @@ class Records(LaneRecords):
         self.kernel.gather(state)
         return self.body["f"][1:, :, lane], self.body["mo"][1:, :, lane]
 
-    def joints(self, lanes: Sequence[int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    # of a lane, or of an array of them, whose axis comes first
+
+    def joints(self, lane: int | np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Opening of every joint [m], and since the start its slip where it is closest [m], and twist with full turns [rad].
 
-        Shapes (lanes, n), (lanes, n, 2), (lanes, n).
+        Shapes (…, n), (…, n, 2), (…, n).
         """
-        size = len(lanes), len(self.body) - 1
+        size = np.size(lane), len(self.body) - 1
         opening, slip, twist = np.empty(size), np.empty((*size, 2)), np.empty(size)
-        self.kernel.joint_states(self.state, np.array(lanes, dtype=np.int64), opening, slip, twist)
-        return opening, slip, twist
-
-    # of a lane, or of an array of them, whose axis comes first
+        self.kernel.joint_states(self.state, np.atleast_1d(lane), opening, slip, twist)
+        one: Any = ... if np.ndim(lane) else 0
+        return opening[one], slip[one], twist[one]
 
     def places(self, lane: int | np.ndarray) -> np.ndarray:
         """Centroids of all bodies [m], shape (…, n, 3)."""

@@ -262,7 +262,7 @@ class SpaceBlock(LaneRuns):
         """Everything that a history keeps of the present state."""
         column = self.column(lane)
         axes, own = self.records.axes(lane), self.packed[lane].axes
-        (opening,), (slip,), (twist,) = self.records.joints([lane])
+        opening, slip, twist = self.records.joints(lane)
         return {
             "time": self.time(lane),
             "position": self.records.places(lane),
@@ -278,7 +278,7 @@ class SpaceBlock(LaneRuns):
     def left(self, lanes: list[int]) -> Left:
         """What the runs of some lanes leave behind."""
         which, records = np.array(lanes, dtype=np.int64), self.records
-        _, slip, twist = records.joints(lanes)
+        _, slip, twist = records.joints(which)
         place, axes = (one[which] for one in self.placed)
         up = turned_up(records.axes(which), axes)
         residuals = Residuals.all_in_space(slip, twist, records.places(which) - place, up)

@@ -29,7 +29,7 @@ def pack_column(
     """
     body, joint, lane = fields
     records.fill(0, body=body | {"a" + c: body["k" + c] for c in "xyz"}, joint=joint, lane=lane)
-    _, (slip,), (twist,) = records.joints([0])
+    _, slip, twist = records.joints(0)
     records.fill(0, joint={"ox": slip[:, 0], "oy": slip[:, 1], "ot": twist, "tw": twist})
     records.fill(0, feed={"r": base_axes(column).T.ravel()}, link=links)
     records.fill(0, watch=UNSEEN | dict(zip(("sx", "sy"), top(records, np.array([0]))[0], strict=True)))
