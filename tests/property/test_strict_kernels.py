@@ -94,12 +94,13 @@ def test_ledger_of_drums_without_finite_velocities_is_nan(law):
     records = Records(law, Topology(3, ((0, 1), (1, 2))))
     for name in ("m", "i", "im", "ii"):
         records.body[name] = 1.0
-    ledger, out = compiled(records.kernel.ledger), np.zeros(6)
-    ledger(records.state, 0.0, 0.0, 1e-3, 0, out)
+    ledgers, out = compiled(records.kernel.ledgers), np.zeros((1, 6))
+    given = np.zeros((1, 2)), np.full(1, 1e-3), np.zeros(1, dtype=np.int64), out
+    ledgers(records.state, *given)
     assert np.isfinite(out).all()
     records.body["vx"][1, 0] = NAN
-    ledger(records.state, 0.0, 0.0, 1e-3, 0, out)
-    assert math.isnan(out[1])
+    ledgers(records.state, *given)
+    assert math.isnan(out[0, 1])
 
 
 @pytest.mark.parametrize("place", ["theta", "slip", "energy", "unaccounted"])

@@ -348,6 +348,7 @@ class LaneRuns:
         """Measures of a lane whose run is over; those of all that are over are made together, which takes less for each."""
         if lane not in self.ended:
             lanes = [one for one in self._stopped() if one not in self.ended]
+            lanes += [lane] * (lane not in lanes)
             try:
                 self.ended.update(zip(lanes, self.measures(lanes, self.left(lanes)), strict=True))
             except NOT_COMPUTED:  # of one of them, whose own turn it is to say so
