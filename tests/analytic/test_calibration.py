@@ -51,11 +51,11 @@ def test_noise_of_a_history_is_told():
 def test_damping_is_found_again_and_the_restitution_beside_it():
     """β of another model (dem2d, in space corners) lies in the interval, and the rest of the file is what was found."""
     column, true = block(), 5e-4
-    history = let_go(column, st.DistinctElement2D(), st.Losses(true), st.Start(0.15))
+    history = let_go(column, st.DistinctElement2D(), st.Losses(true), st.Start(0.2))
     found = st.calibrate(history, column)
     loss = found.told["stiffness_damping"]
     assert loss.told
-    assert loss.low < true < loss.high < 6.0 * loss.low  # 3.1 and 4.1 times on processors of two kinds
+    assert loss.low < true < loss.high < 4.0 * loss.low
     assert found.restitution.low < found.restitution.value < found.restitution.high < 1.02 * found.restitution.low
     assert found.after.reached
     assert found.laws == {}

@@ -255,7 +255,7 @@ def select_records(
     known = about or {}
     refused: dict[str, str] = {}
     usable: list[tuple[Motion, np.ndarray, float]] = []
-    beyond: list[tuple[Motion, float]] = []  # what follows the target by a factor outside the limits alone
+    beyond: list[tuple[Motion, float]] = []  # whose best factor is outside the limits, with that factor
     for motion in motions:
         reason, spectrum, size = _considered(motion, t, aim, horizontal, wanted, known.get(motion.name, {}))
         if reason is not None:

@@ -57,17 +57,21 @@ class Rows(Sequence[Any]):
     def _columns(self) -> dict[str, _Column]:
         """All columns, with all rows."""
         if self._waiting:
-            waiting, self._waiting = self._waiting, []
-            names = [tuple(row) for _, row in waiting]
-            if len(set(names)) == 1:
-                numbers, rows = zip(*waiting, strict=True)
-                for name, *values in zip(names[0], *(row.values() for row in rows), strict=True):
-                    self._column(name).put_all(numbers, values)
-            else:
-                for number, row in waiting:
-                    for name, value in row.items():
-                        self._column(name).put(number, value)
+            self._put_waiting()
         return self._there
+
+    def _put_waiting(self) -> None:
+        """Put the rows that wait into the columns, together where they have the same names."""
+        waiting, self._waiting = self._waiting, []
+        names = [tuple(row) for _, row in waiting]
+        if len(set(names)) == 1:
+            numbers, rows = zip(*waiting, strict=True)
+            for name, *values in zip(names[0], *(row.values() for row in rows), strict=True):
+                self._column(name).put_all(numbers, values)
+        else:
+            for number, row in waiting:
+                for name, value in row.items():
+                    self._column(name).put(number, value)
 
     def _column(self, name: str) -> _Column:
         if name not in self._there:
@@ -100,10 +104,10 @@ class Rows(Sequence[Any]):
         return len(self.made)
 
     def __setitem__(self, number: int, row: Mapping[str, Any]) -> None:
-        self._waiting.append((number, row))
+        self._waiting.append((number, dict(row)))  # whoever gave it may go on with it
         self.made[number] = True
         if len(self._waiting) >= _WAITING:
-            _ = self._columns
+            self._put_waiting()
 
     @overload
     def __getitem__(self, index: int) -> dict[str, Any] | None: ...

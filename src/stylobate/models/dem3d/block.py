@@ -19,8 +19,9 @@ from ...response.collapse import OVERTURNED, SLID_OFF, what_is_lost
 from ...response.measures import SpaceMeasures
 from ...response.residuals import Residuals, turned_up
 from ..base import RunOptions
+from ..drums.lane_engine import Left
 from ..drums.records import Packed, sink
-from ..drums.runs import LaneRuns, Left
+from ..drums.runs import LaneRuns
 from ..shared.lanes import in_rows
 from ..start import check_in_plane, check_takes_pose
 from .arrays import Records

@@ -16,7 +16,7 @@ from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..base import LONGEST_WAIT, Case, RunOptions
 from ..drums.histories import histories
-from ..drums.runs import Left
+from ..drums.lane_engine import Left
 from .columns import ColumnLanes, residuals_in
 from .loose import ENDLESS, Contacts, Loose
 from .packing import OF_BODY

@@ -15,8 +15,9 @@ from ...response.collapse import in_plane
 from ...response.residuals import Residuals
 from ..base import RunOptions
 from ..drums.bodies import Topology
+from ..drums.lane_engine import Left
 from ..drums.records import Packed
-from ..drums.runs import LaneRuns, Left
+from ..drums.runs import LaneRuns
 from ..start import check_in_plane
 from .block import Records, slope_base
 from .laws import Types

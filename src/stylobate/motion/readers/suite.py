@@ -117,8 +117,8 @@ def read_suite(
         named = ", ".join(pairs[:TOLD]) + (", …" if len(pairs) > TOLD else "")
         warn(
             f"{len(again)} of {len(motions)} records are recordings of others once more, scaled or in another format "
-            f"({named}): where each counts as a record of its own, intervals are narrower than what is known; leave them "
-            "out."
+            f"({named}): a selection for a target takes each recording once; elsewhere they count as records of their "
+            "own, and intervals are narrower than what is known: leave them out."
         )
     return Suite(tuple(motions), refused)
 
