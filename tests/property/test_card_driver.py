@@ -32,11 +32,13 @@ class Driver(types.SimpleNamespace):
             "SHARED": 232448,
             "DYNAMIC": "dynamic",
             "THREADS": 384,
+            "PROCESSORS": 132,
         }
         self.CUdevice_attribute = types.SimpleNamespace(
             CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR="MAJOR",
             CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR="MINOR",
             CU_DEVICE_ATTRIBUTE_MAX_SHARED_MEMORY_PER_BLOCK_OPTIN="SHARED",
+            CU_DEVICE_ATTRIBUTE_MULTIPROCESSOR_COUNT="PROCESSORS",
         )
         self.CUfunction_attribute = types.SimpleNamespace(
             CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES="DYNAMIC",
@@ -45,7 +47,7 @@ class Driver(types.SimpleNamespace):
         )
         self.CUshared_carveout = types.SimpleNamespace(CU_SHAREDMEM_CARVEOUT_MAX_SHARED=100)
         ok = Code.CUDA_SUCCESS
-        self.memory, self.current, self.launched, self.ended, self.set = {}, {}, [], [], {}
+        self.memory, self.current, self.launched, self.ended, self.set, self.asked = {}, {}, [], [], {}, []
         self.cuInit = lambda flags: (ok,)
         self.cuDeviceGetCount = lambda: (ok, cards)
         self.cuDeviceGet = lambda number: (ok, number)
@@ -57,6 +59,7 @@ class Driver(types.SimpleNamespace):
         self.cuModuleGetFunction = lambda module, name: (ok, (module, name))
         self.cuFuncSetAttribute = lambda function, which, value: (self.set.update({which: value}), (ok,))[1]
         self.cuFuncGetAttribute = lambda which, function: (ok, numbers[which])
+        self.cuOccupancyMaxActiveBlocksPerMultiprocessor = lambda *given: (self.asked.append(given), (ok, 3))[1]
         self.cuLaunchKernel = lambda *given: (self.launched.append(given), (launch,))[1]
         self.CUstream_flags = types.SimpleNamespace(CU_STREAM_NON_BLOCKING=1)
         self.cuStreamCreate = lambda flags: (ok, "queue")
@@ -237,6 +240,15 @@ def test_smaller_columns_leave_larger_ones_their_shared_memory(drive):
     large = card.CardRecords(device, "rim", 12, 1)
     card.CardRecords(device, "rim", 3, 1)
     assert made.set["DYNAMIC"] == large.shared
+
+
+def test_a_card_is_given_as_many_lanes_as_it_advances_at_a_time(drive):
+    made = drive()
+    device = driver.Card()
+    assert card.lanes_at_once(device, "rim", 12) == 3 * 132 * kinds.BLOCK_LANES  # three blocks a processor
+    ((function, threads, shared),) = made.asked
+    assert (function[1], threads) == (b"advance", 12 * kinds.BLOCK_LANES)
+    assert shared == card.shared_memory(kinds.kinds()["rim"], 12)
 
 
 def test_large_columns_do_not_fit(drive):

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..run_codes import FREE, RUNNING
-from .kinds import AHEAD, ARGUMENTS, Types, kinds, site_type
+from .kinds import AHEAD, ARGUMENTS, Types, kinds, lanes_of, site_type
 
 #: Records of lanes that the kernel changes; those of sites come first among its arguments.
 OF_LANES = ("lane", "feed", "watch")
@@ -22,6 +22,10 @@ class Device(Protocol):
 
     def kernel(self, name: str, shared: int) -> tuple[Any, int]:
         """A kernel, and its most threads of a block."""
+        ...
+
+    def at_once(self, kernel: Any, threads: int, shared: int) -> int:
+        """Blocks of so many threads, with so much shared memory [bytes], that the card runs at a time."""
         ...
 
     def room(self, size: int) -> int:
@@ -64,6 +68,12 @@ def fits(device: Device, name: str, drums: int) -> bool:
     threads = types["watch"]["status"].shape[0] * drums
     room = shared_memory(types, drums) + types["ground"].itemsize * (AHEAD + 1)
     return room <= device.shared and threads <= device.kernel(name, shared_memory(types, drums))[1]
+
+
+def lanes_at_once(device: Device, name: str, drums: int) -> int:
+    """Lanes of columns of so many drums that a card advances at a time, by the kernel of a name."""
+    lanes, shared = lanes_of(name), shared_memory(kinds()[name], drums)
+    return lanes * device.at_once(device.kernel(name, shared)[0], lanes * drums, shared)
 
 
 class CardRecords:

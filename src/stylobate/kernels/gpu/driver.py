@@ -69,6 +69,9 @@ class Card:
                 f"{OLDEST[0]}.{OLDEST[1]} or newer: {INSTEAD}.",
                 "device",
             )
+        (self._processors,) = self._ask(
+            driver.cuDeviceGetAttribute(asked.CU_DEVICE_ATTRIBUTE_MULTIPROCESSOR_COUNT, device)
+        )
         self.name = f"{words}, sm_{capability[0]}{capability[1]}, CUDA {version // 1000}.{version % 1000 // 10}"
         optin = asked.CU_DEVICE_ATTRIBUTE_MAX_SHARED_MEMORY_PER_BLOCK_OPTIN
         (self.shared,) = self._ask(driver.cuDeviceGetAttribute(optin, device))
@@ -102,6 +105,12 @@ class Card:
         self._kernels[name] = found, ready
         (most,) = self._ask(driver.cuFuncGetAttribute(asked.CU_FUNC_ATTRIBUTE_MAX_THREADS_PER_BLOCK, found))
         return found, most
+
+    def at_once(self, kernel: Any, threads: int, shared: int) -> int:
+        """Blocks of so many threads, with so much shared memory [bytes], that the card runs at a time."""
+        driver = self._current()
+        (each,) = self._ask(driver.cuOccupancyMaxActiveBlocksPerMultiprocessor(kernel, threads, shared))
+        return int(each) * self._processors
 
     def room(self, size: int) -> int:
         """Address of new memory [bytes] on the card."""

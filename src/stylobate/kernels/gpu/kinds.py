@@ -37,8 +37,9 @@ BLOCK_LANES = 8
 POINTS, FACES = 2, ("rim", "corner")
 
 #: Most registers of a thread, by the kernel: each quarter of a processor shares out 16,384 among its groups of 32 threads,
-#: so that it has five of them at a time in the plane, and three in space. Others have what their compiler gives them.
-REGISTERS = {"plane": 96, "rim": 168}
+#: so that it has four of them at a time in the plane, three with dashpots and in space. Other kernels have what the compiler
+#: of the driver gives them.
+REGISTERS = {"plane": 128, "plane-damped": 168, "rim": 168}
 
 #: Steps for which a block holds the motion of its base at a time, of a chunk: its memory is short.
 AHEAD = CHUNK // 2
@@ -89,6 +90,13 @@ def _without(record: np.dtype, last: tuple[str, ...]) -> np.dtype:
     return repack_fields(record[list(names[: -len(last)])])
 
 
+def sums_type(types: Types) -> np.dtype:
+    """Record of what a joint and the drum on it sum up, from the types of an engine's records."""
+    lanes = types["watch"]["status"].shape
+    sums = [(name, np.float64, lanes) for name in ("work", "shear", "visc")]
+    return np.dtype([*sums, *((name, np.float64, (*rows, *lanes)) for name, rows in laws_for(types).momentum)])
+
+
 def site_type(types: Types) -> np.dtype:
     """Record of a body, with the joint and the load over it and what they sum up, from the types of an engine's records.
 
@@ -96,9 +104,7 @@ def site_type(types: Types) -> np.dtype:
     which there are a power of two of such rows.
     """
     lanes = types["watch"]["status"].shape
-    sums = [(name, np.float64, lanes) for name in ("work", "shear", "visc")]
-    sums += [(name, np.float64, (*rows, *lanes)) for name, rows in laws_for(types).momentum]
-    own = [(name, types[name]) for name in ("body", "joint", "load")] + [("sums", np.dtype(sums))]
+    own = [*((name, types[name]) for name in ("body", "joint", "load")), ("sums", sums_type(types))]
     row = np.dtype((np.float64, lanes)).itemsize
     even = np.dtype(own).itemsize // row % 2 == 0
     return np.dtype([*own, ("idle", np.float64, lanes)] if even else own)

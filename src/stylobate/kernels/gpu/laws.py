@@ -22,6 +22,25 @@ from ..plane import look, motion, point_joint
 from ..shared.frame import goes_on
 
 
+class Held(NamedTuple):
+    """What threads that step records of their own exchange, and what of these a step changes; names of fields.
+
+    Parameters
+    ----------
+    asked : tuple of str
+        What a step changes of a body, and the joint over it asks for.
+    told : tuple of str
+        What a load tells the body under it.
+    body, joint : tuple of str
+        What steps change of a body and of a joint; of those fields that a joint does not have in its type, nothing.
+    """
+
+    asked: tuple[str, ...]
+    told: tuple[str, ...]
+    body: tuple[str, ...]
+    joint: tuple[str, ...]
+
+
 class Laws(NamedTuple):
     """Laws of columns of a kind, each for one lane, the last argument.
 
@@ -39,6 +58,8 @@ class Laws(NamedTuple):
         Looks at a column between chunks, from its bodies, joints, lane, feed, watch, and what links hold.
     momentum : tuple of tuple
         Fields of records for it, without the lanes.
+    held : Held, optional
+        For threads that step records of their own; by themselves they step those that their block shares.
     """
 
     joint_force: Callable[..., None]
@@ -48,6 +69,7 @@ class Laws(NamedTuple):
     ground_at: Callable[..., None]
     look: Callable[..., None]
     momentum: tuple[tuple[str, tuple[int, ...]], ...]
+    held: Held | None = None
 
 
 IN_PLANE = Laws(
@@ -58,6 +80,12 @@ IN_PLANE = Laws(
     look.ground_at,
     look.look_at_lane,
     (("px", ()), ("pz", ())),
+    Held(
+        asked=("x", "z", "c", "s", "vx", "vz", "w"),
+        told=("fx", "fz", "ml"),
+        body=("x", "z", "th", "c", "s", "vx", "vz", "w"),
+        joint=("over", "fs", "fn", "dn", "ds"),
+    ),
 )
 
 

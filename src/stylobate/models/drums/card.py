@@ -20,10 +20,8 @@ if TYPE_CHECKING:
 #: Chunks of steps of a launch: some tens of milliseconds, for which Ctrl-C and runs that have ended wait.
 CHUNKS_PER_LAUNCH = 500
 
-#: Most lanes on a card at a time: as many as the largest of today's have room for, of columns of a dozen drums.
-MOST_LANES = 8192
-
-#: Threads that work for a card, each for a part of the lanes: while one begins and ends runs, the lanes of the other go on.
+#: Threads that work for a card, each with as many lanes as the card advances at a time: while one begins and ends runs, the
+#: lanes of the other go on.
 THREADS = 2
 
 
@@ -42,23 +40,24 @@ class CardLanes:
     make : callable
         A block here, of columns that the kernel is for.
     runs : int
-        How many runs there are, at most.
+        How many runs there are for these lanes, at most.
     turn : Lock
         Of all threads that work for the card.
     """
 
     def __init__(self, device: Device, name: str, make: Callable[[], LaneRuns], runs: int, turn: Lock) -> None:
-        from ...kernels.gpu.card import CardRecords
+        from ...kernels.gpu.card import CardRecords, lanes_at_once
         from ...kernels.gpu.kinds import lanes_of
 
         first = make()
-        self.each, each = first.lanes, lanes_of(name)
-        count = -(-min(max(runs, 1), MOST_LANES // THREADS) // self.each)
+        self.each, drums = first.lanes, first.arrays.topology.stack
+        most = max(1, lanes_at_once(device, name, drums) // self.each)
+        count = min(max(1, -(-runs // self.each)), most)
         self.blocks = [first, *(make() for _ in range(count - 1))]
         for block in self.blocks:
             block.computed_by = f"gpu ({device.name})"
         self.lanes = count * self.each
-        self.card = CardRecords(device, name, first.arrays.topology.stack, self.lanes // each)
+        self.card = CardRecords(device, name, drums, self.lanes // lanes_of(name))
         self.views = self.card.views()
         self.turn = turn
         self.running = np.zeros(self.lanes, dtype=bool)

@@ -185,7 +185,7 @@ class SteppedDrums(Model):
             name = self._kernel_on(device, kind)
             if name is None:
                 return self.block_for(kind, options)
-            return CardLanes(device, name, partial(self.block_for, kind, options), len(cases), turn)
+            return CardLanes(device, name, partial(self.block_for, kind, options), -(-len(cases) // THREADS), turn)
 
         return run_alike(
             lambda case: self.kind(case.column),
