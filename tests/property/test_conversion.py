@@ -1,9 +1,13 @@
 """Models of other tools become stones here, and go back: round trips, fits, COMPAS JSON, surveys, what is refused."""
 
+import csv
+import io
 import json
 import math
+from contextlib import nullcontext
 from datetime import datetime
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import openpyxl
@@ -318,7 +322,9 @@ def test_a_survey_in_a_workbook(beside, tmp_path):
 @pytest.mark.parametrize(
     ("cell", "says"),
     [
-        ("#REF!", "has a cell '#REF!', where a formula of the spreadsheet has failed"),
+        ("#REF!", "has '#REF!' in E5, where a formula of the spreadsheet has failed"),
+        ("#SPILL!", "has a cell '#SPILL!', where a formula of the spreadsheet has failed"),
+        ("1_2", "offset in row 2 of .* is '1_2'; give a number"),
         ("=D4-0.02", "has a formula without a value in E5; open it in the spreadsheet"),
         ("12,5", "offset in row 2 of .* is '12,5'; give a number"),
         (datetime(2026, 5, 12), "offset in row 2 of .* is '2026-05-12 00:00:00'; give a number"),
@@ -341,6 +347,76 @@ def test_a_workbook_of_several_surveys_or_of_none(tmp_path):
         read_model(tmp_path / "c.xlsx", Reading())
 
 
+def hide_row(sheet):
+    sheet.row_dimensions[5].hidden = True
+
+
+def hide_columns(sheet):
+    sheet.column_dimensions.group("D", "E", hidden=True)
+
+
+def format_far_cell(sheet):
+    sheet.cell(1_048_576, 16_384).number_format = "0.00"
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (hide_row, "holds something in A5, which is hidden"),
+        (hide_columns, "holds something in D3, which is hidden"),
+        (lambda sheet: sheet.merge_cells("E4:E5"), "has merged cells in E4:E5"),
+        (lambda sheet: sheet.cell(600_000, 1, "x"), "has cells in 600000 rows and 6 columns"),
+        (lambda sheet: sheet.merge_cells("A1:F1"), ""),
+        (format_far_cell, ""),
+    ],
+)
+def test_nothing_of_a_sheet_is_left_out_unseen(change, says, tmp_path):
+    path = Path(workbook(tmp_path / "a.xlsx", [*SHEET[:3], [1, 0.8125, 1, 0.98, 5, None], SHEET[4]]))
+    book = openpyxl.load_workbook(path)
+    change(book.active)
+    book.save(path)
+    with pytest.raises(st.InputError, match=says) if says else nullcontext():
+        assert read_model(path, Reading())[0].n == 2
+
+
+def test_a_formula_that_comes_to_no_text_leaves_its_cell_empty(tmp_path):
+    path = Path(workbook(tmp_path / "a.xlsx", [*SHEET[:4], [*SHEET[4][:4], '=IF(1,"",2)']]))
+    with ZipFile(path) as before:
+        files = {name: before.read(name) for name in before.namelist()}
+    sheet = files["xl/worksheets/sheet1.xml"]
+    assert b'<c r="E5"><f>' in sheet
+    files["xl/worksheets/sheet1.xml"] = sheet.replace(b'<c r="E5"><f>', b'<c r="E5" t="str"><f>')
+    with ZipFile(path, "w") as after:
+        for name, content in files.items():
+            after.writestr(name, content)
+    assert read_model(path, Reading())[0].as_found.of(2).offset == 0.0
+
+
+def test_no_drum_is_lost_in_a_note(tmp_path):
+    """Notes of several lines, that begin with #, that have every separator of lines; facts in two cells."""
+    rows = [
+        ["# name:", "north, 3"],
+        ["# base_tilt:", 1.5],
+        ["note", "height_m", "bottom_width_m", "top_width_m"],
+        ["# replaced 1999", 1, 1, 0.98],
+        ["cracks:\n# photo 3\n# name: Zeus", 1, 0.98, 0.96],
+        ["a\u0085b\u2028c", 1, 0.96, 0.94],
+        ["# top", 1, 0.94, 0.92],
+    ]
+    text = io.StringIO()
+    csv.writer(text).writerows(rows)
+    (tmp_path / "a.csv").write_text(text.getvalue(), encoding="utf-8", newline="")
+    for path in (tmp_path / "a.csv", Path(workbook(tmp_path / "a.xlsx", rows))):
+        column, _, words = read_model(path, MARBLE)
+        assert (column.n, column.name, column.as_found.base_tilt) == (4, "north, 3", 1.5)
+        assert words[1:] == [
+            "drum 1: # replaced 1999",
+            "drum 2: cracks: # photo 3 # name: Zeus",
+            "drum 3: a b c",
+            "drum 4: # top",
+        ]
+
+
 HEAD = "drum,height_m,bottom_width_m,top_width_m"
 
 
@@ -359,6 +435,11 @@ HEAD = "drum,height_m,bottom_width_m,top_width_m"
         (f"{HEAD}\n1,1,1,1", "says nothing of its stone: .* `material='marble'`"),
         (f"# stone: marble\n{HEAD}\n1,1,1,1", "says 'stone' of the column; .*allowed are name, section"),
         (f"# gravity: g\n{HEAD}\n1,1,1,1", "gravity of .* is 'g'; give a number"),
+        (
+            f'# material: marble\n{HEAD},note\n1,1,1,.9,\n2,1,.9,.8,"open\n3,1,.8,.7,',
+            "is no table: unexpected end of data",
+        ),
+        (f"# material: marble\n{HEAD},offset_m\n1,1,1,1,nan", "offset in row 1 of .* is 'nan'; give a number"),
         (f"# material: cheese\n{HEAD}\n1,1,1,1", "cheese"),
         (f"# material: marble\n{HEAD}\n1,-1,1,1", "height in row 1 of .* is -1 m; give a length above 0 m"),
         (

@@ -12,6 +12,7 @@ import stylobate as st
 from stylobate.analysis.record_selection import Wanted, select_records
 from stylobate.analysis.record_sets import OWN_MISFIT
 from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.recordings import recorded_again
 from stylobate.motion.specs import parse_synthetic
 from stylobate.motion.spectra import pseudo_acceleration
 
@@ -117,6 +118,35 @@ def test_a_recording_in_two_files_counts_once(motions):
     alone = st.Motion(0.5 * motions[1].dt, 1.7 * fine, name="alone")
     found = select_records([alone, pair, *motions[3:]], target, 3, factors=(0.01, 100.0))
     assert found.refused == {"alone": "it is the recording of 'both' once more; a record counts once"}
+
+
+def test_a_recording_that_wider_limits_let_in_twice_counts_once(motions):
+    """The file with more components is the record, wherever its factor lies."""
+    target = st.target_spectrum("ec8,ag=0.2g,soil=B")
+    factor = select_records(motions[:1], target, 1, factors=(0.01, 100.0)).table["factor"][0]
+    one = motions[0].scaled(factor)
+    weak = one.scaled(0.1).replace(vertical=0.3 * one.samples, name="weaker, with a vertical component")
+    with pytest.raises(
+        st.InputError, match=r"1 of 2 records can be used, and 2 are asked for; .* give more\. The first"
+    ):
+        select_records([one, weak], target, 2, factors=(0.5, 2.0))
+
+
+def test_one_recording_processed_otherwise_is_told(motions):
+    dt, (x, y) = motions[0].dt, (np.resize(one.samples, 3000) for one in motions[:2])
+    t, many = dt * np.arange(3000), list(motions[2:])
+    both, alone = st.Motion(dt, x, y), st.Motion(dt, x)
+    drifting = x + 0.01 * np.abs(x).max() * (t / t[-1] - 0.5)
+    turned = [st.Motion(dt, np.cos(a) * x - np.sin(a) * y, np.sin(a) * x + np.cos(a) * y) for a in (0.1, 0.7, 2.0)]
+    mirrored = st.Motion(dt, y, -3.0 * x)
+    coarse = st.Motion(4 * dt, np.interp(np.arange(0.0, t[-1], 4 * dt), t, x))
+    late = st.Motion(dt, np.concatenate([np.zeros(400), -x[:2500]]))
+    for one, other in [
+        *((both, again) for again in (*turned, mirrored)),
+        *((alone, again) for again in (coarse, late, st.Motion(dt, drifting))),
+    ]:
+        assert recorded_again([*many, one, other]) == {len(many) + 1: len(many)}
+    assert recorded_again([*many, alone, st.Motion(dt, x[::-1]), st.Motion(dt, y)]) == {}
 
 
 def test_a_target_in_another_unit_is_refused(tmp_path):

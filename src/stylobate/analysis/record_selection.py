@@ -325,11 +325,15 @@ def _other_factors(
     kept: Sequence[Motion], beyond: Sequence[tuple[Motion, float]], count: int, factors: tuple[float, float]
 ) -> str:
     """Limits of the factor within which as many records can be used as are asked for; empty where none would do."""
-    motions = [*kept, *(motion for motion, _ in beyond)]
-    again = recorded_again(motions)
-    others = [size for k, (_, size) in enumerate(beyond, len(kept)) if k not in again]
-    wider = sorted(others, key=lambda size: abs(np.log(size)))[: count - len(kept)]
-    if len(kept) + len(wider) < count:
+    nearest = sorted(beyond, key=lambda one: abs(np.log(one[1])))
+    again = recorded_again([*kept, *(motion for motion, _ in nearest)])
+    recordings = {again.get(k, k) for k in range(len(kept))}
+    wider: list[float] = []  # a record that is one of those again lets in no other
+    for k, (_, size) in enumerate(nearest, len(kept)):
+        if len(recordings) < count and again.get(k, k) not in recordings:
+            recordings.add(again.get(k, k))
+            wider.append(size)
+    if len(recordings) < count:
         return ""
     low = min(factors[0], *(np.floor(1000.0 * size) / 1000.0 for size in wider))
     high = max(factors[1], *(np.ceil(100.0 * size) / 100.0 for size in wider))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import io
+import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,7 @@ from ..column.files import tables_of
 from ..column.plausible import length_doubts
 from ..errors import InputError, suggest
 from ..reading import SETTINGS, read_bytes, shown
+from .workbook import WORKBOOKS, rows_of_workbook
 
 #: Columns that are lengths, and what they may be in [m].
 LENGTHS = (
@@ -36,9 +39,11 @@ JOINT = {
 #: What the surveyor has to say of a drum: a comment of the column file.
 NOTE = "note"
 
-#: Endings of workbooks of spreadsheets that are read; what they show where a formula has failed.
-WORKBOOKS = (".xlsx", ".xlsm")
-WRONG_CELLS = ("#REF!", "#DIV/0!", "#VALUE!", "#NAME?", "#NUM!", "#NULL!", "#N/A")
+#: What spreadsheets show where a formula has failed.
+FAILED_CELL = re.compile(r"#[A-Z0-9/_]+[!?]?|Err:\d+")
+
+#: What spreadsheets leave around the text of a line.
+BLANK = '";,\t\r\n '
 
 #: What is said of the whole column, in lines ``# key: value`` above the table.
 FACTS = ("name", "section", "material", "gravity", "base_tilt", "base_azimuth")
@@ -106,18 +111,17 @@ def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any],
         What cannot be, in one sentence that names row and column.
     """
     name, content = shown(path), read_bytes(path, SETTINGS, "a survey is smaller")
-    try:
-        text = _of_workbook(content, name) if path.suffix.lower() in WORKBOOKS else content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise InputError(f"{name} is not a text file in UTF-8; save the survey as CSV (UTF-8).") from None
-    facts, lines = _facts([line for line in text.splitlines() if line.strip()], name)
-    if len(lines) < 2:
+    if path.suffix.lower() in WORKBOOKS:
+        rows, separator = rows_of_workbook(content, name), ","
+    else:
+        try:
+            rows, separator = _rows_of_text(content.decode("utf-8-sig"), name)
+        except UnicodeDecodeError:
+            raise InputError(f"{name} is not a text file in UTF-8; save the survey as CSV (UTF-8).") from None
+    facts, rows = _facts(rows, separator, name)
+    if len(rows) < 2:
         raise InputError(f"{name} holds no row of a drum; give a row of names, and one for each drum from the base up.")
-    separator = max(";\t,", key=lines[0].count)
-    try:
-        head, *rows = [row for row in csv.reader(lines, delimiter=separator) if any(cell.strip() for cell in row)]
-    except csv.Error as error:
-        raise InputError(f"{name} is no table: {error}; save the survey as CSV.") from None
+    head, *rows = rows
     # spreadsheets save columns that were formatted, or left free, as well
     free = {k for k, cell in enumerate(head) if not any(one[k].strip() for one in (head, *rows) if k < len(one))}
     head, *rows = ([cell for k, cell in enumerate(row) if k not in free] for row in (head, *rows))
@@ -145,38 +149,14 @@ def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any],
     return _tables(facts, read, stone, name), notes
 
 
-def _of_workbook(content: bytes, name: str) -> str:
-    """The only sheet of a workbook that holds something, as CSV."""
+def _rows_of_text(text: str, name: str) -> tuple[list[list[str]], str]:
+    """Cells of every row of a table of text, and what separates them: what the row of names has most of."""
+    head = next((line for line in text.splitlines() if not line.strip('";,\t ').startswith("#") and line.strip()), "")
+    separator = max(";\t,", key=head.count)
     try:
-        from openpyxl import load_workbook
-    except ImportError:
-        raise InputError(
-            f"{name} is the workbook of a spreadsheet, and openpyxl, which reads them, is not installed; install "
-            "stylobate[spreadsheet], or save the survey as CSV (UTF-8)."
-        ) from None
-    try:
-        found, written = (load_workbook(io.BytesIO(content), data_only=values).worksheets for values in (True, False))
-    except Exception as error:  # openpyxl raises whatever its parts do
-        raise InputError(
-            f"{name} is no workbook of a spreadsheet ({type(error).__name__}); save the survey as CSV (UTF-8)."
-        ) from None
-    sheets = {sheet.title: list(sheet.values) for sheet in found}
-    full = [sheet for sheet, rows in sheets.items() if any(cell is not None for row in rows for cell in row)]
-    if len(full) > 1:
-        raise InputError(
-            f"{name} has {len(full)} sheets that hold something ({', '.join(map(repr, full))}); leave the survey alone in "
-            "it, or save its sheet as CSV (UTF-8)."
-        )
-    for sheet, formulas in zip(found, written, strict=True):
-        for cell in (cell for row in formulas for cell in row if cell.data_type == "f"):
-            if sheet[cell.coordinate].value is None:
-                raise InputError(
-                    f"{name} has a formula without a value in {cell.coordinate}; open it in the spreadsheet, and save it "
-                    "again."
-                )
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(sheets[full[0]] if full else [])
-    return text.getvalue()
+        return list(csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)), separator
+    except csv.Error as error:
+        raise InputError(f"{name} is no table: {error}; save the survey as CSV.") from None
 
 
 def _note(row: list[str], columns: list[str]) -> str:
@@ -213,22 +193,26 @@ def _tables(facts: dict[str, Any], rows: list[dict[str, float]], stone: str | No
     return table | ({"as_found": found} if found else {})
 
 
-def _facts(lines: list[str], name: str) -> tuple[dict[str, Any], list[str]]:
-    """What lines that begin with ``#`` say of the whole column, and the other lines; spreadsheets put quotes around."""
+def _facts(rows: list[list[str]], separator: str, name: str) -> tuple[dict[str, Any], list[list[str]]]:
+    """What rows that begin with ``#`` say of the whole column, and the other rows that hold something.
+
+    Those rows are above the names of the columns; below, what stands alone in its row. A fact whose value is in a cell of
+    its own, or has what separates cells in it, is one all the same.
+    """
     facts: dict[str, Any] = {}
-    rest = []
-    for line in lines:
-        said = line.strip().strip('";,\t ')
-        wrong = next((one for one in WRONG_CELLS if one in line.upper()), None)
+    rest: list[list[str]] = []
+    for row in rows:
+        full = [cell.strip() for cell in row if cell.strip()]
+        wrong = next((cell for cell in full if FAILED_CELL.fullmatch(cell)), None)
         if wrong is not None:
             raise InputError(
                 f"{name} has a cell {wrong!r}, where a formula of the spreadsheet has failed; mend it there."
             )
-        if not said.startswith("#"):
-            rest.append(line)
+        if not full or not full[0].startswith("#") or (rest and len(full) > 1):
+            rest.extend([row] if full else [])
             continue
-        key, sign, value = said[1:].partition(":")
-        key, value = key.strip().lower(), value.strip()
+        key, sign, value = separator.join(row).strip(BLANK)[1:].partition(":")
+        key, value = key.strip().lower(), value.strip(BLANK)
         if not sign:
             continue
         if key not in FACTS:
@@ -280,6 +264,9 @@ def _row(row: list[str], columns: list[tuple[str, float]], number: int, decimal:
 
 def _number(text: str, what: str, decimal: str) -> float:
     try:
-        return float(text.replace(",", ".") if decimal == "," else text)
+        value = float(text.replace(",", ".") if decimal == "," else text)
     except ValueError:
-        raise InputError(f"{what} is {text!r}; give a number.") from None
+        value = math.nan
+    if not math.isfinite(value) or "_" in text:
+        raise InputError(f"{what} is {text!r}; give a number.")
+    return value

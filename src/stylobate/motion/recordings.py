@@ -1,41 +1,101 @@
-"""Which records are one recording in several files or formats: by the shape of the spectra of their components."""
+"""Which records are one recording in several files: by the shapes of their spectra, and by their course in time."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from .motion import Motion
 from .spectra import pseudo_acceleration
 
-#: Periods at which, and largest distance of the logarithms by which, shapes of spectra of one recording agree.
-ALIKE_POINTS, ALIKE = 24, 0.02
+#: Periods at which shapes of spectra are compared [s], and their bounds for the bands of those of both components together.
+PERIODS, BANDS = np.geomspace(0.1, 3.0, 24), np.geomspace(1.0 / 3.0, 10.0, 25)
+
+#: Distance of logarithms within which shapes agree at a period, and share of the periods at which those of one recording do:
+#: other filters, base lines and sampling change its ends. At two stations it is a fifth.
+ALIKE, SHARE = 0.02, 0.6
+
+#: Least correlation of the accelerations of one recording, at the best time lag.
+CORRELATED = 0.8
+
+#: Resolution of spectra of both components [Hz].
+RESOLUTION = 0.005
 
 
 def recorded_again(motions: Sequence[Motion]) -> dict[int, int]:
-    """Numbers of the records that are another one once more, in another file or format, with the number of that one.
+    """Numbers of the records that are another one once more, in another file, with the number of that one.
 
-    Two files are of one recording where the spectra of a horizontal component of each have one shape: at stations a street
-    apart they differ by several per cent. Of two files that with more components is the record.
+    Scaled, turned in plan, cut, sampled or filtered otherwise, or in another format. Spectra of a horizontal component of
+    each, or of both together, which do not hang on the axes, have one shape then, and the accelerations one course: at
+    stations a street apart they differ. Of two files that with more components is the record.
     """
-    periods = np.geomspace(0.1, 3.0, ALIKE_POINTS)
-    shapes: list[np.ndarray] = []
-    for motion in motions:
-        each = [pseudo_acceleration(motion, periods, component=axis) for axis in "xy" if axis in motion.components]
-        logs = np.log(np.array([one for one in each if one.min() > 0.0]).reshape(-1, len(periods)))
-        shapes.append(logs - logs.mean(axis=1, keepdims=True))
     order = sorted(range(len(motions)), key=lambda k: -len(motions[k].components))
-    owner = np.array([k for k in order for _ in shapes[k]], dtype=int)
-    every = np.concatenate([np.empty((0, len(periods))), *(shapes[k] for k in order)])
     again: dict[int, int] = {}
-    before = 0
+    seen: list[tuple[int, int, np.ndarray]] = []  # number, kind of shape, shape
     for k in order:
-        near = np.zeros(before, dtype=bool)
-        for shape in shapes[k]:
-            near |= np.abs(every[:before] - shape).max(axis=1, initial=0.0) < ALIKE
-        others = [other for other in owner[:before][near].tolist() if other not in again]
-        if others:
-            again[k] = others[0]
-        before += len(shapes[k])
+        own = list(_shapes(motions[k]))
+        near = {other for kind, shape in own for other in _near(kind, shape, seen)}
+        owner = next((one for one in sorted(near, key=order.index) if _correlated(motions[one], motions[k])), None)
+        if owner is not None:
+            again[k] = owner
+        else:
+            seen.extend((k, kind, shape) for kind, shape in own)
     return again
+
+
+def _shapes(motion: Motion) -> Iterator[tuple[int, np.ndarray]]:
+    """Kinds and logarithms of spectra of a motion: 1 of a component, 2 of both together."""
+    axes = [axis for axis in "xy" if axis in motion.components]
+    for axis in axes:
+        spectrum = pseudo_acceleration(motion, PERIODS, component=axis)
+        if spectrum.min() > 0.0:
+            yield 1, np.log(spectrum)
+    if len(axes) < 2:
+        return
+    count = 1 << int(np.ceil(np.log2(max(1.0 / (RESOLUTION * motion.dt), motion.steps + 1))))
+    power = np.sum([np.abs(np.fft.rfft(one, count)) ** 2 for one in _horizontal(motion)], axis=0)
+    edges = np.searchsorted(np.fft.rfftfreq(count, motion.dt), BANDS)
+    bands = np.diff(np.concatenate([[0.0], np.cumsum(power)])[edges])
+    if bands.min(initial=np.inf) > 0.0:
+        yield 2, 0.5 * np.log(bands)
+
+
+def _near(kind: int, shape: np.ndarray, seen: Sequence[tuple[int, int, np.ndarray]]) -> Iterator[int]:
+    """Numbers of motions with a shape like this one, whatever its size."""
+    alike = [(number, other) for number, of_kind, other in seen if of_kind == kind]
+    if not alike:
+        return
+    apart = np.array([other for _, other in alike]) - shape
+    apart -= np.median(apart, axis=1, keepdims=True)
+    agree = (np.abs(apart) < ALIKE).mean(axis=1) >= SHARE
+    yield from (number for (number, _), yes in zip(alike, agree, strict=True) if yes)
+
+
+def _correlated(one: Motion, other: Motion) -> bool:
+    """Whether the accelerations of two motions have one course, at some lag: of a component of each, or of both in plan.
+
+    Components in plan are a complex number, so that a turn is a factor of length 1.
+    """
+    mine, theirs = _horizontal(one), _horizontal(other)
+    pairs = [(a, b) for a in mine for b in theirs]
+    if len(mine) == len(theirs) == 2:
+        pairs += [(mine[0] + 1j * mine[1], theirs[0] + sign * 1j * theirs[1]) for sign in (1.0, -1.0)]
+    return any(_correlation(a, one.dt, b, other.dt) >= CORRELATED for a, b in pairs)
+
+
+def _correlation(a: np.ndarray, dt_a: float, b: np.ndarray, dt_b: float) -> float:
+    """Largest correlation of two signals with steps [s] over all lags [-]."""
+    dt = min(dt_a, dt_b)
+    a, b = (
+        np.interp(np.arange(0.0, len(x) * own, dt), own * np.arange(len(x)), x) for x, own in ((a, dt_a), (b, dt_b))
+    )
+    size = float(np.linalg.norm(a) * np.linalg.norm(b))
+    count = 1 << int(np.ceil(np.log2(len(a) + len(b))))
+    most = np.abs(np.fft.ifft(np.fft.fft(a, count) * np.conj(np.fft.fft(b, count)))).max()
+    return float(most) / size if size > 0.0 else 0.0
+
+
+def _horizontal(motion: Motion) -> list[np.ndarray]:
+    """Samples along the horizontal axes; those of one motion have one factor."""
+    return [one for one in (motion.samples, motion.y_samples) if one is not None]
