@@ -10,12 +10,13 @@ import pandas
 import pytest
 
 import stylobate as st
-from stylobate.analysis.design_tables import clearances, worst_of
+from stylobate.analysis.design_tables import clearances, governing, worst_of
 from stylobate.analysis.design_values import fractile, values_of_runs
 from stylobate.campaign.twins import LAW
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.models.drums.links import link_histories
+from stylobate.motion.writing import write_csv
 
 SMOOTH = st.Joint(1e9, 5e8, friction_coefficient=0.1)
 BARE = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0)], SMOOTH, name="bare")
@@ -123,6 +124,11 @@ def test_values_are_told_at_the_highest_level_at_which_few_collapse(found):
     names = [f"dowel in joint {k}" for k in range(1, 12)]
     alike = pandas.concat([values[values["unit"] == "N"].assign(link=name, use_value_84=1.0) for name in names])
     assert list(dict.fromkeys(worst_of(alike)["link"])) == names
+    slips = [values[values["unit"] == "m"].assign(link=name, use_value_84=0.01 * k) for k, name in enumerate(names)]
+    yielding = pandas.concat([alike, *slips])
+    assert list(dict.fromkeys(worst_of(yielding)["link"])) == names[::-1]  # all bear what they can
+    assert governing(yielding)["link"].tolist() == [names[-1]] * len(governing(yielding))
+    assert set(governing(yielding)["quantity"]) == {"shear force", "slip"}
 
 
 def test_the_command_prints_writes_and_reports_them(tmp_path, capsys):
@@ -146,6 +152,33 @@ def test_the_command_prints_writes_and_reports_them(tmp_path, capsys):
     front, case = page.read_text().split("Sources of the results", 1)
     assert re.search(r"Design values that govern.*>× 1<.*>shear force<.*>kN<", front, re.DOTALL)
     assert "Design values: what" in case
+
+
+def test_a_report_tells_how_the_motions_of_design_values_were_scaled(tmp_path):
+    dowelled = write_column(DOWELLED, tmp_path / "dowelled.toml")
+    project, page = tmp_path / "project.toml", tmp_path / "page.html"
+    project.write_text('client = "A"\nsite = "B"\nengineer = "C"\n')
+    (tmp_path / "recs").mkdir()
+    for k, size in enumerate((1.0, 2.0)):
+        write_csv(st.ricker(0.4, size), tmp_path / "recs" / f"{k}.csv")
+    commands = {
+        "scaled": ["suite", str(dowelled), str(tmp_path / "recs"), "--pga", "0.3g"],
+        "as they are": ["suite", str(dowelled), str(tmp_path / "recs")],
+        "models": ["compare", str(dowelled), "--models", "dem2d", "--pulse", "ricker,0.4Hz,0.2g"],
+    }
+    for name, asked in commands.items():
+        assert call([*asked, "--out", str(tmp_path / name)]) == 0
+    asked = [str(tmp_path / name) for name in commands]
+    assert call(["report", *asked, "--project", str(project), "--out", str(page)]) == 0
+    front = page.read_text().split("Sources of the results", 1)[0].split("Design values that govern", 1)[1]
+    front = front.replace("\N{NO-BREAK SPACE}", " ")
+    told = [re.findall(rf'data-name="{name}">([^<]*)<', front) for name in ("case", "state", "level", "quantity")]
+    quantities = ("shear force", "slip")
+    assert list(zip(*told, strict=True)) == [
+        *(("1", "dowelled", "pga 0.3 g", one) for one in quantities),
+        *(("2", "dowelled", "× 1", one) for one in quantities),
+        *(("3", "dem2d", "pga 0.2 g", one) for one in quantities),
+    ]
 
 
 def test_a_layer_with_a_spring_needs_the_clearance_of_its_slip():

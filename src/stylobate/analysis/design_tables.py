@@ -41,7 +41,8 @@ def where(values: pandas.DataFrame) -> str:
 def worst_of(values: pandas.DataFrame, share: float = 0.84) -> pandas.DataFrame:
     """What has a capacity, at the level of every state that is told; links that are used most come first, else by place.
 
-    A ductile link at its capacity is judged by its slip, so that all quantities of a link stay together.
+    A ductile link at its capacity bears no more whatever happens, and is judged by its slip: all quantities of a link stay
+    together, and of links that are used as much those come first whose ways are.
 
     Parameters
     ----------
@@ -54,10 +55,12 @@ def worst_of(values: pandas.DataFrame, share: float = 0.84) -> pandas.DataFrame:
     known: Any = values[values[key].notna()] if len(values) else values
     if not len(known):
         return known
-    links = (known := _told(known)).groupby(["state", "link"], sort=False)
-    known = known.assign(most=links[key].transform("max"), order=links.ngroup())
-    known = known.sort_values(["state", "most", "order", key], ascending=[True, False, True, False], kind="stable")
-    return known.drop(columns=["most", "order"])
+    known = _told(known)
+    links = known.assign(way=known[key].where(known["unit"] == "m", 0.0)).groupby(["state", "link"], sort=False)
+    uses = {"most_use": links[key].transform("max"), "most_way": links["way"].transform("max"), "place": links.ngroup()}
+    by = {"state": True, "most_use": False, "most_way": False, "place": True, key: False}
+    ordered = known.assign(**uses).sort_values(list(by), ascending=list(by.values()), kind="stable")
+    return ordered.drop(columns=list(uses))
 
 
 #: Units in which people read forces and ways, and how many of them are one of the SI.
@@ -91,6 +94,23 @@ def clearances(values: pandas.DataFrame) -> pandas.DataFrame:
         return values
     layers: Any = values[(values["kind"] == "layer") & (values["quantity"] == "slip")]
     return _told(layers)
+
+
+def governing(values: pandas.DataFrame) -> pandas.DataFrame:
+    """All quantities of the link of one state that governs, at the level that is told.
+
+    It is the one that is used most; where nothing has a capacity the layer that slips most, or what bears the largest force.
+
+    Parameters
+    ----------
+    values : pandas.DataFrame
+        As of :func:`design_values`, of one state.
+    """
+    told: Any = worst_of(values)
+    if not len(told):
+        told = clearances(values)
+        told = (told if len(told) else _told(values)).sort_values("value_84", ascending=False, kind="stable")
+    return told[told["link"] == told["link"].iloc[0]]
 
 
 def _told(values: Any) -> Any:

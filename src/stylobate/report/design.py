@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
-from ..analysis.design_tables import OPEN, as_read, basis_of, clearances, where, worst_of
-from ..analysis.design_values import WHICH_LEVEL
+from ..analysis.compare import Comparison as SideBySide
+from ..analysis.design_tables import OPEN, as_read, basis_of, clearances, governing, where, worst_of
+from ..analysis.design_values import WHICH_LEVEL, design_values
 from ..motion.intensity_specs import parse_measure
+from ..results import Comparison, Numbers, Result
 from . import numbers as n
 from .page import Item, Rows
 from .pictures import kept
@@ -24,43 +27,68 @@ SHOWN = {
     "from": "low_84", "to": "high_84", "undecided": "undecided", "over capacity": "use_value_84", "at most": "use_high_84",
 }  # fmt: skip
 
-#: Columns of the first page of a report, which tells what governs alone.
-FRONT = {key: name for key, name in SHOWN.items() if key not in ("undecided", "at most")}
-
 #: The same of what bears least, and of when and where to a force acts, which older tables do not tell.
 LIMITED = {"limited by": "limited_by"}
 ACTS = {"at [s]": "instant_84_s", "towards [°]": "azimuth_84_deg"}
 
 
-def level_words(runs: pandas.DataFrame | None) -> str:
-    """How a level is told: of scaled motions with its measure and unit, of others as their factor.
+class Design(NamedTuple):
+    """Design values of a result.
 
     Parameters
     ----------
-    runs : pandas.DataFrame, optional
-        Of the states, whose column ``measure`` names it; of motions as they are there is none.
+    values : pandas.DataFrame
+        As of :func:`stylobate.design_values`, or read from ``design.csv``.
+    level : str
+        How a level is told, with a place for its number.
     """
-    measure = "factor" if runs is None or not len(runs) else str(runs["measure"].iloc[0])
-    return "× {}" if measure == "factor" else f"{measure} {{}} {parse_measure(measure).unit}"
+
+    values: pandas.DataFrame
+    level: str
 
 
-def design_items(
-    values: pandas.DataFrame | None, pictures: dict[str, Path], runs: pandas.DataFrame | None = None
-) -> list[Item]:
+def design_of(result: Result) -> Design | None:
+    """Design values of a result; None where there are none."""
+    if isinstance(result, Comparison):
+        if not result.responses:
+            return None
+        values = design_values(SideBySide(list(result.responses.values()), list(result.responses)))
+        motions = result.asked.motions if result.asked is not None else ()
+        each = [one.get("peaks_g") or {} for one in motions]
+        peaks = [max((one[axis] for axis in "xy" if axis in one), default=0.0) for one in each]
+        return Design(values, _as_scaled([1.0], peaks or [0.0])) if len(values) else None
+    tables = result.tables if isinstance(result, Numbers) else {}
+    values = tables.get("design")
+    if values is None or not len(values):
+        return None
+    if (runs := tables.get("suite")) is not None:
+        return Design(values, _as_scaled(runs["factor"], runs["pga_g"]))
+    states = tables.get("states")
+    measure = "factor" if states is None or not len(states) else str(states["measure"].iloc[0])
+    return Design(values, "× {}" if measure == "factor" else f"{measure} {{}} {parse_measure(measure).unit}")
+
+
+def _as_scaled(factors: Iterable[float], peaks: Iterable[float]) -> str:
+    """How the one level of some motions is told: by their peak acceleration [g] where it is one, else by their factors."""
+    for form, numbers in (("pga {} g", peaks), ("× {}", factors)):
+        low, high = min(numbers), max(numbers)
+        if 0.0 < high and high - low <= 1e-6 * high:
+            return form.format(n.plain(low))
+    return f"× {n.plain(low)}–{n.plain(high)}"
+
+
+def design_items(design: Design | None, pictures: dict[str, Path]) -> list[Item]:
     """Tables and picture of design values; nothing where there are none.
 
     Parameters
     ----------
-    values : pandas.DataFrame or None
-        As of :func:`stylobate.design_values`, or read from ``design.csv``.
+    design : Design, optional
     pictures : dict of str to path
         Of the folder.
-    runs : pandas.DataFrame, optional
-        As of :func:`level_words`.
     """
-    if values is None or not len(values):
+    if design is None:
         return []
-    level = level_words(runs)
+    values, level = design
     meant = f"what 84 % of the motions do not exceed, and its 95 % interval {basis_of(values)}."
     open_ = OPEN
     if where(values) and "told" in values:
@@ -90,22 +118,11 @@ def design_items(
     return items
 
 
-def governing_rows(values: pandas.DataFrame, runs: pandas.DataFrame | None) -> list[list[str]]:
-    """Of every state the row that is used most, or the slip of layers where nothing has a capacity, as of :data:`FRONT`.
-
-    Parameters
-    ----------
-    values : pandas.DataFrame
-        As of :func:`design_items`.
-    runs : pandas.DataFrame, optional
-        As of :func:`level_words`.
-    """
-    found: list[list[str]] = []
-    for state in dict.fromkeys(values["state"]):
-        mine: Any = values[values["state"] == state]
-        told = worst_of(mine) if len(worst_of(mine)) else clearances(mine)
-        found += _texts(told.head(1), FRONT, level_words(runs))
-    return found
+def governing_rows(design: Design) -> list[list[str]]:
+    """Of every state the rows of the link that governs, as of :data:`SHOWN`."""
+    values, level = design
+    each = [governing(some) for _, some in values.groupby("state", sort=False)]
+    return [row for some in each for row in _texts(some, SHOWN, level)]
 
 
 def _rows(values: pandas.DataFrame, shown: dict[str, str], caption: str, level: str) -> Rows:

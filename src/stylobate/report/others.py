@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ..analysis.compare import Comparison as SideBySide
-from ..analysis.design_values import design_values
 from ..analysis.efficiency import FEWEST
 from ..analysis.ida_curves import median_of
 from ..analysis.population import CHANCE, chance_words
@@ -28,7 +26,7 @@ from . import numbers as n
 from .certainty import OF_TWINS
 from .chosen import calibration_result, records_result
 from .critical import critical_result
-from .design import design_items
+from .design import design_items, design_of
 from .inference import inference_result
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import kept
@@ -215,7 +213,7 @@ def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items.append(table(rows, keys, caption, "verdict"))
     items += kept(result.pictures, "suite", "Peak response against a measure of the records.")
     items += kept(result.pictures, "directions", "Share of collapses by direction.")
-    items += design_items(result.tables.get("design"), result.pictures)
+    items += design_items(design_of(result), result.pictures)
     return (" ".join(one.collapses for one in found), " bad" if any(one.exceeded for one in found) else ""), items
 
 
@@ -242,9 +240,7 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
 
 def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
     rows = result.table.astype(object).where(result.table.notna(), None).to_dict("records")
-    designed = None
     if result.responses:
-        designed = design_values(SideBySide(list(result.responses.values()), list(result.responses)))
         for row in rows:
             open_ = "" if row["decided"] or row["outcome"] == "failed" else ", undecided"
             row["outcome"] = str(row["outcome"]).replace("_", " ") + open_
@@ -266,7 +262,7 @@ def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
     return (sentence, ""), [
         table(rows, keys, "Measures side by side."),
         *kept(result.pictures, "comparison", caption),
-        *design_items(designed, result.pictures),
+        *design_items(design_of(result), result.pictures),
         text,
     ]
 

@@ -9,12 +9,13 @@ from typing import Any
 
 from pydantic import field_validator
 
+from ..analysis.design_tables import OPEN
 from ..column.toml import Table, read_table
 from ..errors import InputError
 from ..reading import shown
-from ..results import Numbers, Result, RunResult, SeveralRuns
+from ..results import Result, RunResult, SeveralRuns
 from ..version import __version__
-from .design import FRONT, governing_rows
+from .design import SHOWN, design_of, governing_rows
 from .language import language_of
 from .page import Facts, Item, Own, Points, Rows, Section
 from .record import known_model, titled
@@ -89,17 +90,14 @@ def front_sections(
 
 def _design_values(results: Sequence[Result]) -> list[Section]:
     """Of every state the design value that governs, where there are some."""
-    body = [
-        [str(k), *row]
-        for k, one in enumerate(results, start=1)
-        if isinstance(one, Numbers) and "design" in one.tables
-        for row in governing_rows(one.tables["design"], one.tables.get("states"))
-    ]
+    designed = [(str(k), one) for k, result in enumerate(results, start=1) if (one := design_of(result)) is not None]
+    body = [[k, *row] for k, one in designed for row in governing_rows(one)]
     caption = (
         "Of every state the link that is used most, at the level that is told: what 84 % of the motions do not exceed, and "
-        "its 95 % interval. What else bears how much, and at which other levels, stands with each case."
+        "its 95 % interval. A ductile link at its capacity bears no more; its slip then tells how far it is used. "
+        f"{OPEN} What else bears how much, and at which other levels, stands with each case."
     )
-    return [Section("Design values that govern", [Rows(["case", *FRONT], body, caption, numbers=True)])] if body else []
+    return [Section("Design values that govern", [Rows(["case", *SHOWN], body, caption, numbers=True)])] if body else []
 
 
 def _limits(results: Sequence[Result]) -> list[Item]:

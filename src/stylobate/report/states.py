@@ -13,7 +13,7 @@ from ..percent import percents
 from ..response.links import YIELDS
 from ..results import Numbers
 from . import numbers as n
-from .design import design_items
+from .design import design_items, design_of
 from .page import Item, Note, Points, Rows
 from .pictures import kept
 from .tables import table
@@ -78,7 +78,7 @@ def states_items(result: Numbers) -> list[Item]:
     if best := s.get("best"):
         keys = ("candidate", "share_low", "share_high", "use", "use_high", "difference_low", "difference_high", "alike")
         items.append(table(best["candidates"], keys, best["words"]))
-    return items + design_items(result.tables.get("design"), result.pictures, result.tables.get("states"))
+    return items + design_items(design_of(result), result.pictures)
 
 
 def _at_capacity(links: list[dict[str, Any]]) -> list[str]:

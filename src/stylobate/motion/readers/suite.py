@@ -117,8 +117,8 @@ def read_suite(
         named = ", ".join(pairs[:TOLD]) + (", …" if len(pairs) > TOLD else "")
         warn(
             f"{len(again)} of {len(motions)} records are recordings of others once more, scaled, turned, filtered or "
-            f"written otherwise ({named}): a selection for a target takes each recording once; elsewhere they count as records of their "
-            "own, and intervals are narrower than what is known: leave them out."
+            f"written otherwise ({named}): a selection for a target takes each recording once; elsewhere they count as "
+            "records of their own, and intervals are narrower than what is known: leave them out."
         )
     return Suite(tuple(motions), refused)
 
