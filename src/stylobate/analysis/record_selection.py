@@ -359,7 +359,7 @@ def _peak(motion: Motion, horizontal: str) -> float:
     if horizontal.startswith("rotd"):
         share = 50.0 if horizontal == "rotd50" else 100.0
         return rotated_pga(motion, (share,))[share]
-    across = float(np.abs(motion.lateral).max())
+    across = motion.peaks["y"]
     return float(np.sqrt(motion.pga * across)) if horizontal == "geomean" else max(motion.pga, across)
 
 

@@ -8,8 +8,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-import numpy as np
-
 from ..column.shapes import DRUMS
 from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, suggest, warn
 from ..motion import Motion, beyond_axes, keep_axes
@@ -151,8 +149,7 @@ class Model:
         if not self.takes_rings:
             column.must_carry_on_whole_faces(self.name)
         column.must_link_by(self.takes_links, self.name)
-        for axis, values in motion.components.items():
-            peak = float(np.abs(values).max())
+        for axis, peak in motion.peaks.items():
             if not peak <= LARGEST_ACCELERATION:
                 raise InputError(
                     f"the component {axis} of {motion.name!r} reaches {peak:.3g} m/s²; allowed is up to "

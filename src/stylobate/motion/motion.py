@@ -153,16 +153,22 @@ class Motion:
     @property
     def pga(self) -> float:
         """Largest absolute horizontal acceleration along x [m/s²]."""
-        return self._peak * abs(self.factor)
+        return self._peaks["x"] * abs(self.factor)
+
+    @property
+    def peaks(self) -> dict[str, float]:
+        """Largest absolute acceleration of every component that is present, by axis name [m/s²]."""
+        return {axis: peak * abs(self.factor) for axis, peak in self._peaks.items()}
 
     @cached_property
-    def _peak(self) -> float:
-        return float(np.abs(self.samples).max())
+    def _peaks(self) -> dict[str, float]:
+        every = {"x": self.samples, "y": self.y_samples, "z": self.z_samples}
+        return {axis: float(np.abs(one).max()) for axis, one in every.items() if one is not None}
 
     @property
     def horizontal_peak(self) -> tuple[float, str]:
         """Largest absolute acceleration of a horizontal component [m/s²], and its axis: the peak as given, of no turn."""
-        across = 0.0 if self.lateral is None else float(np.abs(self.lateral).max())
+        across = self.peaks.get("y", 0.0)
         return (across, "y") if across > self.pga else (self.pga, "x")
 
     @property
@@ -200,7 +206,7 @@ class Motion:
         """
         times = check_range("factor", factor, *FACTORS)
         changed = object.__new__(Motion)  # of samples that are checked: a domain has one record at thousands of levels
-        vars(changed).update({key: vars(self)[key] for key in _SHARED}, _peak=self._peak)
+        vars(changed).update({key: vars(self)[key] for key in _SHARED}, _peaks=self._peaks)
         vars(changed).update(
             factor=check_range("factor", self.factor * times, -1e9, 1e9, of="a motion"),
             name=f"{self.name} × {times:g}",
@@ -220,7 +226,7 @@ class Motion:
             The motion has (next to) nothing along x.
         """
         value = check_range("`pga`", pga, 0.0, 1e4, unit="m/s²")
-        across = 0.0 if self.lateral is None else float(np.abs(self.lateral).max())
+        across = self.peaks.get("y", 0.0)
         if self.pga <= 1e-9 * across:
             raise InputError(
                 f"motion {self.name!r} is zero along x and cannot be scaled to a peak there; turn it, or multiply it by a "
@@ -248,7 +254,7 @@ class Motion:
 
     def _repr_html_(self) -> str:
         pictures = [notebook.history(values / g, f"a{axis} [g]") for axis, values in self.components.items()]
-        facts = {f"peak along {axis} [g]": float(np.abs(values).max()) / g for axis, values in self.components.items()}
+        facts = {f"peak along {axis} [g]": peak / g for axis, peak in self.peaks.items()}
         facts |= {"PGV [m/s]": self.pgv, "step [s]": self.dt, "steps": self.steps}
         return notebook.page(self.name, self.describe(), facts, "".join(pictures))
 

@@ -112,10 +112,9 @@ def beyond_axes(motion: Motion, axes: str) -> dict[str, str]:
     azimuths = motion.metadata.get("azimuths") or {}
     found: dict[str, str] = {}
     for axis, word in OTHER_AXES.items():
-        values = motion.components.get(axis)
-        if values is not None and axis not in axes:
+        peak = motion.peaks.get(axis)
+        if peak is not None and axis not in axes:
             where = "" if azimuths.get(axis) is None else f"azimuth {azimuths[axis]:g}°, "
-            peak = float(np.abs(values).max())
             more = ", more than along x" if axis == "y" and peak > motion.pga else ""
             found[axis] = f"{word} ({where}peak {peak / g:.3g} g{more})"
     return found

@@ -187,7 +187,7 @@ def _measures(motion: Motion) -> Rows:
 
 def _beside(motion: Motion, column: Column) -> str:
     """The motion beside what opens the column."""
-    peak = max(float(np.abs(values).max()) for axis, values in motion.components.items() if axis != "z")
+    peak = motion.horizontal_peak[0]
     opens = column.uplift_acceleration
     much = peak / opens
     said = (

@@ -33,7 +33,7 @@ def statics_section(column: Column, run: RunResult | None) -> Section:
     except StylobateError as error:
         pairs.append(("limit analysis", f"does not apply: {error}"))
     if run is not None and run.motion is not None:
-        peak = max(float(np.abs(v).max()) for axis, v in run.motion.components.items() if axis != "z")
+        peak = run.motion.horizontal_peak[0]
         pairs.append(("peak of the motion over what opens the first joint", f"{peak / opens:.2f}"))
     text = (
         "Steady horizontal forces, proportional to the masses, as accelerations. Beyond these values a joint opens or the "

@@ -9,8 +9,6 @@ from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from ..analysis.directions import direction_of
 from ..column.kinds import FROM_DICT
 from ..column.structure import Structure
@@ -181,7 +179,7 @@ def _motion(motion: Motion) -> dict[str, Any]:
         "components": list(motion.components),
         "azimuths": dict(motion.metadata.get("azimuths") or {}),
         "factor": motion.factor,
-        "peaks_g": {axis: float(np.abs(values).max()) / g for axis, values in motion.components.items()},
+        "peaks_g": {axis: peak / g for axis, peak in motion.peaks.items()},
         "processing": list(motion.processing),
         "left_out": list(motion.metadata.get("left_out", ())),
         "references": list(motion.metadata.get("references", ())),

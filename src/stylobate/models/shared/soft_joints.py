@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -20,6 +21,7 @@ LARGEST_CLOSURE = 0.5
 SHARE_OF_SAMPLE, SHARE_OF_PERIOD = 0.5, 0.01
 
 
+@lru_cache(maxsize=1024)
 def check_sinking(column: Column) -> None:
     """Refuse a column that its own weight presses into its joints: their law is one of small deformations.
 
