@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -85,10 +86,8 @@ class Motion:
             object.__setattr__(self, key, value)
 
         put("dt", check_range("dt", dt, 0.0, 1e3, unit="s", open_low=True, remedy="state the step", of="a motion"))
-        put("factor", check_range("factor", factor, -1e9, 1e9, of="a motion"))
-        put("name", name)
-        put("metadata", MappingProxyType(dict(metadata or {})))
-        put("processing", tuple(processing))
+        for key, value in {"factor": factor, "name": name, "metadata": metadata, "processing": processing}.items():
+            put(key, _TOLD[key](value))
         length = None
         for label, key, first, second in (
             ("x", "samples", ax, acceleration),
@@ -160,6 +159,17 @@ class Motion:
         """Largest absolute acceleration of every component that is present, by axis name [m/s²]."""
         return {axis: peak * abs(self.factor) for axis, peak in self._peaks.items()}
 
+    @property
+    def plan_peak(self) -> float:
+        """Largest horizontal acceleration in any direction [m/s²]."""
+        return self.pga if self.y_samples is None else self._plan_peak * abs(self.factor)
+
+    @cached_property
+    def _plan_peak(self) -> float:
+        x, y = self.samples, self.y_samples
+        assert y is not None
+        return math.sqrt(float((x**2 + y**2).max()))
+
     @cached_property
     def _peaks(self) -> dict[str, float]:
         every = {"x": self.samples, "y": self.y_samples, "z": self.z_samples}
@@ -185,7 +195,15 @@ class Motion:
     # -- changed copies ------------------------------------------------------------------------------------------
 
     def replace(self, **changes) -> Motion:
-        """A copy with some constructor arguments changed (``ax`` … without the factor)."""
+        """A copy with some constructor arguments changed (``ax`` … without the factor).
+
+        Where no samples change they are shared, and not checked again: a domain has one record at thousands of levels.
+        """
+        if set(changes) <= _TOLD.keys():
+            changed = object.__new__(Motion)
+            vars(changed).update({key: vars(self)[key] for key in (*_SAMPLED, *_TOLD)}, _peaks=self._peaks)
+            vars(changed).update({key: _TOLD[key](value) for key, value in changes.items()})
+            return changed
         fields: dict = {
             "dt": self.dt,
             "ax": self.samples,
@@ -205,14 +223,11 @@ class Motion:
         It stays the same record: copies of one record are no independent evidence, however they are named.
         """
         times = check_range("factor", factor, *FACTORS)
-        changed = object.__new__(Motion)  # of samples that are checked: a domain has one record at thousands of levels
-        vars(changed).update({key: vars(self)[key] for key in _SHARED}, _peaks=self._peaks)
-        vars(changed).update(
-            factor=check_range("factor", self.factor * times, -1e9, 1e9, of="a motion"),
+        return self.replace(
+            factor=self.factor * times,
             name=f"{self.name} × {times:g}",
-            metadata=MappingProxyType({**self.metadata, "record": self.record}),
+            metadata={**self.metadata, "record": self.record},
         )
-        return changed
 
     def scaled_to_pga(self, pga: float) -> Motion:
         """A copy whose horizontal peak along x is ``pga`` [m/s²]; every component is multiplied alike.
@@ -265,8 +280,14 @@ class Motion:
         return f"{self.name}: {self.duration:g} s, dt {self.dt:g} s, PGA {peak / g:.3g} g{along}"
 
 
-#: Attributes of a motion that its scaled copies have as well.
-_SHARED = ("dt", "samples", "y_samples", "z_samples", "processing")
+#: What a motion holds of its samples; what it tells besides, and what becomes of a value that is given for it.
+_SAMPLED = ("dt", "samples", "y_samples", "z_samples")
+_TOLD: Mapping[str, Callable[[Any], Any]] = {
+    "factor": lambda value: check_range("factor", value, -1e9, 1e9, of="a motion"),
+    "name": lambda value: value,
+    "metadata": lambda value: MappingProxyType(dict(value or {})),
+    "processing": tuple,
+}
 
 
 def _checked(value: np.ndarray, label: str, name: str) -> np.ndarray:

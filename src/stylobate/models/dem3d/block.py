@@ -190,11 +190,7 @@ class SpaceBlock(LaneRuns):
     def shake(self, lane: int, motion: Motion) -> None:
         """Note how the base of a lane moves."""
         feed, watch = self.feed[0], self.watch[0]
-        flat, high = motion.pga, 0.0
-        if motion.y_samples is not None:
-            flat = math.sqrt(float((motion.samples**2 + motion.y_samples**2).max())) * abs(motion.factor)
-        if motion.z_samples is not None:
-            high = float(np.abs(motion.z_samples).max()) * abs(motion.factor)
+        flat, high = motion.plan_peak, motion.peaks.get("z", 0.0)
         level, slope = float(feed["r"][8, lane]), math.hypot(feed["r"][2, lane], feed["r"][5, lane])
         watch["amax"][lane] = flat + slope * high
         watch["vmax"][lane] = level * high + slope * flat

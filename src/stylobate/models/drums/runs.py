@@ -83,12 +83,23 @@ class LaneRuns(LaneEngine):
         self.steps[lane] = steps
         self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
         self.shake(lane, case.motion)
-        ground = tuple(self.ground_acceleration(lane))
+        ground = self.ground_at_start(lane)
         if self.started is None or not self.started.serves(packed, dt, ground):
             self.stand(lane)
             self.begin(lane)
             self.started = Started.of(self, lane, ground)
         self.started.put(self, lane)
+
+    def ground_at_start(self, lane: int) -> tuple[float, ...]:
+        """What the acceleration of the base at the start of a run hangs on, but for the column [m/s²].
+
+        That of the first samples, which a run begins with; where quiet is left out before it, of its first step.
+        """
+        if self.feed["step"][0, lane]:
+            return tuple(self.ground_acceleration(lane))
+        motion = self.case(lane).motion
+        every = motion.samples, motion.y_samples, motion.z_samples
+        return tuple(0.0 if one is None else motion.factor * float(one[0]) for one in every)
 
     @property
     def beginning(self) -> tuple[np.ndarray, ...]:

@@ -70,8 +70,8 @@ class Records(LaneRecords):
 
 def slope_base(records: Records, lane: int, motion: Motion, slope: float) -> None:
     """Let a lane's base move along a slope [rad], and note the largest accelerations across gravity and along it."""
-    feed, watch, z = records.feed[0], records.watch[0], motion.z_samples
+    feed, watch = records.feed[0], records.watch[0]
     feed["bc"][lane], feed["bs"][lane] = math.cos(slope), math.sin(slope)
-    peak_x, peak_z = motion.pga, 0.0 if z is None else float(np.abs(z).max()) * abs(motion.factor)
+    peak_x, peak_z = motion.pga, motion.peaks.get("z", 0.0)
     watch["amax"][lane] = peak_x * math.cos(slope) + peak_z * abs(math.sin(slope))
     watch["vmax"][lane] = peak_x * abs(math.sin(slope)) + peak_z * math.cos(slope)
