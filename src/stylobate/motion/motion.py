@@ -162,13 +162,12 @@ class Motion:
     @property
     def plan_peak(self) -> float:
         """Largest horizontal acceleration in any direction [m/s²]."""
-        return self.pga if self.y_samples is None else self._plan_peak * abs(self.factor)
+        return self._plan_peak * abs(self.factor)
 
     @cached_property
     def _plan_peak(self) -> float:
         x, y = self.samples, self.y_samples
-        assert y is not None
-        return math.sqrt(float((x**2 + y**2).max()))
+        return self._peaks["x"] if y is None else math.sqrt(float((x**2 + y**2).max()))
 
     @cached_property
     def _peaks(self) -> dict[str, float]:
@@ -201,7 +200,8 @@ class Motion:
         """
         if set(changes) <= _TOLD.keys():
             changed = object.__new__(Motion)
-            vars(changed).update({key: vars(self)[key] for key in (*_SAMPLED, *_TOLD)}, _peaks=self._peaks)
+            vars(changed).update({key: vars(self)[key] for key in (*_SAMPLED, *_TOLD)})
+            vars(changed).update(_peaks=self._peaks, _plan_peak=self._plan_peak)
             vars(changed).update({key: _TOLD[key](value) for key, value in changes.items()})
             return changed
         fields: dict = {
