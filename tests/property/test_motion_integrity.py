@@ -28,6 +28,7 @@ from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import Motion, read_motion, read_suite, write_csv
 from stylobate.motion.readers.numbers import read_numbers
+from stylobate.motion.readers.record import direction
 
 RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
 
@@ -60,22 +61,27 @@ def warned(path, **options):
 # -- miniSEED -------------------------------------------------------------------------------------------------------
 
 
-def mseed(put):
-    """A miniSEED file made here, with a StationXML beside it."""
+def mseed(put, *channels, name="ABC.xml", sensitivities=(1e5,), output="COUNTS"):
+    """A miniSEED file made here, with a StationXML beside it: codes with azimuths and dips, an epoch for a sensitivity."""
     obspy = pytest.importorskip("obspy")
     from obspy.core.inventory import Channel, Inventory, Network, Response, Site, Station
     from obspy.core.inventory.response import InstrumentSensitivity
 
     counts = np.round(1e5 * np.sin(np.arange(6000) * 0.05)).astype(np.int32)
-    trace = obspy.Trace(counts, {"network": "XX", "station": "ABC", "channel": "HNE", "sampling_rate": 100.0})
-    data = io.BytesIO()
-    obspy.Stream([trace]).write(data, format="MSEED", encoding="STEIM2", reclen=512)
-    response = Response(instrument_sensitivity=InstrumentSensitivity(1e5, 1.0, "M/S**2", "COUNTS"))
-    channel = Channel("HNE", "", 0.0, 0.0, 0.0, 0.0, azimuth=90.0, dip=0.0, sample_rate=100.0, response=response)
-    station = Station("ABC", 0.0, 0.0, 0.0, channels=[channel], site=Site("A Place"))
-    text = io.BytesIO()
+    channels = channels or (("HNE", 90.0, 0.0),)
+    about = {"network": "XX", "station": "ABC", "sampling_rate": 100.0}
+    data, text = io.BytesIO(), io.BytesIO()
+    traces = [obspy.Trace(counts, about | {"channel": code}) for code, *_ in channels]
+    obspy.Stream(traces).write(data, format="MSEED", encoding="STEIM2", reclen=512)
+    described = [
+        Channel(code, "", 0.0, 0.0, 0.0, 0.0, azimuth=azimuth, dip=dip, sample_rate=100.0,
+                response=Response(instrument_sensitivity=InstrumentSensitivity(size, 1.0, "M/S**2", output)))
+        for code, azimuth, dip in channels
+        for size in sensitivities
+    ]  # fmt: skip
+    station = Station("ABC", 0.0, 0.0, 0.0, channels=described, site=Site("A Place"))
     Inventory([Network("XX", stations=[station])], source="test").write(text, format="STATIONXML")
-    put(text.getvalue(), "ABC.xml")
+    put(text.getvalue(), name)
     return data.getvalue()
 
 
@@ -90,6 +96,21 @@ def test_damaged_miniseed_is_refused_with_what_obspy_says(put):
     middle[512 * 3 + 200] ^= 0x10  # within the samples of the fourth record
     with pytest.raises(InputError, match="integrity check"):
         read(put(bytes(middle), "flipped.mseed"))
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_channel_is_vertical_by_its_code_and_its_dip_which_must_agree(put):
+    north = ("HNN", 0.0, 0.0)
+    for up, sign in ((("HNZ", 0.0, None), 1.0), (("HNZ", 0.0, -90.0), 1.0), (("HNZ", 0.0, 90.0), -1.0)):
+        motion = read(put(mseed(put, north, up), "a.mseed"))
+        assert list(motion.components) == ["x", "z"]
+        assert motion.metadata["azimuths"] == {"x": 0.0, "z": None}
+        assert np.array_equal(motion.vertical, sign * motion.acceleration)
+    with pytest.raises(InputError, match="only the vertical component 'HNZ'"):
+        read(put(mseed(put, ("HNZ", 0.0, None)), "a.mseed"))
+    for wrong in (("HNZ", 0.0, 0.0), ("HNE", 90.0, -90.0)):
+        with pytest.raises(InputError, match=rf"{wrong[0]} says that it is .*, the Dip in the StationXML is"):
+            read(put(mseed(put, north, wrong), "a.mseed"))
 
 
 # -- cut files ------------------------------------------------------------------------------------------------------
@@ -344,6 +365,90 @@ def test_a_series_of_several_numbers_to_a_line_with_a_short_last_row(put):
     assert read(put(numbers), unit="g", dt=DT).digest == stated.digest
     with pytest.raises(InputError):  # a table of times that was cut, not a series
         read(put("0.0 1 2 3 4\n0.1 1 2 3 4\n0.2 1 2\n"), unit="g", dt=DT)
+
+
+# -- directions -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("labels", "azimuth", "sign"),
+    [
+        ("Up,+UP,UP-DN,UPDN,U-D,UD,V,Z,VERTIC,Vert(Up),Vertical-Up,Roof UP,HNV,HNZ,BHZ,UP1", None, 1.0),
+        ("Down,-UP,-V,V;-,V-,Z(-),D-U,DN-UP,Vert(Down),Vertical Down,Roof DN", None, -1.0),
+        ("N 10.5 E,N10.5E,N 10.5° E,N10.5,NORTH 10.5 EAST,10.5 deg", 10.5, 0.0),
+        ("N45°E,N45E,NE,North-East,45", 45.0, 0.0),
+        ("N345,N 345,N15W,345 DEG", 345.0, 0.0),
+        ("NORTH-SOUTH,N-S,NS,North,N,HNN,HGN,HLN,BNN,ENN,360 Deg,0 deg", 0.0, 0.0),
+        ("EAST-WEST,E-W,EW,East,HNE,HGE,HLE,BNE,ENE,090", 90.0, 0.0),
+        ("N 5,-N,H1,HN1,L,Horiz. 1,Other,N Abutment 30 deg,400", None, 0.0),
+    ],
+)
+def test_a_label_states_the_azimuth_or_that_the_component_is_vertical(labels, azimuth, sign):
+    for label in labels.split(","):
+        vertical = sign != 0.0
+        assert direction(label) == (azimuth, vertical, sign if vertical else 1.0), label
+
+
+def test_a_vertical_component_under_any_of_its_names_is_z(put):
+    text = FORMATS["peer_nga"][0]
+    flat, up = put(text), put(text.replace(", 230", ", -UP"), "up.at2")
+    motion = read([flat, up])
+    assert list(motion.components) == ["x", "z"]
+    assert np.array_equal(motion.vertical, -motion.acceleration)
+    with pytest.raises(InputError, match="only the vertical component '-UP'"):
+        read(up)
+
+
+@pytest.mark.parametrize(
+    ("heading", "azimuths", "waves"),
+    [
+        ("UP N-S E-W", (0.0, 90.0), (1, 2, 0)),
+        ("EW NS UD", (90.0, 0.0), (0, 1, 2)),
+        ("E N Z", (90.0, 0.0), (0, 1, 2)),
+        ("(E-W) (N-S) (U-D)", (90.0, 0.0), (0, 1, 2)),
+        ("Up East North", (90.0, 0.0), (1, 2, 0)),
+        ("", (0.0, 90.0), (0, 1, 2)),
+    ],
+)
+def test_afad_columns_are_what_their_heading_says(heading, azimuths, waves, put):
+    lines = FORMATS["afad"][0].splitlines(keepends=True)
+    head = "".join(line for line in lines[:8] if "PGA" not in line) + "RAW PGA VALUES (gal):\n"
+    motion = read(put(head + heading + "\n" + "".join(lines[-COUNT:])))
+    assert motion.metadata["azimuths"] == {"x": azimuths[0], "y": azimuths[1], "z": None}
+    for axis, wave in zip("xyz", waves):
+        assert motion.components[axis] == pytest.approx(0.01 * WAVES[wave])
+
+
+@pytest.mark.parametrize(("heading", "said"), [("N-S E-W foo", "holds 'foo'"), ("N-S E-W U(-)", "a sign or a unit")])
+def test_an_afad_heading_that_is_not_understood_is_refused(heading, said, put):
+    with pytest.raises(InputError, match=said):
+        read(put(FORMATS["afad"][0].replace("  N-S   E-W   U-D", heading)))
+
+
+@pytest.mark.parametrize(
+    ("integers", "text", "found"),
+    [
+        ((90, 65), "65", 65.0),
+        ((-32768, 65), "L", 65.0),
+        ((90, -32768), "S74E", 106.0),
+        ((-32768, 0), "UP", "z"),
+        ((0, 0), "UP", "z"),
+        ((90, 90), "360", "states the direction '360', integers 13 and 14 '90 deg'"),
+        ((90, 0), "UP", "states the direction 'UP', integers 13 and 14 '0 deg'"),
+        ((180, 0), "UP", "states the direction 'UP', integers 13 and 14 'Down'"),
+    ],
+)
+def test_the_direction_of_smc_is_that_of_its_text_and_of_its_integers(integers, text, found, put):
+    file = put(
+        FORMATS["smc"][0]
+        .replace(f"{90:10d}{65:10d}", "".join(f"{one:10d}" for one in integers))
+        .replace("component=     65", f"component=     {text}")
+    )
+    if isinstance(found, float):
+        assert read(file).metadata["azimuths"] == {"x": found}
+    else:
+        with pytest.raises(InputError, match="only the vertical component" if found == "z" else found):
+            read(file)
 
 
 # -- what nobody meant ----------------------------------------------------------------------------------------------

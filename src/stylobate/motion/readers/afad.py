@@ -1,15 +1,20 @@
-"""The older text files of the Turkish network (AFAD): three columns N-S, E-W, U-D in gal."""
+"""The older text files of the Turkish network (AFAD): three columns in gal, by their heading."""
 
 from __future__ import annotations
 
 import re
 
 from ...errors import InputError
+from ..specs import acceleration_unit
 from .checks import check_peak, check_step
+from .headers import Header
 from .keyed import is_numeric, keyed, number_of
 from .numbers import NUMBER, read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
+
+#: Labels of the format, by the directions that its heading names.
+_LABELS = {"NS": "N-S", "EW": "E-W", "UD": "U-D"}
 
 
 def recognises(source: Source) -> bool:
@@ -30,15 +35,25 @@ def read(source: Source) -> tuple[list[Component], dict]:
     count = check_count(stated, file, line)
     stated_dt, line_of_step = number_of(header, "sampling interval", file)
     dt = check_step(stated_dt, file, line_of_step)
-    heading = lines[start - 1].upper().split()
-    labels = [word for word in heading if word.strip("().") in ("N-S", "E-W", "U-D")]
-    labels = labels if len(labels) == 3 else ["N-S", "E-W", "U-D"]
+    above = re.sub(r"\(([A-Z]-[A-Z])\)", r" \1 ", lines[start - 1]).strip()
+    heading = Header(above if above and ":" not in above else "N-S E-W U-D")
+    names = heading.names([False] * 3, False, None, f"{file}, line {start}")
     table = read_numbers(lines[start:], start, file, "rows of three accelerations", count=3 * count).reshape(-1, 3)
-    components = [oriented(Component(table[:, i] * 0.01, dt, label)) for i, label in enumerate(labels)]
+    components = []
+    for name, values in zip(names, table.T):
+        if name.sign < 0.0 or acceleration_unit(name.unit or "gal")[0] != "gal":
+            raise InputError(
+                f"{file}, line {start}: {above!r} names a column with a sign or a unit of its own, where the format has "
+                "N-S, E-W, U-D in gal; convert the file to columns."
+            )
+        label = _LABELS.get(name.direction, name.direction)
+        components.append(oriented(Component(values * 0.01, dt, label)))
     peaks, line = next((entry for key, entry in header.items() if "pga values" in key), ("", 0))
-    stated_peaks = re.findall(NUMBER, peaks)
+    stated_peaks = re.findall(rf"(?:([NEU]-[SWD])\W*?)?({NUMBER})", peaks.upper())
     if len(stated_peaks) == 3:  # of the raw record: the one in the file may be corrected
-        for component, peak in zip(components, stated_peaks):
+        named = dict(stated_peaks)
+        for component, (_, in_order) in zip(components, stated_peaks):
+            peak = named.get(component.label, in_order)
             check_peak(component.values, peak, 0.01, file, line, wrong=0.2)
     text = {key: value for key, (value, _) in header.items()}
     return components, {

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...errors import InputError
 from .checks import CUT
-from .record import Component
+from .record import Component, direction
 from .source import Source
 
 #: StationXML files beside the record that are looked into.
@@ -118,11 +118,20 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
         "taken off; the response is taken as flat"
     )
     dip = channel.dip
-    component.vertical = dip is not None and abs(dip) > 45.0
+    by_code, component.vertical, _ = direction(trace.stats.channel)
+    if dip is not None:
+        if abs(dip) <= 45.0 if component.vertical else abs(dip) > 45.0 and by_code is not None:
+            said = "vertical" if component.vertical else "horizontal"
+            raise InputError(
+                f"{file}: the code of channel {trace.id} says that it is {said}, the Dip in the StationXML is {dip:g}°; "
+                "allowed is ±90 of a vertical and 0 of a horizontal channel: mend the one that is wrong."
+            )
+        component.vertical = abs(dip) > 45.0
     if dip is not None and dip > 45.0:  # SEED counts the dip downward
         component.values = -component.values
         component.processing.append("sign turned: the channel counts downward as positive, here upward is")
-    component.azimuth = None if component.vertical or channel.azimuth is None else float(channel.azimuth) % 360.0
+    azimuth = by_code if channel.azimuth is None else channel.azimuth
+    component.azimuth = None if component.vertical or azimuth is None else float(azimuth) % 360.0
     return component
 
 

@@ -25,45 +25,51 @@ SMALLEST_PEAK = 1e-3
 LARGEST_VELOCITY = 10.0
 
 
-_COMPASS = re.compile(r"\b([NS])\s*(\d{1,3})\s*(?:DEG)?\s*([EW])\b")
+_ANGLE = r"(?P<angle>\d{1,3}(?:\.\d*)?)\s*(?:°|DEG\.?)?"
+#: ``N10.5E`` anywhere; ``N345`` and ``90 DEG`` at the beginning of a label.
+_BEARING = re.compile(rf"\b(?P<pole>[NS])\s*{_ANGLE}\s*(?P<side>[EW])\b")
+_FROM_NORTH = re.compile(rf"N\.?\s*(?=\d\d){_ANGLE}(?!\w)")
+_DEGREES = re.compile(rf"[+]?{_ANGLE}(?=[\s,;:]|$)")
 _POINTS = {
-    "N": 0.0, "NORTH": 0.0, "NS": 0.0, "N-S": 0.0, "HNN": 0.0, "N00E": 0.0,
-    "E": 90.0, "EAST": 90.0, "EW": 90.0, "E-W": 90.0, "HNE": 90.0,
-    "S": 180.0, "SOUTH": 180.0, "SN": 180.0, "S-N": 180.0,
-    "W": 270.0, "WEST": 270.0, "WE": 270.0, "W-E": 270.0,
+    "N": 0.0, "NS": 0.0, "E": 90.0, "EW": 90.0, "S": 180.0, "SN": 180.0, "W": 270.0, "WE": 270.0,
     "NE": 45.0, "SE": 135.0, "SW": 225.0, "NW": 315.0,
 }  # fmt: skip
-_UP = {"UP", "U", "Z", "V", "UD", "U-D", "VERT", "VERTICAL", "UPWARD", "+V", "VER", "VRT"}
-_DOWN = {"DOWN", "DN", "D", "DWN", "-V", "DU", "D-U"}
+#: SEED codes of accelerometers whose last letter is a direction; any code that ends in Z is vertical.
+_CODE = re.compile(r"[BCDEFGHLMS][NLG](?P<way>[NEV])|[A-Z]{2}(?P<up>Z)")
+#: Words of the vertical that leave its sense open, which then is upward; and those that state it.
+_UPRIGHT = {"V", "Z", "VER", "VRT", "VERT", "VERTIC", "VERTICAL"}
+_UP = {"U", "UP", "UP1", "UP2", "UP3", "UD", "UPDN", "UPDOWN", "UPWARD", "UPWARDS"}
+_DOWN = {"D", "DN", "DWN", "DU", "DOWN", "DNUP", "DOWNUP", "DOWNWARD", "DOWNWARDS"}
 
 
 def direction(label: str) -> tuple[float | None, bool, float]:
     """Azimuth [degrees], whether vertical, and the sign that makes upward positive, from a label of any network.
 
-    ``90 DEG``, ``N10E``, ``S74E``, ``Up``, ``DOWN``, ``NS``, ``HNZ``, ``H1`` (azimuth unknown).
+    ``90 DEG``, ``N10.5E``, ``S74E``, ``N345``, ``Up``, ``-UP``, ``Vert(Down)``, ``Roof UP``, ``NORTH-SOUTH``, ``HNZ``,
+    ``H1`` (azimuth unknown).
     """
-    text = label.strip().upper().replace("_", " ").strip(" .:;")
-    words = text.replace("COMPONENT", " ").replace("COMP", " ").split()
-    first = words[0].strip(",.;:") if words else ""
-    if first in _UP or re.fullmatch(r"[A-Z]{2}Z|UP\d?", first):
-        return None, True, 1.0
-    if first in _DOWN:
-        return None, True, -1.0
-    if found := _COMPASS.search(text):
-        north, angle, east = found.group(1), float(found.group(2)), found.group(3)
-        if angle <= 90.0:
-            return (
-                {"NE": angle, "SE": 180.0 - angle, "SW": 180.0 + angle, "NW": 360.0 - angle}[north + east] % 360.0,
-                False,
-                1.0,
-            )
-    if first in _POINTS:
+    text = re.sub(r"COMP(?:ONENT)?", " ", label.upper().replace("_", " ")).strip(" .:;")
+    text = re.sub(r"\b([NSEW])(?:ORTH|OUTH|AST|EST)\b", r"\1", text)
+    words = re.findall(r"[A-Z0-9]+", text)
+    minus = -1.0 if re.match(r"-\s*[A-Z]", text) or re.search(r"[A-Z](?:;?-|\s?\(-\))$", text) else 1.0
+    code = _CODE.fullmatch(words[0]) if words else None
+    if words and (words[0] in _UPRIGHT or (code and (code["up"] or code["way"] == "V"))):
+        return None, True, -minus if len(words) > 1 and words[1] in _DOWN and len(words[1]) > 1 else minus
+    if words and words[0] in _UP | _DOWN:
+        return None, True, -minus if words[0] in _DOWN else minus
+    if (found := _BEARING.search(text)) and float(found["angle"]) <= 90.0:
+        angle = float(found["angle"])
+        angle = angle if found["pole"] == "N" else 180.0 - angle
+        return (angle if found["side"] == "E" else -angle) % 360.0, False, 1.0
+    if (found := _FROM_NORTH.match(text) or _DEGREES.match(text)) and float(found["angle"]) <= 360.0:
+        return float(found["angle"]) % 360.0, False, 1.0
+    if code:
+        return _POINTS[code["way"]], False, 1.0
+    first = re.split(r"[\s,.;:]", text)[0].replace("-", "", not text.startswith("-")).replace("/", "")
+    if first in _POINTS and not re.search(r"^\w+\W+\d|\d\s*(?:°|DEG)", text):  # of N 5 the angle is not known
         return _POINTS[first], False, 1.0
-    if (
-        re.fullmatch(r"[+]?\d{1,3}(\.\d*)?(°|DEG\.?)?", first)
-        and float(re.sub(r"[^\d.]", "", first).rstrip(".")) <= 360.0
-    ):
-        return float(re.sub(r"[^\d.]", "", first).rstrip(".")) % 360.0, False, 1.0
+    if upright := [word for word in words if len(word) > 1 and word in _UPRIGHT | _UP | _DOWN]:  # Roof UP
+        return None, True, -minus if upright[-1] in _DOWN else minus
     return None, False, 1.0
 
 

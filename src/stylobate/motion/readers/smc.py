@@ -9,15 +9,13 @@ import numpy as np
 from ...errors import InputError, OutOfRangeWarning, warn
 from .checks import CUT, LONGEST_STEP, check_peak, check_peak_time, check_step, rising_pairs
 from .numbers import read_numbers
-from .record import Component, check_count, oriented
+from .record import Component, check_count, direction, oriented
 from .source import Source
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 11, 6, 10
 #: A step of film this many times the steps of its neighbours, so many on either side, may be a lost line.
 GAP, NEIGHBOURS = 2.8, 3
 _FIRST = re.compile(r"^\s*(?P<volume>\d)\s+(?P<what>.*\S)\s*$")
-#: The integer that the format uses for "unknown".
-_UNKNOWN = -32768
 
 
 def recognises(source: Source) -> bool:
@@ -67,7 +65,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
     _check_peaks(component, reals, file, at + 6)
     if left_out:
         component.processing.append(f"{left_out} numbers beyond the {stated} that the header promises were left out")
-    component.label = _label(int(integers[12]), int(integers[13]), lines[5])
+    component.label = _label(int(integers[12]), int(integers[13]), lines[5], file)
     component.metadata["unit"] = "cm/s2"
     head = [line.strip() for line in lines[:TEXT_LINES]]
     terms = " ".join(line.lstrip("| ").strip() for line in lines[at + REAL_LINES : start]).strip()
@@ -127,11 +125,20 @@ def _check_gaps(time: np.ndarray, file: str, start: int) -> None:
         )
 
 
-def _label(from_vertical: int, azimuth: int, station: str) -> str:
-    """Direction: integer 13 counts from the vertical (0 up, 180 down, 90 horizontal), integer 14 from north."""
-    if from_vertical in (0, 180):
-        return "Up" if from_vertical == 0 else "Down"
-    if azimuth != _UNKNOWN and 0 <= azimuth <= 360:
-        return f"{azimuth} deg"
+def _label(from_vertical: int, azimuth: int, station: str, file: str) -> str:
+    """Direction: integer 13 counts from the vertical (0 up, 180 down), integer 14 from north; else the text."""
     found = re.search(r"component\s*=\s*(?P<label>\S+)", station, re.IGNORECASE)
-    return found["label"] if found else ""
+    text = found["label"] if found else ""
+    known = from_vertical in (0, 90, 180)
+    by_text = direction(text)
+    label = {0: "Up", 180: "Down"}.get(from_vertical, "")
+    if not label and 0 <= azimuth <= 360 and (known or not by_text[1]):
+        label = f"{azimuth} deg"
+    by_numbers = direction(label)
+    if label and (by_text[0] is not None or by_text[1]):
+        apart = abs(((by_text[0] or 0.0) - (by_numbers[0] or 0.0) + 180.0) % 360.0 - 180.0)
+        if by_text[1:] != by_numbers[1:] or apart > 1.0:
+            raise InputError(
+                f"{file}, line 6: the text states the direction {text!r}, integers 13 and 14 {label!r}; {CUT}."
+            )
+    return label or text
