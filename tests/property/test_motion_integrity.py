@@ -26,7 +26,7 @@ from fuzz.record_files import (
 
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
-from stylobate.motion import Motion, read_motion, read_suite, write_csv
+from stylobate.motion import Motion, read_motion, read_suite, rotated, turned, write_csv
 from stylobate.motion.readers.numbers import read_numbers
 from stylobate.motion.readers.record import direction
 
@@ -449,6 +449,18 @@ def test_the_direction_of_smc_is_that_of_its_text_and_of_its_integers(integers, 
     else:
         with pytest.raises(InputError, match="only the vertical component" if found == "z" else found):
             read(file)
+
+
+@pytest.mark.parametrize(("x", "y"), [(90.0, None), (None, 0.0)])
+def test_a_motion_of_which_one_azimuth_is_stated_is_not_turned_to_another(x, y, tmp_path):
+    motion = Motion(DT, WAVES[0], WAVES[1], metadata={"azimuths": {"x": x, "y": y}})
+    stated, other = ("x", "y") if y is None else ("y", "x")
+    with pytest.raises(InputError, match=rf"{stated} of 'motion' points to .* add the line '# azimuth_{other}_deg: …'"):
+        rotated(motion, 0.0)
+    assert turned(motion, 30.0).metadata["azimuths"] == {"x": None, "y": None}
+    path = write_csv(motion, tmp_path / "a.csv")
+    path.write_text(f"# azimuth_{other}_deg: {0 if other == 'y' else 90}\n" + path.read_text())
+    assert rotated(read_motion(path), 0.0).acceleration == pytest.approx(WAVES[1])
 
 
 # -- what nobody meant ----------------------------------------------------------------------------------------------

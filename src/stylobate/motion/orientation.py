@@ -36,18 +36,26 @@ def rotated(motion: Motion, azimuth: float) -> Motion:
     Raises
     ------
     InputError
-        One horizontal component, or two that are nearly parallel.
+        One horizontal component, two that are nearly parallel, or two of which only one states its azimuth.
     """
     wanted = check_range("azimuth", azimuth, -360.0, 360.0, unit="degrees")
     x, y = _samples(motion)
     known = _azimuths(motion)
-    if known is None:
+    if known == (None, None):
         # As if x pointed north: turning the axes clockwise turns the motion from x towards y.
         c, s = _direction(wanted)
         text = f"turned as a whole by {wanted:g}° from x towards y (no azimuths are stated: counted from its own x)"
         return _with(motion, c * x - s * y, s * x + c * y, (wanted, wanted - 90.0), text)
+    if known[0] is None or known[1] is None:
+        axis, angle, other = ("x", known[0], "y") if known[1] is None else ("y", known[1], "x")
+        raise InputError(
+            f"{axis} of {motion.name!r} points to {angle:g}°, and where {other} points is not stated, as turning to an "
+            "azimuth needs; state it: `stylobate motion FILE --out DIR` writes the motion as CSV, add the line "
+            f"'# azimuth_{other}_deg: …' to it.",
+            "azimuth",
+        )
     wanted %= 360.0
-    (ca, sa), (cb, sb) = (_direction(one) for one in known)
+    (ca, sa), (cb, sb) = (_direction(one) for one in (known[0], known[1]))
     determinant = math.sin(math.radians(known[0] - known[1]))
     if abs(determinant) < 0.1:
         raise InputError(
@@ -84,7 +92,7 @@ def turned(motion: Motion, angle: float) -> Motion:
     x, y = _samples(motion)
     known = _azimuths(motion)
     text = f"turned by {angle:g}° from x towards y"
-    if known is None:
+    if known[0] is None or known[1] is None:
         return _with(motion, c * x + s * y, c * y - s * x, None, text)
     clockwise = math.cos(math.radians(known[1] - known[0] - 90.0)) > 0.0
     to = known[0] + (angle if clockwise else -angle)
@@ -180,10 +188,11 @@ def _direction(angle: float) -> tuple[float, float]:
     return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarters) % 4]
 
 
-def _azimuths(motion: Motion) -> tuple[float, float] | None:
+def _azimuths(motion: Motion) -> tuple[float | None, float | None]:
+    """Where x and y point [degrees], None where it is not stated."""
     azimuths = motion.metadata.get("azimuths")
     x, y = (azimuths.get("x"), azimuths.get("y")) if isinstance(azimuths, Mapping) else (None, None)
-    return None if x is None or y is None else (float(x), float(y))
+    return None if x is None else float(x), None if y is None else float(y)
 
 
 def _with(motion: Motion, x: np.ndarray, y: np.ndarray, azimuths: tuple[float, float] | None, text: str) -> Motion:
