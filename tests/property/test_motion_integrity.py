@@ -451,6 +451,34 @@ def test_the_direction_of_smc_is_that_of_its_text_and_of_its_integers(integers, 
             read(file)
 
 
+@pytest.mark.parametrize(
+    ("text", "code", "number", "azimuth"),
+    [
+        ("Other", "", 90, 90.0),
+        ("H1", "", 360, 0.0),
+        ("", "", 30, 30.0),
+        ("Other", "BNE", -999, 90.0),
+        ("Other", "", 0, None),
+    ],
+)
+def test_the_azimuth_of_cosmos_is_that_of_integer_54_where_text_and_code_state_none(text, code, number, azimuth, put):
+    whole = FORMATS["cosmos"][0].replace("340 deg", text).replace("| nothing", f"|<SCNL>ABC.{code}.CE.--")
+    lines = whole.splitlines(keepends=True)
+    lines[19] = lines[19][:24] + f"{number:8d}" + lines[19][32:]  # integers 51 to 60
+    assert read(put("".join(lines))).metadata["azimuths"] == {"x": azimuth}
+
+
+def test_an_azimuth_in_a_comment_is_that_of_the_name_of_the_column(put):
+    numbers = "time_s,N_g,E_g\n0,0.1,0.2\n0.01,-0.1,-0.2\n"
+    for wrong in ("# azimuth_x_deg: 90\n", "# azimuth_y_deg: 80\n"):
+        with pytest.raises(InputError, match=r"the column '[NE]' points to .*, the comment azimuth_._deg says .0°"):
+            read(put(wrong + numbers))
+    stated = "# azimuth_x_deg: 0.4\n# azimuth_y_deg: 90.4\n"
+    assert read(put(stated + numbers)).metadata["azimuths"] == {"x": 0.4, "y": 90.4}
+    upward = read(put(stated + numbers.replace("N_g,E_g", "ax_g,az_g")))
+    assert upward.metadata["azimuths"] == {"x": 0.4, "z": None}
+
+
 @pytest.mark.parametrize(("x", "y"), [(90.0, None), (None, 0.0)])
 def test_a_motion_of_which_one_azimuth_is_stated_is_not_turned_to_another(x, y, tmp_path):
     motion = Motion(DT, WAVES[0], WAVES[1], metadata={"azimuths": {"x": x, "y": y}})

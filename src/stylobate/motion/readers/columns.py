@@ -83,10 +83,11 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     if "sha256" in comments:
         _check_digest(components, comments["sha256"], source.name)
     history = _history(titles, source.name)
-    for axis, component in zip("xyz", components):
+    for component in components:
         component.history = history
+    for axis, component in zip("xy", (one for one in components if not one.vertical)):
         if f"azimuth_{axis}_deg" in comments:
-            component.azimuth = _comment_number(comments, f"azimuth_{axis}_deg", source.name)
+            _set_azimuth(component, axis, _comment_number(comments, f"azimuth_{axis}_deg", source.name), source.name)
     facts = {"format": "columns of text", "unit": unit_found, "stage": comments.get("stage")}
     facts |= {key: comments[key] for key in ("station", "network", "event", "start_time", "terms") if key in comments}
     if titles:
@@ -158,6 +159,17 @@ def _history(titles: list[str], file: str) -> list[str]:
             "on, in this order: fetch the file again, as a step that was done to the record may be lost."
         )
     return [match["step"] for match in found]
+
+
+def _set_azimuth(component: Component, axis: str, stated: float, file: str) -> None:
+    """The azimuth of a comment, which is that of the column's name where this has one."""
+    named = component.azimuth
+    if named is not None and abs((named - stated + 180.0) % 360.0 - 180.0) > 1.0:
+        raise InputError(
+            f"{file}: the column {component.label!r} points to {named:g}°, the comment azimuth_{axis}_deg says {stated:g}°; "
+            "keep the one that is right."
+        )
+    component.azimuth = stated
 
 
 def _comment_number(comments: dict[str, str], key: str, file: str) -> float:

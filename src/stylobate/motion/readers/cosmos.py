@@ -98,6 +98,8 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[tuple[Component, 
     _scale(component, block["unit"].strip(), reals, file, at)
     _check(component, text, reals, stage, file, start)
     component = oriented(component)
+    if component.azimuth is None and not component.vertical and 0 < integers[53] <= 360:
+        component.azimuth = float(integers[53]) % 360.0
     check_direction(component, float(integers[53]), file, start + 1)
     return (component, stage), end + 1
 
@@ -189,7 +191,7 @@ def _scale(component: Component, unit: str, reals: np.ndarray, file: str, line: 
 
 
 def _label(text: list[str], comments: list[str], integers: np.ndarray) -> str:
-    """Direction: the text's; else the channel code's last letter; else integer 54."""
+    """Direction: the text's; else the channel code's last letter; else that of integer 54."""
     stated = next((found["label"] for line in text if (found := _CHANNEL.match(line))), "")
     azimuth, vertical, _ = direction(stated)
     if azimuth is not None or vertical:
