@@ -113,6 +113,28 @@ def test_a_channel_is_vertical_by_its_code_and_its_dip_which_must_agree(put):
             read(put(mseed(put, north, wrong), "a.mseed"))
 
 
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_stationxml_files_that_contradict_one_another_or_give_volts_are_refused(put):
+    record = put(mseed(put), "a.mseed")
+    once = read(record)
+    mseed(put, name="again.xml")
+    assert read(record).digest == once.digest
+    mseed(put, name="0.xml", sensitivities=(2e5,))
+    with pytest.raises(
+        InputError, match=r"200000 COUNTS per M/S\*\*2, azimuth 90°, dip 0° in 0\.xml and as 100000 COUNTS"
+    ):
+        read(record)
+    assert read([record, record.with_name("ABC.xml")]).digest == once.digest
+    for xml in record.parent.glob("*.xml"):
+        xml.unlink()
+    mseed(put, sensitivities=(1e5, 2e5))  # two epochs at one time
+    with pytest.raises(InputError, match=r"in ABC\.xml and as 200000 COUNTS"):
+        read(record)
+    mseed(put, output="V", sensitivities=(0.25,))
+    with pytest.raises(InputError, match=r"the sensitivity of XX\.ABC\.\.HNE in V per M/S\*\*2; allowed is COUNTS"):
+        read(record)
+
+
 # -- cut files ------------------------------------------------------------------------------------------------------
 
 

@@ -20,6 +20,9 @@ from .source import Source
 #: StationXML files beside the record that are looked into.
 MAX_BESIDE, MAX_XML_BYTES = 50, 20_000_000
 
+#: How StationXML files spell the unit of samples.
+COUNTS = ("COUNT", "COUNTS", "DIGITAL COUNTS", "CT", "CTS")
+
 #: Longest record that is looked for [bytes].
 MAX_RECORD = 1 << 16
 
@@ -49,7 +52,8 @@ def read(source: Source, descriptions: Sequence[Source]) -> tuple[list[Component
     Raises
     ------
     InputError
-        ObsPy is missing, no description covers the channel, the channel does not measure acceleration, gaps.
+        ObsPy is missing, no description covers the channel, two contradict one another, the channel does not measure
+        acceleration, gaps.
     """
     obspy = obspy_for(f"{source.name} is miniSEED")
     try:
@@ -109,6 +113,12 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
         raise InputError(
             f"{file}: channel {trace.id} measures {unit or 'an unknown quantity'}, not M/S**2; give accelerations."
         )
+    counted = sensitivity.output_units or "no unit"
+    if counted.upper() not in COUNTS:
+        raise InputError(
+            f"{file}: the StationXML gives the sensitivity of {trace.id} in {counted} per M/S**2; allowed is COUNTS, as "
+            "samples are: give a StationXML with the sensitivity of sensor and recorder together."
+        )
     counts = np.asarray(trace.data, dtype=np.float64)
     zero = float(counts.mean())
     component = Component((counts - zero) / sensitivity.value, float(trace.stats.delta), trace.stats.channel)
@@ -136,15 +146,18 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
 
 
 def _channel(trace: Any, descriptions: Sequence[Source], file: str) -> tuple[Any, str]:
-    """Description of a trace's channel at its time, and the file it stands in."""
+    """Description of a trace's channel at its time, and the file it stands in; all that describe it must agree."""
     obspy = obspy_for(f"{file} is miniSEED")
     stats = trace.stats
+    found: list[tuple[Any, str]] = []
     for description in descriptions:
+        if stats.station.encode() not in description.data:
+            continue
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 inventory = obspy.read_inventory(io.BytesIO(description.data), format="STATIONXML")
-                found = inventory.select(
+                selected = inventory.select(
                     network=stats.network,
                     station=stats.station,
                     location=stats.location,
@@ -153,14 +166,32 @@ def _channel(trace: Any, descriptions: Sequence[Source], file: str) -> tuple[Any
                 )
         except Exception as error:  # as above
             raise InputError(f"{description.name} cannot be read as StationXML ({_one_line(error)}).") from None
-        for network in found:
-            for station in network:
-                for channel in station:
-                    return channel, description.name
-    raise InputError(
-        f"{file}: counts of {trace.id} without their sensitivity; put the station's StationXML beside the file, "
-        "or give both."
-    )
+        found += [
+            (channel, description.name) for network in selected for station in network for channel in station.channels
+        ]
+    if not found:
+        raise InputError(
+            f"{file}: counts of {trace.id} without their sensitivity; put the station's StationXML beside the file, "
+            "or give both."
+        )
+    first, name = found[0]
+    for other, where in found[1:]:
+        if _told(other) != _told(first):
+            raise InputError(
+                f"{file}: channel {trace.id} is described as {_told(first)} in {name} and as {_told(other)} in {where}, at "
+                "one time; keep the description that is right."
+            )
+    return first, name
+
+
+def _told(channel: Any) -> str:
+    """What turns the counts of a channel into a motion, in words."""
+    sensitivity = channel.response.instrument_sensitivity if channel.response else None
+    size = "no sensitivity"
+    if sensitivity is not None and sensitivity.value is not None:
+        size = f"{sensitivity.value:.6g} {sensitivity.output_units} per {sensitivity.input_units}"
+    azimuth, dip = ("?" if one is None else f"{one:g}°" for one in (channel.azimuth, channel.dip))
+    return f"{size}, azimuth {azimuth}, dip {dip}"
 
 
 def _beside(source: Source) -> list[Source]:
