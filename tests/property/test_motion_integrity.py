@@ -402,7 +402,7 @@ def test_a_series_of_several_numbers_to_a_line_with_a_short_last_row(put):
         ("N345,N 345,N15W,345 DEG", 345.0, 0.0),
         ("NORTH-SOUTH,N-S,NS,North,N,HNN,HGN,HLN,BNN,ENN,360 Deg,0 deg", 0.0, 0.0),
         ("EAST-WEST,E-W,EW,East,HNE,HGE,HLE,BNE,ENE,090", 90.0, 0.0),
-        ("N 5,-N,H1,HN1,L,Horiz. 1,Other,N Abutment 30 deg,400", None, 0.0),
+        ("N 5,-N,-S00E,-90,H1,HN1,L,Horiz. 1,Other,N Abutment 30 deg,400", None, 0.0),
     ],
 )
 def test_a_label_states_the_azimuth_or_that_the_component_is_vertical(labels, azimuth, sign):
@@ -499,6 +499,46 @@ def test_an_azimuth_in_a_comment_is_that_of_the_name_of_the_column(put):
     assert read(put(stated + numbers)).metadata["azimuths"] == {"x": 0.4, "y": 90.4}
     upward = read(put(stated + numbers.replace("N_g,E_g", "ax_g,az_g")))
     assert upward.metadata["azimuths"] == {"x": 0.4, "z": None}
+
+
+def test_a_unam_file_is_in_the_unit_that_it_states(put):
+    text = FORMATS["unam"][0]
+
+    def stating(unit):
+        return put(text.replace("FECHA DEL SISMO", f"UNIDADES DE LOS DATOS : {unit}\nFECHA DEL SISMO"))
+
+    assert read(stating("Gales (cm/s/s)")).digest == read(put(text)).digest
+    assert read(stating("mm/s/s")).acceleration == pytest.approx(WAVES[0] * 1e-3)
+    for odd in ("gal*10 (FACTOR 0.1)", "cuentas", "gal, factor 10"):
+        with pytest.raises(InputError, match="line 12: unit of acceleration is"):
+            read(stating(odd))
+    with pytest.raises(InputError, match=r"states the units 'gal \(m/s2\)'"):
+        read(stating("gal (m/s2)"))
+
+
+def test_unam_peaks_and_the_heading_of_the_columns_are_compared(put):
+    text = FORMATS["unam"][0]
+    peaks = [np.abs(WAVES[wave]).max() for wave in (0, 2, 1)]
+
+    def stating(*peaks):
+        line = "ACEL. MAX.(GAL), C1-C6, : /" + "/".join(f"{one:.2f}" for one in peaks) + "/"
+        return put(
+            text.replace("FECHA DEL SISMO", f"{line}\nACEL. MAX. C1-C6, EN LA MUESTRA : /1/2/3/\nFECHA DEL SISMO")
+        )
+
+    assert read(stating(*peaks)).digest == read(put(text)).digest
+    with pytest.raises(InputError, match="line 12: the header states a peak of"):
+        read(stating(peaks[0], 7.0 * peaks[1], peaks[2]))
+    with pytest.raises(InputError, match="the columns are named N90W V S00E, ORIENTACION C1-C6 states S00E V N90W"):
+        read(put(text.replace("   S00E      V       N90W", "   N90W      V       S00E")))
+
+
+@pytest.mark.parametrize("down", ["-V", "V;-", "V-"])
+def test_a_unam_channel_keeps_its_sign(down, put):
+    text = FORMATS["unam"][0]
+    assert np.array_equal(read(put(text.replace("/+V/", f"/{down}/"))).vertical, -read(put(text)).vertical)
+    with pytest.raises(InputError, match="ORIENTACION holds 'N90W;-'"):
+        read(put(text.replace("/N90W;+T/", "/N90W;-/")))
 
 
 @pytest.mark.parametrize(("x", "y"), [(90.0, None), (None, 0.0)])

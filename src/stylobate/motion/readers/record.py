@@ -57,6 +57,8 @@ def direction(label: str) -> tuple[float | None, bool, float]:
         return None, True, -minus if len(words) > 1 and words[1] in _DOWN and len(words[1]) > 1 else minus
     if words and words[0] in _UP | _DOWN:
         return None, True, -minus if words[0] in _DOWN else minus
+    if minus < 0.0 or re.match(r"-\s*\d", text):  # against a direction that is not vertical: whose, is not known
+        return None, False, 1.0
     if (found := _BEARING.search(text)) and float(found["angle"]) <= 90.0:
         angle = float(found["angle"])
         angle = angle if found["pole"] == "N" else 180.0 - angle

@@ -1,14 +1,15 @@
-"""Mexico's standard acceleration file (ASA) of the UNAM network: channels as columns in gal."""
+"""Mexico's standard acceleration file (ASA) of the UNAM network: channels as columns."""
 
 from __future__ import annotations
 
 import re
 
-from ...errors import InputError
-from .checks import check_length, check_step
+from ...errors import InputError, within
+from ..specs import acceleration_unit
+from .checks import CUT, check_length, check_peak, check_step
 from .keyed import is_numeric, keyed
 from .numbers import read_numbers
-from .record import Component, check_count, oriented
+from .record import Component, check_count, direction, oriented
 from .source import Source
 
 
@@ -21,7 +22,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
     """All channels and what the header says."""
     lines, file = source.lines, source.name
     header = keyed(lines[:160])
-    labels = _list(header, "orientacion c1-c6", file)
+    labels = [_label(text, file) for text in _list(header, "orientacion c1-c6", file)]
+    unit, size = _unit(header, file)
     steps = [
         _number(text, "INTERVALO DE MUESTREO", file) for text in _list(header, "intervalo de muestreo, c1-c6", file)
     ]
@@ -44,6 +46,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
     )
     if start is None:
         raise InputError(f"{file}, below line {last}: expected rows of {channels} accelerations; fetch the file again.")
+    _check_heading(lines[start - 1].split(), labels[:channels], file, start)
     count = check_count(max(counts[:channels]), file, header_line(header, "num. total de muestras"))
     table = read_numbers(
         lines[start:], start, file, f"rows of {channels} accelerations", count=channels * count
@@ -54,18 +57,55 @@ def read(source: Source) -> tuple[list[Component], dict]:
     components = []
     for i in range(channels):
         one = table[: check_count(counts[i], file, header_line(header, "num. total de muestras")), i]
-        components.append(oriented(Component(one * 0.01, steps[i], labels[i].split(";")[0].strip(" +"))))
+        components.append(oriented(Component(one * size, steps[i], labels[i])))
+    key = next((key for key in header if re.match(r"acel\.? *max\.? *\( *gal", key)), "")
+    for component, peak in zip(components, _channels(header, key) if key else []):
+        check_peak(component.values, peak, 0.01, file, header[key][1], wrong=0.1)  # may be of another base line
     text = {key: value for key, (value, _) in header.items()}
     return components, {
         "format": "UNAM ASA",
         "stage": "not stated",
-        "unit": "gal",
+        "unit": unit,
         "station": text.get("clave de la estacion") or None,
         "station_name": text.get("nombre de la estacion") or None,
         "network": "UNAM",
         "event": text.get("fecha del sismo [gmt]") or None,
         "start_time": text.get("hora de la primera muestra (gmt)") or None,
     }
+
+
+def _label(orientation: str, file: str) -> str:
+    """Direction of a channel out of ``S00E;+L``, ``+V`` or ``V;-``: bearing, and sense and axis of the sensor."""
+    bearing, _, sensor = (part.strip() for part in orientation.partition(";"))
+    if sensor != "-":
+        return bearing.strip(" +")
+    if not direction(bearing)[1]:
+        raise InputError(
+            f"{file}: ORIENTACION holds {orientation!r}, and whether the bearing counts the sign is not known; allowed is a "
+            "sign without an axis of a vertical channel only: convert the file to columns."
+        )
+    return f"{bearing};-"
+
+
+def _unit(header: dict[str, tuple[str, int]], file: str) -> tuple[str, float]:
+    """Unit of the samples, and its size in m/s²: gal, where the header states none."""
+    value, line = header.get("unidades de los datos", ("", 0))
+    words = re.findall(r"[^\s,;()\[\]]+", value.lower().replace("gales", "gal").replace("seg", "s")) or ["gal"]
+    with within(f"{file}, line {line}"):
+        found = [acceleration_unit(word) for word in words]
+    if len({size for _, size in found}) > 1:
+        raise InputError(f"{file}, line {line}: the header states the units {value!r}, of which one is right; {CUT}.")
+    return found[0]
+
+
+def _check_heading(words: list[str], labels: list[str], file: str, line: int) -> None:
+    """Directions above the columns are those of ORIENTACION, in its order."""
+    pairs = [(direction(word)[:2], direction(label)[:2]) for word, label in zip(words, labels)]
+    if len(words) == len(labels) and any(one != other and (None, False) not in (one, other) for one, other in pairs):
+        raise InputError(
+            f"{file}, line {line}: the columns are named {' '.join(words)}, ORIENTACION C1-C6 states {' '.join(labels)}; "
+            f"{CUT}."
+        )
 
 
 def header_line(header: dict[str, tuple[str, int]], key: str) -> int:
