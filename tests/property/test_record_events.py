@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from fuzz.record_files import esm
 
 import stylobate as st
+from stylobate.motion import write_csv
 from stylobate.motion.events import events_of, unknown_events
 from stylobate.motion.specs import parse_synthetic
 
@@ -27,12 +29,30 @@ def record(name, event=None, start_time=None, seconds=300.0):
         ((None, "2019-07-06T03:16:08Z"), (None, "2019-07-06T04:19:23Z"), False),
         (("Mainshock", "2016-10-30 06:40:18"), ("Aftershock", "2016-10-30 13:40:18"), False),
         ((None, None), (None, None), False),
+        # a sequence that goes by one name
+        (("CENTRAL_ITALY", "20160824_013600.000"), ("CENTRAL_ITALY", "20161030_064018.000"), False),
+        (("CENTRAL_ITALY", "20160824_013600.000"), ("CENTRAL_ITALY", "20160824_013610.000"), True),
         ((None, "2019-13-45T99:00:00Z"), (None, "2019-07-06T03:19:23Z"), False),
     ],
 )
 def test_records_of_one_earthquake(one, other, same):
     first, second = events_of([record("a", *one), record("b", *other)])
     assert (first == second) is same
+
+
+@pytest.mark.parametrize(("ids", "same"), [("AB", False), ("AA", True), (["A", None], True), ([None, None], True)])
+def test_records_of_other_numbers_of_the_event_are_of_other_earthquakes(ids, same, tmp_path):
+    """Both of one name and one day; the numbers stay with motions that were written and read again."""
+    motions = []
+    for k, number in enumerate(ids):
+        path = tmp_path / f"{k}.asc"
+        head = esm().replace("NETWORK", f"EVENT_ID: {number}\nNETWORK" if number else "NETWORK")
+        path.write_text(f"DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS: 20160824_0{k}3600.000\n{head}")
+        motions.append(st.read_motion(path))
+    again = [st.read_motion(write_csv(one, tmp_path / f"{k}.csv")) for k, one in enumerate(motions)]
+    for records in (motions, again):
+        first, second = events_of(records)
+        assert (first == second) is same
 
 
 def test_earthquakes_that_no_file_tells_are_named():

@@ -12,6 +12,9 @@ from .motion import Motion
 #: Records whose spans come within so much of one another are of one earthquake: waves take it to stations at 400 km [s].
 BETWEEN_STATIONS = 120.0
 
+#: Records that name one event and were taken further apart are of two: sequences go by one name [s].
+ONE_NAME = 86400.0
+
 #: Where a file states no zone of time, by so much its clock may differ from UTC either way [s].
 ZONES_APART = 14 * 3600.0
 
@@ -65,15 +68,21 @@ def span_of(motion: Motion) -> Span | None:
 def events_of(motions: Sequence[Motion]) -> list[int]:
     """A number for each record, the same for those of one earthquake, shape (N,).
 
-    Records are of one earthquake where their files name the same event, or where they were taken at the same time: at times
-    stated to the second, or else, where one of the two names no event, as far as their dates go.
+    Records are of one earthquake where their files give the same number of the event (``event_id``), or else the same name
+    and no dates more than a day apart; or where they were taken at the same time: at times stated to the second, or else,
+    where one of the two names no event, as far as their dates go.
     """
     names = [str(motion.metadata.get("event") or "") for motion in motions]
+    ids = [str(motion.metadata.get("event_id") or "") for motion in motions]
     spans = [span_of(motion) for motion in motions]
     numbers = list(range(len(motions)))
     for one in range(len(motions)):
         for other in range(one):
-            if names[one] == names[other] != "" or _meet(spans[one], spans[other], bool(names[one] and names[other])):
+            if ids[one] and ids[other]:
+                alike = ids[one] == ids[other]
+            else:
+                alike = names[one] == names[other] != "" and not _far(spans[one], spans[other])
+            if alike or _meet(spans[one], spans[other], bool(names[one] and names[other])):
                 old, new = numbers[one], numbers[other]
                 numbers = [new if number == old else number for number in numbers]
     return numbers
@@ -90,5 +99,14 @@ def _meet(one: Span | None, other: Span | None, named: bool) -> bool:
     """Whether two records were taken at one time."""
     if one is None or other is None or (named and not (one.exact and other.exact)):
         return False
-    apart = timedelta(seconds=BETWEEN_STATIONS)
-    return one.first <= other.last + apart and other.first <= one.last + apart
+    return _gap(one, other) <= BETWEEN_STATIONS
+
+
+def _far(one: Span | None, other: Span | None) -> bool:
+    """Whether two records that name one event were taken so far apart that they are of two."""
+    return one is not None and other is not None and _gap(one, other) > ONE_NAME
+
+
+def _gap(one: Span, other: Span) -> float:
+    """Time between the end of one span and the beginning of the other [s], negative where they meet."""
+    return max(one.first - other.last, other.first - one.last).total_seconds()

@@ -31,7 +31,7 @@ def write_csv(motion: Motion, path: str | Path) -> Path:
     azimuths = motion.metadata.get("azimuths") or {}
     notes = [f"# dt_s: {as_typed(motion.dt)}", f"# name: {_one_line(motion.name)}"]
     notes += [f"# azimuth_{axis}_deg: {as_typed(angle)}" for axis, angle in azimuths.items() if angle is not None]
-    for key in ("station", "network", "event", "start_time", "stage", "terms"):
+    for key in ("station", "network", "event", "event_id", "start_time", "stage", "terms"):
         if motion.metadata.get(key):
             notes.append(f"# {key}: {_one_line(str(motion.metadata[key]))}")
     as_written = Motion(motion.dt, *(motion.acceleration, motion.lateral, motion.vertical))

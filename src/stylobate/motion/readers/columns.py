@@ -89,7 +89,8 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
         if f"azimuth_{axis}_deg" in comments:
             _set_azimuth(component, axis, _comment_number(comments, f"azimuth_{axis}_deg", source.name), source.name)
     facts = {"format": "columns of text", "unit": unit_found, "stage": comments.get("stage")}
-    facts |= {key: comments[key] for key in ("station", "network", "event", "start_time", "terms") if key in comments}
+    told = ("station", "network", "event", "event_id", "start_time", "terms")
+    facts |= {key: comments[key] for key in told if key in comments}
     if titles:
         facts["header"] = tuple(titles[:MAX_TITLE_LINES])
     if time is not None and abs(time[0]) > 0.0:
@@ -99,7 +100,9 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
 
 def _free(titles: list[str]) -> list[str]:
     """Lines that may speak of the columns: not those of our own that say what was done."""
-    return [line for line in titles if not re.match(r"#\s*(processing \d+|name|event|station|terms)\s*:", line)]
+    return [
+        line for line in titles if not re.match(r"#\s*(processing \d+|name|event|event_id|station|terms)\s*:", line)
+    ]
 
 
 def _check(components: list[Component], said: Stated, file: str, first: int) -> None:
