@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.analysis.directions import direction_of
 from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.errors import LeftOutWarning
-from stylobate.motion import keep_axes, write_csv
+from stylobate.motion import keep_axes, read_motion, write_csv
 from stylobate.motion.orientation import record_of, rotated
 from stylobate.motion.specs import parse_angle
+from stylobate.report.shaking import axes_in_words
 
 WAVE = np.sin(np.linspace(0.0, 12.0, 201))
 
@@ -106,7 +108,7 @@ def test_every_record_in_every_direction_with_both_signs(record):
     assert reversed_.vertical == pytest.approx(first.vertical)  # turned by half a turn: the vertical stays upward
     assert turned.acceleration == pytest.approx(-first.lateral, abs=1e-12)
     assert turned.lateral == pytest.approx(first.acceleration, abs=1e-12)
-    assert [one.metadata["azimuths"]["x"] for one in found.motions] == [0.0, 0.0, 90.0, 90.0, 120.0, 120.0]
+    assert [one.metadata["azimuths"]["x"] for one in found.motions] == [0.0, 180.0, 90.0, 270.0, 120.0, 300.0]
     assert not st.MotionRequest(files=(record,)).several
     with pytest.raises(st.InputError, match="several motions are asked for"):
         st.MotionRequest(files=(record,), signs="both").motion()
@@ -139,6 +141,24 @@ def test_a_circle_of_azimuths_with_both_signs_is_told_to_be_computed_twice(recor
         st.MotionRequest(files=(record,), azimuths=azimuths, signs="both")
     st.MotionRequest(files=(record,), azimuths=azimuths)
     st.MotionRequest(files=(record,), azimuths=(0.0, 30.0, 60.0, 90.0, 120.0, 150.0), signs="both")
+
+
+@pytest.mark.parametrize("azimuths", [(), (30.0,)])
+def test_the_azimuths_of_a_reversed_motion_are_turned_with_it(azimuths, tmp_path):
+    """Written, read back and turned to north, both signs are one motion of the ground; rows tell the direction as before."""
+    path = tmp_path / "two.csv"
+    path.write_text("time_s,E_g,N_g\n0,0.1,0.02\n0.01,-0.3,0.08\n0.02,0.2,-0.1\n")
+    first, back = st.MotionRequest(files=(path,), azimuths=azimuths, signs="both").expand().motions
+    assert [direction_of(one)["reversed"] for one in (first, back)] == [False, True]
+    assert len({direction_of(one)["azimuth_deg"] for one in (first, back)}) == 1
+    north = [rotated(read_motion(write_csv(one, tmp_path / "a.csv")), 0.0) for one in (first, back)]
+    assert north[1].acceleration == pytest.approx(north[0].acceleration)
+    assert north[1].lateral == pytest.approx(north[0].lateral)
+    told = {**direction_of(back), "azimuths": back.metadata["azimuths"], "components": ["x"]}
+    assert axes_in_words(told) == f"x {back.metadata['azimuths']['x']:g}°"
+    assert axes_in_words(told | {"azimuths": {}}) == "x, reversed"
+    bare = st.MotionRequest(harmonic="1Hz,0.3g,2s", signs="both").expand().motions[1]
+    assert direction_of(bare) == {"azimuth_deg": None, "reversed": True}
 
 
 @pytest.mark.parametrize("azimuths", [(), (0.0, 45.0)])

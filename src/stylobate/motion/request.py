@@ -366,11 +366,15 @@ def _direction(motion: Motion, record: str) -> dict[str, Any]:
 
 
 def _reversed(motion: Motion, record: str) -> Motion:
+    """The motion turned by 180°, so that x and y point the other way; ``direction`` tells where x pointed before."""
     y = motion.y_samples
+    azimuths = dict(motion.metadata.get("azimuths") or {})
+    direction = {"azimuth": azimuths.get("x"), **_direction(motion, record), "reversed": True}
+    azimuths |= {axis: (azimuths[axis] + 180.0) % 360.0 for axis in "xy" if azimuths.get(axis) is not None}
     return motion.replace(
         ax=-motion.samples,
         ay=None if y is None else -y,
         name=f"{motion.name} reversed",
-        metadata={**motion.metadata, "direction": {**_direction(motion, record), "reversed": True}},
+        metadata={**motion.metadata, "direction": direction} | ({"azimuths": azimuths} if azimuths else {}),
         processing=(*motion.processing, "horizontal components reversed"),
     )

@@ -103,7 +103,7 @@ def motions_section(result: Result) -> Section:
     left_out = f" The first {MOST} of {len(motions)}." if len(motions) > MOST else ""
     body = [
         [
-            str(motion.get("name")), _axes(motion), _peaks(motion), n.plain(motion.get("factor")), _scales(motion),
+            str(motion.get("name")), axes_in_words(motion), _peaks(motion), n.plain(motion.get("factor")), _scales(motion),
             f"{float(motion['duration_s']):.2f}", f"{float(motion['dt_s']):.4g}", str(motion.get("digest", ""))[:DIGITS],
         ]
         for motion in motions[:MOST]
@@ -125,10 +125,13 @@ def motions_section(result: Result) -> Section:
     return Section("The ground motions" if len(motions) > 1 else "The ground motion", items)
 
 
-def _axes(motion: Mapping[str, Any]) -> str:
+def axes_in_words(motion: Mapping[str, Any]) -> str:
+    """Components of a motion with their azimuths [degrees]; that it is reversed, where the azimuths do not tell."""
     azimuths = motion.get("azimuths") or {}
     each = [axis if azimuths.get(axis) is None else f"{axis} {azimuths[axis]:g}°" for axis in motion["components"]]
-    return ", ".join(each) + (", reversed" if motion.get("reversed") else "")
+    x, before = azimuths.get("x"), motion.get("azimuth_deg")
+    told = x is not None and before is not None and round(x - before) % 360 == 180  # these are the azimuths as reversed
+    return ", ".join(each) + (", reversed" if motion.get("reversed") and not told else "")
 
 
 def _peaks(motion: Mapping[str, Any]) -> str:
