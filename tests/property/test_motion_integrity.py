@@ -541,6 +541,16 @@ def test_a_unam_channel_keeps_its_sign(down, put):
         read(put(text.replace("/N90W;+T/", "/N90W;-/")))
 
 
+@pytest.mark.parametrize("bearing", ["N10E", "N 10 E", "N 10.4 E", "n10e"])
+def test_a_bearing_in_several_words_is_read_to_its_end(bearing, put):
+    azimuth = 10.4 if "." in bearing else 10.0
+    for name, label in (("geonet", "N10E"), ("renadic", "NS"), ("smc", "65")):
+        text = FORMATS[name][0].replace(f"{65:10d}", f"{-32768:10d}")
+        file, changed = re.subn(rf"((?:Component|CHAN +1:|component=) *){label}", rf"\g<1>{bearing}", text, count=1)
+        assert changed == 1
+        assert read(put(file)).metadata["azimuths"]["x"] == pytest.approx(azimuth)
+
+
 @pytest.mark.parametrize(("x", "y"), [(90.0, None), (None, 0.0)])
 def test_a_motion_of_which_one_azimuth_is_stated_is_not_turned_to_another(x, y, tmp_path):
     motion = Motion(DT, WAVES[0], WAVES[1], metadata={"azimuths": {"x": x, "y": y}})

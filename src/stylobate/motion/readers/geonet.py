@@ -18,7 +18,7 @@ from .checks import (
     warn_of_missing,
 )
 from .numbers import NUMBER, read_numbers
-from .record import Component, check_count, check_direction, oriented
+from .record import LABEL, Component, check_count, check_direction, oriented
 from .source import Source
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 16, 4, 6
@@ -31,6 +31,7 @@ _POINTS = re.compile(
     rf"number\s+of\s+points\s+(?P<count>\d+)(?:\s+duration\s+(?P<length>{NUMBER})\s*s)?", re.IGNORECASE
 )
 _STEP = re.compile(rf"at\s+(?:intervals\s+of\s+)?(?P<step>{NUMBER})\s*s(?:ec)?(?:\s+intervals)?\s*$", re.IGNORECASE)
+_LABEL = re.compile(rf"component\s+(?P<label>{LABEL})", re.IGNORECASE)
 _START = re.compile(r"^\s*(un)?corrected\s+accelerogram", re.IGNORECASE)
 
 
@@ -85,8 +86,8 @@ def _component(lines: list[str], start: int, end: int, file: str) -> Component:
             break
     else:
         raise InputError(f"{file}, below line {start + 1}: the header states no unit, where mm/s/s is expected.")
-    stated = next((line for line in text if line.lower().startswith("component")), "")
-    component = Component(values * (size * factor), dt, " ".join(stated.split()[1:2]))
+    label = next((found["label"] for line in text if (found := _LABEL.match(line))), "")
+    component = Component(values * (size * factor), dt, label)
     component.metadata["unit"] = unit if factor == 1.0 else f"{factor:g} {unit}"
     for number, line in enumerate(text, start + 1):
         if found := _PEAK.search(line):

@@ -25,6 +25,8 @@ SMALLEST_PEAK = 1e-3
 LARGEST_VELOCITY = 10.0
 
 
+#: A label within a line: a bearing in one to three words, or a word.
+LABEL = r"(?:[NS]\s*\d[\d.]*\s*[EW]\b|\S+)"
 _ANGLE = r"(?P<angle>\d{1,3}(?:\.\d*)?)\s*(?:°|DEG\.?)?"
 #: ``N10.5E`` anywhere; ``N345`` and ``90 DEG`` at the beginning of a label.
 _BEARING = re.compile(rf"\b(?P<pole>[NS])\s*{_ANGLE}\s*(?P<side>[EW])\b")
@@ -263,4 +265,4 @@ def check_count(count: float | None, file: str, line: int, what: str = "samples"
     return int(count)
 
 
-__all__ = ["Component", "assemble", "check_count", "direction", "oriented", "resampled"]
+__all__ = ["LABEL", "Component", "assemble", "check_count", "direction", "oriented", "resampled"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from .checks import warn_of_missing
-from .record import Component, oriented
+from .record import LABEL, Component, oriented
 from .source import Source
 from .volume1 import channel_end, channels, check_stated_peak, header_ends, length, pairs, points, unit
 
@@ -49,5 +49,6 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
     component.values = component.values * size
     check_stated_peak(component, text, file, start)
     component.label = re.sub(r"^\W*(comp\w*|chan\w*|canal)\W*(\d+\W+)?", "", text[6].strip(), flags=re.IGNORECASE)
-    component.label = component.label.split()[0] if component.label.split() else ""
+    found = re.match(LABEL, component.label, re.IGNORECASE)
+    component.label = found.group() if found else ""
     return oriented(component), end + 1

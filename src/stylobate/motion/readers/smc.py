@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import InputError, OutOfRangeWarning, warn
 from .checks import CUT, LONGEST_STEP, check_peak, check_peak_time, check_step, rising_pairs
 from .numbers import read_numbers
-from .record import Component, check_count, direction, oriented
+from .record import LABEL, Component, check_count, direction, oriented
 from .source import Source
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 11, 6, 10
@@ -127,7 +127,7 @@ def _check_gaps(time: np.ndarray, file: str, start: int) -> None:
 
 def _label(from_vertical: int, azimuth: int, station: str, file: str) -> str:
     """Direction: integer 13 counts from the vertical (0 up, 180 down), integer 14 from north; else the text."""
-    found = re.search(r"component\s*=\s*(?P<label>\S+)", station, re.IGNORECASE)
+    found = re.search(rf"component\s*=\s*(?P<label>{LABEL})", station, re.IGNORECASE)
     text = found["label"] if found else ""
     known = from_vertical in (0, 90, 180)
     by_text = direction(text)
