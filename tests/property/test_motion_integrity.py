@@ -108,6 +108,8 @@ def test_a_channel_is_vertical_by_its_code_and_its_dip_which_must_agree(put):
         assert np.array_equal(motion.vertical, sign * motion.acceleration)
     with pytest.raises(InputError, match="only the vertical component 'HNZ'"):
         read(put(mseed(put, ("HNZ", 0.0, None)), "a.mseed"))
+    with pytest.raises(InputError, match=r"HN3 is inclined, with a Dip of -35°"):
+        read(put(mseed(put, north, ("HN3", 0.0, -35.0)), "a.mseed"))
     for wrong in (("HNZ", 0.0, 0.0), ("HNE", 90.0, -90.0)):
         with pytest.raises(InputError, match=rf"{wrong[0]} says that it is .*, the Dip in the StationXML is"):
             read(put(mseed(put, north, wrong), "a.mseed"))

@@ -100,9 +100,7 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
 
 def _free(titles: list[str]) -> list[str]:
     """Lines that may speak of the columns: not those of our own that say what was done."""
-    return [
-        line for line in titles if not re.match(r"#\s*(processing \d+|name|event|event_id|station|terms)\s*:", line)
-    ]
+    return [line for line in titles if not re.match(r"#\s*(processing \d+|name|event(_id)?|station|terms)\s*:", line)]
 
 
 def _check(components: list[Component], said: Stated, file: str, first: int) -> None:

@@ -20,6 +20,9 @@ from .source import Source
 #: StationXML files beside the record that are looked into.
 MAX_BESIDE, MAX_XML_BYTES = 50, 20_000_000
 
+#: Tilt of a channel from the horizontal or the vertical beyond which it is neither [degrees].
+MOST_TILTED = 15.0
+
 #: How StationXML files spell the unit of samples.
 COUNTS = ("COUNT", "COUNTS", "DIGITAL COUNTS", "CT", "CTS")
 
@@ -137,6 +140,11 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
                 "allowed is ±90 of a vertical and 0 of a horizontal channel: mend the one that is wrong."
             )
         component.vertical = abs(dip) > 45.0
+        if MOST_TILTED < abs(dip) < 90.0 - MOST_TILTED:
+            raise InputError(
+                f"{file}: channel {trace.id} is inclined, with a Dip of {dip:g}°; allowed is up to {MOST_TILTED:g}° from "
+                "the horizontal or the vertical: turn the three channels to north, east and up first."
+            )
     if dip is not None and dip > 45.0:  # SEED counts the dip downward
         component.values = -component.values
         component.processing.append("sign turned: the channel counts downward as positive, here upward is")

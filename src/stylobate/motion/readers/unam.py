@@ -89,7 +89,7 @@ def _label(orientation: str, file: str) -> str:
 
 def _unit(header: dict[str, tuple[str, int]], file: str) -> tuple[str, float]:
     """Unit of the samples, and its size in m/s²: gal, where the header states none."""
-    value, line = header.get("unidades de los datos", ("", 0))
+    value, line = next((one for key, one in header.items() if key.startswith("unidades de los datos")), ("", 0))
     words = re.findall(r"[^\s,;()\[\]]+", value.lower().replace("gales", "gal").replace("seg", "s")) or ["gal"]
     with within(f"{file}, line {line}"):
         found = [acceleration_unit(word) for word in words]
