@@ -27,6 +27,7 @@ from fuzz.record_files import (
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import Motion, read_motion, read_suite, write_csv
+from stylobate.motion.readers.component import UnstatedError
 from stylobate.motion.readers.numbers import read_numbers
 
 RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
@@ -324,11 +325,63 @@ def test_columns_named_in_a_comment_are_read_with_their_sense(put):
         ("# in gal\n# unit: g\n0 1\n0.1 -1\n", {}, "name different units"),
         ("# NPTS= 3\n0 1\n0.1 -1\n", {"unit": "g"}, "promise 3 samples, 2 are there"),
         ("# component: UP\n0 1\n0.1 -1\n", {"unit": "g"}, "only the vertical component"),
+        ("# dt: 0.1\n# sampling rate: 200\n1\n-1\n", {"unit": "g"}, "state steps of 0.1 and 0.005 s"),
+        ("# dt_s: 0.2\n0 1\n0.1 -1\n", {"unit": "g"}, "a step of 0.2 s and one of 0.1 s"),
+        ("# dt: 200 hz\n1\n-1\n", {"unit": "g"}, "a step or a rate that is not understood"),
+        ("# unit: g\n# dt: 0.1\n1\n-1\n# unit: gal\n1\n-1\n", {}, "line 5: '# unit: gal' stands among the numbers"),
+        ("# units: ms, g\n# time unit: s\n0 1\n0.1 -1\n", {}, "name ms and s as units of time"),
     ],
 )
 def test_comments_that_cannot_be_followed_are_refused_with_what_was_seen(text, options, said, put):
     with pytest.raises(InputError, match=said):
         read(put(text), **options)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        *("unit: % g", "unit: percent g", "Amplitude unit: 1e-3 g", "unit: milli g", "unit: thousandths of g"),
+        *("Units: g x 0.001", "Units: 1/100 g", "unit: 10^-2 m/s2", "unit: gal / 100", "Units: cm/s^2 times 10"),
+        *("values in g*1000", "Accelerations in g times 1000"),
+    ],
+)
+def test_some_times_a_unit_is_not_the_unit(line, put):
+    with pytest.raises(InputError, match="some times a unit, which is not understood"):
+        read(put(f"# {line}\ntime_s,ax\n0,1\n0.1,-1\n"))
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        *("Trigger level 0.01 (g)", "Sensor range in g: 2", "accelerogram EC8, ag = 0.36 [g]", "scaled to 0.36 (g)"),
+        *(
+            "unit of pga: g",
+            "Station: hospital in G. Papanikolaou street",
+            "trigger in gal = 5",
+            "converted from g (g)",
+        ),
+    ],
+)
+def test_the_unit_of_another_number_is_not_that_of_the_samples(line, put):
+    text = f"# {line}\ntime_s,ax\n0,1\n0.1,-1\n"
+    with pytest.raises(UnstatedError, match="states no unit"):
+        read(put(text))
+    assert read(put(text), unit="m/s2").pga == 1.0
+
+
+@pytest.mark.parametrize(
+    ("line", "step"),
+    [
+        ("dt: 5 ms", 0.005), ("sampling rate: 0.2 kHz", 0.005), ("sampling interval = 200 msec", 0.2),
+        ("dt (s): 0.01", 0.01), ("sampling rate (Hz): 100", 0.01), ("dt_s: 0.01", 0.01),
+    ],
+)  # fmt: skip
+def test_a_step_has_the_unit_that_stands_behind_it(line, step, put):
+    assert read(put(f"# {line}\n# unit: g\n1\n-1\n")).dt == pytest.approx(step)
+
+
+def test_times_have_the_unit_that_a_line_names(put):
+    assert read(put("# units: ms, g\ntime,ax\n0,1\n10,-1\n20,1\n")).dt == pytest.approx(0.01)
 
 
 def test_a_unit_in_a_comment_is_read(put):

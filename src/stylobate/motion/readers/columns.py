@@ -231,7 +231,7 @@ def _components(
         components.append(oriented(one))
     if timed is None:
         return components, None, ", ".join(dict.fromkeys(units))
-    scale = time_unit(names[timed].unit or "s")
+    scale = time_unit(names[timed].unit or said.time_unit or "s")
     assert scale is not None
     return components, _scaled(table[:, timed], scale), ", ".join(dict.fromkeys(units))
 
@@ -255,7 +255,7 @@ def _set_step(
         bad = int(np.flatnonzero(np.diff(time) <= 0.0)[0]) + 1
         raise InputError(f"{file}, line {first + bad + 1}: the time does not increase ({time[bad]:g} s); mend it.")
     if step is not None and "dt_s" in comments:
-        stated = _comment_number(comments, "dt_s", file)
+        stated = _comment_number(comments, "dt_s", file)  # in every digit, where times are rounded
         if abs(stated - step) * (len(time) - 1) <= ROUNDING_SHARE * step:
             step = stated
     for component in components:
