@@ -61,21 +61,31 @@ def warned(path, **options):
 # -- miniSEED -------------------------------------------------------------------------------------------------------
 
 
-def mseed(put):
-    """A miniSEED file made here, with a StationXML beside it."""
+COUNTS = np.round(1e5 * np.sin(np.arange(6000) * 0.05)).astype(np.int32)
+
+
+def mseed(put, *channels):
+    """A miniSEED file made here, with a StationXML of all its channels beside it.
+
+    Each channel is a code, station, location, start [s] and counts, of which the last ones may be left out.
+    """
     obspy = pytest.importorskip("obspy")
     from obspy.core.inventory import Channel, Inventory, Network, Response, Site, Station
     from obspy.core.inventory.response import InstrumentSensitivity
 
-    counts = np.round(1e5 * np.sin(np.arange(6000) * 0.05)).astype(np.int32)
-    trace = obspy.Trace(counts, {"network": "XX", "station": "ABC", "channel": "HNE", "sampling_rate": 100.0})
-    data = io.BytesIO()
-    obspy.Stream([trace]).write(data, format="MSEED", encoding="STEIM2", reclen=512)
-    response = Response(instrument_sensitivity=InstrumentSensitivity(1e5, 1.0, "M/S**2", "COUNTS"))
-    channel = Channel("HNE", "", 0.0, 0.0, 0.0, 0.0, azimuth=90.0, dip=0.0, sample_rate=100.0, response=response)
-    station = Station("ABC", 0.0, 0.0, 0.0, channels=[channel], site=Site("A Place"))
-    text = io.BytesIO()
-    Inventory([Network("XX", stations=[station])], source="test").write(text, format="STATIONXML")
+    stream, stations = obspy.Stream(), {}
+    for given in channels or (("HNE",),):
+        code, station, location, start, counts = (*given, *("", "ABC", "", 0.0, COUNTS)[len(given) :])
+        header = {"network": "XX", "station": station, "location": location, "channel": code, "sampling_rate": 100.0}
+        stream.append(obspy.Trace(counts, header | {"starttime": obspy.UTCDateTime(2019, 7, 6) + start}))
+        response = Response(instrument_sensitivity=InstrumentSensitivity(1e5, 1.0, "M/S**2", "COUNTS"))
+        turned = {"azimuth": {"N": 0.0}.get(code[-1], 90.0), "dip": -90.0 if code[-1] == "Z" else 0.0}
+        channel = Channel(code, location, 0.0, 0.0, 0.0, 0.0, **turned, sample_rate=100.0, response=response)
+        stations.setdefault(station, Station(station, 0.0, 0.0, 0.0, channels=[], site=Site("A Place")))
+        stations[station].channels.append(channel)
+    data, text = io.BytesIO(), io.BytesIO()
+    stream.write(data, format="MSEED", encoding="STEIM2", reclen=512)
+    Inventory([Network("XX", stations=list(stations.values()))], source="test").write(text, format="STATIONXML")
     put(text.getvalue(), "ABC.xml")
     return data.getvalue()
 
@@ -171,6 +181,17 @@ def geonet_v2():
         lines[19] = "".join(f"{int(one):8d}" for one in [*old[:3], COUNT, COUNT, COUNT, *old[6:]]) + "\n"
         found += "".join(lines[:26] + numbers * 3)
     return found
+
+
+@pytest.mark.parametrize("real62", [-999.0, 0.0])
+def test_cosmos_without_a_step_is_refused_whatever_its_length(real62, put):
+    text = (
+        FORMATS["cosmos"][0]
+        .replace(f"{10.0:15.6f}", f"{real62:15.6f}")
+        .replace(f"{COUNT * DT:15.6f}", f"{-999.0:15.6f}")
+    )
+    with pytest.raises(InputError, match=rf"states a step of {real62:g} ms \(real 62\), where one above 0 is expected"):
+        read(put(text.replace("approx  0 secs", "approx  1 secs")))
 
 
 def test_fewer_components_than_the_header_speaks_of_are_warned_about(put):
