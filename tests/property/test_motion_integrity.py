@@ -145,6 +145,32 @@ def test_a_gap_in_the_times_of_film_is_warned_about(put):
     assert "line 33: the time goes from" in warned(put("".join(lines[:32] + lines[33:])))
 
 
+def film(name, lost=0, later=0.0):
+    """Film of a channel without ``lost`` lines of five pairs after the second, and the rest ``later`` on the clock [s]."""
+    text = re.split(r"(?<=RECORD -------\n)|(?<=CHANNEL  1  ----------\n)", FORMATS[name][0])[0]
+    lines = text.splitlines(keepends=True)
+    first = next(k for k, line in enumerate(lines) if len(line) == 71 and line.count(".") == 10)
+    for k in range(first + 2, first + 5):
+        fields = re.findall(r".{7}", lines[k])
+        fields[::2] = [f"{float(time) + later:7.3f}" for time in fields[::2]]
+        lines[k] = "".join(fields) + "\n"
+    count, end = COUNT - 5 * lost, 0.23 + later
+    head = "".join(lines[: first + 2])
+    head = head.replace(f"POINTS = {COUNT}", f"POINTS = {count}").replace(f"{COUNT:5d}", f"{count:5d}")
+    head = re.sub(r"(LENGTH = +)0\.2[23]", rf"\g<1>{end:.2f}", head).replace(f"{0.22:10.3f}", f"{end:10.3f}")
+    return head + "".join(lines[first + 2 + lost :])
+
+
+@pytest.mark.parametrize("name", ["csmip_v1", "usc", "renadic"])
+def test_a_gap_in_film_of_every_network_is_seen(name, put):
+    assert "is missing" not in warned(put(film(name)))
+    assert "the time goes from" in warned(put(film(name, lost=1)))
+    with pytest.raises(InputError, match=r"line \d+: the time goes from .* a gap beyond the 0.2 s"):
+        read(put(film(name, later=5.0)))
+    with pytest.raises(InputError, match=r"line \d+: the time goes from .*, where it may not fall"):
+        read(put(film(name, later=-0.15)))
+
+
 def smc_v1(stray=0.8):
     """Ten lines of four times and accelerations each, and a stray line behind them."""
     text = FORMATS["smc"][0]

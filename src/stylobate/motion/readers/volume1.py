@@ -94,7 +94,7 @@ def pairs(
     numbers = read_numbers(
         lines[first:end], first, file, "pairs of time and acceleration", count=2 * count, width=width
     )
-    time, values = rising_pairs(numbers, file, first + 1)
+    time, values = rising_pairs(numbers, file, first, end - first)
     if total is not None and (stated := printed(total))[0] > 0.0:
         # Counted from zero or from the first sample, to the last one or a step further.
         slack = 2.0 * float(np.diff(time).max()) + stated[1]
