@@ -2,6 +2,7 @@
 
 import io
 import re
+import tracemalloc
 import warnings
 from pathlib import Path
 
@@ -88,6 +89,26 @@ def mseed(put, *channels):
     Inventory([Network("XX", stations=list(stations.values()))], source="test").write(text, format="STATIONXML")
     put(text.getvalue(), "ABC.xml")
     return data.getvalue()
+
+
+@pytest.mark.parametrize("order", ["EN", "NE", "ZNE"])
+def test_components_of_miniseed_stand_in_the_order_of_the_file(order, put):
+    path = put(mseed(put, *((f"HN{one}",) for one in order)), "a.mseed")
+    flat = [f"HN{one}" for one in order if one != "Z"]
+    motion = read(path)
+    assert [motion.metadata["labels"][axis] for axis in "xy"] == flat
+    assert read(path, component=1 + order.index("N")).metadata["labels"] == {"x": "HNN"}
+
+
+def test_a_gap_of_a_year_in_miniseed_is_refused_before_it_is_filled(put):
+    path = put(mseed(put, ("HNE",), ("HNE", "ABC", "", 366 * 86400.0)), "a.mseed")
+    tracemalloc.start()
+    try:
+        with pytest.raises(InputError, match=r"channel XX.ABC..HNE has a gap of 3.1622\d*e\+07 s from 2019-07-06"):
+            read(path)
+        assert tracemalloc.get_traced_memory()[1] < 20_000_000
+    finally:
+        tracemalloc.stop()
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
