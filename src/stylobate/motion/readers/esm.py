@@ -87,6 +87,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
         "station_name": facts.get("station name"),
         "network": facts.get("network"),
         "event": facts.get("event name") or facts.get("event id") or facts.get("earthquake name"),
+        "event_id": facts.get("event id"),
         "start_time": facts.get("date time first sample yyyymmdd hhmmss") or facts.get("time of first sample"),
         "terms": "; ".join(terms) or None,
     }
