@@ -82,7 +82,7 @@ def test_components_in_separate_files_make_one_motion(put):
     with pytest.raises(InputError, match="only the vertical"):
         read(put(up, "z"))
     with pytest.raises(InputError, match="more than one place's"):
-        read([put(esm(), "a"), put(esm(), "b"), put(north, "c")])
+        read([put(esm(), "a"), put(esm().replace("manual", "none"), "b"), put(north, "c")])
 
 
 def test_downward_components_are_turned_upward(put):

@@ -124,6 +124,188 @@ def test_damaged_miniseed_is_refused_with_what_obspy_says(put):
         read(put(bytes(middle), "flipped.mseed"))
 
 
+# -- one record -----------------------------------------------------------------------------------------------------
+
+REMEDY = "give the components of one record, or choose one by its number with `component='1'`"
+
+
+def table(names, *columns, first=0.0):
+    """Columns of text in m/s² at steps of 0.01 s, whose times begin at ``first`` [s]."""
+    rows = ("".join(f"{value:.4f} " for value in (first + DT * i, *row)) for i, row in enumerate(zip(*columns)))
+    return "\n".join([f"time_s {names}", *rows, ""])
+
+
+def esm_at(start, stream="HNE"):
+    """A file of ESM that says when it begins."""
+    return esm().replace("STREAM: HNE", f"STREAM: {stream}\nDATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS: {start}")
+
+
+@pytest.mark.parametrize(("start", "counts"), [(5.0, COUNTS[500:]), (0.5, COUNTS)])
+def test_components_of_miniseed_that_begin_at_different_times_are_cut_to_their_common_span(start, counts, put):
+    skip = round(start * 100)
+    path = put(mseed(put, ("HNE",), ("HNN", "ABC", "", start, counts)), "a.mseed")
+    motion = read(path)
+    kept = len(COUNTS) - skip
+    for found, wanted in ((motion.acceleration, COUNTS[skip:]), (motion.lateral, counts[:kept])):
+        assert np.ptp(found - wanted / 1e5) < 1e-12  # all but the zero level
+    assert motion.metadata["start_time"] == f"2019-07-06T00:00:0{start:.6f}Z"
+    note = f"cut to the common span of {kept} samples (x: 6000, y: {len(counts)}, y begins {start:g} s later)"
+    assert note in motion.processing
+    assert note in warned(path)
+
+
+def test_components_of_other_formats_that_begin_at_different_times_are_cut_as_well(put):
+    note = "cut to the common span of 20 samples (x: 23, y: 23, y begins 0.03 s later)"
+    columns = [put(table("N_m/s2", WAVES[0]), "n"), put(table("E_m/s2", WAVES[1], first=0.03), "e")]
+    files = [put(esm_at("20160824_013600.000"), "a"), put(esm_at("20160824_013600.030", "HNN"), "b")]
+    for paths, size in ((columns, (1.0, WAVES[1])), (files, (0.01, WAVES[0]))):
+        motion = read(paths)
+        assert motion.acceleration == pytest.approx(WAVES[0][3:] * size[0])
+        assert motion.lateral == pytest.approx(size[1][:20] * size[0])
+        assert note in motion.processing
+    assert motion.metadata["start_time"] == "20160824_013600.030"
+    three = csmip_v2().replace("05/02/83, 23:42:48 UTC", "05/02/83, 23:42:48.000 UTC")
+    at = three.rindex("23:42:48.000 UTC")
+    assert "y begins 0.05 s later" in warned(put(three[:at] + "23:42:48.050 UTC" + three[at + 16 :]))
+
+
+def test_less_than_half_a_sample_is_one_clock(put):
+    paths = [put(table("N_m/s2", WAVES[0]), "n"), put(table("E_m/s2", WAVES[1], first=0.004), "e")]
+    motion = read(paths)
+    assert motion.steps == COUNT
+    assert motion.processing == ()
+    zones = csmip_v2().replace("23:42:48 UTC", "16:42:48 PDT", 1)
+    assert "begins" not in warned(put(zones))
+
+
+@pytest.mark.parametrize(
+    ("start", "said"),
+    [
+        ("20161030_064018.000", "do not overlap, as they begin at 20160824_013600.000 and 20161030_064018.000"),
+        ("20160824_013600.230", "do not overlap"),
+        ("20160824_013600.1", r"begin at .*, which does not tell to half a sample \(0.005 s\)"),
+        ("20160824_013600.030 UTC", "does not tell to half a sample"),
+        ("this morning", "does not tell to half a sample"),
+    ],
+)
+def test_components_whose_times_do_not_go_together_are_refused(start, said, put):
+    paths = [put(esm_at("20160824_013600.000"), "a"), put(esm_at(start, "HNN"), "b")]
+    with pytest.raises(InputError, match=f"HNE of a and HNN of b .*{said}.*{re.escape(REMEDY)}"):
+        read(paths)
+    assert read(paths, component=2).metadata["start_time"] == start  # one alone is on no other's clock
+
+
+def test_columns_whose_times_do_not_overlap_are_refused(put):
+    paths = [put(table("N_m/s2", WAVES[0]), "n"), put(table("E_m/s2", WAVES[1], first=5.0), "e")]
+    with pytest.raises(InputError, match="do not overlap, as they begin at 0 s and 5 s"):
+        read(paths)
+
+
+@pytest.mark.parametrize(
+    ("channels", "said"),
+    [
+        ((("HNE",), ("HNN", "XYZ")), "HNE of a.mseed is of station 'ABC', HNN of a.mseed of 'XYZ'"),
+        ((("HNE",), ("HNZ", "XYZ")), "of station 'ABC', HNZ of a.mseed of 'XYZ'"),
+        ((("HNE",), ("HNN", "ABC", "10")), "of no stated location, HNN of a.mseed of '10'"),
+        ((("HNE",), ("BNE",)), "HNE of a.mseed points to 90°, BNE of a.mseed to 90°; allowed .* within 5°"),
+        ((("HNE",), ("HNN", "ABC", "", 180 * 86400.0)), "do not overlap"),
+    ],
+)
+def test_channels_of_several_records_in_one_miniseed_are_refused(channels, said, put):
+    path = put(mseed(put, *channels), "a.mseed")
+    with pytest.raises(InputError, match=f"{said}.*{re.escape(REMEDY)}"):
+        read(path)
+    assert read(path, component=1).metadata["station"] == "ABC"
+    if channels[1][1:2] == ("XYZ",):
+        assert read(path, component=2).metadata["station"] == "XYZ"
+
+
+def blocks(name):
+    """The channels of a file, each with its header."""
+    mark = {"csmip_v2": "Corrected accel", "geonet": "Uncorrected", "renadic": "UNCORRECTED", "bhrc": "* VOL1DS"}
+    found = re.split(f"(?={re.escape(mark.get(name, 'VOLUME I'))})", FORMATS[name][0])
+    return [part for part in found if part.strip()]
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "said"),
+    [
+        ("csmip_v2", "No. 12345", "No. 54321", "of station '12345', .* of '54321'"),
+        ("csmip_v2", "SMALL EARTHQUAKE", "OTHER EARTHQUAKE", "of event 'SMALL EARTHQUAKE', .* of 'OTHER EARTHQUAKE'"),
+        ("csmip_v2", "05/02/83, 23", "05/03/83, 23", "do not overlap"),
+        ("geonet", "Site ABC", "Site XYZ", "of station 'ABC', .* of 'XYZ'"),
+        ("geonet", "2016 November 13", "2017 November 13", "do not overlap"),
+        ("renadic", "VIÑA DEL MAR", "SANTIAGO", "of station 'VIÑA DEL MAR', .* of 'SANTIAGO'"),
+        ("renadic", "6:35:40.800", "6:45:40.800", "do not overlap"),
+        ("usc", "SMALL EARTHQUAKE  ", "OTHER EARTHQUAKE  ", "of event 'SMALL EARTHQUAKE', .* of 'OTHER"),
+        ("bhrc", "3333/01", "4444/01", "of station '3333', .* of '4444'"),
+    ],
+)
+def test_channels_of_several_records_in_one_file_are_refused(name, old, new, said, put):
+    *parts, last = blocks(name)
+    assert old in last
+    path = put("".join([*parts, last.replace(old, new)]))
+    with pytest.raises(InputError, match=f"{said}.*{re.escape(REMEDY)}"):
+        read(path)
+    assert read(path, component=len(parts) + 1).steps > 1
+
+
+def test_two_stations_one_behind_the_other_in_a_cosmos_file_are_refused(put):
+    one = FORMATS["cosmos"][0]
+    other = one.replace("CE-ABC", "CE-XYZ").replace("340 deg", "70 deg").replace("06:47:39", "06:47:59")
+    with pytest.raises(InputError, match=r"340 deg of .* is of station 'ABC', 70 deg of .* of 'XYZ'"):
+        read(put(one + other))
+    with pytest.raises(InputError, match="do not overlap"):
+        read(put(one + other.replace("CE-XYZ", "CE-ABC")))
+    with pytest.raises(InputError, match=r"points to 340°, 340 deg of .* to 340°"):
+        read(put(one + one))
+
+
+def test_files_of_two_earthquakes_are_refused(put):
+    north = esm().replace("HNE", "HNN").replace("EVENT_NAME: SMALL", "EVENT_NAME: SMALL\nEVENT_ID: 2")
+    with pytest.raises(InputError, match="of event '1', HNN of b of '2'"):
+        read([put(esm().replace("EVENT_NAME: SMALL", "EVENT_NAME: SMALL\nEVENT_ID: 1"), "a"), put(north, "b")])
+    west = knet().replace("N-S", "E-W").replace("2003/07/26", "2011/03/11")
+    with pytest.raises(InputError, match="of event '2003/07/26', E-W of b of '2011/03/11'"):
+        read([put(knet(), "a"), put(west, "b")])
+    with pytest.raises(InputError, match="of station 'ABC', N of n of none"):
+        read([put(esm(), "a"), put(table("N_m/s2", WAVES[1]), "n")])
+    peer = FORMATS["peer_nga"][0]
+    with pytest.raises(InputError, match="of event 'Small Quake-06', 320 of b of 'Large Quake'"):
+        read([put(peer, "a"), put(peer.replace("Small Quake-06", "Large Quake").replace(", 230", ", 320"), "b")])
+    with pytest.raises(
+        InputError, match="230 of a and 320 of b do not overlap, as they begin at 10/15/1979 and 10/16/1979"
+    ):
+        read([put(peer, "a"), put(peer.replace("10/15/", "10/16/").replace(", 230", ", 320"), "b")])
+    assert read([put(peer, "a"), put(peer.replace(", 230", ", 320"), "b")]).metadata["azimuths"] == {"x": 230, "y": 320}
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (("ax_m_s2", "ax_m_s2"), "x of a and x of b have one label"),
+        (("H1_m/s2", "H1_m/s2"), "H1 of a and H1 of b have one label"),
+        (("N_m/s2", "N_m/s2"), "N of a points to 0°, N of b to 0°"),
+        (("N_m/s2", "S_m/s2"), "N of a points to 0°, S of b to 180°"),
+        (("N_m/s2", "N84E_m/s2"), "N of a points to 0°, N84E of b to 84°"),
+    ],
+)
+def test_parallel_components_are_refused(names, said, put):
+    paths = [put(table(name, wave), file) for name, wave, file in zip(names, WAVES, "ab")]
+    with pytest.raises(InputError, match=f"{said}.*{re.escape(REMEDY)}"):
+        read(paths)
+
+
+def test_components_at_right_angles_and_without_a_direction_are_read(put):
+    for names in (("N_m/s2", "N85E_m/s2"), ("acc_m/s2", "acc_m/s2")):
+        motion = read([put(table(name, wave), file) for name, wave, file in zip(names, WAVES, "ab")])
+        assert motion.lateral == pytest.approx(WAVES[1])
+    bare = [put("".join(f"{DT * i:.2f} {value}\n" for i, value in enumerate(wave)), f"{wave[1]}") for wave in WAVES[:2]]
+    assert read(bare, unit="m/s2").lateral == pytest.approx(WAVES[1])
+    with pytest.raises(InputError, match="hold the same bytes; give each component once"):
+        read([bare[0], bare[0]], unit="m/s2")
+
+
 # -- cut files ------------------------------------------------------------------------------------------------------
 
 

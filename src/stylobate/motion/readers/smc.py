@@ -60,7 +60,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
         if stated % 2:
             raise InputError(f"{file}, line {TEXT_LINES + 3}: {stated} values are not pairs of time and acceleration.")
         time, values = rising_pairs(numbers, file, start, -(-stated // 8))
-        component = Component(values * 0.01, np.nan, time=time)
+        component = Component(values * 0.01, np.nan, time=time, first=float(time[0]))
     _check_peaks(component, reals, file, at + 6)
     if left_out:
         component.processing.append(f"{left_out} numbers beyond the {stated} that the header promises were left out")

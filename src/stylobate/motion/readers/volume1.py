@@ -104,7 +104,9 @@ def pairs(
                 f"length of {stated[0]:g} s; {CUT}."
             )
     step = step_of(time)
-    return Component(values, np.nan, time=time) if step is None else Component(values, step)
+    component = Component(values, np.nan, time=time) if step is None else Component(values, step)
+    component.first = float(time[0])
+    return component
 
 
 def check_stated_peak(component: Component, text: Sequence[str], file: str, first: int) -> None:
