@@ -68,6 +68,21 @@ def test_the_ends_of_a_hazard_curve_are_said(curve):
     assert "begins at 1 m/s" in late.warnings[0]
 
 
+def test_where_a_hazard_curve_begins_is_in_the_interval(curve):
+    """One power law, written from far below the fragility and from within it: what is left out is told and held."""
+    whole, late = (
+        risk(curve, Hazard(x, 1e-3 * x**-3.0, "m/s", name, "PGV"))
+        for x, name in ((np.geomspace(0.01, 30.0, 40), "whole"), (np.geomspace(0.8, 30.0, 40), "late"))
+    )
+    exact = 1e-3 * math.exp(-3.0 * curve.log_median + 4.5 * curve.beta**2)  # k₀ θ⁻ᵏ e^{k²β²/2}
+    assert whole.rate == pytest.approx(exact, rel=1e-3)
+    assert late.rate + late.weaker == pytest.approx(exact, rel=1e-3)
+    assert late.rate < 0.8 * exact
+    assert late.low < exact < late.high
+    assert [one for one in late.warnings if "begins at 0.8 m/s; weaker shaking" in one]
+    assert not [one for one in whole.warnings if "begins at" in one]
+
+
 def test_runs_that_the_curve_leaves_out_are_told_with_the_rate(curve):
     """The rate and its interval were told without a word of them."""
     codes = curve.evidence.codes.copy()
@@ -99,7 +114,7 @@ def test_the_interval_of_a_rate_holds_those_of_both_ends_of_open_runs(curve):
     assert found.low < 0.98 * alone.low
     assert found.high > 1.02 * alone.high
     nothing = risk(dataclasses.replace(told, ends=(None, None)), hazard)  # neither end makes a curve
-    assert (nothing.low, nothing.high) == (0.0, hazard.rate[0])
+    assert (nothing.low, nothing.high) == (0.0, math.inf)  # nor does anything limit what weaker shaking adds
 
 
 def test_survival(curve):

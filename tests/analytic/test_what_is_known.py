@@ -36,15 +36,28 @@ def test_known_capacities_have_the_intervals_of_student_and_of_chi_squared():
     # likelihood are a little wider on purpose, by what LARGER allows: t and σ are solved for from the larger drop.
     y = np.random.default_rng(3).normal(0.2, 0.4, 12)
     n, mean, s = len(y), y.mean(), y.std()
-    edge = region(y - 1e-6, y + 1e-6, n)
+    edge = region(y - 1e-6, y + 1e-6, np.ones(n), n)
     drop = LARGER * 0.5 * n * math.log1p(t.ppf(0.975, n - 1) ** 2 / (n - 1))
     half = s * math.sqrt(math.expm1(2.0 * drop / n))
     assert [edge[:, 0].min(), edge[:, 0].max()] == pytest.approx([mean - half, mean + half], abs=0.002 * half)
     ratio = chi2.ppf(0.025, n - 1) / n
     drop = LARGER * 0.5 * n * (ratio - 1.0 - math.log(ratio))
-    for limit in dispersions(y - 1e-6, y + 1e-6, n):
+    for limit in dispersions(y - 1e-6, y + 1e-6, np.ones(n), n):
         r = (s / limit) ** 2
         assert 0.5 * n * (r - 1.0 - math.log(r)) == pytest.approx(drop, rel=0.01)
+
+
+def test_twins_of_a_record_at_one_level_are_no_further_records():
+    """Each run twenty times over is the same information: intervals do not shrink; few records with most runs widen them."""
+    ends = ("median_low", "median_high", "beta_low", "beta_high")
+    once = runs(np.arange(12)[:, None] % 4 <= 3.0 * LEVELS)
+    many = once.only(np.repeat(np.arange(len(once.im)), 20))
+    one, twenty = (fragility(each, samples=200).summary() for each in (once, many))
+    assert [twenty[end] for end in ends] == pytest.approx([one[end] for end in ends], rel=0.02)
+    heavy = once.only(np.flatnonzero(np.isin(once.records, ["r00", "r01"]) | (once.im == LEVELS[2])))
+    found = fragility(heavy, samples=200)
+    assert found.equal_records < 0.7 * found.records
+    assert any("a few of its 12 records hold most of the runs" in one for one in found.warnings)
 
 
 def test_stripes_that_no_run_contradicts_tell_the_bracket():

@@ -35,6 +35,8 @@ def test_what_is_written_reads_back_as_scaled(folder, tmp_path, capsys):
     assert call(again) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["mean_g"] == pytest.approx(told["mean_g"], rel=1e-6)
+    assert call([*asked, "--condition", "pgv=0.3m/s"]) == 2
+    assert "--condition pgv=0.3m/s scales every record before it is chosen" in capsys.readouterr().err
     # a second choice into the same folder would leave files of the first among its own
     assert call([*asked[:5], "2", *asked[6:], "--out", str(out)]) == 2
     assert "choose another folder" in capsys.readouterr().err

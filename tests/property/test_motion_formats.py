@@ -82,7 +82,7 @@ def test_components_in_separate_files_make_one_motion(put):
     with pytest.raises(InputError, match="only the vertical"):
         read(put(up, "z"))
     with pytest.raises(InputError, match="more than one place's"):
-        read([put(esm(), "a"), put(esm(), "b"), put(north, "c")])
+        read([put(esm(), "a"), put(esm().replace("manual", "none"), "b"), put(north, "c")])
 
 
 def test_downward_components_are_turned_upward(put):
@@ -128,7 +128,7 @@ def test_azimuth_that_the_file_does_not_know(put):
         ("unam", "/23/23/23/", "/23/23/2x/", "where a number is expected"),
         ("bhrc", "DURATION =   0.230", "nothing", "length of the record"),
         ("csmip_v1", "G/10.", "LBS.", "no unit of acceleration"),
-        ("csmip_v1", "99.911", " 0.000", "time falls"),
+        ("csmip_v1", "99.911", " 0.000", "where it may not fall"),
         ("csmip_v2", "(units: cm/sec/sec)", "(units: lbs)", "no unit of acceleration"),
         ("geonet", "units of 2.00 mm/s/s", "units of 2.00 lbs", "unit of acceleration"),
     ],

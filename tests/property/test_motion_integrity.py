@@ -2,6 +2,7 @@
 
 import io
 import re
+import tracemalloc
 import warnings
 from pathlib import Path
 
@@ -27,6 +28,7 @@ from fuzz.record_files import (
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import Motion, read_motion, read_suite, rotated, turned, write_csv
+from stylobate.motion.readers.component import UnstatedError
 from stylobate.motion.readers.numbers import read_numbers
 from stylobate.motion.readers.record import direction
 
@@ -61,28 +63,56 @@ def warned(path, **options):
 # -- miniSEED -------------------------------------------------------------------------------------------------------
 
 
-def mseed(put, *channels, name="ABC.xml", sensitivities=(1e5,), output="COUNTS"):
-    """A miniSEED file made here, with a StationXML beside it: codes with azimuths and dips, an epoch for a sensitivity."""
+COUNTS = np.round(1e5 * np.sin(np.arange(6000) * 0.05)).astype(np.int32)
+
+
+def mseed(put, *channels, dips=None, name="ABC.xml", sensitivities=(1e5,), output="COUNTS"):
+    """A miniSEED file made here, with a StationXML of all its channels beside it.
+
+    Each channel is a code, station, location, start [s] and counts, of which the last ones may be left out. ``dips`` of
+    codes [degrees] are those of their letters otherwise; each of ``sensitivities`` is an epoch of its own.
+    """
     obspy = pytest.importorskip("obspy")
     from obspy.core.inventory import Channel, Inventory, Network, Response, Site, Station
     from obspy.core.inventory.response import InstrumentSensitivity
 
-    counts = np.round(1e5 * np.sin(np.arange(6000) * 0.05)).astype(np.int32)
-    channels = channels or (("HNE", 90.0, 0.0),)
-    about = {"network": "XX", "station": "ABC", "sampling_rate": 100.0}
+    stream, stations = obspy.Stream(), {}
+    for given in channels or (("HNE",),):
+        code, station, location, start, counts = (*given, *("", "ABC", "", 0.0, COUNTS)[len(given) :])
+        header = {"network": "XX", "station": station, "location": location, "channel": code, "sampling_rate": 100.0}
+        stream.append(obspy.Trace(counts, header | {"starttime": obspy.UTCDateTime(2019, 7, 6) + start}))
+        dip = (dips or {}).get(code, -90.0 if code[-1] == "Z" else 0.0)
+        turned = {"azimuth": {"N": 0.0}.get(code[-1], 90.0), "dip": dip}
+        stations.setdefault(station, Station(station, 0.0, 0.0, 0.0, channels=[], site=Site("A Place")))
+        for size in sensitivities:
+            response = Response(instrument_sensitivity=InstrumentSensitivity(size, 1.0, "M/S**2", output))
+            channel = Channel(code, location, 0.0, 0.0, 0.0, 0.0, **turned, sample_rate=100.0, response=response)
+            stations[station].channels.append(channel)
     data, text = io.BytesIO(), io.BytesIO()
-    traces = [obspy.Trace(counts, about | {"channel": code}) for code, *_ in channels]
-    obspy.Stream(traces).write(data, format="MSEED", encoding="STEIM2", reclen=512)
-    described = [
-        Channel(code, "", 0.0, 0.0, 0.0, 0.0, azimuth=azimuth, dip=dip, sample_rate=100.0,
-                response=Response(instrument_sensitivity=InstrumentSensitivity(size, 1.0, "M/S**2", output)))
-        for code, azimuth, dip in channels
-        for size in sensitivities
-    ]  # fmt: skip
-    station = Station("ABC", 0.0, 0.0, 0.0, channels=described, site=Site("A Place"))
-    Inventory([Network("XX", stations=[station])], source="test").write(text, format="STATIONXML")
+    stream.write(data, format="MSEED", encoding="STEIM2", reclen=512)
+    Inventory([Network("XX", stations=list(stations.values()))], source="test").write(text, format="STATIONXML")
     put(text.getvalue(), name)
     return data.getvalue()
+
+
+@pytest.mark.parametrize("order", ["EN", "NE", "ZNE"])
+def test_components_of_miniseed_stand_in_the_order_of_the_file(order, put):
+    path = put(mseed(put, *((f"HN{one}",) for one in order)), "a.mseed")
+    flat = [f"HN{one}" for one in order if one != "Z"]
+    motion = read(path)
+    assert [motion.metadata["labels"][axis] for axis in "xy"] == flat
+    assert read(path, component=1 + order.index("N")).metadata["labels"] == {"x": "HNN"}
+
+
+def test_a_gap_of_a_year_in_miniseed_is_refused_before_it_is_filled(put):
+    path = put(mseed(put, ("HNE",), ("HNE", "ABC", "", 366 * 86400.0)), "a.mseed")
+    tracemalloc.start()
+    try:
+        with pytest.raises(InputError, match=r"channel XX.ABC..HNE has a gap of 3.1622\d*e\+07 s from 2019-07-06"):
+            read(path)
+        assert tracemalloc.get_traced_memory()[1] < 20_000_000
+    finally:
+        tracemalloc.stop()
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
@@ -100,19 +130,18 @@ def test_damaged_miniseed_is_refused_with_what_obspy_says(put):
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_channel_is_vertical_by_its_code_and_its_dip_which_must_agree(put):
-    north = ("HNN", 0.0, 0.0)
-    for up, sign in ((("HNZ", 0.0, None), 1.0), (("HNZ", 0.0, -90.0), 1.0), (("HNZ", 0.0, 90.0), -1.0)):
-        motion = read(put(mseed(put, north, up), "a.mseed"))
+    for dip, sign in ((None, 1.0), (-90.0, 1.0), (90.0, -1.0)):
+        motion = read(put(mseed(put, ("HNN",), ("HNZ",), dips={"HNZ": dip}), "a.mseed"))
         assert list(motion.components) == ["x", "z"]
         assert motion.metadata["azimuths"] == {"x": 0.0, "z": None}
         assert np.array_equal(motion.vertical, sign * motion.acceleration)
     with pytest.raises(InputError, match="only the vertical component 'HNZ'"):
-        read(put(mseed(put, ("HNZ", 0.0, None)), "a.mseed"))
+        read(put(mseed(put, ("HNZ",), dips={"HNZ": None}), "a.mseed"))
     with pytest.raises(InputError, match=r"HN3 is inclined, with a Dip of -35°"):
-        read(put(mseed(put, north, ("HN3", 0.0, -35.0)), "a.mseed"))
-    for wrong in (("HNZ", 0.0, 0.0), ("HNE", 90.0, -90.0)):
-        with pytest.raises(InputError, match=rf"{wrong[0]} says that it is .*, the Dip in the StationXML is"):
-            read(put(mseed(put, north, wrong), "a.mseed"))
+        read(put(mseed(put, ("HNN",), ("HN3",), dips={"HN3": -35.0}), "a.mseed"))
+    for code, dip in (("HNZ", 0.0), ("HNE", -90.0)):
+        with pytest.raises(InputError, match=rf"{code} says that it is .*, the Dip in the StationXML is"):
+            read(put(mseed(put, ("HNN",), (code,), dips={code: dip}), "a.mseed"))
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
@@ -135,6 +164,188 @@ def test_stationxml_files_that_contradict_one_another_or_give_volts_are_refused(
     mseed(put, output="V", sensitivities=(0.25,))
     with pytest.raises(InputError, match=r"the sensitivity of XX\.ABC\.\.HNE in V per M/S\*\*2; allowed is COUNTS"):
         read(record)
+
+
+# -- one record -----------------------------------------------------------------------------------------------------
+
+REMEDY = "give the components of one record, or choose one by its number with `component='1'`"
+
+
+def table(names, *columns, first=0.0):
+    """Columns of text in m/s² at steps of 0.01 s, whose times begin at ``first`` [s]."""
+    rows = ("".join(f"{value:.4f} " for value in (first + DT * i, *row)) for i, row in enumerate(zip(*columns)))
+    return "\n".join([f"time_s {names}", *rows, ""])
+
+
+def esm_at(start, stream="HNE"):
+    """A file of ESM that says when it begins."""
+    return esm().replace("STREAM: HNE", f"STREAM: {stream}\nDATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS: {start}")
+
+
+@pytest.mark.parametrize(("start", "counts"), [(5.0, COUNTS[500:]), (0.5, COUNTS)])
+def test_components_of_miniseed_that_begin_at_different_times_are_cut_to_their_common_span(start, counts, put):
+    skip = round(start * 100)
+    path = put(mseed(put, ("HNE",), ("HNN", "ABC", "", start, counts)), "a.mseed")
+    motion = read(path)
+    kept = len(COUNTS) - skip
+    for found, wanted in ((motion.acceleration, COUNTS[skip:]), (motion.lateral, counts[:kept])):
+        assert np.ptp(found - wanted / 1e5) < 1e-12  # all but the zero level
+    assert motion.metadata["start_time"] == f"2019-07-06T00:00:0{start:.6f}Z"
+    note = f"cut to the common span of {kept} samples (x: 6000, y: {len(counts)}, y begins {start:g} s later)"
+    assert note in motion.processing
+    assert note in warned(path)
+
+
+def test_components_of_other_formats_that_begin_at_different_times_are_cut_as_well(put):
+    note = "cut to the common span of 20 samples (x: 23, y: 23, y begins 0.03 s later)"
+    columns = [put(table("N_m/s2", WAVES[0]), "n"), put(table("E_m/s2", WAVES[1], first=0.03), "e")]
+    files = [put(esm_at("20160824_013600.000"), "a"), put(esm_at("20160824_013600.030", "HNN"), "b")]
+    for paths, size in ((columns, (1.0, WAVES[1])), (files, (0.01, WAVES[0]))):
+        motion = read(paths)
+        assert motion.acceleration == pytest.approx(WAVES[0][3:] * size[0])
+        assert motion.lateral == pytest.approx(size[1][:20] * size[0])
+        assert note in motion.processing
+    assert motion.metadata["start_time"] == "20160824_013600.030"
+    three = csmip_v2().replace("05/02/83, 23:42:48 UTC", "05/02/83, 23:42:48.000 UTC")
+    at = three.rindex("23:42:48.000 UTC")
+    assert "y begins 0.05 s later" in warned(put(three[:at] + "23:42:48.050 UTC" + three[at + 16 :]))
+
+
+def test_less_than_half_a_sample_is_one_clock(put):
+    paths = [put(table("N_m/s2", WAVES[0]), "n"), put(table("E_m/s2", WAVES[1], first=0.004), "e")]
+    motion = read(paths)
+    assert motion.steps == COUNT
+    assert motion.processing == ()
+    zones = csmip_v2().replace("23:42:48 UTC", "16:42:48 PDT", 1)
+    assert "begins" not in warned(put(zones))
+
+
+@pytest.mark.parametrize(
+    ("start", "said"),
+    [
+        ("20161030_064018.000", "do not overlap, as they begin at 20160824_013600.000 and 20161030_064018.000"),
+        ("20160824_013600.230", "do not overlap"),
+        ("20160824_013600.1", r"begin at .*, which does not tell to half a sample \(0.005 s\)"),
+        ("20160824_013600.030 UTC", "does not tell to half a sample"),
+        ("this morning", "does not tell to half a sample"),
+    ],
+)
+def test_components_whose_times_do_not_go_together_are_refused(start, said, put):
+    paths = [put(esm_at("20160824_013600.000"), "a"), put(esm_at(start, "HNN"), "b")]
+    with pytest.raises(InputError, match=f"HNE of a and HNN of b .*{said}.*{re.escape(REMEDY)}"):
+        read(paths)
+    assert read(paths, component=2).metadata["start_time"] == start  # one alone is on no other's clock
+
+
+def test_columns_whose_times_do_not_overlap_are_refused(put):
+    paths = [put(table("N_m/s2", WAVES[0]), "n"), put(table("E_m/s2", WAVES[1], first=5.0), "e")]
+    with pytest.raises(InputError, match="do not overlap, as they begin at 0 s and 5 s"):
+        read(paths)
+
+
+@pytest.mark.parametrize(
+    ("channels", "said"),
+    [
+        ((("HNE",), ("HNN", "XYZ")), "HNE of a.mseed is of station 'ABC', HNN of a.mseed of 'XYZ'"),
+        ((("HNE",), ("HNZ", "XYZ")), "of station 'ABC', HNZ of a.mseed of 'XYZ'"),
+        ((("HNE",), ("HNN", "ABC", "10")), "of no stated location, HNN of a.mseed of '10'"),
+        ((("HNE",), ("BNE",)), "HNE of a.mseed points to 90°, BNE of a.mseed to 90°; allowed .* within 5°"),
+        ((("HNE",), ("HNN", "ABC", "", 180 * 86400.0)), "do not overlap"),
+    ],
+)
+def test_channels_of_several_records_in_one_miniseed_are_refused(channels, said, put):
+    path = put(mseed(put, *channels), "a.mseed")
+    with pytest.raises(InputError, match=f"{said}.*{re.escape(REMEDY)}"):
+        read(path)
+    assert read(path, component=1).metadata["station"] == "ABC"
+    if channels[1][1:2] == ("XYZ",):
+        assert read(path, component=2).metadata["station"] == "XYZ"
+
+
+def blocks(name):
+    """The channels of a file, each with its header."""
+    mark = {"csmip_v2": "Corrected accel", "geonet": "Uncorrected", "renadic": "UNCORRECTED", "bhrc": "* VOL1DS"}
+    found = re.split(f"(?={re.escape(mark.get(name, 'VOLUME I'))})", FORMATS[name][0])
+    return [part for part in found if part.strip()]
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "said"),
+    [
+        ("csmip_v2", "No. 12345", "No. 54321", "of station '12345', .* of '54321'"),
+        ("csmip_v2", "SMALL EARTHQUAKE", "OTHER EARTHQUAKE", "of event 'SMALL EARTHQUAKE', .* of 'OTHER EARTHQUAKE'"),
+        ("csmip_v2", "05/02/83, 23", "05/03/83, 23", "do not overlap"),
+        ("geonet", "Site ABC", "Site XYZ", "of station 'ABC', .* of 'XYZ'"),
+        ("geonet", "2016 November 13", "2017 November 13", "do not overlap"),
+        ("renadic", "VIÑA DEL MAR", "SANTIAGO", "of station 'VIÑA DEL MAR', .* of 'SANTIAGO'"),
+        ("renadic", "6:35:40.800", "6:45:40.800", "do not overlap"),
+        ("usc", "SMALL EARTHQUAKE  ", "OTHER EARTHQUAKE  ", "of event 'SMALL EARTHQUAKE', .* of 'OTHER"),
+        ("bhrc", "3333/01", "4444/01", "of station '3333', .* of '4444'"),
+    ],
+)
+def test_channels_of_several_records_in_one_file_are_refused(name, old, new, said, put):
+    *parts, last = blocks(name)
+    assert old in last
+    path = put("".join([*parts, last.replace(old, new)]))
+    with pytest.raises(InputError, match=f"{said}.*{re.escape(REMEDY)}"):
+        read(path)
+    assert read(path, component=len(parts) + 1).steps > 1
+
+
+def test_two_stations_one_behind_the_other_in_a_cosmos_file_are_refused(put):
+    one = FORMATS["cosmos"][0]
+    other = one.replace("CE-ABC", "CE-XYZ").replace("340 deg", "70 deg").replace("06:47:39", "06:47:59")
+    with pytest.raises(InputError, match=r"340 deg of .* is of station 'ABC', 70 deg of .* of 'XYZ'"):
+        read(put(one + other))
+    with pytest.raises(InputError, match="do not overlap"):
+        read(put(one + other.replace("CE-XYZ", "CE-ABC")))
+    with pytest.raises(InputError, match=r"points to 340°, 340 deg of .* to 340°"):
+        read(put(one + one))
+
+
+def test_files_of_two_earthquakes_are_refused(put):
+    north = esm().replace("HNE", "HNN").replace("EVENT_NAME: SMALL", "EVENT_NAME: SMALL\nEVENT_ID: 2")
+    with pytest.raises(InputError, match="of event '1', HNN of b of '2'"):
+        read([put(esm().replace("EVENT_NAME: SMALL", "EVENT_NAME: SMALL\nEVENT_ID: 1"), "a"), put(north, "b")])
+    west = knet().replace("N-S", "E-W").replace("2003/07/26", "2011/03/11")
+    with pytest.raises(InputError, match="of event '2003/07/26', E-W of b of '2011/03/11'"):
+        read([put(knet(), "a"), put(west, "b")])
+    with pytest.raises(InputError, match="of station 'ABC', N of n of none"):
+        read([put(esm(), "a"), put(table("N_m/s2", WAVES[1]), "n")])
+    peer = FORMATS["peer_nga"][0]
+    with pytest.raises(InputError, match="of event 'Small Quake-06', 320 of b of 'Large Quake'"):
+        read([put(peer, "a"), put(peer.replace("Small Quake-06", "Large Quake").replace(", 230", ", 320"), "b")])
+    with pytest.raises(
+        InputError, match="230 of a and 320 of b do not overlap, as they begin at 10/15/1979 and 10/16/1979"
+    ):
+        read([put(peer, "a"), put(peer.replace("10/15/", "10/16/").replace(", 230", ", 320"), "b")])
+    assert read([put(peer, "a"), put(peer.replace(", 230", ", 320"), "b")]).metadata["azimuths"] == {"x": 230, "y": 320}
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        (("ax_m_s2", "ax_m_s2"), "x of a and x of b have one label"),
+        (("H1_m/s2", "H1_m/s2"), "H1 of a and H1 of b have one label"),
+        (("N_m/s2", "N_m/s2"), "N of a points to 0°, N of b to 0°"),
+        (("N_m/s2", "S_m/s2"), "N of a points to 0°, S of b to 180°"),
+        (("N_m/s2", "N84E_m/s2"), "N of a points to 0°, N84E of b to 84°"),
+    ],
+)
+def test_parallel_components_are_refused(names, said, put):
+    paths = [put(table(name, wave), file) for name, wave, file in zip(names, WAVES, "ab")]
+    with pytest.raises(InputError, match=f"{said}.*{re.escape(REMEDY)}"):
+        read(paths)
+
+
+def test_components_at_right_angles_and_without_a_direction_are_read(put):
+    for names in (("N_m/s2", "N85E_m/s2"), ("acc_m/s2", "acc_m/s2")):
+        motion = read([put(table(name, wave), file) for name, wave, file in zip(names, WAVES, "ab")])
+        assert motion.lateral == pytest.approx(WAVES[1])
+    bare = [put("".join(f"{DT * i:.2f} {value}\n" for i, value in enumerate(wave)), f"{wave[1]}") for wave in WAVES[:2]]
+    assert read(bare, unit="m/s2").lateral == pytest.approx(WAVES[1])
+    with pytest.raises(InputError, match="hold the same bytes; give each component once"):
+        read([bare[0], bare[0]], unit="m/s2")
 
 
 # -- cut files ------------------------------------------------------------------------------------------------------
@@ -179,6 +390,32 @@ def test_a_gap_in_the_times_of_film_is_warned_about(put):
     assert "line 33: the time goes from" in warned(put("".join(lines[:32] + lines[33:])))
 
 
+def film(name, lost=0, later=0.0):
+    """Film of a channel without ``lost`` lines of five pairs after the second, and the rest ``later`` on the clock [s]."""
+    text = re.split(r"(?<=RECORD -------\n)|(?<=CHANNEL  1  ----------\n)", FORMATS[name][0])[0]
+    lines = text.splitlines(keepends=True)
+    first = next(k for k, line in enumerate(lines) if len(line) == 71 and line.count(".") == 10)
+    for k in range(first + 2, first + 5):
+        fields = re.findall(r".{7}", lines[k])
+        fields[::2] = [f"{float(time) + later:7.3f}" for time in fields[::2]]
+        lines[k] = "".join(fields) + "\n"
+    count, end = COUNT - 5 * lost, 0.23 + later
+    head = "".join(lines[: first + 2])
+    head = head.replace(f"POINTS = {COUNT}", f"POINTS = {count}").replace(f"{COUNT:5d}", f"{count:5d}")
+    head = re.sub(r"(LENGTH = +)0\.2[23]", rf"\g<1>{end:.2f}", head).replace(f"{0.22:10.3f}", f"{end:10.3f}")
+    return head + "".join(lines[first + 2 + lost :])
+
+
+@pytest.mark.parametrize("name", ["csmip_v1", "usc", "renadic"])
+def test_a_gap_in_film_of_every_network_is_seen(name, put):
+    assert "is missing" not in warned(put(film(name)))
+    assert "the time goes from" in warned(put(film(name, lost=1)))
+    with pytest.raises(InputError, match=r"line \d+: the time goes from .* a gap beyond the 0.2 s"):
+        read(put(film(name, later=5.0)))
+    with pytest.raises(InputError, match=r"line \d+: the time goes from .*, where it may not fall"):
+        read(put(film(name, later=-0.15)))
+
+
 def smc_v1(stray=0.8):
     """Ten lines of four times and accelerations each, and a stray line behind them."""
     text = FORMATS["smc"][0]
@@ -215,6 +452,17 @@ def geonet_v2():
         lines[19] = "".join(f"{int(one):8d}" for one in [*old[:3], COUNT, COUNT, COUNT, *old[6:]]) + "\n"
         found += "".join(lines[:26] + numbers * 3)
     return found
+
+
+@pytest.mark.parametrize("real62", [-999.0, 0.0])
+def test_cosmos_without_a_step_is_refused_whatever_its_length(real62, put):
+    text = (
+        FORMATS["cosmos"][0]
+        .replace(f"{10.0:15.6f}", f"{real62:15.6f}")
+        .replace(f"{COUNT * DT:15.6f}", f"{-999.0:15.6f}")
+    )
+    with pytest.raises(InputError, match=rf"states a step of {real62:g} ms \(real 62\), where one above 0 is expected"):
+        read(put(text.replace("approx  0 secs", "approx  1 secs")))
 
 
 def test_fewer_components_than_the_header_speaks_of_are_warned_about(put):
@@ -369,11 +617,63 @@ def test_columns_named_in_a_comment_are_read_with_their_sense(put):
         ("# in gal\n# unit: g\n0 1\n0.1 -1\n", {}, "name different units"),
         ("# NPTS= 3\n0 1\n0.1 -1\n", {"unit": "g"}, "promise 3 samples, 2 are there"),
         ("# component: UP\n0 1\n0.1 -1\n", {"unit": "g"}, "only the vertical component"),
+        ("# dt: 0.1\n# sampling rate: 200\n1\n-1\n", {"unit": "g"}, "state steps of 0.1 and 0.005 s"),
+        ("# dt_s: 0.2\n0 1\n0.1 -1\n", {"unit": "g"}, "a step of 0.2 s and one of 0.1 s"),
+        ("# dt: 200 hz\n1\n-1\n", {"unit": "g"}, "a step or a rate that is not understood"),
+        ("# unit: g\n# dt: 0.1\n1\n-1\n# unit: gal\n1\n-1\n", {}, "line 5: '# unit: gal' stands among the numbers"),
+        ("# units: ms, g\n# time unit: s\n0 1\n0.1 -1\n", {}, "name ms and s as units of time"),
     ],
 )
 def test_comments_that_cannot_be_followed_are_refused_with_what_was_seen(text, options, said, put):
     with pytest.raises(InputError, match=said):
         read(put(text), **options)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        *("unit: % g", "unit: percent g", "Amplitude unit: 1e-3 g", "unit: milli g", "unit: thousandths of g"),
+        *("Units: g x 0.001", "Units: 1/100 g", "unit: 10^-2 m/s2", "unit: gal / 100", "Units: cm/s^2 times 10"),
+        *("values in g*1000", "Accelerations in g times 1000"),
+    ],
+)
+def test_some_times_a_unit_is_not_the_unit(line, put):
+    with pytest.raises(InputError, match="some times a unit, which is not understood"):
+        read(put(f"# {line}\ntime_s,ax\n0,1\n0.1,-1\n"))
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        *("Trigger level 0.01 (g)", "Sensor range in g: 2", "accelerogram EC8, ag = 0.36 [g]", "scaled to 0.36 (g)"),
+        *(
+            "unit of pga: g",
+            "Station: hospital in G. Papanikolaou street",
+            "trigger in gal = 5",
+            "converted from g (g)",
+        ),
+    ],
+)
+def test_the_unit_of_another_number_is_not_that_of_the_samples(line, put):
+    text = f"# {line}\ntime_s,ax\n0,1\n0.1,-1\n"
+    with pytest.raises(UnstatedError, match="states no unit"):
+        read(put(text))
+    assert read(put(text), unit="m/s2").pga == 1.0
+
+
+@pytest.mark.parametrize(
+    ("line", "step"),
+    [
+        ("dt: 5 ms", 0.005), ("sampling rate: 0.2 kHz", 0.005), ("sampling interval = 200 msec", 0.2),
+        ("dt (s): 0.01", 0.01), ("sampling rate (Hz): 100", 0.01), ("dt_s: 0.01", 0.01),
+    ],
+)  # fmt: skip
+def test_a_step_has_the_unit_that_stands_behind_it(line, step, put):
+    assert read(put(f"# {line}\n# unit: g\n1\n-1\n")).dt == pytest.approx(step)
+
+
+def test_times_have_the_unit_that_a_line_names(put):
+    assert read(put("# units: ms, g\ntime,ax\n0,1\n10,-1\n20,1\n")).dt == pytest.approx(0.01)
 
 
 def test_a_unit_in_a_comment_is_read(put):
@@ -550,7 +850,7 @@ def test_a_bearing_in_several_words_is_read_to_its_end(bearing, put):
         text = FORMATS[name][0].replace(f"{65:10d}", f"{-32768:10d}")
         file, changed = re.subn(rf"((?:Component|CHAN +1:|component=) *){label}", rf"\g<1>{bearing}", text, count=1)
         assert changed == 1
-        assert read(put(file)).metadata["azimuths"]["x"] == pytest.approx(azimuth)
+        assert read(put(file), component=1).metadata["azimuths"]["x"] == pytest.approx(azimuth)
 
 
 @pytest.mark.parametrize(("x", "y"), [(90.0, None), (None, 0.0)])

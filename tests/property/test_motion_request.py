@@ -13,6 +13,7 @@ from stylobate.errors import LeftOutWarning
 from stylobate.motion import keep_axes, read_motion, write_csv
 from stylobate.motion.orientation import record_of, rotated
 from stylobate.motion.specs import parse_angle
+from stylobate.motion.spectra import pseudo_acceleration
 from stylobate.report.shaking import axes_in_words
 
 WAVE = np.sin(np.linspace(0.0, 12.0, 201))
@@ -133,6 +134,20 @@ def test_all_components_and_the_strongest(record):
     alone = st.MotionRequest(files=(record,), component="2").motion()
     assert alone.lateral is None
     assert alone.acceleration == pytest.approx(second.acceleration, abs=1e-12)
+
+
+@pytest.mark.parametrize(("step", "size"), [("pgv=0.5m/s", lambda one: one.pgv / 0.5), ("sa=0.5s,0.4g", None)])
+def test_a_step_that_scales_keeps_what_directions_of_a_record_are_to_each_other(record, step, size):
+    azimuths = (0.0, 30.0, 90.0)
+    as_recorded = st.MotionRequest(files=(record,), azimuths=azimuths).expand().motions
+    found = st.MotionRequest(files=(record,), azimuths=azimuths, condition=("demean", step)).expand().motions
+    sizes = [size(one) if size else pseudo_acceleration(one, [0.5])[0] / (0.4 * st.g) for one in found]
+    assert max(sizes) == pytest.approx(1.0)
+    factors = [one.factor / before.factor for one, before in zip(found, as_recorded, strict=True)]
+    assert factors == pytest.approx([factors[0]] * 3)
+    assert sum("that of the strongest" in one.processing[-1] for one in found) == 3
+    (alone,) = st.MotionRequest(files=(record,), azimuths=azimuths[:1], condition=("demean", step)).expand().motions
+    assert alone.factor >= found[0].factor * (1.0 - 1e-12)
 
 
 @pytest.mark.parametrize("azimuths", [tuple(np.linspace(0.0, 330.0, 12)), (-90.0, 0.0, 90.0)])

@@ -59,9 +59,9 @@ def doubt(labels: Sequence[str], columns: Sequence[Structure], model: Model) -> 
 def reference(labels: Sequence[str], label: str) -> str:
     """The state that another one is compared with: a measure with the column as it stands today, all else with the first.
 
-    The column as it stands today is the last of the states that are no measure; where there is none, the first of all.
+    The column as it stands today is as found, or else as built; where there is none of the two, the first of all.
     """
-    today = [one for one in labels if one in NO_MEASURE]
+    today = [one for one in NO_MEASURE if one in labels]
     return today[-1] if today and label not in NO_MEASURE else labels[0]
 
 

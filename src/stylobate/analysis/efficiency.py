@@ -11,7 +11,7 @@ from ..motion.intensity_specs import KINDS, IntensityMeasure, parse_measure
 from . import lognormal
 from . import verdicts as v
 from .directions import peak_of
-from .evidence import evidence, intervals
+from .evidence import evidence, independent, intervals
 from .likelihood_region import dispersions
 from .limit_states import LimitState, parse_state
 
@@ -23,6 +23,9 @@ OTHERS = {"magnitude": False, "distance_km": True, "pgv_over_pga_s": True, "d5_9
 
 #: Fewest records from which a straight line says something.
 FEWEST = 5
+
+#: A dispersion so near, in its logarithm, to where the fit ends is at the end [-].
+CLOSE = 1e-6
 
 #: Responses below this share of the largest that stands are no rocking [-].
 ROCKS = 0.01
@@ -70,13 +73,13 @@ def which_tells_most(
         middle = math.log(best.beta[0])
         limits = [math.exp(2.0 * middle - float(np.quantile(samples, q))) for q in (0.975, 0.025)]
         number = len(np.unique(owner))
-        plausible = dispersions(low, high, number)
+        plausible = dispersions(low, high, *independent(low, high, owner, "records"))
         limits = [min(limits[0], plausible[0]), max(limits[1], plausible[1])]
         row: dict[str, Any] = {
             "measure": measure.name,
             "unit": measure.unit,
             "median": math.exp(best.log_median[0]),
-            "beta": float(best.beta[0]),
+            "beta": _seen(float(best.beta[0])),
             "beta_low": limits[0],
             "beta_high": limits[1],
             "sigma_ln_edp": _given(runs, measure, edp),
@@ -88,7 +91,12 @@ def which_tells_most(
         for other, logarithm in OTHERS.items():
             row[f"p_{other}"] = _p_value(runs, other, logarithm, np.unique(told.records)[known], capacity)
         rows.append(row)
-    return pandas.DataFrame(sorted(rows, key=lambda one: one["beta"]))
+    return pandas.DataFrame(sorted(rows, key=lambda one: (math.isnan(one["beta"]), one["beta"])))
+
+
+def _seen(beta: float) -> float:
+    """A dispersion; NaN where the fit ends at its least one: steps of its own levels show none, and it is not the best."""
+    return beta if beta > lognormal.BETAS[0] * (1.0 + CLOSE) else math.nan
 
 
 def _measures(runs: pandas.DataFrame) -> list[IntensityMeasure]:

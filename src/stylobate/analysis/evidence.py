@@ -358,6 +358,26 @@ def intervals(evidence: Evidence, codes: np.ndarray, method: str) -> tuple[np.nd
     return low[told], high[told], owner[first][told]
 
 
+def independent(low: np.ndarray, high: np.ndarray, owner: np.ndarray, method: str) -> tuple[np.ndarray, float]:
+    """How much each interval counts beside others of its record, shape (n,), and how many equal records all come to.
+
+    Runs of one record at one intensity, as of columns like one another, or capacities of one record, count as one together.
+    Records with more intensities than others are fewer than their number: (Σ m)²/Σ m² of them (Kish 1965), with m
+    intensities each.
+
+    Parameters
+    ----------
+    low, high, owner : array, shape (n,)
+    method : str
+        All as of :func:`intervals`.
+    """
+    place = np.where(np.isfinite(low), low, high) if method == "runs" else np.zeros(len(low))
+    _, cell, count = np.unique(np.stack((owner, place), axis=1), axis=0, return_inverse=True, return_counts=True)
+    weight = 1.0 / count[cell.ravel()]
+    each = np.bincount(np.unique(owner, return_inverse=True)[1], weight)
+    return weight, float(each.sum() ** 2 / (each**2).sum())
+
+
 def medians_by_law(evidence: Evidence, codes: np.ndarray, method: str) -> np.ndarray:
     """ln of the median capacity under each law of the joints, shape (laws,).
 

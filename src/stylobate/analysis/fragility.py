@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import InputError, check_choice, check_kind
 from . import likelihood_region, lognormal
-from .evidence import Evidence, intervals, medians_by_law
+from .evidence import Evidence, independent, intervals, medians_by_law
 from .evidence import evidence as evidence_of
 from .fragility_checks import check_bootstrap, check_number, check_shape
 from .fragility_curve import Fragility
@@ -87,7 +87,7 @@ def fragility(
     points = points_of(used, codes, how, both_ways=True)
     distance, p_value = goodness(used, how, points, log_median, beta, rng)
     found = _with_laws(Fragility(
-        used, how, log_median, beta, *_known(low, high, owner, samples, rng, confidence), (extremes[0], extremes[1]),
+        used, how, log_median, beta, *_known(low, high, owner, how, samples, rng, confidence), (extremes[0], extremes[1]),
         points, distance, p_value, confidence, records_are_one,
     ), rng)  # fmt: skip
     if (codes >= 0).all():
@@ -96,14 +96,21 @@ def fragility(
 
 
 def _known(
-    low: np.ndarray, high: np.ndarray, owner: np.ndarray, samples: int, rng: np.random.Generator, confidence: float
+    low: np.ndarray,
+    high: np.ndarray,
+    owner: np.ndarray,
+    method: str,
+    samples: int,
+    rng: np.random.Generator,
+    confidence: float,
 ) -> tuple[np.ndarray, np.ndarray, tuple[float, float], tuple[float, float] | None]:
     """Curve through intervals of ln capacity: samples, region, dispersions and bracket."""
-    below, above, number = float(low.max()), float(high.min()), len(np.unique(owner))
+    below, above = float(low.max()), float(high.min())
+    weight, number = independent(low, high, owner, method)
     return (
         lognormal.bootstrap(low, high, owner, samples, rng),
-        likelihood_region.region(low, high, number, confidence),
-        likelihood_region.dispersions(low, high, number, confidence),
+        likelihood_region.region(low, high, weight, number, confidence),
+        likelihood_region.dispersions(low, high, weight, number, confidence),
         (math.exp(below), math.exp(above)) if below <= above else None,
     )
 
@@ -118,7 +125,7 @@ def _ended(found: Fragility, counted: int, samples: int, seed: int) -> Fragility
         check_shape(one, low, high, best)
     except InputError:
         return None
-    known = _known(low, high, owner, samples, rng, found.confidence)
+    known = _known(low, high, owner, found.method, samples, rng, found.confidence)
     names = ("samples", "region", "dispersions", "bracket")
     middle, spread = (float(each[0]) for each in best)
     return _with_laws(replace(found, evidence=one, log_median=middle, beta=spread, **dict(zip(names, known))), rng)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,9 @@ from scipy.special import ndtr
 
 from ..notebook import Shown
 from . import lognormal
-from .evidence import Evidence
+from .evidence import Evidence, independent, intervals
 from .fragility_points import Points
-from .limit_states import EXCEEDED, FAILED, OPEN
+from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 from .lognormal import curve
 from .unknown_law import few_laws
 
@@ -25,6 +26,9 @@ WIDE, DRAWN = 3.5, 80
 
 #: A dispersion so near, in its logarithm, to where the fit ends is at the end [-].
 CLOSE = 1e-6
+
+#: Share of its records that runs come to as equal ones below which it is said that a few hold most of the runs [-].
+UNEQUAL = 0.7
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +110,7 @@ class Fragility(Shown):
             "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
             "nothing about the next earthquake"
         )
-        known = (self.outside, self.no_dispersion, alone * self.records_are_one, self.few_laws)
+        known = (self.outside, self.no_dispersion, alone * self.records_are_one, self.unequal, self.few_laws)
         said = [f"{one}." for one in known if one]
         return [self.evidence.doubt, *said] if self.evidence.doubt else said
 
@@ -119,6 +123,19 @@ class Fragility(Shown):
     def records(self) -> int:
         """Number of records of which a run is decided."""
         return len(np.unique(self.evidence.records[self.evidence.codes >= 0]))
+
+    @cached_property
+    def equal_records(self) -> float:
+        """Number of records with as many runs each that tell as much, as of :func:`.evidence.independent`."""
+        e = self.evidence
+        return independent(*intervals(e, e.codes, self.method), self.method)[1]
+
+    @property
+    def unequal(self) -> str:
+        """Caveat on records that hold most of the runs; empty where there are none."""
+        count, equal = self.records, self.equal_records
+        said = f"a few of its {count} records hold most of the runs: they tell as much as {equal:.2g} with as many each"
+        return said if equal < UNEQUAL * count else ""
 
     @property
     def levels(self) -> tuple[float, float]:
@@ -269,7 +286,7 @@ class Fragility(Shown):
     def _share(self) -> float:
         from scipy.stats import t
 
-        n = self.records
+        n = max(self.equal_records, 2.0)
         return float(ndtr(math.sqrt(n / (n - 1.0)) * t.ppf(0.5 - 0.5 * self.confidence, n - 1)))
 
     @property
@@ -283,6 +300,17 @@ class Fragility(Shown):
         if self.bracket is None:
             return f"{e.name}: half of the {self.counted} bring {where} = {self.median:.3g}{unit}."
         low, high = self.bracket
+        again = (
+            int(((e.codes == NOT_EXCEEDED) & (e.im > high * (1.0 + CLOSE))).sum()) if self.method == "records" else 0
+        )
+        if (
+            again
+        ):  # what stands above a collapse is no capacity, and no run that a sentence on all of them may pass over
+            place = f"at {low:.4g}{unit}" if low == high else f"between {low:.4g} and {high:.4g}{unit}"
+            return (
+                f"{e.name}: under every record {where} begins {place}; {again} run{'s' * (again > 1)} above that "
+                f"stand{'s' * (again == 1)} again and {'are' if again > 1 else 'is'} left out."
+            )
         run = "decided run" if self.ends else "run"
         if low == high:
             return f"{e.name}: no {run} below {e.measure} = {low:.4g}{unit} brings {e.state}, and every {run} above it does."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -40,6 +41,10 @@ REFUSED = 10.0
 _POE = re.compile(r"poe-([0-9.eE+-]+)")
 _HEADED = re.compile(r"investigation_time=([0-9.eE+]+)")
 _IMT = re.compile(r"imt='?\"?([A-Za-z]+)(?:\(([0-9.]+)\))?")
+
+
+#: Farthest that the site of a curve may be from that which is asked for, and mean radius of the Earth [km].
+FAR, EARTH_RADIUS_KM = 50.0, 6371.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +200,24 @@ def _nearest(name: str, number: int, places: list[list[float]] | None, site: tup
         return 0
     if site is None or places is None:
         raise InputError(f"{name} holds {number} sites; choose one with `site=LON,LAT`.", "site")
-    return int(np.argmin([math.dist(place, site) for place in places]))
+    away = [_distance_km(place, site) for place in places]
+    nearest = int(np.argmin(away))
+    if not away[nearest] <= FAR:
+        there, asked = (f"{one[0]:g},{one[1]:g}" for one in (places[nearest], site))
+        raise InputError(
+            f"the site of {name} that is nearest to `site` = {asked} is {there}, {away[nearest]:.0f} km away; allowed is up "
+            f"to {FAR:g} km: longitude first, then latitude.",
+            "site",
+        )
+    return nearest
+
+
+def _distance_km(place: Sequence[float], other: Sequence[float]) -> float:
+    """Distance of two places of longitude and latitude [degrees] on a sphere [km]."""
+    (east, north), (to_east, to_north) = np.radians(place), np.radians(other)
+    half = math.sin(0.5 * (to_north - north)) ** 2
+    half += math.cos(north) * math.cos(to_north) * math.sin(0.5 * (to_east - east)) ** 2
+    return 2.0 * EARTH_RADIUS_KM * math.asin(math.sqrt(min(half, 1.0)))
 
 
 def _of_chances(name: str, kind: str, time: float, im: np.ndarray, poe: np.ndarray) -> Hazard:

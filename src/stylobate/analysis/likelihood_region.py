@@ -24,7 +24,9 @@ _STEPS = 50
 _LOG_ROOT = 0.5 * np.log(2.0 * np.pi)
 
 
-def region(low: np.ndarray, high: np.ndarray, records: int, confidence: float = 0.95) -> np.ndarray:
+def region(
+    low: np.ndarray, high: np.ndarray, weight: np.ndarray, records: float, confidence: float = 0.95
+) -> np.ndarray:
     """Edge of the region of ln θ and ln β whose ln L, Eq. (G1), is not far below the largest one.
 
     The range of a quantity over the region is its interval by the profile of the likelihood.
@@ -33,8 +35,10 @@ def region(low: np.ndarray, high: np.ndarray, records: int, confidence: float = 
     ----------
     low, high : array, shape (n,)
         Ends of the intervals of ln capacity, as of :func:`stylobate.analysis.lognormal.fit`.
-    records : int
-        Number of records behind them.
+    weight : array, shape (n,)
+        How much each of them counts, and the number of records behind them, as of
+        :func:`stylobate.analysis.evidence.independent`.
+    records : float
     confidence : float
 
     Returns
@@ -45,24 +49,26 @@ def region(low: np.ndarray, high: np.ndarray, records: int, confidence: float = 
     from scipy.stats import t
 
     # of capacities that are known: Student's interval of their mean  # Eq. (G2)
-    n = max(records, 2)
+    n = max(records, 2.0)
     drop = 0.5 * n * math.log1p(float(t.ppf(0.5 + 0.5 * confidence, n - 1)) ** 2 / (n - 1))
-    runs = _Runs(low, high)
+    runs = _Runs(low, high, weight)
     slopes, target = _slopes(runs, LARGER * drop)
     _, at = runs.profile(slopes)
     sides = [runs.side(slopes, at, target, sign) for sign in (-1.0, 1.0)]
     return np.concatenate([np.stack((-a / slopes, -np.log(slopes)), axis=1) for a in sides])
 
 
-def dispersions(low: np.ndarray, high: np.ndarray, records: int, confidence: float = 0.95) -> tuple[float, float]:
+def dispersions(
+    low: np.ndarray, high: np.ndarray, weight: np.ndarray, records: float, confidence: float = 0.95
+) -> tuple[float, float]:
     """Limits of β by the profile of the likelihood; 0 and +inf where there are none. Parameters as of :func:`region`."""
     from scipy.stats import chi2
 
     # of capacities that are known: the upper limit of their standard deviation
-    n = max(records, 2)
+    n = max(records, 2.0)
     ratio = float(chi2.ppf(0.5 - 0.5 * confidence, n - 1)) / n
     drop = 0.5 * n * (ratio - 1.0 - math.log(ratio))
-    slopes, _ = _slopes(_Runs(low, high), LARGER * drop)
+    slopes, _ = _slopes(_Runs(low, high, weight), LARGER * drop)
     least, most = 1.0 / slopes.max(), 1.0 / slopes.min()
     return (least if least > NARROWEST * (1.0 + 1e-9) else 0.0), (most if most < WIDEST * (1.0 - 1e-9) else math.inf)
 
@@ -99,9 +105,9 @@ def _edge(runs: _Runs, inside: float, outside: float, target: float) -> float:
 class _Runs:
     """ln L of intervals over a and b."""
 
-    def __init__(self, low: np.ndarray, high: np.ndarray):
-        pairs, weight = np.unique(np.stack((low, high), axis=1), axis=0, return_counts=True)
-        self.low, self.high, self.weight = pairs[:, 0], pairs[:, 1], weight.astype(float)
+    def __init__(self, low: np.ndarray, high: np.ndarray, weight: np.ndarray):
+        pairs, kind = np.unique(np.stack((low, high), axis=1), axis=0, return_inverse=True)
+        self.low, self.high, self.weight = pairs[:, 0], pairs[:, 1], np.bincount(kind.ravel(), weight)
         ends = pairs[np.isfinite(pairs)]
         self.first, self.last = ends.min(), ends.max()
 

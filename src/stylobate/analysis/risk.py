@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.special import ndtr
+from scipy.special import log_ndtr, ndtr
 
 from ..errors import InputError, check_kind
 from ..motion.intensity_specs import ENDS, parse_measure
@@ -19,6 +19,9 @@ from .lognormal import curve, log_interval
 
 #: Share of the rate beyond the ends of a hazard curve above which it is said [-].
 BEYOND = 0.05
+
+#: Times the rate from which on it is not told how much weaker shaking would add.
+MANY = 10.0
 
 #: A rate of a state above which it is said that something is wrong [1/y].
 OFTEN = 1.0
@@ -42,11 +45,12 @@ class Risk(Shown):
         [1/y], of shaking from the first intensity of the hazard curve on; beyond its last one all counts with the
         probability that it has there.
     low, high : float
-        Interval by the bootstrap of the fragility, whatever its runs without a verdict come to [1/y].
+        Interval by the bootstrap of the fragility, whatever its runs without a verdict come to; its upper end holds what
+        shaking beyond both ends of the hazard curve may add [1/y].
     beyond : float
         What stronger shaking than the last intensity could add at most [1/y].
-    below : float
-        Probability of the state at the first intensity: what is weaker is not in the hazard curve.
+    weaker : float
+        What shaking below the first intensity would add, with the first slope of the curve carried on [1/y].
     edges, parts : array
         Intensities, shape (k + 1,), and the rate that comes from between them [1/y], shape (k,); the last part is that of
         the shaking beyond the curve.
@@ -62,7 +66,7 @@ class Risk(Shown):
     low: float
     high: float
     beyond: float
-    below: float
+    weaker: float
     edges: np.ndarray
     parts: np.ndarray
     extremes: tuple[float, float]
@@ -94,12 +98,7 @@ class Risk(Shown):
                 f"{self.hazard.name} ends at {self.hazard.im[-1]:g} {self.hazard.unit}; stronger shaking could add up to "
                 f"{percent(self.beyond / max(self.rate, 1e-300))} to the rate."
             )
-        if self.below > BEYOND:
-            warnings.append(
-                f"{self.hazard.name} begins at {self.hazard.im[0]:g} {self.hazard.unit}, where the probability is "
-                f"{self.below:.2g} already; weaker shaking is not counted."
-            )
-        return warnings
+        return warnings + ([late] if (late := begins_late(self.hazard, self.weaker, self.rate)) else [])
 
     @property
     def _without_verdict(self) -> str:
@@ -164,15 +163,17 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
     rate, edges, parts = _rate(hazard, fragility.log_median, fragility.beta)
     low, high = _limits(hazard, fragility)
     beyond = check_reach(hazard, fragility.log_median, fragility.beta, rate, fragility.evidence.state)
-    # no rate is above that of all shaking in the curve, and what is beyond its end may add to it
+    least = fragility.median_interval[0]
+    may_add = weaker_than(hazard, math.log(least) if least > 0.0 else -math.inf, fragility.beta)
+    # no rate is above that of all shaking in the curve, and what is beyond its ends may add to it
     return Risk(
         fragility,
         hazard,
         rate,
         low,
-        min(high + beyond, float(hazard.rate[0])),
+        min(high + beyond, float(hazard.rate[0])) + may_add,
         beyond,
-        float(curve(hazard.im[:1], fragility.log_median, fragility.beta)[0]),
+        weaker_than(hazard, fragility.log_median, fragility.beta),
         edges,
         parts,
         tuple(_rate(hazard, *extreme, split=False)[0] for extreme in fragility.extremes),  # type: ignore[arg-type]
@@ -199,6 +200,7 @@ def check_intensity(measure: str, unit: str, hazard: Hazard) -> str:
             f"the fragility is over {measure} and {hazard.name} is of {hazard.imt}; give one of {measure}."
         )
     kind = measure.partition("@")[0].partition(":")[0]
+    kind = hazard.imt.lower().partition("(")[0] if kind == "im" else kind  # what the runs do not say, the hazard may
     return hazard.doubt() if kind in ENVELOPED and hazard.unit in ("g", "m/s") else ""
 
 
@@ -221,6 +223,32 @@ def check_reach(hazard: Hazard, log_median: float, beta: float, rate: float, sta
             f"{enough:.2g} {hazard.unit} or more."
         )
     return beyond
+
+
+def weaker_than(hazard: Hazard, log_median: float, beta: float) -> float:
+    """Rate from shaking below the first intensity of a curve, with its first slope carried on [1/y].
+
+    With λ = λ₁ (x/x₁)⁻ᵏ below the first point it is ∫ P dλ = λ₁ (e^{k (y₁ − ln θ) + k²β²/2} Φ(z₁ + kβ) − Φ(z₁)) of
+    y₁ = ln x₁, z₁ = (y₁ − ln θ)/β: Eq. (G5) from −∞ on.
+    """
+    if math.isinf(log_median):
+        return 0.0 if log_median > 0.0 else math.inf
+    y, log_rate = np.log(hazard.im[:2]), np.log(hazard.rate[:2])
+    slope = float(-np.diff(log_rate)[0] / np.diff(y)[0])
+    z, shift = (float(y[0]) - log_median) / beta, slope * beta
+    exponent = float(log_rate[0]) + slope * (float(y[0]) - log_median) + 0.5 * shift**2 + float(log_ndtr(z + shift))
+    return max((math.exp(exponent) if exponent < 700.0 else math.inf) - float(hazard.rate[0]) * float(ndtr(z)), 0.0)
+
+
+def begins_late(hazard: Hazard, weaker: float, rate: float) -> str:
+    """Caveat on a curve that begins above shaking which matters, in a sentence; empty where it does not."""
+    if weaker <= BEYOND * rate:
+        return ""
+    much = percent(weaker / rate) if 0.0 < rate and weaker < MANY * rate else f"more than {MANY:g} times as much"
+    return (
+        f"{hazard.name} begins at {hazard.im[0]:g} {hazard.unit}; weaker shaking, with its first slope carried on, would "
+        f"add {much} to the rate."
+    )
 
 
 def years(value: float) -> str:

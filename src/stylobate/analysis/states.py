@@ -22,7 +22,7 @@ from ..notebook import Shown
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
 from ..response.response import Response
-from .difference import Difference, caveat, doubt, reference
+from .difference import NO_MEASURE, Difference, caveat, doubt, reference
 from .evidence import Evidence, evidence, intervals, medians_by_law
 from .fragility import SAMPLES, fragility
 from .fragility_checks import check_bootstrap
@@ -193,6 +193,7 @@ def compare_states(
     """
     check_bootstrap(samples, campaign.seed, confidence)
     check_kind("states", states, Mapping, allowed="a mapping of columns by their labels, such as {'as built': column}")
+    states = {label: states[label] for label in NO_MEASURE if label in states} | dict(states)
     labels = tuple(states)
     for label, column in states.items():
         check_kind(f"the state {label!r}", column, Structure)

@@ -92,6 +92,12 @@ def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Sur
     years = check_range("age", age, 0.0, 1e6, unit="years", open_low=True)
     if not hazards:
         raise InputError("no hazard curve is given; give at least one of them.")
+    names = [one.name for one in hazards]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise InputError(
+            f"two hazard curves are called {twice!r}; results go by their names: give each one of its own."
+        )
     return Survival(tuple(risk(fragility, hazard) for hazard in hazards), years)
 
 

@@ -47,6 +47,7 @@ def records(
     from ..analysis.record_facts import facts_of_records
     from ..analysis.record_selection import select_records
     from ..analysis.target_spectra import target_spectrum
+    from ..motion.condition_specs import scales
     from ..motion.drift import THEN
     from ..motion.specs import parse_number, parse_time
     from . import console
@@ -55,6 +56,13 @@ def records(
     between = _pair("--periods", periods, parse_time, "0.2s:3s")
     limits = _pair("--factors", factors, lambda text: parse_number("--factors", text), "0.5:2")
     ranges = [_wanted(text) for text in where or ()]
+    scaling = next((step for step in motions.condition or () if scales(step)), None)
+    if scaling is not None:
+        raise InputError(
+            f"`condition` {scaling} scales every record before it is chosen, and `factors` and `where` are of records as "
+            "they were recorded; leave it out: the chosen are scaled to the target.",
+            "condition",
+        )
     suite = motions.request(motion=sources, separate=True).expand()
     known = facts_of_records(about, sources, suite.motions)
     found = select_records(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from ..errors import InputError, suggest
@@ -26,11 +26,14 @@ class Step:
         Allowed numbers of values behind the equals sign.
     apply : callable
         Given the motion and the values as typed.
+    size : callable, optional
+        Of a step that multiplies a motion until it is as large as asked for: how large it is, of the same arguments.
     """
 
     example: str
     counts: tuple[int, ...]
     apply: Callable[..., Motion]
+    size: Callable[..., float] | None = None
 
 
 #: Every step, in the order in which they are usually taken.
@@ -51,8 +54,13 @@ STEPS: dict[str, Step] = {
     ),
     "resample": Step("resample=0.005s", (1,), lambda m, v: c.resample(m, parse_time(v))),
     "trim": Step("trim or trim=0.05,0.95", (0, 2), lambda m, *v: c.trim(m, *map(_number, v))),
-    "pgv": Step("pgv=0.3m/s", (1,), lambda m, v: c.scale_to_pgv(m, _velocity(v))),
-    "sa": Step("sa=1.0s,0.3g", (2,), lambda m, t, a: c.scale_to_sa(m, parse_time(t), parse_acceleration(a))),
+    "pgv": Step("pgv=0.3m/s", (1,), lambda m, v: c.scale_to_pgv(m, _velocity(v)), lambda m, _: m.pgv),
+    "sa": Step(
+        "sa=1.0s,0.3g",
+        (2,),
+        lambda m, t, a: c.scale_to_sa(m, parse_time(t), parse_acceleration(a)),
+        lambda m, t, _: c.sa_of(m, parse_time(t)),
+    ),
 }
 
 
@@ -70,6 +78,30 @@ def conditioned(motion: Motion, text: str) -> Motion:
     InputError
         The text cannot be understood, or the step cannot be done to this motion.
     """
+    step, values = _step(text)
+    return step.apply(motion, *values)
+
+
+def conditioned_alike(motions: Sequence[Motion], text: str) -> list[Motion]:
+    """Apply one step to directions of one record; where it scales, all have the factor of the strongest."""
+    step, values = _step(text)
+    if step.size is None or len(motions) < 2:
+        return [step.apply(one, *values) for one in motions]
+    sizes = [step.size(one, *values) for one in motions]
+    strongest = motions[sizes.index(max(sizes))]
+    scaled = step.apply(strongest, *values)
+    times = scaled.factor / strongest.factor
+    said = f"{scaled.processing[-1]}, that of the strongest of these directions"
+    return [one.replace(factor=one.factor * times, processing=(*one.processing, said)) for one in motions]
+
+
+def scales(text: str) -> bool:
+    """Whether a step as typed multiplies a motion until it is as large as asked for."""
+    return _step(text)[0].size is not None
+
+
+def _step(text: str) -> tuple[Step, list[str]]:
+    """A step as typed, and its values."""
     name, sign, rest = text.partition("=")
     key = name.strip().lower()
     if key not in STEPS:
@@ -78,7 +110,7 @@ def conditioned(motion: Motion, text: str) -> Motion:
     values = [value.strip() for value in rest.split(",")] if sign else []
     if len(values) not in step.counts or not all(values):
         raise InputError(f"`condition` {text!r} is not understood; write it as {step.example}.")
-    return step.apply(motion, *values)
+    return step, values
 
 
 def _velocity(text: str) -> float:

@@ -324,11 +324,17 @@ def scale_to_sa(motion: Motion, period: float, sa: float, damping: float = 0.05)
     damping : float
         Share of the critical damping [-].
     """
+    value = check_range("sa", sa, 0.0, 1e4, unit="m/s²")
+    return _scaled_to(
+        motion, value, sa_of(motion, period, damping), f"Sa({period:g} s, {percent(damping)}) of {value / g:g} g"
+    )
+
+
+def sa_of(motion: Motion, period: float, damping: float = 0.05) -> float:
+    """Pseudo-acceleration of a period [s] along x [m/s²]."""
     from .spectra import pseudo_acceleration
 
-    value = check_range("sa", sa, 0.0, 1e4, unit="m/s²")
-    found = float(pseudo_acceleration(motion, [period], damping)[0])
-    return _scaled_to(motion, value, found, f"Sa({period:g} s, {percent(damping)}) of {value / g:g} g")
+    return float(pseudo_acceleration(motion, [period], damping)[0])
 
 
 def _scaled_to(motion: Motion, wanted: float, found: float, text: str) -> Motion:

@@ -18,6 +18,9 @@ ONE_NAME = 86400.0
 #: Where a file states no zone of time, by so much its clock may differ from UTC either way [s].
 ZONES_APART = 14 * 3600.0
 
+#: Length of a day [s].
+DAY = 86400.0
+
 #: Zones of time that files name, in hours from UTC.
 ZONES = {"UTC": 0, "UT": 0, "GMT": 0, "GPS": 0, "Z": 0, "PDT": -7, "PST": -8, "JST": 9, "NZST": 12, "NZDT": 13}
 
@@ -29,8 +32,16 @@ _DATES = (
     re.compile(r"(?P<month>[A-Za-z]{3,9})\.? +(?P<day>\d{1,2}), *(?P<year>\d{4})"),
 )
 _CLOCK = re.compile(r"(?<!\d)(?P<hour>\d{1,2}):\s?(?P<minute>\d{2})(?::\s?(?P<second>\d{1,2}(?:\.\d+)?))?")
-_COMPACT = re.compile(r"\d{8}[_ T](?P<hour>\d{2})(?P<minute>\d{2})(?P<second>\d{2})")
+_COMPACT = re.compile(r"\d{8}[_ T](?P<hour>\d{2})(?P<minute>\d{2})(?P<second>\d{2}(?:\.\d+)?)")
 _ZONE = re.compile(rf"(?:\d\s*|\b)(?P<zone>{'|'.join(ZONES)})\b")
+
+
+class Moment(NamedTuple):
+    """A time that a file states: in UTC where it names a zone, and the unit of its last digit [s], a day without a clock."""
+
+    at: datetime
+    zoned: bool
+    digit: float
 
 
 class Span(NamedTuple):
@@ -41,27 +52,37 @@ class Span(NamedTuple):
     exact: bool
 
 
-def span_of(motion: Motion) -> Span | None:
-    """When a record was taken; None where its file states no date."""
-    said = str(motion.metadata.get("start_time") or "") or str(motion.metadata.get("event") or "")
+def moment_of(said: str) -> Moment | None:
+    """The time that a line states; None where it states no date."""
     day = next((found for pattern in _DATES if (found := pattern.search(said))), None)
     if day is None:
         return None
     year, month = int(day["year"]), day["month"].lower()
     year += 0 if year > 99 else 1900 if year > 50 else 2000
     try:
-        first = datetime(year, int(month) if month.isdecimal() else _MONTHS.index(month[:3]) + 1, int(day["day"]))
-        clock = _COMPACT.search(said) or _CLOCK.search(said, day.end())
-        length = timedelta(days=1)
-        if clock is not None:
-            at = {"hours": int(clock["hour"]), "minutes": int(clock["minute"]), "seconds": float(clock["second"] or 0)}
-            first, length = first + timedelta(**at), timedelta(seconds=motion.duration)
+        at = datetime(year, int(month) if month.isdecimal() else _MONTHS.index(month[:3]) + 1, int(day["day"]))
+        digit = DAY
+        if (clock := _COMPACT.search(said) or _CLOCK.search(said, day.end())) is not None:
+            second = clock["second"] or ""
+            at += timedelta(hours=int(clock["hour"]), minutes=int(clock["minute"]), seconds=float(second or 0.0))
+            digit = 10.0 ** -len(second.partition(".")[2]) if second else 60.0
         zone = _ZONE.search(said, day.end())
-        if zone is not None:
-            first -= timedelta(hours=ZONES[zone["zone"]])
-        apart = timedelta(seconds=0.0 if zone is not None else ZONES_APART)
-        return Span(first - apart, first + length + apart, clock is not None and zone is not None)
+        return Moment(at - timedelta(hours=ZONES[zone["zone"]] if zone else 0), zone is not None, digit)
     except (ValueError, OverflowError):
+        return None
+
+
+def span_of(motion: Motion) -> Span | None:
+    """When a record was taken; None where its file states no date."""
+    start = moment_of(str(motion.metadata.get("start_time") or "") or str(motion.metadata.get("event") or ""))
+    if start is None:
+        return None
+    clocked = start.digit < DAY
+    apart = timedelta(seconds=0.0 if start.zoned else ZONES_APART)
+    try:
+        last = start.at + timedelta(seconds=motion.duration if clocked else DAY)
+        return Span(start.at - apart, last + apart, clocked and start.zoned)
+    except OverflowError:
         return None
 
 

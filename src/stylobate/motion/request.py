@@ -13,7 +13,7 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, warn
-from .condition_specs import conditioned
+from .condition_specs import conditioned_alike
 from .conditioning import warn_of_peak, warn_of_scaling
 from .motion import FACTORS, Motion
 from .orientation import keep_axes, rotated, turned
@@ -304,8 +304,9 @@ class MotionRequest:
                     one = one.replace(metadata={**one.metadata, "direction": known})
                 if len(self.azimuths) > 1:
                     one = one.replace(name=f"{one.name} at {azimuth:g}°")
-                both = [one, _reversed(one, motion.name)] if self.signs == "both" else [one]
-                ready += [self._conditioned(each) for each in both]
+                ready += [one, _reversed(one, motion.name)] if self.signs == "both" else [one]
+            for step in self.condition:
+                ready = conditioned_alike(ready, step)
             strongest = max(ready, key=lambda one: one.pga)
             variants += [self._sized(one, strongest) for one in ready]
         return variants
@@ -314,11 +315,6 @@ class MotionRequest:
         if motion.y_samples is None and not self.files:  # a computed motion along x has nothing along y
             motion = motion.replace(ay=np.zeros(motion.steps))
         return rotated(motion, azimuth)
-
-    def _conditioned(self, motion: Motion) -> Motion:
-        for step in self.condition:
-            motion = conditioned(motion, step)
-        return motion
 
     def _sized(self, motion: Motion, strongest: Motion) -> Motion:
         """The motion as large as asked for; turned ones are that of one record, with the factor of the strongest."""

@@ -28,16 +28,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
     lines, file = source.lines, source.name
     components = channels(lines, lambda start: _component(lines, start, file))
     warn_of_missing(len(components), 3, file)
-    number = re.search(r":\s*([^/\s]+)", lines[0])
-    return components, {
-        "format": "BHRC V1",
-        "stage": "uncorrected",
-        "unit": components[0].metadata["unit"],
-        "station": number.group(1) if number else None,
-        "station_name": re.split(r"station", lines[7], flags=re.IGNORECASE)[0].strip() or None,
-        "network": "I1",
-        "event": lines[2].strip() or None,
-    }
+    return components, {"format": "BHRC V1", "stage": "uncorrected", "network": "I1", **components[0].metadata}
 
 
 def _component(lines: list[str], start: int, file: str) -> tuple[Component, int]:
@@ -60,7 +51,14 @@ def _component(lines: list[str], start: int, file: str) -> tuple[Component, int]
     end = channel_end(lines, data, file)
     values = read_numbers(lines[data:end], data, file, "accelerations", count=count, width=13)
     component = Component(values, dt, label)
-    component.metadata["unit"], size = unit(text, "g/10", file, start)
+    number = re.search(r":\s*([^/\s]+)", text[0])
+    stated, size = unit(text, "g/10", file, start)
+    component.metadata = {
+        "unit": stated,
+        "station": number.group(1) if number else None,
+        "station_name": re.split(r"station", text[7], flags=re.IGNORECASE)[0].strip() or None,
+        "event": text[2].strip() or None,
+    }
     component.values = values * size
     component = oriented(component)
     if not component.vertical and (found := _AZIMUTHS.search(text[7])) and label.upper() in ("L", "T"):

@@ -13,6 +13,9 @@ from .numbers import NUMBER, number_in
 #: Steps of accelerographs [s]: 5000 to 5 samples per second.
 SHORTEST_STEP, LONGEST_STEP = 2e-4, 0.2
 
+#: A step of film this many times the steps of its neighbours, so many on either side, may be a lost line.
+GAP, NEIGHBOURS = 2.8, 3
+
 #: Share of a stated peak by which the samples may depart from it: one g is 980 to 981 gal, and peaks are rounded.
 PEAK_SHARE = 2e-3
 
@@ -55,12 +58,38 @@ def check_sampling(dt: float, what: str) -> float:
     return dt
 
 
-def rising_pairs(numbers: np.ndarray, file: str, line: int) -> tuple[np.ndarray, np.ndarray]:
-    """Times and values of a row of pairs below a line, refused where a time falls."""
+def rising_pairs(numbers: np.ndarray, file: str, start: int, rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """Times and values of pairs, refused where a time falls, or where samples are missing between two of them.
+
+    Parameters
+    ----------
+    numbers : array
+        Time [s] and value in turn, shape (2 N,).
+    file : str
+    start, rows : int
+        Lines above the pairs, and lines that hold them, the last one perhaps fewer than the others.
+    """
     time, values = numbers.reshape(-1, 2).T.copy()
-    if (np.diff(time) < 0.0).any():
-        bad = int(np.flatnonzero(np.diff(time) < 0.0)[0]) + 1
-        raise InputError(f"{file}, below line {line}: the time falls at sample {bad + 1} ({time[bad]:g} s); mend it.")
+    steps = np.diff(time)
+    per_row = -(-len(time) // rows)
+
+    def where(at: int) -> str:
+        line = start + (at + 1) // per_row + 1
+        return f"{file}, line {line}: the time goes from {time[at]:g} s to {time[at + 1]:g} s"
+
+    if (steps < 0.0).any():
+        raise InputError(f"{where(int((steps < 0.0).argmax()))}, where it may not fall; mend it.")
+    at = int(steps.argmax())
+    if steps[at] > LONGEST_STEP:
+        raise InputError(f"{where(at)}, a gap beyond the {LONGEST_STEP:g} s that records have between samples; {CUT}.")
+    largest = np.lib.stride_tricks.sliding_window_view(np.pad(steps, NEIGHBOURS, mode="edge"), NEIGHBOURS).max(axis=1)
+    around = np.maximum(largest[: len(steps)], largest[NEIGHBOURS + 1 :])  # of those before, and of those behind
+    bad = np.flatnonzero(steps > GAP * around)
+    if bad.size:
+        warn(
+            f"{where(int(bad[0]))}, {GAP:g} times the steps before and behind it and more; check that no line is missing.",
+            OutOfRangeWarning,
+        )
     return time, values
 
 

@@ -130,6 +130,7 @@ def _check_digest(components: list[Component], written: str, file: str) -> None:
         )
     for component in components:
         component.proven = True
+        component.named = False  # the one horizontal component of a motion is x, wherever it points
 
 
 def first_row(lines: list[str]) -> int | None:
@@ -188,7 +189,8 @@ def _names(table: np.ndarray, header: Header | None, units: list[str] | None, pl
     if header is not None and not (columns > 1 + grows[0] and units is None and header.speaks_of_all is not None):
         steady = grows[0] and len(table) >= FEWEST_STEPS and step_of(table[:, 0]) is not None
         return header.names(grows, steady, units, place)
-    plain = [Name("time")] * grows[0] + [Name("acceleration", axis) for axis in "XYZ"]
+    axes = "XYZ" if columns > 1 + grows[0] else ("",)
+    plain = [Name("time")] * grows[0] + [Name("acceleration", axis) for axis in axes]
     if columns > len(plain):
         raise InputError(
             f"{place.partition(', line')[0]} has rows of {columns} numbers without column names, and no format that is "
@@ -239,12 +241,13 @@ def _components(
             )
         units.append(shown)
         one = Component(_scaled(table[:, i], size * name.sign), np.nan, label.lower() if ranks else label)
+        one.named = bool(name.direction)
         if name.sign < 0.0:
             one.processing.append("sign turned, as the line that names the columns says (-)")
         components.append(oriented(one))
     if timed is None:
         return components, None, ", ".join(dict.fromkeys(units))
-    scale = time_unit(names[timed].unit or "s")
+    scale = time_unit(names[timed].unit or said.time_unit or "s")
     assert scale is not None
     return components, _scaled(table[:, timed], scale), ", ".join(dict.fromkeys(units))
 
@@ -268,12 +271,13 @@ def _set_step(
         bad = int(np.flatnonzero(np.diff(time) <= 0.0)[0]) + 1
         raise InputError(f"{file}, line {first + bad + 1}: the time does not increase ({time[bad]:g} s); mend it.")
     if step is not None and "dt_s" in comments:
-        stated = _comment_number(comments, "dt_s", file)
+        stated = _comment_number(comments, "dt_s", file)  # in every digit, where times are rounded
         if abs(stated - step) * (len(time) - 1) <= ROUNDING_SHARE * step:
             step = stated
     for component in components:
         component.dt = np.nan if step is None else step
         component.time = time if step is None else None
+        component.first = float(time[0])
 
 
 def _no_unit(what: str) -> str:

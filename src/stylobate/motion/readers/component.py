@@ -13,6 +13,15 @@ class UnstatedError(InputError):
     """The file leaves its unit or its step open, which the caller can state."""
 
 
+#: Departure from a right angle of two horizontal components of one record [degrees].
+SQUARE = 5.0
+
+
+def at_right_angles(one: float, other: float) -> bool:
+    """Whether two azimuths are those of two horizontal components of one record [degrees]."""
+    return abs((one - other) % 180.0 - 90.0) <= SQUARE
+
+
 @dataclass
 class Component:
     """One component of a record.
@@ -39,6 +48,12 @@ class Component:
         What was done to the whole record before, as its file says.
     file : str
         Name of the file it was read from.
+    first : float, optional
+        Time of the first sample on the file's own clock [s], where it states times.
+    named : bool
+        The label is the file's own; one that was given for its place in the file does not tell a direction.
+    facts : dict
+        What its file says of the whole record.
     proven : bool
         Step and samples are those that this package wrote, as their digest proves: the step may be any.
     """
@@ -53,4 +68,7 @@ class Component:
     processing: list[str] = field(default_factory=list)
     history: list[str] = field(default_factory=list)
     file: str = ""
+    first: float | None = None
+    named: bool = True
+    facts: dict = field(default_factory=dict)
     proven: bool = False

@@ -155,17 +155,18 @@ def _numbers(lines: list[str], start: int, kind: str, file: str) -> tuple[int, n
 
 def _step(reals: np.ndarray, length: float, count: int, file: str, line: int) -> float:
     """Step of the samples: real 62, in milliseconds; the one of real 34 is the recorder's."""
-    if reals[61] > 0.0:
-        dt = check_step(float(reals[61]) / 1000.0, file, line + 1)
-        if length > 0.0 and abs(count * dt - length) > max(2.0, 0.02 * length):
-            raise InputError(
-                f"{file}, line {line + 1}: {count} samples in about {length:g} s disagree with the step of {dt:g} "
-                f"s in the header (real 62); {CUT}."
-            )
-        return dt
-    if length > 0.0:
-        return check_step(length / count, file, line + 1)
-    raise InputError(f"{file}, line {line + 1}: no step between the samples is stated; convert the file to columns.")
+    if reals[61] <= 0.0:
+        raise InputError(
+            f"{file}, line {line + 1}: the header states a step of {reals[61]:g} ms (real 62), where one above 0 is "
+            "expected, and the length in this line is rounded; convert the file to columns, with the step of the network."
+        )
+    dt = check_step(float(reals[61]) / 1000.0, file, line + 1)
+    if length > 0.0 and abs(count * dt - length) > max(2.0, 0.02 * length):
+        raise InputError(
+            f"{file}, line {line + 1}: {count} samples in about {length:g} s disagree with the step of {dt:g} "
+            f"s in the header (real 62); {CUT}."
+        )
+    return dt
 
 
 def _scale(component: Component, unit: str, reals: np.ndarray, file: str, line: int) -> None:

@@ -47,17 +47,12 @@ def read(source: Source) -> tuple[list[Component], dict]:
     starts = [i for i, line in enumerate(lines) if _START.match(line)]
     components = [_component(lines, a, b, file) for a, b in zip(starts, [*starts[1:], len(lines)])]
     warn_of_missing(len(components), 3, file)
-    first = lines[:TEXT_LINES]
     corrected = not lines[0].lower().lstrip().startswith("un")
     return components, {
         "format": "GeoNet V2A" if corrected else "GeoNet V1A",
         "stage": "corrected" if corrected else "uncorrected",
-        "unit": components[0].metadata["unit"],
-        "station": first[1].split()[1] if len(first[1].split()) > 1 else None,
-        "station_name": first[2].strip() or None,
         "network": "NZ",
-        "event": f"{first[6].strip()}; {first[8].strip()}",
-        "start_time": first[7].strip() or None,
+        **components[0].metadata,
     }
 
 
@@ -88,7 +83,7 @@ def _component(lines: list[str], start: int, end: int, file: str) -> Component:
         raise InputError(f"{file}, below line {start + 1}: the header states no unit, where mm/s/s is expected.")
     label = next((found["label"] for line in text if (found := _LABEL.match(line))), "")
     component = Component(values * (size * factor), dt, label)
-    component.metadata["unit"] = unit if factor == 1.0 else f"{factor:g} {unit}"
+    component.metadata = {"unit": unit if factor == 1.0 else f"{factor:g} {unit}"} | _facts(text)
     for number, line in enumerate(text, start + 1):
         if found := _PEAK.search(line):
             check_peak(component.values, found["peak"], acceleration_unit(found["unit"])[1], file, number)
@@ -96,6 +91,15 @@ def _component(lines: list[str], start: int, end: int, file: str) -> Component:
     component = oriented(component)
     check_direction(component, float(integers[27]), file, integers_at + 3)
     return component
+
+
+def _facts(text: list[str]) -> dict:
+    return {
+        "station": text[1].split()[1] if len(text[1].split()) > 1 else None,
+        "station_name": text[2].strip() or None,
+        "event": f"{text[6].strip()}; {text[8].strip()}",
+        "start_time": text[7].strip() or None,
+    }
 
 
 def _check_time(component: Component, reals: np.ndarray, stated: str | None, file: str, line: int) -> None:

@@ -62,27 +62,34 @@ def read(source: Source, descriptions: Sequence[Source]) -> tuple[list[Component
     try:
         with _complaints_raised():
             stream = obspy.read(io.BytesIO(source.data), format="MSEED")
-            stream.merge(method=0)
+            gap = next((one for one in stream.get_gaps() if one[-1] > 0), None)
+            order = list(dict.fromkeys(trace.id for trace in stream))
+            if gap is None:
+                stream.merge(method=0)  # which sorts
+                stream.traces.sort(key=lambda trace: order.index(trace.id))
     except Exception as error:  # ObsPy raises many kinds for a damaged file
         raise InputError(f"{source.name} cannot be decoded as miniSEED ({_one_line(error)}); fetch it again.") from None
     _check_records(source)
     if len(stream) == 0:
         raise InputError(f"{source.name} holds no samples; fetch it again.")
+    if gap is not None:
+        raise InputError(
+            f"{source.name}: channel {'.'.join(gap[:4])} has a gap of {gap[6]:.6g} s from {gap[4]} on; give a record "
+            "without gaps."
+        )
     components, used = [], set()
     for trace in stream:
         if np.ma.isMaskedArray(trace.data):
-            raise InputError(f"{source.name}: channel {trace.id} has gaps; give a record without gaps.")
+            raise InputError(f"{source.name}: channel {trace.id} has records that overlap and differ; fetch it again.")
         channel, name = _channel(trace, descriptions or _beside(source), source.name)
         used.add(name)
         components.append(_component(trace, channel, source.name))
-    stats = stream[0].stats
+    first = components[0].metadata
     return components, {
         "format": "miniSEED",
         "stage": "raw counts",
         "unit": "counts",
-        "station": stats.station,
-        "network": stats.network,
-        "start_time": str(stats.starttime),
+        **{key: first[key] for key in ("station", "network", "start_time")},
         "response": ", ".join(sorted(used)),
     }
 
@@ -126,6 +133,8 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
     zero = float(counts.mean())
     component = Component((counts - zero) / sensitivity.value, float(trace.stats.delta), trace.stats.channel)
     component.metadata = {"unit": "counts", "counts_per_m_s2": float(sensitivity.value), "dip": channel.dip}
+    component.metadata |= {key: str(trace.stats[key]) for key in ("network", "station", "location")}
+    component.metadata["start_time"] = str(trace.stats.starttime)
     component.processing.append(
         f"counts / {sensitivity.value:.6g} per m/s², after the zero level of {zero:.6g} counts (their mean) was "
         "taken off; the response is taken as flat"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from .component import at_right_angles
 from .record import direction
 from .vocabulary import unit_kind
 
@@ -104,7 +105,7 @@ def checked(reading: tuple[Name, ...], keyed: bool) -> tuple[Name, ...]:
     if families == {"XY"} and not any(one.direction in ("", "X") for one in flat):
         raise Doubt("is not enough: no column holds the horizontal acceleration ax_…; name it ax_g or ax_m_s2")
     angles = [angle for one in flat if (angle := direction(one.direction)[0]) is not None]
-    if len(angles) == 2 and abs((angles[0] - angles[1]) % 180.0 - 90.0) > 5.0:
+    if len(angles) == 2 and not at_right_angles(*angles):
         raise Doubt(
             f"names the directions {' and '.join(one.direction for one in flat)}, which are not at right angles"
         )

@@ -14,6 +14,7 @@ from ..drift import as_asked, best_of, cures_of
 from ..motion import MAX_SAMPLES, STRONGEST, Motion, integrate
 from .component import Component
 from .steps import resampled, same_step
+from .together import check_one_record, common_span
 
 #: A mean beyond this share of the peak is not an earthquake: an instrument's offset was left in.
 OFFSET_SHARE = 0.1
@@ -89,15 +90,14 @@ def oriented(component: Component) -> Component:
 
 
 def assemble(
-    components: list[Component], metadata: dict, name: str, *, component: str | None = None, dt: float | None = None
+    components: list[Component], name: str, *, component: str | None = None, dt: float | None = None
 ) -> Motion:
     """Make a motion of the components of one record: the first two horizontal ones are x and y, the vertical one z.
 
     Parameters
     ----------
     components : list of Component
-    metadata : dict
-        What holds for the whole record.
+        With the facts of their files; those of x hold for the motion.
     name : str
         Of the motion and in messages.
     component : str, optional
@@ -108,7 +108,7 @@ def assemble(
     Raises
     ------
     InputError
-        No horizontal component, several records, components of different steps.
+        No horizontal component, several records, components of different steps, or whose times do not overlap.
     """
     if component is not None:
         chosen = _choose(components, component, name)
@@ -133,24 +133,23 @@ def assemble(
             "component",
         )
     used = horizontal + vertical
+    check_one_record(used)
     histories = {tuple(one.history): one.file for one in used}
     processing = [
         text if len(histories) == 1 else f"{file}: {text}" for steps, file in histories.items() for text in steps
     ]
     axes = [axis for axis, _ in zip(["x", "y"], horizontal)] + ["z"] * len(vertical)
     step = same_step(used, name, dt, processing)
-    lengths = [len(one.values) for one in used]
-    if len(set(lengths)) > 1:
-        shortest = min(lengths)
-        counts = ", ".join(f"{axis}: {length}" for axis, length in zip(axes, lengths))
-        processing.append(f"cut to the common length of {shortest} samples ({counts})")
-        warn(f"{name}: {processing[-1]}.")
-    values = {axis: one.values[: min(lengths)] for axis, one in zip(axes, used)}
+    values, last, note = common_span(used, axes, step)
+    if note:
+        processing.append(note)
+        warn(f"{name}: {note}.")
     for axis, one in zip(axes, used):
         processing += [f"{axis}: {text}" for text in one.processing]
     _warn_of_peak(values, step, name)
     _warn_of_offset(values, name)
-    facts = metadata | {
+    facts = used[0].facts | {key: last.facts[key] for key in ("start_time", "first_time") if key in last.facts}
+    facts |= {
         "azimuths": {axis: one.azimuth for axis, one in zip(axes, used)},
         "labels": {axis: one.label for axis, one in zip(axes, used)},
         "dt_found": step if all(one.time is None for one in used) else None,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from numbers import Real
 from pathlib import Path
 
@@ -29,6 +30,7 @@ from .checks import check_whole
 from .record import Component, assemble
 from .samples import PREFIX
 from .source import Source
+from .together import OWN_FACTS
 
 
 @dataclass(frozen=True)
@@ -108,26 +110,23 @@ def read_motion(
     records = [one for one in sources if one not in descriptions]
     if not records:
         raise InputError(f"{sources[0].name} describes a station (StationXML); give the miniSEED files with it.")
+    for one, other in combinations(records, 2):
+        if one.data == other.data:
+            raise InputError(f"{one.name} and {other.name} hold the same bytes; give each component once.", "path")
+    defaults = {"station": None, "network": None, "event": None, "start_time": None, "terms": None}
+    files = {"file": ", ".join(record.name for record in records)}
     components: list[Component] = []
-    facts: dict = {}
     for source in records:
         found, metadata = _read_file(source, descriptions, unit, dt)
         if source.sample is not None:
             metadata = metadata | {key: value for key, value in source.sample.facts.items() if not metadata.get(key)}
         for one in found:
             one.file = source.name
+            own = {key: one.metadata[key] for key in OWN_FACTS if one.metadata.get(key) is not None}
+            one.facts = defaults | metadata | own | files
         components += found
-        if facts and metadata.get("station") != facts.get("station"):
-            raise InputError(
-                f"{records[0].name} is of station {facts.get('station')}, {source.name} of {metadata.get('station')}; "
-                "give the components of one record."
-            )
-        facts = facts or metadata
-    names = [record.name for record in records]
-    defaults = {"station": None, "network": None, "event": None, "start_time": None, "terms": None}
-    metadata = defaults | facts | {"file": ", ".join(names)}
     wanted = None if component is None else str(component)
-    return assemble(components, metadata, names[0], component=wanted, dt=dt)
+    return assemble(components, records[0].name, component=wanted, dt=dt)
 
 
 def sample_motion(name: str) -> Motion:

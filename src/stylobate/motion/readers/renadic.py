@@ -24,16 +24,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
     components = channels(lines, lambda start: _channel(lines, start, file))
     stated = next((int(found["count"]) for line in lines[:TEXT_LINES] if (found := _CHANNELS.search(line))), None)
     warn_of_missing(len(components), None if stated is None else min(stated, 3), file)
-    name = lines[5].upper().split("S/N")[0].strip() or None
-    return components, {
-        "format": "RENADIC V1",
-        "stage": "uncorrected",
-        "unit": components[0].metadata["unit"],
-        "station": name,
-        "network": "C",
-        "event": lines[1].strip() or None,
-        "start_time": lines[3].strip() or None,
-    }
+    return components, {"format": "RENADIC V1", "stage": "uncorrected", "network": "C", **components[0].metadata}
 
 
 def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
@@ -45,7 +36,13 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
     count = points(text, file, start)
     end = channel_end(lines, data, file)
     component = pairs(lines, data, end, count, file, width=7, total=length(text))
-    component.metadata["unit"], size = unit(text, "g/10", file, start)
+    stated, size = unit(text, "g/10", file, start)
+    component.metadata = {
+        "unit": stated,
+        "station": text[5].upper().split("S/N")[0].strip() or None,
+        "event": text[1].strip() or None,
+        "start_time": text[3].strip() or None,
+    }
     component.values = component.values * size
     check_stated_peak(component, text, file, start)
     component.label = re.sub(r"^\W*(comp\w*|chan\w*|canal)\W*(\d+\W+)?", "", text[6].strip(), flags=re.IGNORECASE)

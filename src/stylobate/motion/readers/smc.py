@@ -6,15 +6,13 @@ import re
 
 import numpy as np
 
-from ...errors import InputError, OutOfRangeWarning, warn
-from .checks import CUT, LONGEST_STEP, check_peak, check_peak_time, check_step, rising_pairs
+from ...errors import InputError
+from .checks import CUT, check_peak, check_peak_time, check_step, rising_pairs
 from .numbers import read_numbers
 from .record import LABEL, Component, check_count, direction, oriented
 from .source import Source
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 11, 6, 10
-#: A step of film this many times the steps of its neighbours, so many on either side, may be a lost line.
-GAP, NEIGHBOURS = 2.8, 3
 _FIRST = re.compile(r"^\s*(?P<volume>\d)\s+(?P<what>.*\S)\s*$")
 
 
@@ -59,9 +57,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
     else:
         if stated % 2:
             raise InputError(f"{file}, line {TEXT_LINES + 3}: {stated} values are not pairs of time and acceleration.")
-        time, values = rising_pairs(numbers, file, start + 1)
-        _check_gaps(time, file, start)
-        component = Component(values * 0.01, np.nan, time=time)
+        time, values = rising_pairs(numbers, file, start, -(-stated // 8))
+        component = Component(values * 0.01, np.nan, time=time, first=float(time[0]))
     _check_peaks(component, reals, file, at + 6)
     if left_out:
         component.processing.append(f"{left_out} numbers beyond the {stated} that the header promises were left out")
@@ -103,26 +100,6 @@ def _values(lines: list[str], start: int, stated: int, file: str) -> tuple[np.nd
         )
     beyond = read_numbers(lines[start + rows :], start + rows, file, "accelerations", width=10)
     return numbers, len(beyond)
-
-
-def _check_gaps(time: np.ndarray, file: str, start: int) -> None:
-    """No samples are missing: a line that is lost leaves a gap, though a stray last line makes up the count."""
-    steps = np.diff(time)
-    at = int(steps.argmax())
-
-    def where(at: int) -> str:
-        return f"{file}, line {start + (at + 1) // 4 + 1}: the time goes from {time[at]:g} s to {time[at + 1]:g} s"
-
-    if steps[at] > LONGEST_STEP:
-        raise InputError(f"{where(at)}, a gap beyond the {LONGEST_STEP:g} s that records have between samples; {CUT}.")
-    largest = np.lib.stride_tricks.sliding_window_view(np.pad(steps, NEIGHBOURS, mode="edge"), NEIGHBOURS).max(axis=1)
-    around = np.maximum(largest[: len(steps)], largest[NEIGHBOURS + 1 :])  # of those before, and of those behind
-    bad = np.flatnonzero(steps > GAP * around)
-    if bad.size:
-        warn(
-            f"{where(int(bad[0]))}, {GAP:g} times the steps before and behind it and more; check that no line is missing.",
-            OutOfRangeWarning,
-        )
 
 
 def _label(from_vertical: int, azimuth: int, station: str, file: str) -> str:

@@ -20,9 +20,17 @@ def number_rows(lines: list[str], start: int, file: str) -> tuple[list[str], int
     Raises
     ------
     InputError
-        There are points beside decimal commas: they may be of thousands.
+        There are points beside decimal commas, which may be of thousands; or words between numbers, as above a second
+        record.
     """
     rows = lines[start:]
+    last = max(i for i, row in enumerate(rows) if row.strip() and not row.lstrip().startswith(("#", "%")))
+    between = next((i for i, row in enumerate(rows[:last]) if re.match(r"\s*[#%].*[^\W_]", row)), None)
+    if between is not None:
+        raise InputError(
+            f"{file}, line {start + between + 1}: {rows[between].strip()[:60]!r} stands among the numbers, as above "
+            "a second record; give every record a file, or take the line out."
+        )
     sample = rows[0]
     if ";" in sample or "," in sample:
         text = "\n".join(rows)

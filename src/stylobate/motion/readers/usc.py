@@ -25,21 +25,12 @@ def recognises(source: Source) -> bool:
 def read(source: Source) -> tuple[list[Component], dict]:
     """All channels and what the headers say."""
     lines, file = source.lines, source.name
-    found = channels(lines, lambda start: _channel(lines, start, file))
-    components = [one for one, _ in found]
-    return components, {
-        "format": "USC V1",
-        "stage": "uncorrected",
-        "unit": components[0].metadata["unit"],
-        "station": found[-1][1],
-        "station_name": re.split(r"\s{2,}", lines[5].strip())[0] or None,
-        "network": "LA",
-        "event": re.split(r"\s{2,}", lines[1].strip())[0] or None,
-    }
+    components = channels(lines, lambda start: _channel(lines, start, file))
+    return components, {"format": "USC V1", "stage": "uncorrected", "network": "LA", **components[0].metadata}
 
 
-def _channel(lines: list[str], start: int, file: str) -> tuple[tuple[Component, str], int]:
-    """One channel and its station; the index of the line after it."""
+def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
+    """One channel; the index of the line after it."""
     first = start + TEXT_LINES
     reals_at = first
     while reals_at < len(lines) and lines[reals_at].strip() and "." not in lines[reals_at]:
@@ -64,8 +55,13 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[tuple[Component, 
     else:
         label, size = unit(lines[start:first], "g/10", file, start)
     component.values = component.values * size
-    component.metadata["unit"] = label
+    component.metadata = {
+        "unit": label,
+        "station": f"{int(integers[8])}",
+        "station_name": re.split(r"\s{2,}", lines[start + 5].strip())[0] or None,
+        "event": re.split(r"\s{2,}", lines[start + 1].strip())[0] or None,
+    }
     code = int(integers[26])
     component.label = _CODES.get(code, f"{code} deg" if 0 <= code <= 360 else f"code {code}")
     marked = end < len(lines) and END.match(lines[end]) is not None
-    return (oriented(component), f"{int(integers[8])}"), end + marked
+    return oriented(component), end + marked

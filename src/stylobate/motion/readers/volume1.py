@@ -94,7 +94,7 @@ def pairs(
     numbers = read_numbers(
         lines[first:end], first, file, "pairs of time and acceleration", count=2 * count, width=width
     )
-    time, values = rising_pairs(numbers, file, first + 1)
+    time, values = rising_pairs(numbers, file, first, end - first)
     if total is not None and (stated := printed(total))[0] > 0.0:
         # Counted from zero or from the first sample, to the last one or a step further.
         slack = 2.0 * float(np.diff(time).max()) + stated[1]
@@ -104,7 +104,9 @@ def pairs(
                 f"length of {stated[0]:g} s; {CUT}."
             )
     step = step_of(time)
-    return Component(values, np.nan, time=time) if step is None else Component(values, step)
+    component = Component(values, np.nan, time=time) if step is None else Component(values, step)
+    component.first = float(time[0])
+    return component
 
 
 def check_stated_peak(component: Component, text: Sequence[str], file: str, first: int) -> None:
