@@ -26,7 +26,7 @@ def put(tmp_path):
     return write
 
 
-@settings(max_examples=40)
+@settings(max_examples=40, deadline=None)
 @given(
     st.floats(1e-4, 2.0),
     st.integers(1, 3),
