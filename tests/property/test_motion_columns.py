@@ -26,7 +26,7 @@ def put(tmp_path):
     return write
 
 
-@settings(max_examples=40)
+@settings(max_examples=40, deadline=None)
 @given(
     st.floats(1e-4, 2.0),
     st.integers(1, 3),
@@ -141,6 +141,8 @@ def test_unequal_steps_are_refused_or_resampled_on_demand(put):
     motion = read_motion(path, dt=0.01)
     assert motion.acceleration == pytest.approx([0.0, g, 0.0, -g, 0.0], abs=1e-12)
     assert "resampled linearly from unequal steps" in motion.processing[0]
+    with pytest.raises(InputError, match=r"the time goes from 0\.03 s to 7\.03 s, a gap beyond the 0\.2 s"):
+        read_motion(put("time_s,ax_g\n0.00,0.0\n0.01,1.0\n0.03,-1.0\n7.03,0.0\n"), dt=0.01)
 
 
 def test_an_offset_is_noticed(put):

@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import InputError
 from ..motion import Motion
 from ..specs import acceleration_unit
-from .checks import CUT, check_length, check_peak, check_same_step
+from .checks import CUT, LONGEST_STEP, check_length, check_peak, check_same_step, rising_pairs
 from .comments import Stated, header_of, is_fact, stated
 from .component import Component, UnstatedError
 from .headers import Header
@@ -270,6 +270,8 @@ def _set_step(
     if step is None and (np.diff(time) <= 0.0).any():
         bad = int(np.flatnonzero(np.diff(time) <= 0.0)[0]) + 1
         raise InputError(f"{file}, line {first + bad + 1}: the time does not increase ({time[bad]:g} s); mend it.")
+    if step is None and np.median(np.diff(time)) <= LONGEST_STEP:  # no hole that a straight line would fill
+        rising_pairs(np.repeat(time, 2), file, first, len(time))
     if step is not None and "dt_s" in comments:
         stated = _comment_number(comments, "dt_s", file)  # in every digit, where times are rounded
         if abs(stated - step) * (len(time) - 1) <= ROUNDING_SHARE * step:
