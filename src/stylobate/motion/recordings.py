@@ -12,6 +12,9 @@ from .spectra import pseudo_acceleration
 #: Periods at which shapes of spectra are compared [s], and their bounds for the bands of those of both components together.
 PERIODS, BANDS = np.geomspace(0.1, 3.0, 24), np.geomspace(1.0 / 3.0, 10.0, 25)
 
+#: Kinds of shapes: of the spectrum of a component, and of both components together.
+KINDS = ALONE, TOGETHER = range(2)
+
 #: Distance of logarithms within which shapes agree at a period, and share of the periods at which those of one recording do:
 #: other filters, base lines and sampling change its ends. At two stations it is a fifth.
 ALIKE, SHARE = 0.02, 0.6
@@ -30,27 +33,47 @@ def recorded_again(motions: Sequence[Motion]) -> dict[int, int]:
     each, or of both together, which do not hang on the axes, have one shape then, and the accelerations one course: at
     stations a street apart they differ. Of two files that with more components is the record.
     """
-    order = sorted(range(len(motions)), key=lambda k: -len(motions[k].components))
+    order = sorted(range(len(motions)), key=lambda k: -len(motions[k].peaks))
+    rank = {k: place for place, k in enumerate(order)}
+    own = {k: list(_shapes(motions[k])) for k in order}
+    seen = {kind: _Seen(sum(one == kind for some in own.values() for one, _ in some)) for kind in KINDS}
     again: dict[int, int] = {}
-    seen: list[tuple[int, int, np.ndarray]] = []  # number, kind of shape, shape
     for k in order:
-        own = list(_shapes(motions[k]))
-        near = {other for kind, shape in own for other in _near(kind, shape, seen)}
-        owner = next((one for one in sorted(near, key=order.index) if _correlated(motions[one], motions[k])), None)
+        near = {other for kind, shape in own[k] for other in seen[kind].near(shape)}
+        owner = next((one for one in sorted(near, key=rank.__getitem__) if _correlated(motions[one], motions[k])), None)
         if owner is not None:
             again[k] = owner
-        else:
-            seen.extend((k, kind, shape) for kind, shape in own)
+            continue
+        for kind, shape in own[k]:
+            seen[kind].add(k, shape)
     return again
 
 
+class _Seen:
+    """Shapes of one kind of the records that were looked at, with room for so many."""
+
+    def __init__(self, room: int) -> None:
+        self.shapes, self.owner, self.count = np.empty((room, len(PERIODS))), np.zeros(room, int), 0
+
+    def add(self, number: int, shape: np.ndarray) -> None:
+        """Keep the shape of a record."""
+        self.shapes[self.count], self.owner[self.count] = shape, number
+        self.count += 1
+
+    def near(self, shape: np.ndarray) -> list[int]:
+        """Numbers of records with a shape like this one, whatever its size."""
+        apart = self.shapes[: self.count] - shape
+        apart -= np.median(apart, axis=1, keepdims=True)
+        return self.owner[: self.count][(np.abs(apart) < ALIKE).mean(axis=1) >= SHARE].tolist()
+
+
 def _shapes(motion: Motion) -> Iterator[tuple[int, np.ndarray]]:
-    """Kinds and logarithms of spectra of a motion: 1 of a component, 2 of both together."""
-    axes = [axis for axis in "xy" if axis in motion.components]
+    """Kinds and logarithms of spectra of a motion, each of as many numbers."""
+    axes = [axis for axis in "xy" if axis in motion.peaks]
     for axis in axes:
         spectrum = pseudo_acceleration(motion, PERIODS, component=axis)
         if spectrum.min() > 0.0:
-            yield 1, np.log(spectrum)
+            yield ALONE, np.log(spectrum)
     if len(axes) < 2:
         return
     count = 1 << int(np.ceil(np.log2(max(1.0 / (RESOLUTION * motion.dt), motion.steps + 1))))
@@ -58,18 +81,7 @@ def _shapes(motion: Motion) -> Iterator[tuple[int, np.ndarray]]:
     edges = np.searchsorted(np.fft.rfftfreq(count, motion.dt), BANDS)
     bands = np.diff(np.concatenate([[0.0], np.cumsum(power)])[edges])
     if bands.min(initial=np.inf) > 0.0:
-        yield 2, 0.5 * np.log(bands)
-
-
-def _near(kind: int, shape: np.ndarray, seen: Sequence[tuple[int, int, np.ndarray]]) -> Iterator[int]:
-    """Numbers of motions with a shape like this one, whatever its size."""
-    alike = [(number, other) for number, of_kind, other in seen if of_kind == kind]
-    if not alike:
-        return
-    apart = np.array([other for _, other in alike]) - shape
-    apart -= np.median(apart, axis=1, keepdims=True)
-    agree = (np.abs(apart) < ALIKE).mean(axis=1) >= SHARE
-    yield from (number for (number, _), yes in zip(alike, agree, strict=True) if yes)
+        yield TOGETHER, 0.5 * np.log(bands)
 
 
 def _correlated(one: Motion, other: Motion) -> bool:
