@@ -50,8 +50,7 @@ def rotated(motion: Motion, azimuth: float) -> Motion:
         axis, angle, other = ("x", known[0], "y") if known[1] is None else ("y", known[1], "x")
         raise InputError(
             f"{axis} of {motion.name!r} points to {angle:g}°, and where {other} points is not stated, as turning to an "
-            "azimuth needs; state it: `stylobate motion FILE --out DIR` writes the motion as CSV, add the line "
-            f"'# azimuth_{other}_deg: …' to it.",
+            f"azimuth needs; state it: write the motion as CSV, and add the line '# azimuth_{other}_deg: …' to it.",
             "azimuth",
         )
     wanted %= 360.0
