@@ -24,9 +24,6 @@ OTHERS = {"magnitude": False, "distance_km": True, "pgv_over_pga_s": True, "d5_9
 #: Fewest records from which a straight line says something.
 FEWEST = 5
 
-#: A dispersion so near, in its logarithm, to where the fit ends is at the end [-].
-CLOSE = 1e-6
-
 #: Responses below this share of the largest that stands are no rocking [-].
 ROCKS = 0.01
 
@@ -79,7 +76,8 @@ def which_tells_most(
             "measure": measure.name,
             "unit": measure.unit,
             "median": math.exp(best.log_median[0]),
-            "beta": _seen(float(best.beta[0])),
+            # steps of its own levels show no dispersion of the measure that was run, which is not the best for that
+            "beta": math.nan if (seen := lognormal.seen(float(best.beta[0]))) is None else seen,
             "beta_low": limits[0],
             "beta_high": limits[1],
             "sigma_ln_edp": _given(runs, measure, edp),
@@ -92,11 +90,6 @@ def which_tells_most(
             row[f"p_{other}"] = _p_value(runs, other, logarithm, np.unique(told.records)[known], capacity)
         rows.append(row)
     return pandas.DataFrame(sorted(rows, key=lambda one: (math.isnan(one["beta"]), one["beta"])))
-
-
-def _seen(beta: float) -> float:
-    """A dispersion; NaN where the fit ends at its least one: steps of its own levels show none, and it is not the best."""
-    return beta if beta > lognormal.BETAS[0] * (1.0 + CLOSE) else math.nan
 
 
 def _measures(runs: pandas.DataFrame) -> list[IntensityMeasure]:

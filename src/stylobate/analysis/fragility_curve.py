@@ -15,7 +15,7 @@ from . import lognormal
 from .evidence import Evidence, independent, intervals
 from .fragility_points import Points
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
-from .lognormal import curve
+from .lognormal import AT_END, curve
 from .unknown_law import few_laws
 
 #: A limit of the median that is farther from all intensities that were run than by this factor is none.
@@ -23,9 +23,6 @@ FAR = 1000.0
 
 #: Dispersions on either side of the median within which a curve is drawn, and its points.
 WIDE, DRAWN = 3.5, 80
-
-#: A dispersion so near, in its logarithm, to where the fit ends is at the end [-].
-CLOSE = 1e-6
 
 #: Share of its records that runs come to as equal ones below which it is said that a few hold most of the runs [-].
 UNEQUAL = 0.7
@@ -148,7 +145,7 @@ class Fragility(Shown):
         """Caveat on a median beyond all intensities that were computed; empty where it is among them."""
         e, (low, high) = self.evidence, self.levels
         unit = "" if e.unit == "-" else f" {e.unit}"
-        if low * (1.0 - CLOSE) <= self.median <= high * (1.0 + CLOSE):
+        if low * (1.0 - AT_END) <= self.median <= high * (1.0 + AT_END):
             return ""
         where, more = ("above", "larger") if self.median > high else ("below", "smaller")
         return (
@@ -164,7 +161,7 @@ class Fragility(Shown):
     @property
     def no_dispersion(self) -> str:
         """What must be said of a dispersion that these runs do not show, which β then is the least of; else empty."""
-        if _seen(self.beta) is not None:
+        if lognormal.seen(self.beta) is not None:
             return ""
         most = self.beta_interval[1]
         limit = f"it may be up to {most:.2g}" if math.isfinite(most) else "no limit of it is known"
@@ -232,7 +229,7 @@ class Fragility(Shown):
     def _median_limits(self) -> tuple[float, float]:
         """Limits of ln θ by the decided runs; infinite where none is known."""
         middle, spread = self.samples.T
-        endless = spread >= math.log(lognormal.BETAS[1]) - CLOSE
+        endless = spread >= math.log(lognormal.BETAS[1]) - AT_END
         im = np.log(self.evidence.im)
         samples = np.where(endless, np.copysign(np.inf, middle - im.mean()), middle)
         known = [*self.limits(self.log_median, samples, self.region[:, 0])]
@@ -245,11 +242,11 @@ class Fragility(Shown):
     def beta_interval(self) -> tuple[float, float]:
         """Confidence limits of β, whatever open runs come to; 0 and +inf where none is known."""
         least, most = np.log(lognormal.BETAS)
-        samples = np.where(self.samples[:, 1] >= most - CLOSE, np.inf, self.samples[:, 1])
+        samples = np.where(self.samples[:, 1] >= most - AT_END, np.inf, self.samples[:, 1])
         with np.errstate(divide="ignore"):
             plausible = np.log(self.dispersions)
         low, high = np.quantile(samples, [self._share, 1.0 - self._share], method="nearest")
-        if low <= least + CLOSE:  # samples that show no dispersion do not say that there is none
+        if low <= least + AT_END:  # samples that show no dispersion do not say that there is none
             low, high = plausible.min(), max(high, plausible.max())
         else:
             low, high = self.limits(math.log(self.beta), samples, plausible)
@@ -300,12 +297,9 @@ class Fragility(Shown):
         if self.bracket is None:
             return f"{e.name}: half of the {self.counted} bring {where} = {self.median:.3g}{unit}."
         low, high = self.bracket
-        again = (
-            int(((e.codes == NOT_EXCEEDED) & (e.im > high * (1.0 + CLOSE))).sum()) if self.method == "records" else 0
-        )
-        if (
-            again
-        ):  # what stands above a collapse is no capacity, and no run that a sentence on all of them may pass over
+        stands = (e.codes == NOT_EXCEEDED) & (e.im > high * (1.0 + AT_END))
+        # what stands above a collapse is no capacity, and no run that a sentence on all of them may pass over
+        if again := int(stands.sum()) if self.method == "records" else 0:
             place = f"at {low:.4g}{unit}" if low == high else f"between {low:.4g} and {high:.4g}{unit}"
             return (
                 f"{e.name}: under every record {where} begins {place}; {again} run{'s' * (again > 1)} above that "
@@ -335,7 +329,7 @@ class Fragility(Shown):
             "median_low": self.median_interval[0],
             "median_high": self.median_interval[1],
             **self._law_facts(),
-            "beta": _seen(self.beta),
+            "beta": lognormal.seen(self.beta),
             "beta_low": self.beta_interval[0],
             "beta_high": self.beta_interval[1],
             "correlation": lognormal.correlation(self.samples),
@@ -355,19 +349,14 @@ class Fragility(Shown):
             "levels": list(self.levels),
             "outside": self.outside,
             "bracket": None if self.bracket is None else list(self.bracket),
-            "if_open_exceed": {"median": math.exp(high_median), "beta": _seen(high_beta)},
-            "if_open_do_not": {"median": math.exp(low_median), "beta": _seen(low_beta)},
+            "if_open_exceed": {"median": math.exp(high_median), "beta": lognormal.seen(high_beta)},
+            "if_open_do_not": {"median": math.exp(low_median), "beta": lognormal.seen(low_beta)},
             "largest_distance": self.distance,
             "p_value": self.p_value,
             "sentence": self.sentence,
             "curve": self.drawn(),
             "points": self.points.table(),
         }
-
-
-def _seen(beta: float) -> float | None:
-    """β, if the runs show one."""
-    return beta if beta > lognormal.BETAS[0] * (1.0 + CLOSE) else None
 
 
 def between(low: float | None, high: float | None, unit: str = "-", digits: int = 4) -> str:

@@ -20,6 +20,9 @@ from scipy.special import log_ndtr, ndtr, ndtri
 #: Dispersions are kept inside these [-]: where the runs below and above do not overlap the best one is 0.
 BETAS = (0.01, 10.0)
 
+#: A dispersion so near, as a share, to where the fit ends is at the end [-].
+AT_END = 1e-6
+
 #: Newton's steps at most, and the change of ln θ and ln β after which there are none [-].
 STEPS, CLOSE = 60, 1e-9
 
@@ -77,6 +80,11 @@ def fit(low: np.ndarray, high: np.ndarray, weight: np.ndarray | None = None) -> 
         found = _newton(low[solvable], high[solvable], weight[solvable])
         log_median[solvable], beta[solvable] = found
     return Fit(log_median, beta)
+
+
+def seen(beta: float) -> float | None:
+    """β, if runs show one; None where the fit ends at the least of all."""
+    return beta if beta > BETAS[0] * (1.0 + AT_END) else None
 
 
 def falls(found: Fit) -> bool:

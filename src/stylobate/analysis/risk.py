@@ -225,6 +225,16 @@ def check_reach(hazard: Hazard, log_median: float, beta: float, rate: float, sta
     return beyond
 
 
+def doubts(
+    hazard: Hazard, measure: str, unit: str, log_median: float, beta: float, rate: float, state: str
+) -> list[str]:
+    """Doubts about a hazard curve for a fragility, in sentences; refusals as of the checks of intensity and of reach."""
+    doubt = check_intensity(measure, unit, hazard)
+    check_reach(hazard, log_median, beta, rate, state)
+    late = begins_late(hazard, weaker_than(hazard, log_median, beta), rate)
+    return [one for one in (doubt and f"{doubt}.", late) if one]
+
+
 def weaker_than(hazard: Hazard, log_median: float, beta: float) -> float:
     """Rate from shaking below the first intensity of a curve, with its first slope carried on [1/y].
 

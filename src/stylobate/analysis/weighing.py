@@ -20,7 +20,7 @@ from ..percent import percent
 from .hazard import Hazard
 from .monuments import Branch, Sites
 from .poisson import Pattern, together
-from .risk import begins_late, check_intensity, check_reach, rates, weaker_than
+from .risk import doubts, rates
 from .shared_events import SharedEvents
 
 #: Draws of ages, and of fragilities with each, where events are known by hazard curves and where they are drawn.
@@ -344,12 +344,9 @@ def _each(
         for n, state in enumerate(states):
             hazard, capacity = branch.curves[state.site], state.capacity
             with within(f"branch {branch.name!r}, {state.called}"):
-                doubt = check_intensity(capacity.measure, capacity.unit, hazard)
                 found[n, b] = rates(hazard, every[0][n], every[1][n])
                 middle, rate = (float(best[0][n, 0]), float(best[1][n, 0])), float(found[n, b, 0])
-                check_reach(hazard, *middle, rate, capacity.state)
-            late = begins_late(hazard, weaker_than(hazard, *middle), rate)
-            warnings += [*([f"{doubt}."] if doubt else []), *([late] if late else [])]
+                warnings += doubts(hazard, capacity.measure, capacity.unit, *middle, rate, capacity.state)
     warnings += [
         f"the fragility of {one.called} is taken as exactly known; give median_95 and beta_95."
         for one in states
