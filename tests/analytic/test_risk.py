@@ -117,6 +117,12 @@ def test_the_interval_of_a_rate_holds_those_of_both_ends_of_open_runs(curve):
     assert (nothing.low, nothing.high) == (0.0, math.inf)  # nor does anything limit what weaker shaking adds
 
 
+def test_hazards_of_one_name_are_refused(curve):
+    one = Hazard(np.geomspace(0.01, 10.0, 9), 1e-4 * np.geomspace(0.01, 10.0, 9) ** -2.0, "m/s", "site.csv", "PGV")
+    with pytest.raises(InputError, match=r"two hazard curves are called 'site\.csv'"):
+        survival(curve, 2400.0, [one, one])
+
+
 def test_survival(curve):
     x = np.geomspace(0.01, 10.0, 9)
     hazards = [Hazard(x, k0 * x**-2.0, "m/s", name) for name, k0 in (("a", 1e-4), ("b", 1e-3))]

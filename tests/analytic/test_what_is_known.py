@@ -60,6 +60,14 @@ def test_twins_of_a_record_at_one_level_are_no_further_records():
     assert any("a few of its 12 records hold most of the runs" in one for one in found.warnings)
 
 
+def test_runs_that_stand_above_a_collapse_are_no_run_that_collapses():
+    codes = np.tile(LEVELS > 0.5, (12, 1)).astype(np.int8)
+    codes[3, -1] = 0
+    said = fragility(runs(codes), method="records", samples=100).sentence
+    assert "between 0.47 and 0.68 m/s; 1 run above that stands again and is left out" in said
+    assert "every run" not in said
+
+
 def test_stripes_that_no_run_contradicts_tell_the_bracket():
     found = fragility(SEPARABLE, samples=100)
     said = found.summary()
