@@ -88,7 +88,8 @@ def reworded(sentence: str, called: Callable[[str], str]) -> str:
 
     def word(found: re.Match[str]) -> str:
         name, value = found.groups()
-        return " ".join([called(name), *([value.strip("'") + UNITS.get(name, "")] if value else [])])
+        text = (value or "").strip("'") + UNITS.get(name, "")
+        return " ".join([called(name), *([f'"{text}"' if " " in text else text] if value else [])])
 
     return PARAMETER.sub(word, sentence)
 

@@ -374,6 +374,6 @@ FORMATS = {
     "renadic": (renadic(), g / 10, "RENADIC V1", (0.0, 90.0), True),
     "bhrc": (bhrc(), g / 10, "BHRC V1", (352.0, 82.0), True),
     "itaca": (itaca(), 0.01, "ESM / ITACA ASCII", (90.0,), False),
-    "taiwan": (taiwan(), 0.01, "columns of text", (0.0, 90.0), True),
+    "taiwan": (taiwan(), 0.01, "TSMIP text", (0.0, 90.0), True),
 }
 FILM = ("csmip_v1", "usc")

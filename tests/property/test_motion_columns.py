@@ -95,7 +95,8 @@ def test_a_report_on_a_filtered_record_tells_its_filter_and_of_a_drifting_one_ho
         "# a comment\n\ntime_s,ax_gal\r\n0.00,98.1\r\n0.01,-196.2\r\n0.02,98.1\r\n",
         "time_s;ax_g\n0,00;0,1\n0,01;-0,2\n0,02;0,1\n",
         "time_ms\tax_g\n0\t0.1\n10\t-0.2\n20\t0.1\n",
-        "Time (s), Acceleration (cm/s^2)\n0.00, 98.1\n0.01, -196.2\n0.02, 98.1\n",
+        "sep=,\ntime_s, ax_cm/s^2\n0.00, 98.1\n0.01, -196.2\n0.02, 98.1\n",
+        "# time_s ax_g\n0.00 0.1\n0.01 -0.2\n0.02 0.1\n*** End Data ***\n",
         "\ufefftime_s,ax_g\r\r\n0.00,0.1\r\r\n0.01,-0.2\r\r\n0.02,0.1\r\r\n",
         "ax_g,time_s\n0.1,0.00\n-0.2,0.01\n0.1,0.02\n",
     ],
@@ -116,8 +117,8 @@ def test_three_components_and_the_vertical(put):
 def test_bare_columns(put):
     two = read_motion(put("0.00 0.1\n0.02 -0.1\n0.04 0.0\n"), unit="g")
     assert (two.dt, two.pga) == (0.02, pytest.approx(0.1 * g))
-    one = read_motion(put("# title: Athens 1999\n0.1\n-0.1\n0.0\n"), unit="m/s2", dt=0.01)
-    assert (one.dt, one.pga, one.metadata["header"]) == (0.01, 0.1, ("# title: Athens 1999",))
+    one = read_motion(put("# title: Athens 1999\nax_m_s2\n0.1\n-0.1\n0.0\n"), dt=0.01)
+    assert (one.dt, one.pga, one.metadata["header"]) == (0.01, 0.1, ("# title: Athens 1999", "ax_m_s2"))
     glued = read_motion(put("0.00-0.1\n0.02-0.2\n0.04 0.3\n"), unit="g")
     assert glued.acceleration == pytest.approx([-0.1 * g, -0.2 * g, 0.3 * g])
     fortran = read_motion(put("0.1D+01\n-1.0d0\n0.0\n"), unit="gal", dt=0.01)
@@ -171,12 +172,12 @@ def test_a_peak_beyond_all_records_is_noticed(put):
         ("0 0.1\n1 2 3\n2\n", {"unit": "g"}, "line 2: 3 numbers"),
         ("0 0.1\n1 0.1\n", {"unit": "furlong"}, "allowed are g, m/s2"),
         ("time_s,ax_furlong\n0,1\n1,1\n", {}, "allowed are g, m/s2"),
-        ("time_s,ax_g,ax_g\n0,1,1\n1,1,1\n", {}, "2 columns are named"),
-        ("time_s,ay_g\n0,1\n1,1\n", {}, "no column holds the horizontal"),
+        ("time_s,ax_g,ax_g\n0,1,1\n1,1,1\n", {}, "names 2 columns x"),
+        ("time_s,ay_g\n0,1\n1,1\n", {}, "names a column y and none x"),
         ("time_s,ax_g\n0,1\n1,1\n", {"unit": "m/s2"}, "leave the unit out"),
-        ("time_s,ax_g\n0,1,2\n1,1,2\n", {}, "3 numbers under 2 column names"),
-        ("time_s,ax_g\n0,00,0,10\n0,01,0,20\n", {}, "if a comma is the sign of decimals"),
-        ("1 2 3 4 5 6\n1 2 3 4 5 6\n", {"unit": "g", "dt": 0.01}, "rows of 6 numbers"),
+        ("time_s,ax_g\n0,1,2\n1,1,2\n", {}, "names 2 columns, the rows hold 3 numbers"),
+        ("time_s,ax_g\n0,00,0,10\n0,01,0,20\n", {}, "by semicolons where a comma is the sign"),
+        ("1 2 3 4 5 6\n1 2 3 4 5 6\n", {"unit": "g", "dt": 0.01}, "6 columns of numbers without names"),
         ("time_s,ax_g\n0,1\n0,1\n", {}, "time goes from 0 s to 0 s"),
         ("time_s,ax_g\n0,1\n0.1,1\n0.2,0\n", {"dt": 0.05}, "leave dt out"),
         ("0,15\n0,25\n1,35\n", {"unit": "g", "dt": 0.01}, "one number with a decimal comma or two numbers"),
@@ -211,8 +212,7 @@ MILLISECONDS = "".join(f"{10 * i},{(-1) ** i}\n" for i in range(20))
         (MILLISECONDS, {"unit": "g"}, "is 10 s; allowed"),
         ("time_s,ax_g\n0,1\n10,-1\n20,1\n31,0\n", {"dt": 0.01}, "the median step of the times of record.txt is 10 s"),
         ("time_ms,ax_g\n0,1\n0.01,-1\n0.02,1\n", {}, "is 1e-05 s"),
-        ("# dt_s: 10\nax_g\n1\n-1\n", {}, "is 10 s"),
-        ("# DT= 5\nax_g\n1\n-1\n", {}, "is 5 s"),
+        ("ax_g\n1\n-1\n", {"dt": 10.0}, "is 10 s"),
         ("1\n-1\n", {"unit": "g", "dt": 10.0}, "is 10 s"),
     ],
 )
@@ -226,7 +226,7 @@ def test_milliseconds_that_are_named_are_read(put):
 
 
 def test_decimal_commas_between_blanks_are_read(put):
-    motion = read_motion(put("time acc\n0,00\t0,1\n0,01\t-0,2\n0,02\t0,1\n"), unit="g")
+    motion = read_motion(put("time_s ax\n0,00\t0,1\n0,01\t-0,2\n0,02\t0,1\n"), unit="g")
     assert motion.acceleration == pytest.approx([0.1 * g, -0.2 * g, 0.1 * g])
 
 

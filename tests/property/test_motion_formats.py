@@ -152,8 +152,10 @@ def test_a_file_of_two_formats_is_refused(put):
 
 
 def test_a_stated_unit_is_not_overruled(put):
-    with pytest.raises(InputError, match="leave the unit out"):
+    with pytest.raises(InputError, match="leave `unit` out"):
         read(put(esm()), unit="g")
+    with pytest.raises(InputError, match="states its columns; leave `columns` out"):
+        read(put(esm()), columns="x [g]")
 
 
 def test_a_step_that_contradicts_the_length_is_refused(put):

@@ -41,6 +41,7 @@ class MotionAsked(Table):
     across: str | None = None
     unit: str | None = None
     dt: str | None = None
+    columns: str | None = None
     component: str | None = None
     azimuth: str | None = None
     pga: str | None = None
@@ -55,7 +56,7 @@ class MotionAsked(Table):
         files : sequence of str
             Paths of the record.
         """
-        options = ("across", "unit", "dt", "component", "azimuth", "pga", "scale")
+        options = ("across", "unit", "dt", "columns", "component", "azimuth", "pga", "scale")
         found: dict[str, Any] = {name: value for name in options if (value := getattr(self, name))}
         if self.vertical == "off":
             found["vertical"] = "off"
@@ -96,6 +97,7 @@ class JobAsked(Table):
     page: dict[str, Any] = Field(default_factory=dict)
     records: list[str] = Field(default_factory=list)
     unit: str | None = None
+    columns: str | None = None
     im: str | None = None
     runs: str | None = None
     state: str | None = None
@@ -132,7 +134,7 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
     files = _each(asked.records, records)
-    analysis = ["ida", *common, *files, *_options(unit=asked.unit, im=asked.im, runs=asked.runs), *end]
+    analysis = ["ida", *common, *files, *_options(unit=asked.unit, columns=asked.columns, im=asked.im, runs=asked.runs), *end]
     if len(asked.records) < FEWEST:
         return [analysis]
     return [analysis, ["fragility", RESULT, *_options(state=asked.state), f"--out={FRAGILITY}"]]
@@ -161,7 +163,7 @@ def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) 
     if "motions" in takes and asked.records:
         line += [f"--motion={path}" for path in _each(asked.records, records)]
     elif {"motion", "motions", "round"} & {*takes}:
-        given.pop("unit", None)  # of records; that of the page's motion goes with it
+        given = {name: text for name, text in given.items() if name not in ("unit", "columns")}  # the page's motion has its own
         motion = _the_motion(asked)
         line += _motion(motion.model_copy(update={"azimuth": None}) if "round" in takes else motion, records)
     if {"hazard", "hazards"} & {*takes}:

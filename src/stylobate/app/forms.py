@@ -132,6 +132,7 @@ FORMS = {
             Box("rest", "Quiet after each [s]", "30", "s"),
             Box("factors", "A factor for each", hint="such as 1,0.6,0.4"),
             Box("unit", "Unit", choices=UNITS),
+            Box("columns", "Columns", hint="such as t [s], x [g], -, z [g]"),
             REPLICATES,
         ),
         facts={"fell_in": "fell in earthquake", "collapse_probability": "probability of collapse"},

@@ -25,6 +25,7 @@ LABELS = {
     "motion": "Record",
     "unit": "Unit",
     "dt": "Step",
+    "columns": "Columns",
     "component": "Component as x",
     "azimuth": "Azimuth",
     "pga": "Scale to a peak of",

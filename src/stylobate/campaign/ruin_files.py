@@ -55,6 +55,7 @@ class PriorTable(Table):
     cycles: list[float] | None = None
     records: str | list[str] | None = None
     unit: str | None = None
+    columns: str | None = None
     scale: list[float] | None = None
     law: list[str] | None = None
     stiffness_damping: list[Any] | None = None
@@ -152,8 +153,9 @@ def _prior(table: PriorTable, folder: Path) -> Prior:
     damping = table.stiffness_damping
     losses = LOSSES if damping is None else [_number("stiffness_damping", one, parse_time) for one in damping]
     scatter = None if table.scatter is None else table.scatter.scatter or AS_SURVEYED
-    if table.unit is not None and not table.records:
-        raise InputError("`unit` is for records, and none are given; leave it out.", "unit")
+    for name in ("unit", "columns"):
+        if getattr(table, name) is not None and not table.records:
+            raise InputError(f"`{name}` is for records, and none are given; leave it out.", name)
     records = _records(table, folder) if table.records is not None else ()
     return Prior(**fields, records=records, law=table.law or LAWS, stiffness_damping=losses, scatter=scatter)
 
@@ -162,7 +164,7 @@ def _records(table: PriorTable, folder: Path) -> Sequence[Motion]:
     """Records of a file, a folder, or several of them; what cannot be read is refused, not left out."""
     patterns = [table.records] if isinstance(table.records, str) else list(table.records or ())
     files = tuple(listed(patterns, folder, "[prior]", "ruin"))
-    suite = MotionRequest(files=files, separate=True, unit=table.unit).expand()
+    suite = MotionRequest(files=files, separate=True, unit=table.unit, columns=table.columns).expand()
     for name, reason in suite.refused.items():
         raise InputError(f"{name} cannot be used: {reason}", "records")
     return suite.motions

@@ -46,6 +46,7 @@ class MotionsTable(Table):
     files: list[str] | None = None
     sequences: list[SequenceTable] | None = None
     unit: str | None = None
+    columns: str | None = None
     components: str | None = None
     azimuths: Any = None
     signs: str = "+"
@@ -176,6 +177,7 @@ def _motions(table: MotionsTable, folder: Path) -> tuple[Sequence[Motion], dict[
             files=tuple(listed(patterns, folder)),
             separate=True,
             unit=table.unit,
+            columns=table.columns,
             component=_component(table.components),
             azimuths=_azimuths(table.azimuths),
             signs=table.signs,

@@ -107,6 +107,7 @@ class Motions(Group):
     )
     unit: str | None = option(None, "Unit of the record where the file names none, such as g.")
     dt: str | None = option("TIME", "Step of a record without times, such as 0.01s.")
+    columns: str | None = option("NAMES", 'Columns of a text file: "t [s], x [g], -, z [g]", - to leave one out.')
     component: str | None = option("C", "The one component to use: its number, label or azimuth.")
     azimuth: str | None = option("ANGLE", "Turn the whole motion, so that x points there, such as 30deg.")
     azimuths: str | None = option("A:A:N", "Every motion turned to each of these, such as 0:330:12.")

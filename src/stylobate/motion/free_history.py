@@ -12,11 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError, check_choice, check_kind, check_range
-from .readers.columns import first_row
 from .readers.source import Source
 from .readers.steps import first_bad_step, resampled, step_of
-from .readers.tables import number_rows, read_table
-from .readers.vocabulary import time_unit
+from .readers.tables import first_row, read_table
+from .specs import TIME_UNITS
 
 #: Units of tilt [rad] and of displacement [m].
 TILTS = {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180.0, "°": math.pi / 180.0, "degrees": math.pi / 180.0}
@@ -151,8 +150,7 @@ def read_free_history(path: str | Path, unit: str | None = None, dt: float | Non
             f"{source.name} holds no columns of tilt or displacement (records of other formats hold accelerations); "
             f"{EXAMPLE}."
         )
-    rows, first = number_rows(source.lines, start, source.name)
-    table = read_table(rows, first, source.name)
+    table = read_table(source.lines, start, source.name)
     titles = [line.strip() for line in source.lines[:start] if line.strip() and not line.strip().startswith(("#", "%"))]
     timed, order, kind, size = _columns(titles[-1] if titles else "", table, unit, source.name)
     values = np.ascontiguousarray(table[:, order]) * size
@@ -194,7 +192,7 @@ def _columns(header: str, table: np.ndarray, unit: str | None, file: str) -> tup
     for i, one in enumerate(found):
         assert one is not None
         if one["what"] in ("time", "t"):
-            timed = time_unit(one["unit"] or "s")
+            timed = TIME_UNITS.get(one["unit"] or "s")
             if timed is None or i or one["axis"]:
                 raise InputError(f"{file}: its header has the column {names[i]!r}; {EXAMPLE}, times first.")
             continue

@@ -19,6 +19,7 @@ from .motion import FACTORS, Motion
 from .orientation import keep_axes, rotated, turned
 from .ranges import azimuth_range
 from .readers import Suite, read_motion, read_suite
+from .readers.columns import parse_columns
 from .specs import (
     parse_acceleration,
     parse_angle,
@@ -65,6 +66,8 @@ class MotionRequest:
         Of files that state none.
     dt : float, optional
         Step of files without times [s].
+    columns : str, optional
+        Of text files whose header is not ours: ``t [s], x [g], -, z [g]``.
     component : str, optional
         ``all`` horizontal components of a record, one after the other as x; the ``strongest``; or one alone, by its number,
         label or azimuth. As recorded by default.
@@ -96,6 +99,7 @@ class MotionRequest:
     separate: bool = False
     unit: str | None = None
     dt: float | None = None
+    columns: str | None = None
     component: str | None = None
     azimuths: tuple[float, ...] = ()
     signs: str = "+"
@@ -107,9 +111,11 @@ class MotionRequest:
     def __post_init__(self) -> None:
         for name, kind in (("files", (str, Path)), ("azimuths", Real), ("condition", str)):
             object.__setattr__(self, name, tuple(check_all(name, getattr(self, name), kind)))
-        for name in ("harmonic", "across", "pulse", "synthetic", "unit"):
+        for name in ("harmonic", "across", "pulse", "synthetic", "unit", "columns"):
             check_kind(name, getattr(self, name), str, optional=True)
         check_kind("component", self.component, (str, int), optional=True)
+        if self.columns is not None:
+            parse_columns(self.columns)
         if self.scale is not None:
             check_range("`scale`", self.scale, *FACTORS)
         for name in ("dt", "pga"):
@@ -118,7 +124,7 @@ class MotionRequest:
         if len(given) != 1:
             what = "no motion is given" if not given else f"{' and '.join(given)} are both given"
             raise InputError(f"{what}; give one of `harmonic`, `pulse`, `synthetic` and `files`.", "files")
-        for name in ("unit", "dt", "component"):
+        for name in ("unit", "dt", "columns", "component"):
             if getattr(self, name) is not None and not self.files:
                 raise InputError(
                     f"`{name}` describes a record, but none is given; leave it out or give `files=FILE`.", name
@@ -246,7 +252,7 @@ class MotionRequest:
             return Suite((_as_asked(self.motion(frequency_parameter, amplitude_open=amplitude_open)),), {})
         if self.separate or any(Path(path).is_dir() for path in self.files):
             picked = None if self.component in COMPONENTS else self.component
-            suite = read_suite(self._listed(), self.unit, self.dt, component=picked)
+            suite = read_suite(self._listed(), self.unit, self.dt, columns=self.columns, component=picked)
         else:
             suite = Suite((self._source(frequency_parameter, amplitude_open),), {})
         motions, refused = [], dict(suite.refused)
@@ -271,7 +277,7 @@ class MotionRequest:
         """The motion as it is recorded or computed."""
         if self.files:
             picked = None if self.component in COMPONENTS else self.component
-            return read_motion(self.files, self.unit, self.dt, component=picked)
+            return read_motion(self.files, self.unit, self.dt, columns=self.columns, component=picked)
         if self.synthetic is not None:
             return parse_synthetic(self.synthetic)
         if self.harmonic is not None:

@@ -37,6 +37,7 @@ function render() {
     el("div", { class: "row" }, field(labels.im, select(MEASURES, s.im, im => set({ im }), { "data-field": "im" })),
       field(labels.runs, el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", oninput: event => { typing = true; set({ runs: event.target.value.trim() }); typing = false; } })),
       field(`${labels.unit}, where a file states none`, select(motion.UNITS.map(one => [one, one || "as stated"]), s.unit, unit => set({ unit }), { "data-field": "unit" }))),
+    field(`${labels.columns} of text files without a header such as time_s,ax_g`, el("input", { value: s.columns, placeholder: "such as t [s], x [g], -, z [g]", "data-field": "columns", oninput: event => { typing = true; set({ columns: event.target.value.trim() }); typing = false; } })),
     choice("state", labels.state, limits(), wanted(), one => set({ state: one })),
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records${s.records.length < 10 ? "; a fragility takes ten" : ""}`)));
 }
@@ -45,7 +46,7 @@ async function go() {
   const s = state.fragility, asked = find("#fragility-asked", panel);
   try {
     mark(asked, null);
-    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: numeral(s.runs, "runs", labels.runs, { such: "8", whole: true }), state: wanted(), page: { fragility: s }, ...(s.unit ? { unit: s.unit } : {}) });
+    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: numeral(s.runs, "runs", labels.runs, { such: "8", whole: true }), state: wanted(), page: { fragility: s }, ...(s.unit ? { unit: s.unit } : {}), ...(s.columns ? { columns: s.columns.replace(/"/g, "") } : {}) });
     change({ fragilityJob: job.id });
   } catch (error) { mark(asked, error); }
 }

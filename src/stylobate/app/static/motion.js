@@ -44,6 +44,7 @@ export function asked(motion = state.motion) {
   else if (motion.kind === "record") {
     found.text = motion.record;
     if (motion.unit) found.unit = motion.unit;
+    if (motion.columns) found.columns = motion.columns.replace(/"/g, "");
     if (motion.dt) found.dt = `${numeral(motion.dt, "dt", labels.dt, { unit: "s", such: "0.01" })}s`;
   } else found.text = motion.region;
   if (motion.component && ["record", "sample"].includes(motion.kind)) found.component = motion.component;
@@ -105,6 +106,7 @@ function record(m) {
     m.record && el("div", { class: "row" },
       field(`${labels.unit}, where the file states none`, select(UNITS.map(one => [one, one || "as stated"]), m.unit, unit => set({ unit }), { "data-field": "unit" })),
       field(`${labels.dt} [s], without times`, el("input", { value: m.dt, inputmode: "decimal", "data-field": "dt", oninput: event => set({ dt: event.target.value.trim() }) }))),
+    m.record && field(`${labels.columns} of a text file, without a header such as time_s,ax_g`, el("input", { value: m.columns, placeholder: "such as t [s], x [g], -, z [g]", "data-field": "columns", oninput: event => set({ columns: event.target.value.trim() }) })),
     m.record && component(),
     m.record && el("button", { type: "button", class: "quiet", onclick: forget }, "Forget this record"),
   ];
@@ -113,11 +115,11 @@ function record(m) {
 // Files that come together are one record: its components, or what describes its station.
 export async function take(files) {
   const [one] = await records.take(files, true);
-  if (one) set({ kind: "record", record: one.id, name: one.name, unit: "", dt: "", component: "" }, true);
+  if (one) set({ kind: "record", record: one.id, name: one.name, unit: "", dt: "", columns: "", component: "" }, true);
 }
 function choose(id) {
   const one = records.all().find(other => other.id === id);
-  set({ record: id, name: one ? one.name : "", unit: "", dt: "", component: "" }, true);
+  set({ record: id, name: one ? one.name : "", unit: "", dt: "", columns: "", component: "" }, true);
 }
 async function forget() {
   await records.forget(state.motion.record);

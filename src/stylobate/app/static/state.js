@@ -5,11 +5,11 @@ const START = {
   motion: {
     kind: "harmonic", frequency: "1", amplitude: "0.3", duration: "10", both: false, across: "0.15", phase: "90",
     shape: "ricker", region: "greece,6.5Mw,20km,seed=1", sample: "el-centro-1940", record: "", name: "",
-    unit: "", dt: "", component: "", azimuth: "", pga: "", vertical: true,
+    unit: "", dt: "", columns: "", component: "", azimuth: "", pga: "", vertical: true,
   },
   model: "dem2d", replicates: "", tail: "", settings: {},
   domain: { f0: "0.33", f1: "4", fn: "12", a0: "0.05", a1: "0.6", an: "16", duration: "10" },
-  fragility: { records: [], unit: "", im: "pgv", runs: "8", state: "collapse" },
+  fragility: { records: [], unit: "", columns: "", im: "pgv", runs: "8", state: "collapse" },
   analysis: { kind: "directions", values: {}, records: [], source: "" },
   critical: { first: "0.05", last: "1", step: "0.05" },
 };

@@ -5,16 +5,17 @@ from __future__ import annotations
 import re
 
 from ...errors import InputError
-from ..specs import acceleration_unit
 from .checks import check_peak, check_step
-from .headers import Header
 from .keyed import is_numeric, keyed, number_of
 from .numbers import NUMBER, read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
 
-#: Labels of the format, by the directions that its heading names.
-_LABELS = {"NS": "N-S", "EW": "E-W", "UD": "U-D"}
+#: Labels of the format, by the words of its heading.
+_LABELS = {
+    "NS": "N-S", "N": "N-S", "NORTH": "N-S", "EW": "E-W", "E": "E-W", "EAST": "E-W", "UD": "U-D", "U": "U-D", "UP": "U-D",
+    "Z": "U-D",
+}  # fmt: skip
 
 
 def recognises(source: Source) -> bool:
@@ -35,19 +36,16 @@ def read(source: Source) -> tuple[list[Component], dict]:
     count = check_count(stated, file, line)
     stated_dt, line_of_step = number_of(header, "sampling interval", file)
     dt = check_step(stated_dt, file, line_of_step)
-    above = re.sub(r"\(([A-Z]-[A-Z])\)", r" \1 ", lines[start - 1]).strip()
-    heading = Header(above if above and ":" not in above else "N-S E-W U-D")
-    names = heading.names([False] * 3, False, None, f"{file}, line {start}")
+    above = lines[start - 1].strip()
+    words = [] if ":" in above else above.upper().replace("(GAL)", " ").split()
+    labels = [_LABELS.get(re.sub("[-/]", "", word.strip("()"))) for word in words] or ["N-S", "E-W", "U-D"]
+    if sorted(map(str, labels)) != ["E-W", "N-S", "U-D"]:
+        raise InputError(
+            f"{file}, line {start}: {above!r} does not name the three columns, as N-S, E-W, U-D in gal do; convert the file "
+            "to columns under a header such as time_s,ax_g."
+        )
     table = read_numbers(lines[start:], start, file, "rows of three accelerations", count=3 * count).reshape(-1, 3)
-    components = []
-    for name, values in zip(names, table.T):
-        if name.sign < 0.0 or acceleration_unit(name.unit or "gal")[0] != "gal":
-            raise InputError(
-                f"{file}, line {start}: {above!r} names a column with a sign or a unit of its own, where the format has "
-                "N-S, E-W, U-D in gal; convert the file to columns."
-            )
-        label = _LABELS.get(name.direction, name.direction)
-        components.append(oriented(Component(values * 0.01, dt, label)))
+    components = [oriented(Component(values * 0.01, dt, str(one))) for one, values in zip(labels, table.T)]
     peaks, line = next((entry for key, entry in header.items() if "pga values" in key), ("", 0))
     stated_peaks = re.findall(rf"(?:([NEU]-[SWD])\W*?)?({NUMBER})", peaks.upper())
     if len(stated_peaks) == 3:  # of the raw record: the one in the file may be corrected

@@ -1,96 +1,146 @@
-"""Columns of text: CSV whose header names the units, and plain numbers whose unit the caller states."""
+"""Columns of text: named by a header of our own (``time_s,ax_g``), or by ``columns`` as the caller states them."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import InputError, within
 from ..motion import Motion
-from ..specs import acceleration_unit
-from .checks import CUT, LONGEST_STEP, check_length, check_peak, check_same_step, rising_pairs
-from .comments import Stated, header_of, is_fact, stated
+from ..specs import TIME_UNITS, acceleration_unit
+from .checks import LONGEST_STEP, check_same_step, rising_pairs
 from .component import Component, UnstatedError
-from .headers import Header
-from .names import Name
-from .record import oriented
 from .source import Source
 from .steps import ROUNDING_SHARE, first_bad_step, step_of
-from .tables import check_commas, number_rows, read_series, read_table
-from .vocabulary import time_unit
+from .tables import MAX_TITLE_LINES, first_row, is_ambiguous, read_table
 
-#: Lines of text that may stand above the numbers.
-MAX_TITLE_LINES = 60
-#: Rows from which on a first column that grows in equal steps is one of times.
-FEWEST_STEPS = 4
-_COMMENT = ("#", "%", "!", "//", ";", "*", "'", '"#')
+#: From so many numbers to a line on, they may be one series, written on from line to line.
+SERIES = 5
+
+#: What a table of columns can be converted to, for messages.
+EXAMPLE = "time_s,ax_g"
+
+_STATED = re.compile(r"(?P<axis>-|\w+)\s*(?:\[\s*(?P<unit>[^\]]*?)\s*\])?")
+_OWN = re.compile(r"time_(?P<time>s|ms)|a(?P<axis>[xyz])(?:_(?P<unit>\S+))?")
 #: A step that was done to a record, as this package writes it.
 _DONE = re.compile(r"#\s*processing (?P<number>\d{1,9})\s*:\s*(?P<step>.*\S)")
-_NUMERIC = re.compile(r"[\s.eEdD+\-,;]*\d[\s\d.eEdD+\-,;]*")
+_FACTS = ("station", "network", "event", "event_id", "start_time", "terms")
+
+
+class Column(NamedTuple):
+    """What a column of numbers holds.
+
+    Parameters
+    ----------
+    axis : str
+        ``t``, ``x``, ``y``, ``z`` (upward), or ``-`` for a column that is left out.
+    unit : str, optional
+        As written.
+    """
+
+    axis: str
+    unit: str | None
+
+
+def parse_columns(text: str) -> tuple[Column, ...]:
+    """Columns as typed: ``t [s], x [g], -, z [g]``.
+
+    Raises
+    ------
+    InputError
+        The text cannot be understood; the message shows how to write it.
+    """
+    found = []
+    for part in text.split(","):
+        one = _STATED.fullmatch(part.strip())
+        if one is None or one["axis"] not in ("t", "x", "y", "z", "-"):
+            raise InputError(
+                f"`columns` {text!r}: {part.strip()!r} is not understood; allowed are t, x, y and z with a unit, and - for a "
+                "column to leave out, such as 't [s], x [g], -, z [g]'.",
+                "columns",
+            )
+        if one["axis"] == "t" and (one["unit"] or "") not in TIME_UNITS:
+            raise InputError(
+                f"`columns` {text!r}: {part.strip()!r} states no unit of time; allowed are {', '.join(TIME_UNITS)}, "
+                "as in 't [s]'.",
+                "columns",
+            )
+        if one["axis"] in "xyz" and one["unit"] is not None:
+            with within("", "columns"):
+                acceleration_unit(one["unit"])
+        found.append(Column(one["axis"], one["unit"]))
+    _check_axes(found, f"`columns` {text!r}")
+    if "x" not in [one.axis for one in found]:
+        raise InputError(f"`columns` {text!r} names no x; name the column of the horizontal acceleration x.", "columns")
+    return tuple(found)
+
+
+def _check_axes(columns: list[Column], where: str) -> None:
+    axes = [one.axis for one in columns if one.axis != "-"]
+    twice = next((axis for axis in axes if axes.count(axis) > 1), None)
+    if twice is not None:
+        raise InputError(f"{where} names {axes.count(twice)} columns {twice}; name each once.", "columns")
+    if "y" in axes and "x" not in axes:
+        raise InputError(f"{where} names a column y and none x; name the first horizontal acceleration x.", "columns")
+    if not set("xyz") & set(axes):
+        raise InputError(f"{where} names no column of acceleration; name it x, as in {EXAMPLE}.", "columns")
 
 
 def recognises(source: Source) -> bool:
-    """Whether the first lines that are not titles are columns of numbers."""
-    if not source.is_text:
-        return False
-    start = first_row(source.lines)
-    return start is not None
+    """Whether there are lines of numbers, the first within the first lines of the file."""
+    return source.is_text and first_row(source.lines) is not None
 
 
-def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Component], dict]:
+def read(source: Source, unit: str | None, dt: float | None, columns: str | None) -> tuple[list[Component], dict]:
     """Components and metadata of a file of columns.
 
     Raises
     ------
     InputError
-        No unit in the header and none stated, no time column and no step stated, unequal steps, rows of unequal length.
+        A header that is not ours and no ``columns``, no unit, no times and no step, unequal steps, rows of unequal length.
     """
-    lines = source.lines
-    start = first_row(lines)
-    assert start is not None
-    numbered = {line.strip(): number for number, line in enumerate(lines[:start], 1) if line.strip()}
-    titles = list(numbered)
-    comments = _comments(titles)
-    rows, first = number_rows(lines, start, source.name)
-    header, units = header_of(titles)
-    named = header.line if header is not None and header.unknown is None else None
-    if header is None or header.speaks_of_all is not None:
-        check_commas(lines[start:], source.name, start)
-    said = stated([line for line in _free(titles) if line != named], source.name)
-    series = read_series(rows, first, source.name, said, header)
-    table = read_table(rows, first, source.name) if series is None else series
+    lines, file = source.lines, source.name
+    first = first_row(lines)
+    assert first is not None
+    titles = [line.strip() for line in lines[:first] if line.strip()]
+    header = _header(lines[:first], file)
+    stated = None if columns is None else list(parse_columns(columns))
+    table = read_table(lines, first, file, alone=len(stated or header or ()) == 1)
     if len(table) < 2:
-        raise InputError(f"{source.name}, line {first + 1}: one row of numbers; give one row per time, at least two.")
-    names = _names(table, header, units, f"{source.name}, line {numbered.get(header.line if header else '', start)}")
-    for line in titles:
-        if header is not None and line != header.line:
-            _check_other(Header(line), names, table, header, source.name)
-    said = said if header is None or said.unit is not None else replace(said, unit=_unit_of_all(header))
-    components, time, unit_found = _components(table, names, source.name, unit, said)
+        raise InputError(f"{file}, line {first + 1}: one row of numbers; give one row per time, at least two.")
+    if columns is not None and header is not None:
+        raise InputError(f"{file} names its columns itself (as {EXAMPLE} does); leave `columns` out.", "columns")
+    if stated is not None:
+        table = _series(table, stated, file)
+    elif header is not None:
+        stated = header
+    else:
+        stated = _bare(lines[:first], lines[first:], table, unit, file)
+    if len(stated) != table.shape[1] or not np.isfinite(table).all():
+        raise InputError(
+            f"{file}: {'`columns`' if columns else 'its header'} names {len(stated)} columns, the rows hold "
+            f"{table.shape[1]} numbers; name each column once, those to leave out -, and separate columns by semicolons where "
+            "a comma is the sign of decimals.",
+            "columns",
+        )
+    comments = _comments(titles) if header is not None else {}
+    components, time, units = _components(table, stated, unit, file)
     if time is not None:
-        _set_step(components, time, dt, comments, source.name, first)
-    elif "dt_s" in comments:
-        for component in components:
-            component.dt = _comment_number(comments, "dt_s", source.name)
-    elif said.step is not None:
-        for component in components:
-            component.dt = said.step
+        _set_step(components, time, dt, comments, file, first)
     elif dt is None:
-        raise UnstatedError(f"{source.name} has no time column; state the step: `dt=0.01`.", field="dt")
-    _check(components, said, source.name, first)
+        raise UnstatedError(f"{file} has no time column; state the step: `dt=0.01`.", field="dt")
     if "sha256" in comments:
-        _check_digest(components, comments["sha256"], source.name)
-    history = _history(titles, source.name)
+        _check_digest(components, comments["sha256"], file)
+    history = _history(titles, file)
     for component in components:
+        component.named = header is not None and not component.proven  # our own lone component is x, wherever it points
         component.history = history
-    for axis, component in zip("xy", (one for one in components if not one.vertical)):
-        if f"azimuth_{axis}_deg" in comments:
-            _set_azimuth(component, axis, _comment_number(comments, f"azimuth_{axis}_deg", source.name), source.name)
-    facts = {"format": "columns of text", "unit": unit_found, "stage": comments.get("stage")}
-    told = ("station", "network", "event", "event_id", "start_time", "terms")
-    facts |= {key: comments[key] for key in told if key in comments}
+        if f"azimuth_{component.label}_deg" in comments:
+            component.azimuth = _comment_number(comments, f"azimuth_{component.label}_deg", file)
+    facts = {"format": "columns of text", "unit": ", ".join(dict.fromkeys(units)), "stage": comments.get("stage")}
+    facts |= {key: comments[key] for key in _FACTS if key in comments}
     if titles:
         facts["header"] = tuple(titles[:MAX_TITLE_LINES])
     if time is not None and abs(time[0]) > 0.0:
@@ -98,57 +148,106 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     return components, facts
 
 
-def _free(titles: list[str]) -> list[str]:
-    """Lines that may speak of the columns: not those of our own that say what was done."""
-    return [line for line in titles if not re.match(r"#\s*(processing \d+|name|event(_id)?|station|terms)\s*:", line)]
-
-
-def _check(components: list[Component], said: Stated, file: str, first: int) -> None:
-    """Count, step, length and peaks that the lines above the numbers state are those of the numbers."""
-    count = len(components[0].values)
-    if said.count is not None and said.count != count:
-        raise InputError(f"{file}: the lines above the numbers promise {said.count} samples, {count} are there; {CUT}.")
-    dt = components[0].dt
-    if np.isfinite(dt):
-        if said.step is not None:
-            check_same_step(said.step, dt, file, first)
-        check_length(count, dt, said.length, file, first)
-    _, size = acceleration_unit(said.unit or "m/s2")
-    for component in components:
-        high, low = (said.extremes or {}).get(component.label.upper(), (None, None))
-        for extreme, value in ((high, component.values.max()), (low, component.values.min())):
-            check_peak(np.array([value]), extreme, size, file, first, wrong=0.05)
-
-
-def _check_digest(components: list[Component], written: str, file: str) -> None:
-    parts = {component.label: component.values for component in components}
-    found = Motion(components[0].dt, parts["x"], parts.get("y"), parts.get("z")).digest
-    if found != written:
-        raise InputError(
-            f"{file}: the numbers are not those that were written with the line '# sha256: …'; fetch the file again, or "
-            "remove that line if you changed them."
-        )
-    for component in components:
-        component.proven = True
-        component.named = False  # the one horizontal component of a motion is x, wherever it points
-
-
-def first_row(lines: list[str]) -> int | None:
-    """Index of the first line of numbers."""
-    for index, line in enumerate(lines[: MAX_TITLE_LINES + 1]):
-        text = line.strip()
-        if text and not text.startswith(_COMMENT) and _NUMERIC.fullmatch(text):
-            return index
+def _header(lines: list[str], file: str) -> list[Column] | None:
+    """Columns of the line that names them as this package does; behind it stand comments at most."""
+    for number, line in reversed(list(enumerate(lines, 1))):
+        cells = [cell.strip('"') for cell in re.split(r"\s*[,;\t]\s*|\s+", line.lower().strip("#% \t"))]
+        found = [_OWN.fullmatch(cell) for cell in cells]
+        if all(found):
+            columns = [Column("t", one["time"]) if one["time"] else Column(one["axis"], one["unit"]) for one in found if one]
+            _check_axes(columns, f"{file}, line {number}: {line.strip()!r}")
+            return columns
+        if line.strip() and not line.lstrip().startswith(("#", "%")):
+            return None
     return None
 
 
+def _bare(above: list[str], below: list[str], table: np.ndarray, unit: str | None, file: str) -> list[Column]:
+    """Columns of numbers alone: one of acceleration, or times in equal steps and one; all else has to be stated."""
+    rises = table.shape[1] > 1 and step_of(table[:, 0]) is not None
+    if not any(line.strip() for line in above):
+        if is_ambiguous(below):
+            raise InputError(
+                f"{file}, line 1: {below[0].strip()!r} may be one number with a decimal comma or two numbers; write decimal "
+                f"points, or name the columns as in {EXAMPLE}."
+            )
+        if table.shape[1] == 1 + rises:
+            return [Column("t", "s")] * rises + [Column("x", None)]
+    number, line = next(((i, text) for i, text in reversed(list(enumerate(above, 1))) if text.strip()), (len(above), ""))
+    what = f"{file}, line {number}: {line.strip()[:200]!r} is not a header as {EXAMPLE} is" if line else (
+        f"{file} has {table.shape[1]} columns of numbers without names"
+    )  # fmt: skip
+    proposal = propose(line, table, unit)
+    step = "" if proposal.startswith("t") else ", and the step, such as `dt=0.01`"
+    raise UnstatedError(
+        f"{what}; state what each column holds, which may be `columns='{proposal}'`{step}: check what is x, y and z (upward), "
+        "and the units.",
+        field="columns",
+    )
+
+
+def propose(line: str, table: np.ndarray, unit: str | None) -> str:
+    """Columns that a line above numbers may mean: for a person to judge and to type, and never read.
+
+    Parameters
+    ----------
+    line : str
+    table : array
+        Shape (rows, columns).
+    unit : str, optional
+        Of acceleration, where the line states none; g otherwise.
+    """
+    count = table.shape[1]
+    text = line.lower().strip("#%!*/' \t")
+    ways = (re.split(r"[,;\t|]", text), re.split(r"\s{2,}", text), text.split())
+    cells = next((way for way in ways if len(way) == count), [""] * count)
+    unit = next((known for cell in cells if (known := _unit_in(cell))), unit or "g")
+    rises = count > 1 and bool((np.diff(table[:, 0]) > 0.0).all())
+    if count >= SERIES and not rises and not any(cells):
+        return f"x [{unit}]"
+    free, found = ["x", "y"], []
+    for i, cell in enumerate(cells):
+        if i == 0 and rises:
+            found.append(f"t [{'ms' if float(np.median(np.diff(table[:, 0]))) > LONGEST_STEP else 's'}]")
+        elif re.search(r"vel|dis|^[vdu](?![pd])|[\[(_]\s*[cm]?m(?:/s(?:ec)?)?\s*[\])]?$", cell) and not _unit_in(cell):
+            found.append("-")
+        elif re.search(r"up|ver|ud|u-d|[az]_?z\b|^z|^v\b", cell) and not any(one[0] == "z" for one in found):
+            found.append(f"z [{_unit_in(cell) or unit}]")
+        else:
+            found.append(f"{free.pop(0)} [{_unit_in(cell) or unit}]" if free else "-")
+    if free[:1] == ["x"]:
+        found[rises] = f"x [{unit}]"
+    return ", ".join(found)
+
+
+def _unit_in(cell: str) -> str | None:
+    """A unit of acceleration behind a name: in brackets, or behind a stroke."""
+    for found in re.finditer(r"[\[(_/]\s*([^\])]+)", cell):
+        try:
+            return acceleration_unit(found[1])[0]
+        except InputError:
+            continue
+    return None
+
+
+def _series(table: np.ndarray, stated: list[Column], file: str) -> np.ndarray:
+    """One series that is written on from line to line, as a column; any other table as it is."""
+    if len(stated) > 1 or table.shape[1] < SERIES:
+        return table
+    if step_of(table[:, 0]) is not None:
+        raise InputError(
+            f"{file}: the first numbers of its lines rise in equal steps as times do, and `columns` names x alone; name "
+            "every column, those to leave out -.",
+            "columns",
+        )
+    values = table.ravel()
+    return values[: len(values) - int(np.isnan(values).sum())][:, None]
+
+
 def _comments(titles: list[str]) -> dict[str, str]:
-    comments = {}
-    for line in titles:
-        if line.startswith("#") and (":" in line or "=" in line):
-            key, value = re.split(r"[:=]", line.lstrip("# "), maxsplit=1)
-            comments[key.strip().lower()] = value.strip()
-    return comments
+    """Facts of the record in lines ``# key: value``, as this package writes them."""
+    found = (line.lstrip("# ").partition(":") for line in titles if line.startswith("#"))
+    return {key.strip().lower(): value.strip() for key, colon, value in found if colon}
 
 
 def _history(titles: list[str], file: str) -> list[str]:
@@ -163,17 +262,6 @@ def _history(titles: list[str], file: str) -> list[str]:
     return [match["step"] for match in found]
 
 
-def _set_azimuth(component: Component, axis: str, stated: float, file: str) -> None:
-    """The azimuth of a comment, which is that of the column's name where this has one."""
-    named = component.azimuth
-    if named is not None and abs((named - stated + 180.0) % 360.0 - 180.0) > 1.0:
-        raise InputError(
-            f"{file}: the column {component.label!r} points to {named:g}°, the comment azimuth_{axis}_deg says {stated:g}°; "
-            "keep the one that is right."
-        )
-    component.azimuth = stated
-
-
 def _comment_number(comments: dict[str, str], key: str, file: str) -> float:
     try:
         return float(comments[key])
@@ -181,79 +269,43 @@ def _comment_number(comments: dict[str, str], key: str, file: str) -> float:
         raise InputError(f"{file}: the comment {key} is {comments[key]!r}; it should be a number.") from None
 
 
-def _names(table: np.ndarray, header: Header | None, units: list[str] | None, place: str) -> tuple[Name, ...]:
-    """Kinds of the columns: as the line above states, else time (known by its growth), then x, y, z."""
-    grows = [bool((np.diff(one) >= 0.0).all() and one[-1] > one[0]) for one in table.T]
-    columns = len(grows)
-    grows = grows if columns > 1 else [False]
-    if header is not None and not (columns > 1 + grows[0] and units is None and header.speaks_of_all is not None):
-        steady = grows[0] and len(table) >= FEWEST_STEPS and step_of(table[:, 0]) is not None
-        return header.names(grows, steady, units, place)
-    axes = "XYZ" if columns > 1 + grows[0] else ("",)
-    plain = [Name("time")] * grows[0] + [Name("acceleration", axis) for axis in axes]
-    if columns > len(plain):
+def _check_digest(components: list[Component], written: str, file: str) -> None:
+    parts = {component.label: component.values for component in components}
+    found = Motion(components[0].dt, parts["x"], parts.get("y"), parts.get("z")).digest
+    if found != written:
         raise InputError(
-            f"{place.partition(', line')[0]} has rows of {columns} numbers without column names, and no format that is "
-            "known here; give one column of acceleration, or time and up to three components, or a header such as "
-            "time_s,ax_g."
+            f"{file}: the numbers are not those that were written with the line '# sha256: …'; fetch the file again, or "
+            "remove that line if you changed them."
         )
-    return tuple(plain[:columns])
-
-
-def _unit_of_all(header: Header) -> str | None:
-    return None if header.speaks_of_all is None else header.speaks_of_all.unit
-
-
-def _check_other(other: Header, names: tuple[Name, ...], table: np.ndarray, header: Header, file: str) -> None:
-    """No other line above the numbers names the columns in another way."""
-    if other.unknown is not None or other.units or is_fact(other.line) or other.speaks_of_all is not None:
-        return
-    found = [reading for fields in (len(names), len(names) - 1) if fields > 1 for reading in other.readings(fields)]
-    kinds = [(name.kind, name.direction, name.sign) for name in names]
-    if found and all([(n.kind, n.direction, n.sign) for n in one] not in (kinds, kinds[1:]) for one in found):
-        raise InputError(
-            f"{file}: {other.line!r} and {header.line!r} name different columns; keep the one that is right."
-        )
+    for component in components:
+        component.proven = True
 
 
 def _components(
-    table: np.ndarray, names: tuple[Name, ...], file: str, unit: str | None, said: Stated
-) -> tuple[list[Component], np.ndarray | None, str]:
-    """Components of columns whose names are known, x and y before z where axes are named, and their times."""
-    timed = next((i for i, name in enumerate(names) if name.kind == "time"), None)
-    axes = [name.direction or "X" for name in names if name.kind != "time"]
-    ranks = {"X": 0, "Y": 1, "Z": 2} if "X" in axes else {}
-    order = sorted((i for i in range(len(names)) if i != timed), key=lambda i: ranks.get(names[i].direction, 0))
+    table: np.ndarray, columns: list[Column], unit: str | None, file: str
+) -> tuple[list[Component], np.ndarray | None, list[str]]:
+    """Components x, y, z in this order, their times [s], and their units."""
+    held = {one.axis: (one.unit, table[:, i]) for i, one in enumerate(columns) if one.axis != "-"}
+    time = None
+    if "t" in held:
+        stated, values = held.pop("t")
+        time = values * TIME_UNITS[stated or "s"] if stated != "s" else values.copy()
     components, units = [], []
-    for i in order:
-        name = names[i]
-        label = name.direction or "X"
-        stated = name.unit or said.unit
+    for axis in sorted(held):
+        stated, values = held[axis]
         if stated is None and unit is None:
-            raise UnstatedError(
-                _no_unit(file if len(order) == 1 else f"{file}: column {i + 1} ({label})"), field="unit"
-            )
-        shown, size = acceleration_unit(stated or unit or "")
+            what = file if len(held) == 1 else f"{file}: column {axis}"
+            raise UnstatedError(f"{what} states no unit; state it: `unit='g'`, or m/s2, gal, mm/s2.", field="unit")
+        with within(file):
+            shown, size = acceleration_unit(stated or unit or "")
         if stated and unit and acceleration_unit(unit)[1] != size:
-            where = f"the line {said.unit_line!r}" if name.unit is None and said.unit_line else "the header"
             raise InputError(
-                f"{file}: {where} says {stated}, but unit is given as {unit!r}; leave the unit out.", "unit"
+                f"{file}: its columns are in {stated}, but unit is given as {unit!r}; leave the unit out.", "unit"
             )
         units.append(shown)
-        one = Component(_scaled(table[:, i], size * name.sign), np.nan, label.lower() if ranks else label)
-        one.named = bool(name.direction)
-        if name.sign < 0.0:
-            one.processing.append("sign turned, as the line that names the columns says (-)")
-        components.append(oriented(one))
-    if timed is None:
-        return components, None, ", ".join(dict.fromkeys(units))
-    scale = time_unit(names[timed].unit or said.time_unit or "s")
-    assert scale is not None
-    return components, _scaled(table[:, timed], scale), ", ".join(dict.fromkeys(units))
-
-
-def _scaled(values: np.ndarray, size: float) -> np.ndarray:
-    return np.ascontiguousarray(values) * size if size != 1.0 else values.copy()
+        scaled = np.ascontiguousarray(values) * size if size != 1.0 else values.copy()
+        components.append(Component(scaled, np.nan, axis, vertical=axis == "z"))
+    return components, time, units
 
 
 def _set_step(
@@ -274,13 +326,10 @@ def _set_step(
         rising_pairs(np.repeat(time, 2), file, first, len(time))
     if step is not None and "dt_s" in comments:
         stated = _comment_number(comments, "dt_s", file)  # in every digit, where times are rounded
+        check_same_step(stated, step, file, first)
         if abs(stated - step) * (len(time) - 1) <= ROUNDING_SHARE * step:
             step = stated
     for component in components:
         component.dt = np.nan if step is None else step
         component.time = time if step is None else None
         component.first = float(time[0])
-
-
-def _no_unit(what: str) -> str:
-    return f"{what} states no unit; state it: `unit='g'`, or m/s2, gal, mm/s2."

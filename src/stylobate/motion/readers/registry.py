@@ -13,7 +13,6 @@ from ..motion import Motion
 from . import (
     afad,
     bhrc,
-    columns,
     cosmos,
     csmip,
     esm,
@@ -23,9 +22,11 @@ from . import (
     peer,
     renadic,
     smc,
+    taiwan,
     unam,
     usc,
 )
+from . import columns as columns_of_text
 from .checks import check_whole
 from .record import Component, assemble
 from .samples import PREFIX
@@ -62,6 +63,7 @@ FORMATS: tuple[Format, ...] = (
     Format("ESM / ITACA ASCII", esm.recognises, esm.read),
     Format("K-NET / KiK-net", knet.recognises, knet.read),
     Format("AFAD text", afad.recognises, afad.read),
+    Format("TSMIP text", taiwan.recognises, taiwan.read),
     Format("UNAM ASA", unam.recognises, unam.read),
     Format("RENADIC V1", renadic.recognises, renadic.read),
     Format("BHRC V1", bhrc.recognises, bhrc.read),
@@ -73,6 +75,7 @@ def read_motion(
     unit: str | None = None,
     dt: float | None = None,
     *,
+    columns: str | None = None,
     component: str | int | None = None,
 ) -> Motion:
     """Read a recorded motion from a file of any format that is known here.
@@ -86,6 +89,9 @@ def read_motion(
         Unit of a file that states none: ``g``, ``m/s2``, ``gal``, ``mm/s2`` …
     dt : float, optional
         Step of a file that has no time column, or the step to resample unequal steps to [s].
+    columns : str, optional
+        What each column of a text file holds, where its header is not ours (``time_s,ax_g``): ``t [s], x [g], -, z [g]``,
+        with z upward and ``-`` for a column to leave out. One name alone, ``x [g]``, is a series of several numbers to a line.
     component : str or int, optional
         The one component that is to be the horizontal input: its number in the file (from 1), its label or its azimuth.
 
@@ -103,6 +109,9 @@ def read_motion(
     paths = check_all("path", path, (str, Path))
     check_kind("unit", unit, str, optional=True)
     check_kind("dt", dt, Real, optional=True)
+    check_kind("columns", columns, str, optional=True)
+    if columns is not None:
+        columns_of_text.parse_columns(columns)
     if not paths:
         raise InputError("no file is given; give the path of a record.")
     sources = [Source.open(one) for one in paths]
@@ -117,7 +126,7 @@ def read_motion(
     files = {"file": ", ".join(record.name for record in records)}
     components: list[Component] = []
     for source in records:
-        found, metadata = _read_file(source, descriptions, unit, dt)
+        found, metadata = _read_file(source, descriptions, unit, dt, columns)
         if source.sample is not None:
             metadata = metadata | {key: value for key, value in source.sample.facts.items() if not metadata.get(key)}
         for one in found:
@@ -151,7 +160,7 @@ def sample_motion(name: str) -> Motion:
 
 
 def _read_file(
-    source: Source, descriptions: Sequence[Source], unit: str | None, dt: float | None
+    source: Source, descriptions: Sequence[Source], unit: str | None, dt: float | None, columns: str | None
 ) -> tuple[list[Component], dict]:
     if miniseed.recognises(source):
         return miniseed.read(source, descriptions)
@@ -164,21 +173,22 @@ def _read_file(
             "convert it to columns under a header such as time_s,ax_g."
         )
     if matches:
-        if unit is not None:
-            raise InputError(
-                f"{source.name} is of format {matches[0].name}, which states its unit; leave the unit out.", "unit"
-            )
+        for name, value in (("unit", unit), ("columns", columns)):
+            if value is not None:
+                raise InputError(
+                    f"{source.name} is of format {matches[0].name}, which states its {name}; leave `{name}` out.", name
+                )
         components, metadata = matches[0].read(source)
         if not components:
             raise InputError(f"{source.name} is of format {matches[0].name} but holds no component; fetch it again.")
         return components, metadata
     if not source.is_text:
         _ = source.lines  # refuses binary files
-    if columns.recognises(source):
+    if columns_of_text.recognises(source):
         known = source.sample.unit if source.sample is not None else None
         if known is not None and unit is not None:
             raise InputError(f"the sample {source.name} is in {known}, as is known; leave the unit out.", "unit")
-        return columns.read(source, unit or known, dt)
+        return columns_of_text.read(source, unit or known, dt, columns)
     if source.name.lower().endswith(".toml"):
         raise InputError(f"{source.name} is a TOML file, as of a column or a study, and no record; give a record.")
     raise InputError(

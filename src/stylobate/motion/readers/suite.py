@@ -47,6 +47,7 @@ def read_suite(
     unit: str | None = None,
     dt: float | None = None,
     *,
+    columns: str | None = None,
     component: str | int | None = None,
 ) -> Suite:
     """Read all records of a folder, or of a list of files.
@@ -59,6 +60,8 @@ def read_suite(
         Unit of those files that state none.
     dt : float, optional
         Step of those files that have no time column [s].
+    columns : str, optional
+        Columns of those text files whose header is not ours, as for :func:`read_motion`.
     component : str or int, optional
         The one component of each file that is to be the horizontal input, as for :func:`read_motion`.
 
@@ -91,7 +94,7 @@ def read_suite(
     names: dict[str, str] = {}  # by digests; intervals are over records, and one that is there twice is one
     for path in paths:
         try:
-            motion = _read(path, unit, dt, component)
+            motion = _read(path, unit, dt, columns, component)
         except InputError as error:
             refused[shown(path.name)] = str(error)
             continue
@@ -123,11 +126,13 @@ def read_suite(
     return Suite(tuple(motions), refused)
 
 
-def _read(path: Path, unit: str | None, dt: float | None, component: str | int | None) -> Motion:
-    """A file of its own unit and step, or else one with those stated."""
+def _read(
+    path: Path, unit: str | None, dt: float | None, columns: str | None, component: str | int | None
+) -> Motion:
+    """A file of its own unit, step and columns, or else one with those stated."""
     try:
         return read_motion(path, component=component)
     except UnstatedError:
-        if unit is None and dt is None:
+        if unit is None and dt is None and columns is None:
             raise
-        return read_motion(path, unit, dt, component=component)
+        return read_motion(path, unit, dt, columns=columns, component=component)

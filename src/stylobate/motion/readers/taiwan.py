@@ -1,0 +1,74 @@
+"""Text files of Taiwan's network (TSMIP of the Central Weather Administration): times and three columns in gal."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from ...errors import InputError
+from ..specs import acceleration_unit
+from .checks import check_length, check_peak, check_same_step, check_step
+from .keyed import is_numeric, keyed, number_of
+from .numbers import NUMBER, read_numbers
+from .record import Component, oriented
+from .source import Source
+from .steps import step_of
+
+_COLUMN = re.compile(r"(?P<label>[UNE])\((?P<sign>[+-])\)")
+_MOST = re.compile(rf"(?P<high>{NUMBER})\s*~\s*(?P<low>{NUMBER})")
+
+
+def recognises(source: Source) -> bool:
+    """Whether the first lines are those of the network."""
+    return "#stationcode:" in source.head[:600] and "#datasequence:" in source.head[:1500]
+
+
+def read(source: Source) -> tuple[list[Component], dict]:
+    """Three components and what the header says."""
+    lines, file = source.lines, source.name
+    start = next((i for i, line in enumerate(lines[:60]) if is_numeric(line)), None)
+    if start is None:
+        raise InputError(f"{file}: no rows of numbers within the first 60 lines; fetch the file again.")
+    header = keyed([line.strip().lstrip("#") for line in lines[:start]])
+    text = {key: value for key, (value, _) in header.items()}
+    unit = text.get("amplitudeunit", "").split(".")[0].strip()
+    if acceleration_unit(unit or "gal")[0] != "gal" or not unit:
+        raise InputError(f"{file}: AmplitudeUnit is {unit!r}, where gal is expected; convert the file to columns.")
+    time, *names = re.split(r"[;\s]+", text["datasequence"])
+    found = [_COLUMN.fullmatch(name) for name in names]
+    if time != "Time" or sorted(one["label"] for one in found if one) != ["E", "N", "U"]:
+        raise InputError(
+            f"{file}, line {header['datasequence'][1]}: expected the columns Time U(+); N(+); E(+) in any order, found "
+            f"{text['datasequence']!r}; convert the file to columns under a header such as time_s,ax_g."
+        )
+    count = sum(1 for line in lines[start:] if line.strip())
+    table = read_numbers(lines[start:], start, file, "rows of a time and three values", count=4 * count, width=10)
+    times, *columns = table.reshape(-1, 4).T
+    rate, line = number_of(header, "samplerate(hz)", file)
+    dt, step = check_step(1.0 / rate if rate > 0.0 else None, file, line), step_of(times)
+    check_same_step(dt, step or 0.0, file, line)
+    check_length(count, dt, text.get("recordlength(sec)"), file, header.get("recordlength(sec)", ("", 0))[1])
+    components = []
+    for one, values in zip(found, columns):
+        assert one is not None
+        if most := _MOST.search(text.get(f"amplitudemax. {one['label'].lower()}", "")):
+            for stated, extreme in ((most["high"], values.max()), (most["low"], values.min())):
+                check_peak(np.array([extreme]), stated, 1.0, file, start, wrong=0.05)
+        sign = "" if one["sign"] == "+" else "-"
+        component = Component(values * 0.01, dt, one["label"], first=float(times[0]))
+        if sign and one["label"] != "U":
+            component.values = -component.values
+            component.processing.append("sign turned, as the line that names the columns says (-)")
+        elif sign:
+            component.label = "-U"
+        components.append(oriented(component))
+    components.sort(key=lambda one: one.vertical)
+    return components, {
+        "format": "TSMIP text",
+        "stage": "corrected" if "corr" in text.get("amplitudeunit", "") else "not stated",
+        "unit": "gal",
+        "station": text.get("stationcode") or None,
+        "network": "TSMIP",
+        "start_time": text.get("starttime") or None,
+    }
