@@ -65,15 +65,16 @@ def warned(path, **options):
 COUNTS = np.round(1e5 * np.sin(np.arange(6000) * 0.05)).astype(np.int32)
 
 
-def mseed(put, *channels, dips=None, name="ABC.xml", sensitivities=(1e5,), output="COUNTS"):
+def mseed(put, *channels, dips=None, name="ABC.xml", sensitivities=(1e5,), output="COUNTS", unit="M/S**2", gains=()):
     """A miniSEED file made here, with a StationXML of all its channels beside it.
 
     Each channel is a code, station, location, start [s] and counts, of which the last ones may be left out. ``dips`` of
-    codes [degrees] are those of their letters otherwise; each of ``sensitivities`` is an epoch of its own.
+    codes [degrees] are those of their letters otherwise; each of ``sensitivities`` is an epoch of its own, ``gains`` are
+    those of the stages.
     """
     obspy = pytest.importorskip("obspy")
     from obspy.core.inventory import Channel, Inventory, Network, Response, Site, Station
-    from obspy.core.inventory.response import InstrumentSensitivity
+    from obspy.core.inventory.response import CoefficientsTypeResponseStage, InstrumentSensitivity
 
     stream, stations = obspy.Stream(), {}
     for given in channels or (("HNE",),):
@@ -84,7 +85,12 @@ def mseed(put, *channels, dips=None, name="ABC.xml", sensitivities=(1e5,), outpu
         turned = {"azimuth": {"N": 0.0}.get(code[-1], 90.0), "dip": dip}
         stations.setdefault(station, Station(station, 0.0, 0.0, 0.0, channels=[], site=Site("A Place")))
         for size in sensitivities:
-            response = Response(instrument_sensitivity=InstrumentSensitivity(size, 1.0, "M/S**2", output))
+            stages = [
+                CoefficientsTypeResponseStage(k, gain, 1.0, *units, "DIGITAL", numerator=[1.0], denominator=[])
+                for k, (gain, *units) in enumerate(gains, 1)
+            ]
+            overall = InstrumentSensitivity(size, 1.0, unit, output)
+            response = Response(instrument_sensitivity=overall, response_stages=stages)
             channel = Channel(code, location, 0.0, 0.0, 0.0, 0.0, **turned, sample_rate=100.0, response=response)
             stations[station].channels.append(channel)
     data, text = io.BytesIO(), io.BytesIO()
@@ -92,6 +98,44 @@ def mseed(put, *channels, dips=None, name="ABC.xml", sensitivities=(1e5,), outpu
     Inventory([Network("XX", stations=list(stations.values()))], source="test").write(text, format="STATIONXML")
     put(text.getvalue(), name)
     return data.getvalue()
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+@pytest.mark.parametrize(
+    ("unit", "size"),
+    [("nm/s**2", 1e-9), ("cm/s^2", 0.01), ("g", g), ("M/SEC**2", 1.0), ("m/s/s", 1.0), ("GAL", 0.01), ("UM/S**2", 1e-6)],
+)
+def test_counts_per_any_unit_of_acceleration_are_read(unit, size, put):
+    """A sensitivity of 1e5 counts per m/s² is one of 1e5 times the unit's size per that unit."""
+    motion = read(put(mseed(put, unit=unit, sensitivities=(1e5 * size,)), "a.mseed"))
+    assert motion.acceleration == pytest.approx((COUNTS - COUNTS.mean()) / 1e5, rel=1e-9)
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+@pytest.mark.parametrize("unit", ["M/S", "M", "PA", ""])
+def test_counts_of_another_quantity_are_refused_with_its_unit(unit, put):
+    with pytest.raises(InputError, match=f"per {unit or 'no unit'}; allowed are units of acceleration"):
+        read(put(mseed(put, unit=unit), "a.mseed"))
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+@pytest.mark.parametrize(
+    ("gains", "said"),
+    [
+        ([(0.5, "M/S**2", "V"), (2e5, "V", "COUNTS")], ""),
+        ([(0.5, "M/S**2", "V"), (2e5, "V", "COUNTS"), (1.04, "COUNTS", "COUNTS")], ""),
+        ([(0.5, "M/S**2", "V"), (2e6, "V", "COUNTS")], "a sensitivity of 100000 COUNTS per .* stages whose gains make 1e.06"),
+        ([(0.5, "M/S**2", "V"), (2e5, "V", "COUNTS"), (1.06, "COUNTS", "COUNTS")], "allowed is a difference of 5 %"),
+        ([(2e5, "V", "COUNTS")], ""),  # the stage of the sensor is not stated
+    ],
+)
+def test_a_sensitivity_is_the_product_of_the_gains_of_its_stages(gains, said, put):
+    path = put(mseed(put, gains=gains), "a.mseed")
+    if not said:
+        assert read(path).metadata["components"]["x"]["counts_per_m_s2"] == 1e5
+        return
+    with pytest.raises(InputError, match=said):
+        read(path)
 
 
 @pytest.mark.parametrize("order", ["EN", "NE", "ZNE"])
@@ -617,14 +661,14 @@ def test_columns_of_tsmip_are_read_with_their_sense(put):
 @pytest.mark.parametrize(
     ("labels", "azimuth", "sign"),
     [
-        ("Up,+UP,UP-DN,UPDN,U-D,UD,V,Z,VERTIC,Vert(Up),Vertical-Up,Roof UP,HNV,HNZ,BHZ,UP1", None, 1.0),
+        ("Up,+UP,UP-DN,UPDN,U-D,UD,V,Z,VERTIC,Vert(Up),Vertical-Up,Roof UP,HNV,HNZ,BHZ,UP1,HNZ00,BHZ10,HNZ2C,HLZ--,HNZ 00,XX.HILL.00.HNZ,XX_HILL_HGZ10", None, 1.0),
         ("Down,-UP,-V,V;-,V-,Z(-),D-U,DN-UP,Vert(Down),Vertical Down,Roof DN", None, -1.0),
         ("N 10.5 E,N10.5E,N 10.5° E,N10.5,NORTH 10.5 EAST,10.5 deg", 10.5, 0.0),
         ("N45°E,N45E,NE,North-East,45", 45.0, 0.0),
         ("N345,N 345,N15W,345 DEG", 345.0, 0.0),
-        ("NORTH-SOUTH,N-S,NS,North,N,HNN,HGN,HLN,BNN,ENN,360 Deg,0 deg", 0.0, 0.0),
+        ("NORTH-SOUTH,N-S,NS,North,N,HNN,HGN,HLN,BNN,ENN,HNN00,360 Deg,0 deg", 0.0, 0.0),
         ("EAST-WEST,E-W,EW,East,HNE,HGE,HLE,BNE,ENE,090", 90.0, 0.0),
-        ("N 5,-N,-S00E,-90,H1,HN1,L,Horiz. 1,Other,N Abutment 30 deg,400", None, 0.0),
+        ("N 5,-N,-S00E,-90,H1,HN1,HN100,HN210,L,Horiz. 1,Other,N Abutment 30 deg,400", None, 0.0),
     ],
 )
 def test_a_label_states_the_azimuth_or_that_the_component_is_vertical(labels, azimuth, sign):
@@ -641,6 +685,8 @@ def test_a_vertical_component_under_any_of_its_names_is_z(put):
     assert np.array_equal(motion.vertical, -motion.acceleration)
     with pytest.raises(InputError, match="only the vertical component '-UP'"):
         read(up)
+    parts = [put(text.replace(", 230", f", {code}00"), f"{code}.at2") for code in ("HN1", "HN2", "HNZ")]
+    assert read(parts).metadata["labels"] == {"x": "HN100", "y": "HN200", "z": "HNZ00"}  # NGA-East: a location behind it
 
 
 @pytest.mark.parametrize(

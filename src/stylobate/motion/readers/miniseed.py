@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import math
+import re
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
+from ..specs import ACCELERATION_UNITS, acceleration_unit
 from .checks import CUT
 from .record import Component, direction
 from .source import Source
@@ -22,6 +24,12 @@ MAX_BESIDE, MAX_XML_BYTES = 50, 20_000_000
 
 #: Tilt of a channel from the horizontal or the vertical beyond which it is neither [degrees].
 MOST_TILTED = 15.0
+
+#: Share by which the sensitivity of a channel may depart from the product of the gains of its stages.
+GAINS = 0.05
+
+#: Units of acceleration of StationXML beside those that are typed [m/s²].
+UNITS = {"nm/s2": 1e-9, "um/s2": 1e-6, "µm/s2": 1e-6}
 
 #: How StationXML files spell the unit of samples.
 COUNTS = ("COUNT", "COUNTS", "DIGITAL COUNTS", "CT", "CTS")
@@ -116,27 +124,31 @@ def _check_records(source: Source) -> None:
 
 def _component(trace: Any, channel: Any, file: str) -> Component:
     sensitivity = channel.response.instrument_sensitivity if channel.response else None
-    unit = (sensitivity.input_units or "").upper() if sensitivity else ""
     if sensitivity is None or not sensitivity.value or not math.isfinite(sensitivity.value):
         raise InputError(f"{file}: the StationXML gives no sensitivity for {trace.id}; give a complete one.")
-    if unit.replace("**", "").replace("^", "") not in ("M/S2", "M/S/S", "M/(S2)"):
+    size = _unit_size(sensitivity.input_units or "")
+    if size is None:
         raise InputError(
-            f"{file}: channel {trace.id} measures {unit or 'an unknown quantity'}, not M/S**2; give accelerations."
+            f"{file}: the StationXML gives the sensitivity of {trace.id} per {sensitivity.input_units or 'no unit'}; allowed "
+            f"are units of acceleration ({', '.join((*ACCELERATION_UNITS, *UNITS))}): give an accelerometer, or a StationXML "
+            "with its sensitivity per M/S**2."
         )
+    _check_gains(channel.response, trace.id, file)
     counted = sensitivity.output_units or "no unit"
     if counted.upper() not in COUNTS:
         raise InputError(
-            f"{file}: the StationXML gives the sensitivity of {trace.id} in {counted} per M/S**2; allowed is COUNTS, as "
+            f"{file}: the StationXML gives the sensitivity of {trace.id} in {counted} per {sensitivity.input_units}; allowed is COUNTS, as "
             "samples are: give a StationXML with the sensitivity of sensor and recorder together."
         )
     counts = np.asarray(trace.data, dtype=np.float64)
     zero = float(counts.mean())
-    component = Component((counts - zero) / sensitivity.value, float(trace.stats.delta), trace.stats.channel)
-    component.metadata = {"unit": "counts", "counts_per_m_s2": float(sensitivity.value), "dip": channel.dip}
+    per_m_s2 = sensitivity.value / size
+    component = Component((counts - zero) / per_m_s2, float(trace.stats.delta), trace.stats.channel)
+    component.metadata = {"unit": "counts", "counts_per_m_s2": float(per_m_s2), "dip": channel.dip}
     component.metadata |= {key: str(trace.stats[key]) for key in ("network", "station", "location")}
     component.metadata["start_time"] = str(trace.stats.starttime)
     component.processing.append(
-        f"counts / {sensitivity.value:.6g} per m/s², after the zero level of {zero:.6g} counts (their mean) was "
+        f"counts / {per_m_s2:.6g} per m/s², after the zero level of {zero:.6g} counts (their mean) was "
         "taken off; the response is taken as flat"
     )
     dip = channel.dip
@@ -160,6 +172,33 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
     azimuth = by_code if channel.azimuth is None else channel.azimuth
     component.azimuth = None if component.vertical or azimuth is None else float(azimuth) % 360.0
     return component
+
+
+def _unit_size(text: str) -> float | None:
+    """Size of a unit of acceleration as StationXML spells it [m/s²]: M/S**2, cm/s^2, M/SEC**2, nm/s/s, G."""
+    key = re.sub(r"[*^() ]", "", text.lower().replace("sec", "s")).replace("/s/s", "/s2")
+    if key in UNITS:
+        return UNITS[key]
+    try:
+        return acceleration_unit(key)[1]
+    except InputError:
+        return None
+
+
+def _check_gains(response: Any, channel: str, file: str) -> None:
+    """The sensitivity is the product of the gains of all stages, where they are stated from the ground to the counts."""
+    stages, overall = response.response_stages or [], response.instrument_sensitivity
+    first = (stages[0].input_units if stages else None) or overall.input_units
+    gains = [stage.stage_gain for stage in stages]
+    if not gains or None in gains or first.upper() != overall.input_units.upper():
+        return
+    product = math.prod(gains)
+    if not abs(product / overall.value - 1.0) <= GAINS:
+        raise InputError(
+            f"{file}: the StationXML gives {channel} a sensitivity of {overall.value:.6g} {overall.output_units} per "
+            f"{overall.input_units}, and stages whose gains make {product:.6g}; allowed is a difference of "
+            f"{100.0 * GAINS:g} %: ask the network which is right, and mend the other in the file."
+        )
 
 
 def _channel(trace: Any, descriptions: Sequence[Source], file: str) -> tuple[Any, str]:

@@ -37,8 +37,11 @@ _POINTS = {
     "N": 0.0, "NS": 0.0, "E": 90.0, "EW": 90.0, "S": 180.0, "SN": 180.0, "W": 270.0, "WE": 270.0,
     "NE": 45.0, "SE": 135.0, "SW": 225.0, "NW": 315.0,
 }  # fmt: skip
-#: SEED codes of accelerometers whose last letter is a direction; any code that ends in Z is vertical.
-_CODE = re.compile(r"[BCDEFGHLMS][NLG](?P<way>[NEV])|[A-Z]{2}(?P<up>Z)")
+#: SEED codes of accelerometers whose last letter is a direction; any code that ends in Z is vertical. The two signs of a
+#: location may touch the code, as in HNZ00.
+_CODE = re.compile(r"(?:[BCDEFGHLMS][NLG](?P<way>[NEV])|[A-Z]{2}(?P<up>Z))(?:\d[A-Z0-9]|[A-Z]\d)?")
+#: A vertical of a sensor, wherever its code stands in a label: XX.HILL.00.HNZ.
+_CODE_UP = re.compile(r"[BCDEFGHLMS][HLNG]Z(?:\d[A-Z0-9]|[A-Z]\d)?")
 #: Words of the vertical that leave its sense open, which then is upward; and those that state it.
 _UPRIGHT = {"V", "Z", "VER", "VRT", "VERT", "VERTIC", "VERTICAL"}
 _UP = {"U", "UP", "UP1", "UP2", "UP3", "UD", "UPDN", "UPDOWN", "UPWARD", "UPWARDS"}
@@ -60,6 +63,8 @@ def direction(label: str) -> tuple[float | None, bool, float]:
         return None, True, -minus if len(words) > 1 and words[1] in _DOWN and len(words[1]) > 1 else minus
     if words and words[0] in _UP | _DOWN:
         return None, True, -minus if words[0] in _DOWN else minus
+    if any(map(_CODE_UP.fullmatch, words)):
+        return None, True, minus
     if minus < 0.0 or re.match(r"-\s*\d", text):  # against a direction that is not vertical: whose, is not known
         return None, False, 1.0
     if (found := _BEARING.search(text)) and float(found["angle"]) <= 90.0:
