@@ -407,10 +407,74 @@ def test_a_usc_file_with_all_its_points_is_whole_without_a_mark(put):
     assert read(put("".join(lines[:-1]))).digest == whole.digest
     marks = "------- END OF RECORD -------\n"
     assert read(put(text.replace(marks, ""))).digest == whole.digest  # between two channels neither
-    with pytest.raises(InputError, match="without the mark"):
+    with pytest.raises(InputError, match="promises 46 numbers"):
         read(put("".join(lines[:-2])))
     with pytest.raises(InputError, match="without the mark"):
         read(put("".join(lines[:-1]).rstrip("\n")[:-1] + "\n"))
+
+
+def published_usc(seconds=0.0):
+    """The same with rows that begin with a blank (1X,10F7.3), times from ``seconds`` on, and no marks."""
+    lines = FORMATS["usc"][0].replace("------- END OF RECORD -------\n", "").splitlines(keepends=True)
+    found = []
+    for line in lines:
+        numbers = [line[i : i + 7] for i in range(0, len(line) - 1, 7)] if len(line) in (71, 43) else []
+        if numbers and all(re.fullmatch(r" *-?\d+\.\d{3}", one) for one in numbers):
+            pairs = ((f"{float(t) + seconds:7.3f}", a) for t, a in zip(numbers[::2], numbers[1::2]))
+            line = " " + "".join(t + a for t, a in pairs) + "\n"
+        found.append(line)
+    return "".join(found)
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_a_usc_file_as_published_is_whole_where_all_its_points_are_there(end, put):
+    text = published_usc().replace("\n", end)
+    assert read(put(text)).digest == read(put(FORMATS["usc"][0])).digest
+    late = published_usc(100.0).replace("     0.220     0.000     0.100", "   100.220     0.000     0.100")
+    assert "100.000" in late  # numbers of seven characters touch
+    assert read(put(late)).acceleration == pytest.approx(read(put(text)).acceleration, abs=1e-9)
+    for cut, said in ((text.rstrip()[:-1] + end, "without the mark"), (text.rstrip()[:-15] + end, "promises 46 numbers")):
+        with pytest.raises(InputError, match=said):
+            read(put(cut))
+
+
+def smc_rows(per_row, first="2 CORRECTED ACCELEROGRAM"):
+    """An SMC file with so many numbers to a row of samples, and no words on the station, as converting programs write it."""
+    lines = FORMATS["smc"][0].splitlines(keepends=True)
+    at = next(i for i, line in enumerate(lines) if line.startswith("|a comment")) + 1
+    head = [f"{first}\n", *["*\n"] * 10, *lines[11:at]]
+    return "".join(head) + "".join(
+        "".join(f"{value:14.7E}" for value in WAVES[0][i : i + per_row]) + "\n" for i in range(0, COUNT, per_row)
+    )
+
+
+@pytest.mark.parametrize("per_row", [1, 5, 6, 8])
+def test_smc_files_with_rows_of_any_length_are_read(per_row, put):
+    motion = read(put(smc_rows(per_row)))
+    assert motion.acceleration == pytest.approx(0.01 * WAVES[0])
+    assert motion.metadata["event"] is None
+    unknown = put(smc_rows(per_row, "0 UNKNOWN"))
+    assert read(unknown).digest == motion.digest
+    assert read(unknown).metadata["stage"] == "not stated"
+    assert "does not say what the numbers are; they are read as accelerations in cm/s²" in warned(unknown)
+    lines = smc_rows(per_row).splitlines(keepends=True)
+    with pytest.raises(InputError, match="promises 23 numbers"):
+        read(put("".join(lines[:-1])))
+
+
+def test_what_networks_give_beside_records_is_named_with_what_to_give_instead(put):
+    """Corrected accelerograms of USC, and spectra: the advice, a volume 1, is read."""
+    numbers = "".join("".join(f"{value:10.3f}" for value in WAVES[0][:8]) + "\n" for _ in range(3))
+    block = f"   24 POINTS OF ACC DATA EQUALLY SPACED AT   .020 SEC.\n{numbers}"
+    corrected = f"CORRECTED ACCELEROGRAM  IIXX001  COMP N90E\n{FORMATS['usc'][0].splitlines()[0]}\n{numbers}{block}"
+    spectra = f"RESPONSE AND FOURIER AMPLITUDE SPECTRA   CHAN 1\nA PLACE\n{numbers}  DAMPING .05\n{numbers}"
+    with pytest.raises(InputError, match=r"is a corrected accelerogram.*volume 1"):
+        read(put(corrected))
+    with pytest.raises(InputError, match=r"holds spectra .* give the accelerogram"):
+        read(put(spectra))
+    assert read(put(FORMATS["usc"][0])).metadata["format"] == "USC V1"
+    title = "Response spectrum compatible motion\ntime_s,ax_g\n0,0.1\n0.01,-0.1\n"
+    assert read(put(title)).steps == 2
 
 
 @pytest.mark.parametrize("lost", ["data", "comment", "last"])

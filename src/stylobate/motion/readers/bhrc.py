@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from ...errors import InputError
-from .checks import CUT, check_length, check_step, printed, warn_of_missing
+from .checks import check_ended, CUT, check_length, check_step, printed, warn_of_missing
 from .numbers import number_in, read_numbers
 from .record import Component, oriented
 from .source import Source
@@ -48,7 +48,8 @@ def _component(lines: list[str], start: int, file: str) -> tuple[Component, int]
         )
     dt = check_step(_step(printed(total)[0], count, number_in(lines[start + RATE_LINE])), file, start + 11)
     check_length(count, dt, total, file, start + 11)
-    end = channel_end(lines, data, file)
+    end, marked = channel_end(lines, data)
+    check_ended(marked, file, end + 1, "/&")
     values = read_numbers(lines[data:end], data, file, "accelerations", count=count, width=13)
     component = Component(values, dt, label)
     number = re.search(r":\s*([^/\s]+)", text[0])

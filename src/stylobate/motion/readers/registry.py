@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -67,6 +68,22 @@ FORMATS: tuple[Format, ...] = (
     Format("UNAM ASA", unam.recognises, unam.read),
     Format("RENADIC V1", renadic.recognises, renadic.read),
     Format("BHRC V1", bhrc.recognises, bhrc.read),
+)
+
+
+#: First words of files of networks that hold something else than a record, what that is, and what to give.
+NOT_READ = (
+    (
+        re.compile(r"\s*corrected accelerogram"),
+        "is a corrected accelerogram, which this network gives with velocity and displacement (volume 2 of USC), and is not "
+        "read; give the uncorrected one of the same record (volume 1, which begins FILE … OF UNCORRECTED ACCELEROGRAM DATA OF "
+        "VOLUME I), or its accelerations as columns under a header such as time_s,ax_g",
+    ),
+    (
+        re.compile(r"\s*(?:volume\s+(?:iii|3)\b|[^\n]{0,60}\b(?:response|fourier)\b[^\n]{0,40}\bspectr)"),
+        "holds spectra (volume 3 of CSMIP, USC and others), and no record; give the accelerogram of the same record (volume 2, "
+        "or 1)",
+    ),
 )
 
 
@@ -188,7 +205,13 @@ def _read_file(
         known = source.sample.unit if source.sample is not None else None
         if known is not None and unit is not None:
             raise InputError(f"the sample {source.name} is in {known}, as is known; leave the unit out.", "unit")
-        return columns_of_text.read(source, unit or known, dt, columns)
+        try:
+            return columns_of_text.read(source, unit or known, dt, columns)
+        except InputError:
+            other = next((said for begins, said in NOT_READ if begins.match(source.head)), None)
+            if other is None or columns is not None:
+                raise
+            raise InputError(f"{source.name} {other}.") from None
     if source.name.lower().endswith(".toml"):
         raise InputError(f"{source.name} is a TOML file, as of a column or a study, and no record; give a record.")
     raise InputError(

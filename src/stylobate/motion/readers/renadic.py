@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from .checks import warn_of_missing
+from .checks import check_ended, warn_of_missing
 from .record import LABEL, Component, oriented
 from .source import Source
 from .volume1 import channel_end, channels, check_stated_peak, header_ends, length, pairs, points, unit
@@ -34,7 +34,8 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
     if data >= len(lines):
         raise header_ends(file, start)
     count = points(text, file, start)
-    end = channel_end(lines, data, file)
+    end, marked = channel_end(lines, data)
+    check_ended(marked, file, end + 1, "/&")
     component = pairs(lines, data, end, count, file, width=7, total=length(text))
     stated, size = unit(text, "g/10", file, start)
     component.metadata = {

@@ -6,9 +6,10 @@ import re
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import InputError, warn
 from .checks import CUT, check_peak, check_peak_time, check_step, rising_pairs
-from .numbers import read_numbers
+from .keyed import is_numeric
+from .numbers import count_numbers, read_numbers
 from .record import LABEL, Component, check_count, direction, oriented
 from .source import Source
 
@@ -21,7 +22,7 @@ def recognises(source: Source) -> bool:
     lines = source.head.split("\n")
     return (
         len(lines) > TEXT_LINES
-        and re.match(r"^\s*\d\s+((un)?corrected accelerogram|velocity|displacement|response|fourier)", lines[0])
+        and re.match(r"^\s*\d\s+((un)?corrected accelerogram|unknown|velocity|displacement|response|fourier)", lines[0])
         is not None
         and lines[1].strip() == "*"
     )
@@ -31,9 +32,12 @@ def read(source: Source) -> tuple[list[Component], dict]:
     """The component and what the header says."""
     lines, file = source.lines, source.name
     found = _FIRST.match(lines[0])
-    if found is None or "ACCELEROGRAM" not in found["what"].upper():
+    kind = "" if found is None else found["what"].upper()
+    if kind == "UNKNOWN":  # as programs write it that convert accelerograms
+        warn(f"{file}, line 1: it does not say what the numbers are; they are read as accelerations in cm/s².")
+    elif "ACCELEROGRAM" not in kind:
         raise InputError(f"{file}, line 1: expected an accelerogram, found {lines[0].strip()!r}; give that file.")
-    corrected = "UNCORRECTED" not in found["what"].upper()
+    corrected = "UNCORRECTED" not in kind
     at = TEXT_LINES + INTEGER_LINES
     integers = read_numbers(lines[TEXT_LINES:at], TEXT_LINES, file, "header integers", count=48, width=10)
     reals = read_numbers(lines[at : at + REAL_LINES], at, file, "header reals", count=50, width=15)
@@ -46,7 +50,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
                 f"which begins with '|', found {line.strip()[:40]!r}; {CUT}."
             )
     stated = check_count(float(integers[16]), file, TEXT_LINES + 3, "values")
-    numbers, left_out = _values(lines, start, stated, file)
+    numbers, left_out, rows = _values(lines, start, stated, file)
     if corrected:
         rate = float(reals[1])
         if not 0.0 < rate < 1e5:
@@ -57,19 +61,19 @@ def read(source: Source) -> tuple[list[Component], dict]:
     else:
         if stated % 2:
             raise InputError(f"{file}, line {TEXT_LINES + 3}: {stated} values are not pairs of time and acceleration.")
-        time, values = rising_pairs(numbers, file, start, -(-stated // 8))
+        time, values = rising_pairs(numbers, file, start, rows)
         component = Component(values * 0.01, np.nan, time=time, first=float(time[0]))
     _check_peaks(component, reals, file, at + 6)
     if left_out:
         component.processing.append(f"{left_out} numbers beyond the {stated} that the header promises were left out")
     component.label = _label(int(integers[12]), int(integers[13]), lines[5], file)
     component.metadata["unit"] = "cm/s2"
-    head = [line.strip() for line in lines[:TEXT_LINES]]
+    head = [line.strip().strip("*") for line in lines[:TEXT_LINES]]
     terms = " ".join(line.lstrip("| ").strip() for line in lines[at + REAL_LINES : start]).strip()
     place = re.search(r"station\s*=\s*(?P<name>.*?)\s*component", head[5], re.IGNORECASE)
     return [oriented(component)], {
         "format": f"USGS SMC V{2 if corrected else 1}",
-        "stage": "corrected" if corrected else "uncorrected",
+        "stage": "not stated" if kind == "UNKNOWN" else "corrected" if corrected else "uncorrected",
         "unit": "cm/s2",
         "station": place["name"].rstrip(", ") if place else None,
         "event": re.sub(r"\s{2,}", " ", head[3]) or None,
@@ -89,9 +93,13 @@ def _check_peaks(component: Component, reals: np.ndarray, file: str, line: int) 
             check_peak_time(np.maximum(component.values * np.sign(peak), 0.0), component.dt, float(time), file, line)
 
 
-def _values(lines: list[str], start: int, stated: int, file: str) -> tuple[np.ndarray, int]:
-    """The numbers that the header promises, and how many more there are: a stray last line is known in these files."""
-    rows = -(-stated // 8)
+def _values(lines: list[str], start: int, stated: int, file: str) -> tuple[np.ndarray, int, int]:
+    """The numbers that the header promises, how many more there are (a stray last line is known in these files), their rows.
+
+    There are eight numbers of ten characters to a row, or as many as the first row holds.
+    """
+    first = lines[start] if start < len(lines) else ""
+    rows = -(-stated // (count_numbers(first) if is_numeric(first) else 8))
     numbers = read_numbers(lines[start : start + rows], start, file, "accelerations", count=stated, width=10)
     if len(lines) > start + rows + 1:
         raise InputError(
@@ -99,7 +107,7 @@ def _values(lines: list[str], start: int, stated: int, file: str) -> tuple[np.nd
             "follow; the file is damaged, fetch it again."
         )
     beyond = read_numbers(lines[start + rows :], start + rows, file, "accelerations", width=10)
-    return numbers, len(beyond)
+    return numbers, len(beyond), rows
 
 
 def _label(from_vertical: int, azimuth: int, station: str, file: str) -> str:

@@ -6,14 +6,15 @@ import re
 
 from ...constants import g
 from ...errors import InputError
+from .checks import check_ended
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
-from .volume1 import END, channel_end, channels, pairs, unit
+from .volume1 import channel_end, channels, pairs, unit
 
 TEXT_LINES = 13
-#: Of a number among the samples [characters].
-WIDTH = 7
+#: Width of a number among the samples [characters], and numbers of a row.
+WIDTH, PER_ROW = 7, 10
 _CODES = {400: "Vert", 500: "Up", 600: "Down", 700: "Long", 800: "Tran"}
 
 
@@ -27,6 +28,16 @@ def read(source: Source) -> tuple[list[Component], dict]:
     lines, file = source.lines, source.name
     components = channels(lines, lambda start: _channel(lines, start, file))
     return components, {"format": "USC V1", "stage": "uncorrected", "network": "LA", **components[0].metadata}
+
+
+def _rows(lines: list[str], count: int) -> tuple[list[str], bool]:
+    """Lines from the first of the samples on without the blank that may begin their rows (1X,10F7.3); whether all are there."""
+    full, rest = divmod(2 * count, PER_ROW)
+    widths = [WIDTH * PER_ROW] * full + [WIDTH * rest] * (rest > 0)
+    rows = [line.rstrip() for line in lines[: len(widths)]]
+    lead = len(rows[0]) - widths[0] == 1 and all(row[:1] in ("", " ") for row in rows)
+    rows = [row[1:] for row in rows] if lead else rows
+    return [*rows, *lines[len(widths) :]], [len(row) for row in rows] == widths
 
 
 def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
@@ -47,8 +58,11 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
     reals = read_numbers(lines[reals_at : reals_at + 7], reals_at, file, "header reals", count=50, width=10)
     count = check_count(float(integers[27]), file, first + 2)
     data = reals_at + 7
-    end = channel_end(lines, data, file, whole=2 * count * WIDTH)
+    rows, whole = _rows(lines[data:], count)
+    lines = [*lines[:data], *rows]
+    end, marked = channel_end(lines, data)
     component = pairs(lines, data, end, count, file, width=WIDTH, total=float(reals[2]))
+    check_ended(whole or marked, file, end + 1, "/&")
     fraction = float(reals[4])
     if fraction > 0.0:
         size, label = fraction * g, "g/10" if abs(fraction - 0.1) < 1e-9 else f"{fraction:g} g"
@@ -63,5 +77,4 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
     }
     code = int(integers[26])
     component.label = _CODES.get(code, f"{code} deg" if 0 <= code <= 360 else f"code {code}")
-    marked = end < len(lines) and END.match(lines[end]) is not None
     return oriented(component), end + marked

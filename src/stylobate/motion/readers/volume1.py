@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import InputError, within
 from ..specs import acceleration_unit
-from .checks import CUT, check_ended, check_peak, check_peak_time, printed, rising_pairs
+from .checks import CUT, check_peak, check_peak_time, printed, rising_pairs
 from .numbers import NUMBER, read_numbers
 from .record import Component, check_count
 from .steps import step_of
@@ -118,16 +118,7 @@ def check_stated_peak(component: Component, text: Sequence[str], file: str, firs
                 check_peak_time(component.values, component.dt, found["time"], file, number)
 
 
-def channel_end(lines: list[str], first: int, file: str, *, whole: int | None = None) -> int:
-    """Index of the line that ends the samples which begin at ``first``.
-
-    Parameters
-    ----------
-    whole : int, optional
-        Width of all numbers that the header announces [characters]: where they are all there, to the last digit, the samples
-        are whole without a mark behind them.
-    """
+def channel_end(lines: list[str], first: int) -> tuple[int, bool]:
+    """Index of the line that ends the samples which begin at ``first``, and whether it is a mark of that."""
     end = next((i for i in range(first, len(lines)) if re.search(r"[a-df-zA-DF-Z&*/]", lines[i])), len(lines))
-    held = sum(len(line.rstrip()) for line in lines[first:end])
-    check_ended((end < len(lines) and END.match(lines[end]) is not None) or held == whole, file, end + 1, "/&")
-    return end
+    return end, end < len(lines) and END.match(lines[end]) is not None
