@@ -180,6 +180,66 @@ def test_hazard_curves_that_openquake_exports(tmp_path):
         read_hazard(path, (22.0, 37.4))
 
 
+KINDS = {
+    "mean": "mean",
+    "median": "median",
+    "max": "maximum of all realisations",
+    "quantile-0.85": "quantile 0.85",
+    "rlz-003": "realisation 3",
+}
+NRML_CURVES = """<nrml xmlns="http://openquake.org/xmlns/nrml/0.5">
+<hazardCurves {kind} investigationTime="50.0" IMT="PGV"><IMLs>10.0 20.0 40.0</IMLs>
+<hazardCurve><gml:Point xmlns:gml="http://www.opengis.net/gml"><gml:pos>21.9 37.43</gml:pos></gml:Point>
+<poEs>4.0E-01 2.0E-01 5.0E-02</poEs></hazardCurve></hazardCurves></nrml>"""
+
+
+def one_site(kind):
+    lines = OPENQUAKE.format(imt="PGV", first="4.0E-01").splitlines()[:3]
+    return "\n".join([lines[0].replace("kind='mean'", kind), *lines[1:]])
+
+
+def test_what_a_hazard_curve_is_of_its_logic_tree_is_told(curve, tmp_path):
+    """By the comment of a CSV, its name, or the attributes of NRML; where none states it, nothing is told."""
+    path = tmp_path / "h.csv"
+    files = [(one_site(f"kind='{kind}'"), statistic) for kind, statistic in KINDS.items()]
+    files += [(NRML_CURVES.format(kind='statistics="mean"'), "mean")]
+    files += [(NRML_CURVES.format(kind='statistics="quantile" quantileValue="0.15"'), "quantile 0.15")]
+    files += [(NRML_CURVES.format(kind='sourceModelTreePath="b1" gsimTreePath="b2"'), "branch b1~b2")]
+    files += [("# kind='rlz-12'\npgv_m_s,annual_rate\n0.1,0.02\n0.5,0.001\n", "realisation 12")]
+    files += [(one_site("x"), ""), ("pgv_m_s,annual_rate\n0.1,0.02\n0.5,0.001\n", "")]
+    for text, statistic in files:
+        path.write_text(text)
+        hazard = read_hazard(path)
+        assert hazard.statistic == statistic
+        x = np.geomspace(0.02, 3.0, 12)
+        found = risk(curve, dataclasses.replace(hazard, im=x, rate=1e-3 * x**-2))
+        assert found.summary()["hazard_statistic"] == (statistic or None)
+        assert (f"The hazard curve is the {statistic}." in found.sentence) == bool(statistic)
+        assert survival(found.fragility, 100.0, [found.hazard]).summary()["hazards"][0]["hazard_statistic"] == (
+            statistic or None
+        )
+    named = tmp_path / "hazard_curve-rlz-002-PGV_1.csv"
+    named.write_text(one_site("x"))
+    assert read_hazard(named).statistic == "realisation 2"
+
+
+@pytest.mark.parametrize("kind", ["std", "cov", "variance", "stddev"])
+def test_a_spread_over_a_logic_tree_is_no_hazard_curve(kind, tmp_path):
+    path = tmp_path / "h.csv"
+    for text in (
+        one_site(f"kind='{kind}'"),
+        NRML_CURVES.format(kind=f'statistics="{kind}"'),
+        f"# kind='{kind}'\npgv_m_s,annual_rate\n0.1,0.02\n0.5,0.001\n",
+    ):
+        path.write_text(text)
+        with pytest.raises(InputError, match=rf"is of the kind '{kind}'; allowed are .* give the mean, or a quantile"):
+            read_hazard(path)
+    named = tmp_path / f"hazard_curve-{kind}-PGV.csv"
+    named.write_text(one_site("x"))
+    with pytest.raises(InputError, match=f"of the kind '{kind}'"):
+        read_hazard(named)
+
+
 def test_fragility_and_hazard_are_of_one_intensity(curve):
     x = np.array([0.1, 1.0])
     with pytest.raises(InputError, match="in m/s and other is in g"):

@@ -1,5 +1,6 @@
 """Models of other tools become stones here, and go back: round trips, fits, COMPAS JSON, surveys, what is refused."""
 
+import re
 import csv
 import io
 import json
@@ -455,6 +456,49 @@ def test_what_is_no_survey(text, says, tmp_path):
     with pytest.raises(st.InputError, match=says):
         convert(str(tmp_path / "a.csv"), tmp_path / "b.toml", Reading())
     assert not (tmp_path / "b.toml").exists()
+
+
+ITALIAN = "tamburo;altezza (cm);diametro inf (cm);diametro sup (cm);verità\n1;81,2;100;98,2;sì\n2;80;98,2;96;no\n"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1", "utf-16"])
+@pytest.mark.parametrize("above", ["", "sep=;\n", '"sep=;"\r\n'])
+def test_a_survey_whose_columns_are_stated(above, encoding, tmp_path):
+    """Any row of names, or none; what a refusal proposes is read when it is typed."""
+    path = tmp_path / "a.csv"
+    path.write_bytes((above + ITALIAN).encode(encoding))
+    with pytest.raises(st.InputError, match="column 'tamburo'; known are drum, density") as error:
+        read_model(path, Reading("marble"))
+    proposal = re.search(r"`columns='([^']+)'`", str(error.value))[1]
+    assert proposal == "drum, height [cm], bottom_width [cm], top_width [cm], -"
+    column, _, words = read_model(path, Reading("marble", columns=proposal))
+    assert [drum.height for drum in column.drums] == pytest.approx([0.812, 0.8])
+    assert words[1:] == []
+    noted = read_model(path, Reading("marble", columns=proposal.replace(", -", ", note")))
+    assert noted[2][1:] == ["drum 1: sì", "drum 2: no"]
+    path.write_bytes((above + ITALIAN.partition("\n")[2]).encode(encoding))  # no names at all
+    assert read_model(path, Reading("marble", columns=proposal))[0].digest == column.digest
+
+
+@pytest.mark.parametrize(
+    ("columns", "said"),
+    [
+        ("drum, height [km], -, -, -", r"'height \[km\]' is not understood.*allowed are lengths"),
+        ("drum, hight [cm], -, -, -", "did you mean height"),
+        ("drum, height, -, -, -", "'height' is not understood"),
+        ("drum, height [cm]", "`columns` names 2 columns, .* has 5"),
+        ("drum, height [cm], height [cm], top_width [cm], -", "two columns of 'height'"),
+        ("drum, height [cm], bottom_width [cm], -, -", "no column 'top_width'"),
+        ("drum, height [cm], bottom_width [cm], top_width [cm], tilt", "tilt in row 1 .* is 'sì'"),
+    ],
+)
+def test_stated_columns_of_a_survey_that_cannot_be(columns, said, tmp_path):
+    (tmp_path / "a.csv").write_text(ITALIAN, encoding="utf-8")
+    with pytest.raises(st.InputError, match=said):
+        convert(str(tmp_path / "a.csv"), tmp_path / "b.toml", Reading("marble", columns=columns))
+    assert not (tmp_path / "b.toml").exists()
+    with pytest.raises(st.InputError, match="`columns` are those of a survey"):
+        convert("paper-12-drums", tmp_path / "b.toml", Reading(columns=columns))
 
 
 def test_a_note_on_a_drum_is_the_surveyors(tmp_path):

@@ -40,6 +40,11 @@ REFUSED = 10.0
 
 _POE = re.compile(r"poe-([0-9.eE+-]+)")
 _HEADED = re.compile(r"investigation_time=([0-9.eE+]+)")
+_KIND = re.compile(r"kind=['\"]*(?P<kind>[A-Za-z][\w.~-]*)")
+_KIND_OF_NAME = re.compile(r"hazard_curve-(?P<kind>[A-Za-z]+(?:-[0-9.]+)?)(?=[-_.])")
+#: Statistics of a logic tree that are hazard curves, as files call them.
+_STATISTIC = re.compile(r"(?P<one>mean|max|median)|quantile-(?P<quantile>0?\.\d+)|rlz-(?P<number>\d+)|(?P<branch>b\w*.*)")
+_WORDS = {"max": "maximum of all realisations"}
 _IMT = re.compile(r"imt='?\"?([A-Za-z]+)(?:\(([0-9.]+)\))?")
 
 
@@ -62,6 +67,8 @@ class Hazard:
     name : str
     imt : str
         What the file says the intensity is, such as ``PGA``, or ``pgv`` as it is typed; empty if it does not.
+    statistic : str
+        What the curve is of a logic tree: ``mean``, ``quantile 0.85``, ``realisation 3``; empty if the file does not say.
     """
 
     im: np.ndarray
@@ -69,6 +76,7 @@ class Hazard:
     unit: str
     name: str
     imt: str = ""
+    statistic: str = ""
 
     def __post_init__(self) -> None:
         order = np.argsort(self.im, kind="stable")
@@ -99,6 +107,11 @@ class Hazard:
             )
         object.__setattr__(self, "im", im)
         object.__setattr__(self, "rate", rate)
+
+    @property
+    def called(self) -> str:
+        """Its name, and its statistic where the file states it."""
+        return f"{self.name} ({self.statistic})" if self.statistic else self.name
 
     def doubt(self) -> str:
         """Rates that no site on Earth has, in a clause; empty where they are plausible. For PGA, PGV and spectra in g.
@@ -151,7 +164,7 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
     InputError
         The file cannot be read, has several sites, or holds no hazard curve.
     """
-    text = read_bytes(path, MOST).decode("utf-8-sig", "replace")
+    text = tables.text_of(read_bytes(path, MOST), shown(path))
     if text.lstrip().startswith("<"):
         return _nrml(shown(Path(path).name), text, site)
     lines = [line.strip() for line in text.replace("\r", "").split("\n") if line.strip()]
@@ -173,11 +186,38 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
         )
     (key,), measure = keys, measures[keys[0]]
     unit, imt = (COLUMNS[key], "") if measure is None else (measure.unit, measure.name)
-    return Hazard(np.array(table.numbers(key)), np.array(table.numbers("annual_rate")), unit, name, imt)
+    kind = _KIND.search(" ".join(comments))
+    statistic = _statistic(kind["kind"] if kind else "", name)
+    return Hazard(np.array(table.numbers(key)), np.array(table.numbers("annual_rate")), unit, name, imt, statistic)
+
+
+def _statistic(kind: str, name: str) -> str:
+    """What a curve is of a logic tree, in words; nothing where the file states no kind.
+
+    Raises
+    ------
+    InputError
+        It is no curve of exceedance, such as a standard deviation.
+    """
+    found = _STATISTIC.fullmatch(kind)
+    if kind and found is None:
+        raise InputError(
+            f"{name} is of the kind {kind!r}; allowed are curves of exceedance (mean, median, quantile-…, max, rlz-…), and a "
+            "spread over the logic tree (std) is none: give the mean, or a quantile."
+        )
+    if found is None:
+        return ""
+    if found["quantile"]:
+        return f"quantile {float(found['quantile']):g}"
+    if found["number"]:
+        return f"realisation {int(found['number'])}"
+    return _WORDS.get(kind, f"branch {kind}" if found["branch"] else kind)
 
 
 def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tuple[float, float] | None) -> Hazard:
     time, imt = _HEADED.search(said), _IMT.search(said)
+    kind_of_curve = _KIND.search(said) or _KIND_OF_NAME.match(name)
+    statistic = _statistic(kind_of_curve["kind"] if kind_of_curve else "", name)
     if time is None or float(time[1]) <= 0.0:
         raise InputError(f"{name} does not state its investigation_time; export the curve again with its header.")
     at = [k for k, one in enumerate(head) if _POE.fullmatch(one)]
@@ -191,7 +231,7 @@ def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tup
     chosen = _nearest(name, len(cells), places if len(cells) > 1 else None, site)
     poe = np.array([_number(name, chosen + 2, cells[chosen], k) for k in at])
     kind = "" if imt is None else imt[1] + (f"({imt[2]})" if imt[2] else "")
-    return _of_chances(name, kind, float(time[1]), im, poe)
+    return _of_chances(name, kind, statistic, float(time[1]), im, poe)
 
 
 def _nearest(name: str, number: int, places: list[list[float]] | None, site: tuple[float, float] | None) -> int:
@@ -220,14 +260,14 @@ def _distance_km(place: Sequence[float], other: Sequence[float]) -> float:
     return 2.0 * EARTH_RADIUS_KM * math.asin(math.sqrt(min(half, 1.0)))
 
 
-def _of_chances(name: str, kind: str, time: float, im: np.ndarray, poe: np.ndarray) -> Hazard:
+def _of_chances(name: str, kind: str, statistic: str, time: float, im: np.ndarray, poe: np.ndarray) -> Hazard:
     """The curve of probabilities of exceedance in a time [y]; PGV in cm/s, all else in g."""
     if ((poe < 0.0) | (poe > 1.0)).any():
         raise InputError(f"{name} has a probability of exceedance outside 0 to 1; mend the file.")
     velocity = kind.upper().startswith("PGV")
     sure = poe < 1.0  # a certain exceedance has no rate
     rate = -np.log1p(-poe[sure]) / time
-    return Hazard(im[sure] * (0.01 if velocity else 1.0), rate, "m/s" if velocity else "g", name, kind)
+    return Hazard(im[sure] * (0.01 if velocity else 1.0), rate, "m/s" if velocity else "g", name, kind, statistic)
 
 
 def _nrml(name: str, text: str, site: tuple[float, float] | None) -> Hazard:
@@ -261,8 +301,13 @@ def _nrml(name: str, text: str, site: tuple[float, float] | None) -> Hazard:
     poe = numbers(each[_nearest(name, len(each), places, site)], "poEs")
     if len(poe) != len(im):
         raise InputError(f"{name} has {len(im)} intensities and {len(poe)} probabilities; mend the file.")
-    period = found.get("saPeriod")
-    return _of_chances(name, found.get("IMT", "") + (f"({float(period):g})" if period else ""), time, im, poe)
+    period, kind = found.get("saPeriod"), found.get("statistics", "")
+    if kind == "quantile":
+        kind += f"-{found.get('quantileValue', '')}"
+    elif not kind and found.get("sourceModelTreePath"):
+        kind = f"{found.get('sourceModelTreePath')}~{found.get('gsimTreePath', '')}"
+    imt = found.get("IMT", "") + (f"({float(period):g})" if period else "")
+    return _of_chances(name, imt, _statistic(kind, name), time, im, poe)
 
 
 def _number(name: str, line: int, cells: list[str], k: int) -> float:

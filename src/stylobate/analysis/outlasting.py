@@ -83,7 +83,7 @@ class Outlasting:
         often, doubt = float(self.rates[which].sum()), self.hazard.doubt()
         dated = f"; the earthquake was in the year {middle:.0f}, {low:.0f} to {high:.0f}" if high - low >= 1.0 else ""
         return (
-            f"By {self.hazard.name} what stands outlasts all other shaking from {self.since[1]:.0f} to {self.until:.0f} "
+            f"By {self.hazard.called} what stands outlasts all other shaking from {self.since[1]:.0f} to {self.until:.0f} "
             f"with a chance of {self.chance:.2g}, and earthquakes of the prior that leave what is seen come once in "
             f"{1.0 / often:,.3g} years{dated}." + f" Mind that {doubt}." * bool(doubt)
         )
@@ -93,6 +93,7 @@ class Outlasting:
         names = ("low", "median", "high")
         return {
             "hazard": self.hazard.name,
+            "hazard_statistic": self.hazard.statistic or None,
             "chance": self.chance,
             "annual_rate_of_such_earthquakes": float(self.rates[which].sum()),
             "since": dict(zip(names, self.since.tolist(), strict=True)),

@@ -117,7 +117,8 @@ class Risk(Shown):
     def sentence(self) -> str:
         """How often it comes to the state, in a sentence."""
         e = self.fragility.evidence
-        return f"{e.name}: {e.state} {'never' if self.rate == 0.0 else f'once in {years(1.0 / self.rate)}'}."
+        said = f"{e.name}: {e.state} {'never' if self.rate == 0.0 else f'once in {years(1.0 / self.rate)}'}."
+        return f"{said} The hazard curve is the {self.hazard.statistic}." if self.hazard.statistic else said
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate risk``."""
@@ -139,6 +140,7 @@ class Risk(Shown):
             "median": f.median,
             "beta": f.beta,
             "hazard": self.hazard.name,
+            "hazard_statistic": self.hazard.statistic or None,
             "name": f.evidence.name,
             "fragility": {key: value for key, value in f.summary().items() if key not in ("curve", "points")},
             "deaggregation": [

@@ -62,6 +62,7 @@ class Survival(Shown):
             "hazards": [
                 {
                     "hazard": one.hazard.name,
+                    "hazard_statistic": one.hazard.statistic or None,
                     "annual_rate": one.rate,
                     "return_period_y": 1.0 / one.rate if one.rate > 0.0 else None,
                     "survival_probability": float(self.probability[k]),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import io
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -101,7 +103,7 @@ def points(text: str) -> str:
 def read(path: str | Path, most: int, key: str, needs: str) -> Table:
     """Read a table: CSV, or columns separated by semicolons or tabulators.
 
-    Above the header lines may begin with ``#``; empty lines are passed over.
+    Above the header lines may begin with ``#``; empty lines are passed over, and so is the line ``sep=;`` of a spreadsheet.
 
     Parameters
     ----------
@@ -119,12 +121,7 @@ def read(path: str | Path, most: int, key: str, needs: str) -> Table:
         It cannot be read, has no such column, two columns of one name, or a row with more or fewer fields than the header.
     """
     name = shown(path)
-    try:
-        text = read_bytes(path, most).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError(f"{name} is no text in UTF-8 (byte {error.start + 1}); save it as CSV in UTF-8.") from None
-    if "\x00" in text:
-        raise InputError(f"{name} is no text in UTF-8 (it holds bytes of 0); save it as CSV in UTF-8.")
+    text = text_of(read_bytes(path, most), name)
     lines = io.StringIO(text, newline=None).readlines()
     above = next((k for k, line in enumerate(lines) if line.strip() and not line.lstrip().startswith("#")), len(lines))
     for delimiter in DELIMITERS:
@@ -133,6 +130,36 @@ def read(path: str | Path, most: int, key: str, needs: str) -> Table:
             return found
     first = f"; its first line is {shown(lines[above].strip())[:LONGEST]!r}" if above < len(lines) else ""
     raise InputError(f"{name} has no column {key!r}{first}; it needs {needs}.")
+
+
+#: The line by which a spreadsheet is told what separates the columns.
+_SEPARATOR = re.compile(r"\ufeff?[ \t]*\"?sep=(.)\"?[ \t;,]*(?:\r\n|\r|\n|$)", re.IGNORECASE)
+
+
+def text_of(content: bytes, name: str) -> str:
+    """The text of a table: UTF-8, or Latin-1 as older spreadsheets write; a line ``sep=;`` at its beginning becomes empty.
+
+    Parameters
+    ----------
+    content : bytes
+    name : str
+        Of the file, for messages.
+
+    Raises
+    ------
+    InputError
+        It is no text.
+    """
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        text = content.decode("utf-16", "replace")
+    else:
+        try:
+            text = content.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            text = content.decode("cp1252", "replace")  # Latin-1, with the signs that spreadsheets add to it
+    if "\x00" in text:
+        raise InputError(f"{name} is no text (it holds bytes of 0); save it as CSV in UTF-8.")
+    return _SEPARATOR.sub("\n", text, count=1) if _SEPARATOR.match(text) else text
 
 
 def _parse(name: str, lines: list[str], delimiter: str, above: int, key: str) -> Table | None:

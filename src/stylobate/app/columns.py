@@ -18,6 +18,7 @@ from ..column.shapes import hull
 from ..column.tables import made_of
 from ..constants import g
 from ..errors import InputError
+from ..exchange.convert import SURVEYS, Reading, read_model
 from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
 from .words import doubted, warned
@@ -85,8 +86,17 @@ def presets() -> dict[str, dict[str, Any]]:
     return {name: tables_of(preset(name)) for name in PRESETS}
 
 
-def tables_in(path: Path) -> dict[str, Any]:
-    """Contents of a column file, drum by drum, whichever way it is written."""
+def tables_in(path: Path, material: str | None = None, names: str | None = None) -> dict[str, Any]:
+    """Contents of a column file or a survey, drum by drum, whichever way it is written.
+
+    Parameters
+    ----------
+    path : Path
+    material, names : str, optional
+        Of a survey that states none, and of its columns where they are not called as ours, as ``convert`` takes them.
+    """
+    if path.suffix.lower() in SURVEYS:
+        return tables_of(read_model(path, Reading(material, columns=names))[0])
     return tables_of(Column.from_toml(path))
 
 

@@ -21,6 +21,7 @@ from ..column.assembly_files import is_assembly
 from ..column.files import write_column
 from ..column.toml import checked
 from ..errors import InputError
+from ..exchange.convert import SURVEYS
 from ..motion.readers.samples import samples
 from ..version import __version__
 from . import assemblies, columns, motions
@@ -111,18 +112,20 @@ class Site:
             return PlainTextResponse(path.read_text(encoding="utf-8"))
 
     async def column_file(self, request: Request) -> Response:
-        """Contents of an uploaded file: a column, or an assembly, which is mended where it is edited."""
+        """Contents of an uploaded file: a column, a survey, or an assembly, which is mended where it is edited."""
+        stated = (unquote(request.headers.get(key, "")) or None for key in ("x-material", "x-columns"))
         name = safe_name(unquote(request.headers.get("x-name", "")), "your-column.toml")
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / name
             path.write_bytes(await request.body())
             try:
-                if is_assembly(path):
+                if path.suffix.lower() not in SURVEYS and is_assembly(path):
                     return await _opened(path.read_text(encoding="utf-8"))
-                return Answer({"table": await run_in_threadpool(columns.tables_in, path)})
+                return Answer({"table": await run_in_threadpool(columns.tables_in, path, *stated)})
             except InputError as error:
                 error.without(f"{folder}/")
-                error.field = "file"  # and none of the column that stands on the page
+                if error.field not in ("material", "columns"):  # of a survey, which are asked for
+                    error.field = "file"  # and none of the column that stands on the page
                 raise
 
     async def assembly(self, request: Request) -> Response:

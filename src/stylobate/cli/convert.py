@@ -24,6 +24,9 @@ def convert(
     ground: str | None = o.option(
         "LEVEL|none", "Where the ground lies; the lowest point if not given, none where there are supports."
     ),
+    columns: str | None = o.option(
+        "NAMES", 'Columns of a survey: "drum, height [cm], bottom_width [cm], top_width [cm], -", - to leave one out.'
+    ),
     fixed: list[str] | None = o.option("NAME", "A stone that moves with the ground; may be repeated."),
     compas: str = o.option("dem|assembly", "Package of COMPAS that .json is written for.", "dem"),
     *,
@@ -37,7 +40,7 @@ def convert(
     from ..exchange.convert import convert as converted
     from . import console
 
-    reading = Reading(material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()))
+    reading = Reading(material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()), columns)
     structure, words, files = converted(model, to, reading, compas)
     moving = sum(not body.fixed for body in structure.bodies)
     found = {"name": structure.name, "kind": structure.kind, "bodies": moving, "fitted": words}

@@ -70,18 +70,24 @@ def fragility(
     *,
     asked: Curves,
     method: str | None = o.option("M", "runs: every run counts; records: the capacity under each record."),
+    nrml: Path | None = o.option("FILE.xml", "Write the curves as NRML 0.5, for OpenQuake; nothing may be there."),
     execution: o.Plain,
 ) -> None:
     """Fragility: how probable a state is, over the intensity of the shaking.
 
     A lognormal curve by maximum likelihood with intervals over records; several sources or columns in one picture.
     """
+    from ..exchange.nrml import check_nrml, write_nrml
     from ..results.sources import kept_of
     from . import console
 
+    if nrml is not None:
+        check_nrml(nrml)
     found, used = asked.fitted(sources, method)
     summaries = [one.summary() for one in found]
     result = summaries[0] | ({"curves": summaries} if len(found) > 1 else {})
+    if nrml is not None:
+        result |= {"nrml": str(write_nrml(found, nrml))}
     with execution.files("fragility", "fragility.csv", "fragility.json", "fragility") as files:
         if files.wanted:
             import pandas
@@ -102,6 +108,8 @@ def fragility(
         print(doubt)
     for one in found:
         describe(one)
+    if nrml is not None:
+        print(f"written: {nrml}")
     console.print_files(files)
 
 

@@ -58,7 +58,7 @@ def risk(
         {
             "annual rate": f"{found.rate:.3g} (95 %: {found.low:.3g} to {found.high:.3g})",
             "mostly from": f"{most['from']:.3g} to {most['to']:.3g} {result['unit']} ({result['im']})",
-            "hazard": curve.name,
+            "hazard": curve.called,
             **{f"note {k}": text for k, text in enumerate(found.warnings, 1)},
         },
         files,

@@ -73,8 +73,9 @@ def survival(
         return
     for one in result["hazards"]:
         low, high = one["survival_probability_low"], one["survival_probability_high"]
+        statistic = f" ({one['hazard_statistic']})" if one["hazard_statistic"] else ""
         print(
-            f"{one['hazard']}: would still stand after {years:g} years with a probability of "
+            f"{one['hazard']}{statistic}: would still stand after {years:g} years with a probability of "
             f"{one['survival_probability']:.2g} (95 %: {low:.2g} to {high:.2g}); weight {one['weight']:.2f}."
         )
     for text in result["warnings"]:

@@ -60,6 +60,8 @@ class Reading:
         Level of the ground [m]; None for the lowest point, False for none.
     fixed : sequence of str
         Names of stones that move with the ground.
+    columns : str, optional
+        Of a survey whose row of names is not ours, such as ``drum, height [cm], bottom_width [cm], top_width [cm], -``.
     """
 
     def __init__(
@@ -70,6 +72,7 @@ class Reading:
         tolerance: float = TOLERANCE,
         ground: float | bool | None = None,
         fixed: tuple[str, ...] = (),
+        columns: str | None = None,
     ) -> None:
         if becomes not in KINDS:
             raise InputError(f"`as` is {becomes!r}; allowed are {', '.join(KINDS)}.", "as")
@@ -78,6 +81,7 @@ class Reading:
             check_range("level of the ground", ground, -FAR_AWAY, FAR_AWAY, unit="m", field="ground")
         self.material, self.becomes, self.unit = material, becomes, unit
         self.tolerance, self.ground, self.fixed = tolerance, ground, fixed
+        self.columns = columns
 
 
 def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tuple[Structure, list[str], list[Path]]:
@@ -113,6 +117,8 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
     refuse_existing(path)
     read_from = Path(model).suffix.lower()
     foreign = read_from in READ
+    if reading.columns is not None and read_from not in SURVEYS:
+        raise InputError("`columns` are those of a survey, and none is given; leave them out.", "columns")
     structure, tables, words = read_model(Path(model), reading) if foreign else (load_structure(model), None, [])
     if suffix == ".toml":
         comments = words if read_from in SURVEYS else ()
@@ -143,7 +149,7 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
     InputError
     """
     if path.suffix.lower() in SURVEYS:
-        tables, notes = survey_tables(path, reading.material)
+        tables, notes = survey_tables(path, reading.material, reading.columns)
         tables.setdefault("name", path.stem)
         column = made_of(Column, tables, shown(path))
         return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]

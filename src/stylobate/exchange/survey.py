@@ -9,6 +9,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+from ..analysis.tables import text_of
 from ..column import Column
 from ..column.files import tables_of
 from ..column.plausible import length_doubts
@@ -38,6 +39,10 @@ JOINT = {
 
 #: What the surveyor has to say of a drum: a comment of the column file.
 NOTE = "note"
+
+#: What stands for a column that is left out, where columns are stated; and all names of columns.
+LEFT_OUT = "-"
+KNOWN = ("drum", "density", *LENGTHS, *ANGLES, *JOINT, NOTE)
 
 #: What spreadsheets show where a formula has failed.
 FAILED_CELL = re.compile(r"#[A-Z0-9/_]+[!?]?|Err:\d+")
@@ -92,7 +97,9 @@ def _header(name: str) -> str:
     return f"{name}_{unit}" if unit else name
 
 
-def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any], list[str]]:
+def survey_tables(
+    path: Path, stone: str | None = None, stated: str | None = None
+) -> tuple[dict[str, Any], list[str]]:
     """Content of a column file of a survey, and what the surveyor has to say of drums, "drum 3: …".
 
     Separated by commas, semicolons or tabs; decimal commas are read where commas do not separate. Of a workbook the one
@@ -104,6 +111,8 @@ def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any],
     path : Path
     stone : str, optional
         Name of a material; that of the survey if left out.
+    stated : str, optional
+        What each column holds, where the row of names is not ours: ``drum, height [cm], bottom_width [cm], top_width [cm], -``.
 
     Raises
     ------
@@ -114,26 +123,31 @@ def survey_tables(path: Path, stone: str | None = None) -> tuple[dict[str, Any],
     if path.suffix.lower() in WORKBOOKS:
         rows, separator = rows_of_workbook(content, name), ","
     else:
-        try:
-            rows, separator = _rows_of_text(content.decode("utf-8-sig"), name)
-        except UnicodeDecodeError:
-            raise InputError(f"{name} is not a text file in UTF-8; save the survey as CSV (UTF-8).") from None
+        rows, separator = _rows_of_text(text_of(content, name), name)
     facts, rows = _facts(rows, separator, name)
     if len(rows) < 2:
         raise InputError(f"{name} holds no row of a drum; give a row of names, and one for each drum from the base up.")
-    head, *rows = rows
     # spreadsheets save columns that were formatted, or left free, as well
-    free = {k for k, cell in enumerate(head) if not any(one[k].strip() for one in (head, *rows) if k < len(one))}
-    head, *rows = ([cell for k, cell in enumerate(row) if k not in free] for row in (head, *rows))
-    columns = [_column(cell, name) for cell in head]
+    free = {k for k in range(max(map(len, rows))) if not any(one[k].strip() for one in rows if k < len(one))}
+    head, *rows = ([cell for k, cell in enumerate(row) if k not in free] for row in rows)
+    decimal = "," if separator != "," else "."
+    if stated is None:
+        columns = _columns_of(head, rows, decimal, name)
+    else:
+        columns = _stated(stated)
+        if len(columns) != len(head):
+            raise InputError(
+                f"`columns` names {len(columns)} columns, {name} has {len(head)}; name each once, those to leave out -.", "columns"
+            )
+        if all(_is_number(cell, decimal) for cell, (key, _) in zip(head, columns) if key in LENGTHS):  # no row of names
+            rows = [head, *rows]
     known = [one for one, _ in columns]
-    double = next((one for one in known if known.count(one) > 1), None)
+    double = next((one for one in known if known.count(one) > 1 and one != LEFT_OUT), None)
     if double is not None:
         raise InputError(f"{name} has two columns of {double!r}; keep one.")
     missing = next((one for one in ("height", "bottom_width", "top_width") if one not in known), None)
     if missing is not None:
         raise InputError(f"{name} has no column {missing!r}; add it, such as {missing}_m.")
-    decimal = "," if separator != "," else "."
     read = [_row(row, columns, number, decimal, name) for number, row in enumerate(rows, 1)]
     stated = [row.pop("drum", None) for row in read]
     if any(one is not None for one in stated) and stated != [float(i) for i in range(1, len(read) + 1)]:
@@ -221,12 +235,81 @@ def _facts(rows: list[list[str]], separator: str, name: str) -> tuple[dict[str, 
     return facts, rest
 
 
+def _stated(text: str) -> list[tuple[str, float]]:
+    """Columns as typed, and how many of their units are one of the SI."""
+    columns = []
+    for part in text.split(","):
+        found = re.fullmatch(r"\s*(?P<name>-|\w[\w ]*?)\s*(?:\[\s*(?P<unit>[^\]]*?)\s*\])?\s*", part)
+        name, unit = (found["name"].replace(" ", "_"), found["unit"]) if found else ("", None)
+        if name in LENGTHS and unit in UNITS:
+            columns.append((name, UNITS[unit]))
+        elif name in (LEFT_OUT, "drum", NOTE, "density", *ANGLES, *JOINT) and unit in (None, _unit_of(name)):
+            columns.append((name, 1.0))
+        else:
+            raise InputError(
+                f"`columns` {text!r}: {part.strip()!r} is not understood; {suggest(name, KNOWN)}allowed are lengths "
+                f"({', '.join(LENGTHS)}) with [m], [cm] or [mm], {', '.join(one for one in KNOWN if one not in LENGTHS)}, and - "
+                "for a column to leave out.",
+                "columns",
+            )
+    return columns
+
+
+def _unit_of(name: str) -> str:
+    """Unit of a column that has one only, as typed."""
+    units = {"density": "kg/m3", "normal_stiffness": "N/m3", "shear_stiffness": "N/m3", "cohesion": "Pa"}
+    return "deg" if name in ANGLES or name == "friction_angle" else units.get(name, "")
+
+
+def _columns_of(head: list[str], rows: list[list[str]], decimal: str, name: str) -> list[tuple[str, float]]:
+    """Columns by our own names; or the refusal of the first name that is none, with columns proposed that can be typed."""
+    try:
+        return [_column(cell, name) for cell in head]
+    except InputError as error:
+        proposal = _proposed(head, rows, decimal)
+        if proposal is not None:
+            line = shown(", ".join(head))[:200]
+            raise InputError(
+                f"{error} Or state what each column of the row {line!r} holds, which may be `columns='{proposal}'`: check names "
+                "and units.",
+                "columns",
+            ) from None
+        raise
+
+
+def _proposed(head: list[str], rows: list[list[str]], decimal: str) -> str | None:
+    """Columns that a row of other names may mean, for a person to judge and to type; None where too few hold numbers."""
+    wanted = ["drum"] if [row[0].strip() for row in rows if row] == [str(i + 1) for i in range(len(rows))] else []
+    wanted += ["height", "bottom_width", "top_width"]
+    own = []
+    for cell in head:
+        try:
+            own.append(_column(cell, "")[0])
+        except InputError:
+            own.append("")
+    wanted = [one for one in wanted if one not in own]
+    found = []
+    for k, (cell, key) in enumerate(zip(head, own)):
+        numbers = all(k < len(row) and _is_number(row[k], decimal) for row in rows)
+        key = key or (wanted.pop(0) if numbers and wanted else LEFT_OUT)
+        unit = re.search(r"[\[(_ ](mm|cm|m)[\])]?\s*$", cell.lower())
+        found.append(f"{key} [{unit[1] if unit else 'm'}]" if key in LENGTHS else key)
+    return None if wanted else ", ".join(found)
+
+
+def _is_number(cell: str, decimal: str) -> bool:
+    try:
+        return math.isfinite(float(cell.replace(",", ".") if decimal == "," else cell))
+    except ValueError:
+        return False
+
+
 def _column(cell: str, name: str) -> tuple[str, float]:
     """What a column holds, and how many of its unit are one of the SI."""
     text = "_".join(
         cell.strip().lower().replace("[", " ").replace("]", " ").replace("(", " ").replace(")", " ").split()
     )
-    known = ("drum", "density", *LENGTHS, *ANGLES, *JOINT, NOTE)
+    known = KNOWN
     if text in known:
         return text, 1.0
     stem, _, unit = text.rpartition("_")
@@ -250,7 +333,7 @@ def _row(row: list[str], columns: list[tuple[str, float]], number: int, decimal:
         )
     found: dict[str, float] = {}
     for cell, (key, factor) in zip(row, columns):
-        if cell.strip() and key != NOTE:
+        if cell.strip() and key not in (NOTE, LEFT_OUT):
             value = _number(cell.strip(), f"{key} in row {number} of {name}", decimal)
             found[key] = value / factor
     missing = next((key for key in ("height", "bottom_width", "top_width") if key not in found), None)

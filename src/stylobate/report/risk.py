@@ -76,11 +76,14 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     )
     low, high = n.plain(s.get("annual_rate_low")), n.plain(s.get("annual_rate_high"))
     known, unit = s.get("fragility") or {}, "" if s.get("unit") in (None, "-") else f" {s['unit']}"
+    if s.get("hazard_statistic"):
+        sentence += f" The hazard curve is the {s['hazard_statistic']}."
     if n.NONE not in (low, high):
         sentence += f" The annual rate lies between {low} and {high} (95 %)."
     pairs = [
         ("annual rate [1/year]", f"{n.plain(s['annual_rate'])} ({low} to {high}, 95 %)"),
         ("hazard", n.plain(s.get("hazard"))),
+        *([("statistic of the hazard", s["hazard_statistic"])] if s.get("hazard_statistic") else []),
         ("intensity", f"{n.plain(s.get('im'))}{unit and f' [{unit.strip()}]'}"),
     ]
     if known:
@@ -106,6 +109,7 @@ def survival_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         return _weighing(result)
     keys = [
         "hazard",
+        *(["hazard_statistic"] if any(one.get("hazard_statistic") for one in s["hazards"]) else []),
         "annual_rate",
         "survival_probability",
         "survival_probability_low",

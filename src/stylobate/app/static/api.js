@@ -25,8 +25,8 @@ export const check = async (path, body) => {
   } catch (error) { return error; }
 };
 export const postText = async (path, body) => (await ask("POST", path, JSON.stringify(body), { "content-type": "application/json" })).text();
-export const upload = async (path, file) =>
-  (await ask("POST", path, file, { "content-type": "application/octet-stream", "x-name": encodeURIComponent(file.name) })).json();
+export const upload = async (path, file, more = {}) =>
+  (await ask("POST", path, file, { "content-type": "application/octet-stream", "x-name": encodeURIComponent(file.name), ...more })).json();
 
 // Answers may come in another order than they were asked for: only the last one asked for counts.
 export function latest(run) {

@@ -112,7 +112,7 @@ function summary(f) {
 function render() {
   const table = state.column;
   if (!table) return;
-  const files = opener("column", ([file]) => open(file), { accept: ".toml" });
+  const files = opener("column", ([file]) => open(file), { accept: ".toml,.csv,.xlsx,.xlsm" });
   if (state.assembly) { assembly.render(panel, files); return; }
   redraw(panel,
     el("h1", {}, "Column"),
@@ -284,13 +284,18 @@ function pick(event) {
   if (drum) find(`tr[data-drum="${drum}"] input`, panel).focus();
 }
 
-export async function open(file) {
+// What a survey leaves open, its stone or what its columns hold, is asked for.
+export async function open(file, stated = {}) {
   if (!file) return;
   try {
-    const found = await upload("/api/column/file", file);
+    const found = await upload("/api/column/file", file, stated);
     if (found.assembly) change({ assembly: found.assembly, model: found.model, settings: {}, replicates: "" }); else replace(found.table);
     notice(`${file.name} is open.`);
-  } catch (error) { mark(panel, error); }
+  } catch (error) {
+    const header = `x-${error.field}`, open_ = ["material", "columns"].includes(error.field) && !stated[header];
+    const said = open_ && window.prompt(error.error, error.field === "material" ? "marble" : (/"([^"]+)": check/.exec(error.error) || ["", ""])[1]);
+    if (said) await open(file, { ...stated, [header]: encodeURIComponent(said) }); else mark(panel, error);
+  }
 }
 async function saveFile() {
   try {
