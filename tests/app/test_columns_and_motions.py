@@ -143,7 +143,9 @@ def test_errors_about_no_field_have_none(client, table):
 
 def test_a_survey_opens_as_convert_opens_it(client, tmp_path):
     """Names of our own and others', an older code page, and the line of a spreadsheet; what is left open is asked for."""
-    text = "sep=;\ntamburo;altezza (cm);inf (cm);sup (cm);verità\n1;81,2;100;98,2;sì\n2;80;98,2;96;no\n".encode("latin-1")
+    text = "sep=;\ntamburo;altezza (cm);inf (cm);sup (cm);verità\n1;81,2;100;98,2;sì\n2;80;98,2;96;no\n".encode(
+        "latin-1"
+    )
     columns = "drum, height [cm], bottom_width [cm], top_width [cm], note"
     answer = client.post("/api/column/file", content=text, headers={"x-name": "survey.csv"})
     assert answer.status_code == 422
@@ -154,9 +156,7 @@ def test_a_survey_opens_as_convert_opens_it(client, tmp_path):
     assert client.post("/api/column/file", content=text, headers=stated).json()["field"] == "material"
     opened = client.post("/api/column/file", content=text, headers=stated | {"x-material": "marble"}).json()["table"]
     (tmp_path / "survey.csv").write_bytes(text)
-    column, *_ = convert(
-        str(tmp_path / "survey.csv"), tmp_path / "survey.toml", Reading("marble", columns=columns)
-    )
+    column, *_ = convert(str(tmp_path / "survey.csv"), tmp_path / "survey.toml", Reading("marble", columns=columns))
     assert client.post("/api/column", json=opened).json()["facts"]["digest"] == column.digest
 
 

@@ -55,7 +55,9 @@ def one(rng: random.Random, folder: Path) -> str:
     if own:
         compare(read_motion(path, dt=dt), wanted, head)
         return "read by its header"
-    stated = ", ".join("t [s]" if axis == "t" else "-" if axis == "-" else f"{axis} [{unit}]" for axis, unit in zip(axes, units))
+    stated = ", ".join(
+        "t [s]" if axis == "t" else "-" if axis == "-" else f"{axis} [{unit}]" for axis, unit in zip(axes, units)
+    )
     compare(read_motion(path, dt=dt, columns=stated), wanted, f"{head} as {stated}")
     try:
         motion = read_motion(path, rng.choice((None, "gal")), dt)

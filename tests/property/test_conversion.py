@@ -1,10 +1,10 @@
 """Models of other tools become stones here, and go back: round trips, fits, COMPAS JSON, surveys, what is refused."""
 
-import re
 import csv
 import io
 import json
 import math
+import re
 from contextlib import nullcontext
 from datetime import datetime
 from pathlib import Path

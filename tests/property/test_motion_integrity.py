@@ -103,7 +103,15 @@ def mseed(put, *channels, dips=None, name="ABC.xml", sensitivities=(1e5,), outpu
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 @pytest.mark.parametrize(
     ("unit", "size"),
-    [("nm/s**2", 1e-9), ("cm/s^2", 0.01), ("g", g), ("M/SEC**2", 1.0), ("m/s/s", 1.0), ("GAL", 0.01), ("UM/S**2", 1e-6)],
+    [
+        ("nm/s**2", 1e-9),
+        ("cm/s^2", 0.01),
+        ("g", g),
+        ("M/SEC**2", 1.0),
+        ("m/s/s", 1.0),
+        ("GAL", 0.01),
+        ("UM/S**2", 1e-6),
+    ],
 )
 def test_counts_per_any_unit_of_acceleration_are_read(unit, size, put):
     """A sensitivity of 1e5 counts per m/s² is one of 1e5 times the unit's size per that unit."""
@@ -124,7 +132,10 @@ def test_counts_of_another_quantity_are_refused_with_its_unit(unit, put):
     [
         ([(0.5, "M/S**2", "V"), (2e5, "V", "COUNTS")], ""),
         ([(0.5, "M/S**2", "V"), (2e5, "V", "COUNTS"), (1.04, "COUNTS", "COUNTS")], ""),
-        ([(0.5, "M/S**2", "V"), (2e6, "V", "COUNTS")], "a sensitivity of 100000 COUNTS per .* stages whose gains make 1e.06"),
+        (
+            [(0.5, "M/S**2", "V"), (2e6, "V", "COUNTS")],
+            "a sensitivity of 100000 COUNTS per .* stages whose gains make 1e.06",
+        ),
         ([(0.5, "M/S**2", "V"), (2e5, "V", "COUNTS"), (1.06, "COUNTS", "COUNTS")], "allowed is a difference of 5 %"),
         ([(2e5, "V", "COUNTS")], ""),  # the stage of the sensor is not stated
     ],
@@ -433,7 +444,10 @@ def test_a_usc_file_as_published_is_whole_where_all_its_points_are_there(end, pu
     late = published_usc(100.0).replace("     0.220     0.000     0.100", "   100.220     0.000     0.100")
     assert "100.000" in late  # numbers of seven characters touch
     assert read(put(late)).acceleration == pytest.approx(read(put(text)).acceleration, abs=1e-9)
-    for cut, said in ((text.rstrip()[:-1] + end, "without the mark"), (text.rstrip()[:-15] + end, "promises 46 numbers")):
+    for cut, said in (
+        (text.rstrip()[:-1] + end, "without the mark"),
+        (text.rstrip()[:-15] + end, "promises 46 numbers"),
+    ):
         with pytest.raises(InputError, match=said):
             read(put(cut))
 
@@ -725,7 +739,11 @@ def test_columns_of_tsmip_are_read_with_their_sense(put):
 @pytest.mark.parametrize(
     ("labels", "azimuth", "sign"),
     [
-        ("Up,+UP,UP-DN,UPDN,U-D,UD,V,Z,VERTIC,Vert(Up),Vertical-Up,Roof UP,HNV,HNZ,BHZ,UP1,HNZ00,BHZ10,HNZ2C,HLZ--,HNZ 00,XX.HILL.00.HNZ,XX_HILL_HGZ10", None, 1.0),
+        (
+            "Up,+UP,UP-DN,UPDN,U-D,UD,V,Z,VERTIC,Vert(Up),Vertical-Up,Roof UP,HNV,HNZ,BHZ,UP1,HNZ00,BHZ10,HNZ2C,HLZ--,HNZ 00,XX.HILL.00.HNZ,XX_HILL_HGZ10",
+            None,
+            1.0,
+        ),
         ("Down,-UP,-V,V;-,V-,Z(-),D-U,DN-UP,Vert(Down),Vertical Down,Roof DN", None, -1.0),
         ("N 10.5 E,N10.5E,N 10.5° E,N10.5,NORTH 10.5 EAST,10.5 deg", 10.5, 0.0),
         ("N45°E,N45E,NE,North-East,45", 45.0, 0.0),
@@ -750,7 +768,11 @@ def test_a_vertical_component_under_any_of_its_names_is_z(put):
     with pytest.raises(InputError, match="only the vertical component '-UP'"):
         read(up)
     parts = [put(text.replace(", 230", f", {code}00"), f"{code}.at2") for code in ("HN1", "HN2", "HNZ")]
-    assert read(parts).metadata["labels"] == {"x": "HN100", "y": "HN200", "z": "HNZ00"}  # NGA-East: a location behind it
+    assert read(parts).metadata["labels"] == {
+        "x": "HN100",
+        "y": "HN200",
+        "z": "HNZ00",
+    }  # NGA-East: a location behind it
 
 
 @pytest.mark.parametrize(
@@ -773,7 +795,9 @@ def test_afad_columns_are_what_their_heading_says(heading, azimuths, waves, put)
         assert motion.components[axis] == pytest.approx(0.01 * WAVES[wave])
 
 
-@pytest.mark.parametrize(("heading", "said"), [("N-S E-W foo", "'N-S E-W foo' does not name"), ("N-S E-W U(-)", "does not name")])
+@pytest.mark.parametrize(
+    ("heading", "said"), [("N-S E-W foo", "'N-S E-W foo' does not name"), ("N-S E-W U(-)", "does not name")]
+)
 def test_an_afad_heading_that_is_not_understood_is_refused(heading, said, put):
     with pytest.raises(InputError, match=said):
         read(put(FORMATS["afad"][0].replace("  N-S   E-W   U-D", heading)))

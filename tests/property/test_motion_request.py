@@ -162,7 +162,9 @@ def test_a_circle_of_azimuths_with_both_signs_is_told_to_be_computed_twice(recor
 def test_the_azimuths_of_a_reversed_motion_are_turned_with_it(azimuths, tmp_path):
     """Written, read back and turned to north, both signs are one motion of the ground; rows tell the direction as before."""
     path = tmp_path / "two.csv"
-    path.write_text("# azimuth_x_deg: 90\n# azimuth_y_deg: 0\ntime_s,ax_g,ay_g\n0,0.1,0.02\n0.01,-0.3,0.08\n0.02,0.2,-0.1\n")
+    path.write_text(
+        "# azimuth_x_deg: 90\n# azimuth_y_deg: 0\ntime_s,ax_g,ay_g\n0,0.1,0.02\n0.01,-0.3,0.08\n0.02,0.2,-0.1\n"
+    )
     first, back = st.MotionRequest(files=(path,), azimuths=azimuths, signs="both").expand().motions
     assert [direction_of(one)["reversed"] for one in (first, back)] == [False, True]
     assert len({direction_of(one)["azimuth_deg"] for one in (first, back)}) == 1

@@ -51,7 +51,10 @@ def test_stated_columns_are_what_is_read(above, columns, places, put):
     assert set(motion.components) == set(places)
     for axis, place in places.items():
         assert motion.components[axis] == pytest.approx(g * WAVES[:, place])
-    assert MotionRequest(files=(path,), dt=None if "t" in columns else STEP, columns=columns).motion().digest == motion.digest
+    assert (
+        MotionRequest(files=(path,), dt=None if "t" in columns else STEP, columns=columns).motion().digest
+        == motion.digest
+    )
 
 
 def test_each_column_has_its_unit(put):

@@ -43,7 +43,9 @@ _HEADED = re.compile(r"investigation_time=([0-9.eE+]+)")
 _KIND = re.compile(r"kind=['\"]*(?P<kind>[A-Za-z][\w.~-]*)")
 _KIND_OF_NAME = re.compile(r"hazard_curve-(?P<kind>[A-Za-z]+(?:-[0-9.]+)?)(?=[-_.])")
 #: Statistics of a logic tree that are hazard curves, as files call them.
-_STATISTIC = re.compile(r"(?P<one>mean|max|median)|quantile-(?P<quantile>0?\.\d+)|rlz-(?P<number>\d+)|(?P<branch>b\w*.*)")
+_STATISTIC = re.compile(
+    r"(?P<one>mean|max|median)|quantile-(?P<quantile>0?\.\d+)|rlz-(?P<number>\d+)|(?P<branch>b\w*.*)"
+)
 _WORDS = {"max": "maximum of all realisations"}
 _IMT = re.compile(r"imt='?\"?([A-Za-z]+)(?:\(([0-9.]+)\))?")
 
@@ -202,8 +204,8 @@ def _statistic(kind: str, name: str) -> str:
     found = _STATISTIC.fullmatch(kind)
     if kind and found is None:
         raise InputError(
-            f"{name} is of the kind {kind!r}; allowed are curves of exceedance (mean, median, quantile-…, max, rlz-…), and a "
-            "spread over the logic tree (std) is none: give the mean, or a quantile."
+            f"{name} is of the kind {kind!r}; allowed are curves of exceedance (mean, median, quantile-…, max, rlz-…), "
+            "and a spread over the logic tree (std) is none: give the mean, or a quantile."
         )
     if found is None:
         return ""

@@ -134,7 +134,13 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
     files = _each(asked.records, records)
-    analysis = ["ida", *common, *files, *_options(unit=asked.unit, columns=asked.columns, im=asked.im, runs=asked.runs), *end]
+    analysis = [
+        "ida",
+        *common,
+        *files,
+        *_options(unit=asked.unit, columns=asked.columns, im=asked.im, runs=asked.runs),
+        *end,
+    ]
     if len(asked.records) < FEWEST:
         return [analysis]
     return [analysis, ["fragility", RESULT, *_options(state=asked.state), f"--out={FRAGILITY}"]]
@@ -163,7 +169,9 @@ def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) 
     if "motions" in takes and asked.records:
         line += [f"--motion={path}" for path in _each(asked.records, records)]
     elif {"motion", "motions", "round"} & {*takes}:
-        given = {name: text for name, text in given.items() if name not in ("unit", "columns")}  # the page's motion has its own
+        given = {
+            name: text for name, text in given.items() if name not in ("unit", "columns")
+        }  # the page's motion has its own
         motion = _the_motion(asked)
         line += _motion(motion.model_copy(update={"azimuth": None}) if "round" in takes else motion, records)
     if {"hazard", "hazards"} & {*takes}:

@@ -96,7 +96,9 @@ def tables_in(path: Path, material: str | None = None, names: str | None = None)
         Of a survey that states none, and of its columns where they are not called as ours, as ``convert`` takes them.
     """
     if path.suffix.lower() in SURVEYS:
-        return tables_of(read_model(path, Reading(material, columns=names))[0])
+        column, *_ = read_model(path, Reading(material, columns=names))
+        assert isinstance(column, Column)  # a survey is one
+        return tables_of(column)
     return tables_of(Column.from_toml(path))
 
 

@@ -9,8 +9,8 @@ from typer.core import TyperCommand, TyperOption
 
 #: Options that few runs need, of commands that have many.
 RARE = frozenset({
-    "across", "synthetic", "unit", "dt", "columns", "component", "azimuth", "azimuths", "signs", "condition", "vertical", "whole",
-    "until_end", "output_interval", "settings", "losses", "project", "scatter", "motion_scatter", "seed", "pictures",
+    "across", "synthetic", "unit", "dt", "columns", "component", "azimuth", "azimuths", "signs", "condition",
+    "vertical", "whole", "until_end", "output_interval", "settings", "losses", "project", "scatter", "motion_scatter", "seed", "pictures",
     "half_step",
     "threads", "dask", "device", "mix_devices",
 })  # fmt: skip

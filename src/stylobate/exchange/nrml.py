@@ -63,16 +63,16 @@ def write_nrml(curves: Sequence[Fragility], path: str | Path) -> Path:
     measures = list(dict.fromkeys(one.evidence.measure for one in curves))
     for what, found in (("states", states), ("intensities", measures)):
         if len(found) != 1:
-            raise InputError(f"the curves are of {len(found)} {what} ({', '.join(found)}); write a file for each.", "nrml")
+            raise InputError(
+                f"the curves are of {len(found)} {what} ({', '.join(found)}); write a file for each.", "nrml"
+            )
     names = [one.evidence.name for one in curves]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InputError(f"two curves are called {twice!r}; results go by their names: write a file for each.", "nrml")
     imt, size = _intensity(measures[0])
     state = re.sub(r"\W+", "_", states[0])
-    model = ElementTree.Element(
-        "fragilityModel", id="stylobate", assetCategory="structures", lossCategory="structural"
-    )
+    model = ElementTree.Element("fragilityModel", id="stylobate", assetCategory="structures", lossCategory="structural")
     text = f"Fragility of {', '.join(names)}: {states[0]}, over {measures[0]}, by stylobate."
     ElementTree.SubElement(model, "description").text = text
     ElementTree.SubElement(model, "limitStates").text = state
@@ -97,7 +97,8 @@ def _intensity(measure: str) -> tuple[str, float]:
     found = None if measure == "im" else parse_measure(measure)
     if found is None or found.kind not in INTENSITIES:
         raise InputError(
-            f"the fragility is over {measure!r}; NRML has names for pga, pgv and sa:1.0s: give one of them as `im`.", "im"
+            f"the fragility is over {measure!r}; NRML has names for pga, pgv and sa:1.0s: give one of them as `im`.",
+            "im",
         )
     name, size = INTENSITIES[found.kind]
     return name.format(*found.periods), size
@@ -112,7 +113,11 @@ def _add(model: ElementTree.Element, curve: Fragility, state: str, imt: str, siz
     function = ElementTree.SubElement(
         model, "fragilityFunction", id=curve.evidence.name, format="continuous", shape="logncdf"
     )
-    ends = {"minIML": repr(float(min(low, median / reach))), "maxIML": repr(float(max(high, median * reach)))}
-    ElementTree.SubElement(function, "imls", imt=imt, **ends)
+    ends: dict[str, str] = {
+        "imt": imt,
+        "minIML": repr(float(min(low, median / reach))),
+        "maxIML": repr(float(max(high, median * reach))),
+    }
+    ElementTree.SubElement(function, "imls", ends)
     stddev = mean * math.sqrt(math.expm1(curve.beta**2))
     ElementTree.SubElement(function, "params", ls=state, mean=repr(mean), stddev=repr(stddev))

@@ -97,9 +97,7 @@ def _header(name: str) -> str:
     return f"{name}_{unit}" if unit else name
 
 
-def survey_tables(
-    path: Path, stone: str | None = None, stated: str | None = None
-) -> tuple[dict[str, Any], list[str]]:
+def survey_tables(path: Path, stone: str | None = None, stated: str | None = None) -> tuple[dict[str, Any], list[str]]:
     """Content of a column file of a survey, and what the surveyor has to say of drums, "drum 3: …".
 
     Separated by commas, semicolons or tabs; decimal commas are read where commas do not separate. Of a workbook the one
@@ -112,7 +110,8 @@ def survey_tables(
     stone : str, optional
         Name of a material; that of the survey if left out.
     stated : str, optional
-        What each column holds, where the row of names is not ours: ``drum, height [cm], bottom_width [cm], top_width [cm], -``.
+        What each column holds, where the row of names is not ours, such as
+        ``drum, height [cm], bottom_width [cm], top_width [cm], -``.
 
     Raises
     ------
@@ -137,7 +136,8 @@ def survey_tables(
         columns = _stated(stated)
         if len(columns) != len(head):
             raise InputError(
-                f"`columns` names {len(columns)} columns, {name} has {len(head)}; name each once, those to leave out -.", "columns"
+                f"`columns` names {len(columns)} columns, {name} has {len(head)}; name each once, those to leave out -.",
+                "columns",
             )
         if all(_is_number(cell, decimal) for cell, (key, _) in zip(head, columns) if key in LENGTHS):  # no row of names
             rows = [head, *rows]
@@ -149,8 +149,8 @@ def survey_tables(
     if missing is not None:
         raise InputError(f"{name} has no column {missing!r}; add it, such as {missing}_m.")
     read = [_row(row, columns, number, decimal, name) for number, row in enumerate(rows, 1)]
-    stated = [row.pop("drum", None) for row in read]
-    if any(one is not None for one in stated) and stated != [float(i) for i in range(1, len(read) + 1)]:
+    numbers = [row.pop("drum", None) for row in read]
+    if any(one is not None for one in numbers) and numbers != [float(i) for i in range(1, len(read) + 1)]:
         raise InputError(
             f"{name} numbers its drums otherwise than 1, 2, 3 … from the base up; put the rows in that order."
         )
@@ -248,8 +248,8 @@ def _stated(text: str) -> list[tuple[str, float]]:
         else:
             raise InputError(
                 f"`columns` {text!r}: {part.strip()!r} is not understood; {suggest(name, KNOWN)}allowed are lengths "
-                f"({', '.join(LENGTHS)}) with [m], [cm] or [mm], {', '.join(one for one in KNOWN if one not in LENGTHS)}, and - "
-                "for a column to leave out.",
+                f"({', '.join(LENGTHS)}) with [m], [cm] or [mm], {', '.join(one for one in KNOWN if one not in LENGTHS)}, "
+                "and - for a column to leave out.",
                 "columns",
             )
     return columns
@@ -270,8 +270,8 @@ def _columns_of(head: list[str], rows: list[list[str]], decimal: str, name: str)
         if proposal is not None:
             line = shown(", ".join(head))[:200]
             raise InputError(
-                f"{error} Or state what each column of the row {line!r} holds, which may be `columns='{proposal}'`: check names "
-                "and units.",
+                f"{error} Or state what each column of the row {line!r} holds, which may be `columns='{proposal}'`: check "
+                "names and units.",
                 "columns",
             ) from None
         raise

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from ...errors import InputError
-from .checks import check_ended, CUT, check_length, check_step, printed, warn_of_missing
+from .checks import CUT, check_ended, check_length, check_step, printed, warn_of_missing
 from .numbers import number_in, read_numbers
 from .record import Component, oriented
 from .source import Source

@@ -57,8 +57,8 @@ def parse_columns(text: str) -> tuple[Column, ...]:
         one = _STATED.fullmatch(part.strip())
         if one is None or one["axis"] not in ("t", "x", "y", "z", "-"):
             raise InputError(
-                f"`columns` {text!r}: {part.strip()!r} is not understood; allowed are t, x, y and z with a unit, and - for a "
-                "column to leave out, such as 't [s], x [g], -, z [g]'.",
+                f"`columns` {text!r}: {part.strip()!r} is not understood; allowed are t, x, y and z with a unit, and - for "
+                "a column to leave out, such as 't [s], x [g], -, z [g]'.",
                 "columns",
             )
         if one["axis"] == "t" and (one["unit"] or "") not in TIME_UNITS:
@@ -121,8 +121,8 @@ def read(source: Source, unit: str | None, dt: float | None, columns: str | None
     if len(stated) != table.shape[1] or not np.isfinite(table).all():
         raise InputError(
             f"{file}: {'`columns`' if columns else 'its header'} names {len(stated)} columns, the rows hold "
-            f"{table.shape[1]} numbers; name each column once, those to leave out -, and separate columns by semicolons where "
-            "a comma is the sign of decimals.",
+            f"{table.shape[1]} numbers; name each column once, those to leave out -, and separate columns by semicolons "
+            "where a comma is the sign of decimals.",
             "columns",
         )
     comments = _comments(titles) if header is not None else {}
@@ -154,7 +154,9 @@ def _header(lines: list[str], file: str) -> list[Column] | None:
         cells = [cell.strip('"') for cell in re.split(r"\s*[,;\t]\s*|\s+", line.lower().strip("#% \t"))]
         found = [_OWN.fullmatch(cell) for cell in cells]
         if all(found):
-            columns = [Column("t", one["time"]) if one["time"] else Column(one["axis"], one["unit"]) for one in found if one]
+            columns = [
+                Column("t", one["time"]) if one["time"] else Column(one["axis"], one["unit"]) for one in found if one
+            ]
             _check_axes(columns, f"{file}, line {number}: {line.strip()!r}")
             return columns
         if line.strip() and not line.lstrip().startswith(("#", "%")):
@@ -173,15 +175,17 @@ def _bare(above: list[str], below: list[str], table: np.ndarray, unit: str | Non
             )
         if table.shape[1] == 1 + rises:
             return [Column("t", "s")] * rises + [Column("x", None)]
-    number, line = next(((i, text) for i, text in reversed(list(enumerate(above, 1))) if text.strip()), (len(above), ""))
+    number, line = next(
+        ((i, text) for i, text in reversed(list(enumerate(above, 1))) if text.strip()), (len(above), "")
+    )
     what = f"{file}, line {number}: {line.strip()[:200]!r} is not a header as {EXAMPLE} is" if line else (
         f"{file} has {table.shape[1]} columns of numbers without names"
     )  # fmt: skip
     proposal = propose(line, table, unit)
     step = "" if proposal.startswith("t") else ", and the step, such as `dt=0.01`"
     raise UnstatedError(
-        f"{what}; state what each column holds, which may be `columns='{proposal}'`{step}: check what is x, y and z (upward), "
-        "and the units.",
+        f"{what}; state what each column holds, which may be `columns='{proposal}'`{step}: check what is x, y and z "
+        "(upward), and the units.",
         field="columns",
     )
 

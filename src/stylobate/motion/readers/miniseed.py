@@ -129,16 +129,16 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
     size = _unit_size(sensitivity.input_units or "")
     if size is None:
         raise InputError(
-            f"{file}: the StationXML gives the sensitivity of {trace.id} per {sensitivity.input_units or 'no unit'}; allowed "
-            f"are units of acceleration ({', '.join((*ACCELERATION_UNITS, *UNITS))}): give an accelerometer, or a StationXML "
-            "with its sensitivity per M/S**2."
+            f"{file}: the StationXML gives the sensitivity of {trace.id} per {sensitivity.input_units or 'no unit'}; "
+            f"allowed are units of acceleration ({', '.join((*ACCELERATION_UNITS, *UNITS))}): give an accelerometer, or a "
+            "StationXML with its sensitivity per M/S**2."
         )
     _check_gains(channel.response, trace.id, file)
     counted = sensitivity.output_units or "no unit"
     if counted.upper() not in COUNTS:
         raise InputError(
-            f"{file}: the StationXML gives the sensitivity of {trace.id} in {counted} per {sensitivity.input_units}; allowed is COUNTS, as "
-            "samples are: give a StationXML with the sensitivity of sensor and recorder together."
+            f"{file}: the StationXML gives the sensitivity of {trace.id} in {counted} per {sensitivity.input_units}; "
+            "allowed is COUNTS, as samples are: give a StationXML with the sensitivity of sensor and recorder together."
         )
     counts = np.asarray(trace.data, dtype=np.float64)
     zero = float(counts.mean())

@@ -76,13 +76,13 @@ NOT_READ = (
     (
         re.compile(r"\s*corrected accelerogram"),
         "is a corrected accelerogram, which this network gives with velocity and displacement (volume 2 of USC), and is not "
-        "read; give the uncorrected one of the same record (volume 1, which begins FILE … OF UNCORRECTED ACCELEROGRAM DATA OF "
-        "VOLUME I), or its accelerations as columns under a header such as time_s,ax_g",
+        "read; give the uncorrected one of the same record (volume 1, which begins FILE … OF UNCORRECTED ACCELEROGRAM DATA "
+        "OF VOLUME I), or its accelerations as columns under a header such as time_s,ax_g",
     ),
     (
         re.compile(r"\s*(?:volume\s+(?:iii|3)\b|[^\n]{0,60}\b(?:response|fourier)\b[^\n]{0,40}\bspectr)"),
-        "holds spectra (volume 3 of CSMIP, USC and others), and no record; give the accelerogram of the same record (volume 2, "
-        "or 1)",
+        "holds spectra (volume 3 of CSMIP, USC and others), and no record; give the accelerogram of the same record "
+        "(volume 2, or 1)",
     ),
 )
 
@@ -108,7 +108,8 @@ def read_motion(
         Step of a file that has no time column, or the step to resample unequal steps to [s].
     columns : str, optional
         What each column of a text file holds, where its header is not ours (``time_s,ax_g``): ``t [s], x [g], -, z [g]``,
-        with z upward and ``-`` for a column to leave out. One name alone, ``x [g]``, is a series of several numbers to a line.
+        with z upward and ``-`` for a column to leave out. One name alone, ``x [g]``, may be a series of several numbers to a
+        line.
     component : str or int, optional
         The one component that is to be the horizontal input: its number in the file (from 1), its label or its azimuth.
 

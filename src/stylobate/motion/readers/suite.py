@@ -126,9 +126,7 @@ def read_suite(
     return Suite(tuple(motions), refused)
 
 
-def _read(
-    path: Path, unit: str | None, dt: float | None, columns: str | None, component: str | int | None
-) -> Motion:
+def _read(path: Path, unit: str | None, dt: float | None, columns: str | None, component: str | int | None) -> Motion:
     """A file of its own unit, step and columns, or else one with those stated."""
     try:
         return read_motion(path, component=component)

@@ -68,8 +68,8 @@ def read_table(lines: list[str], start: int, file: str, *, alone: bool = False) 
     counts = [count_numbers(row) for row in texts]
     if len(counts) > 1 and columns == 2 and counts[1:] == [1] * int(values[0]) and values[1] > 0.0:
         raise InputError(
-            f"{file}, line {start + 1}: {lines[start].strip()!r} holds the number of samples and the step [s], and no row of "
-            f"them; take out this line and those above it, and state `columns='x [g]'`, with the unit that the numbers have, "
+            f"{file}, line {start + 1}: {lines[start].strip()!r} holds the number of samples and the step [s], and no row "
+            "of them; take out this line and those above it, and state `columns='x [g]'`, with the unit of the numbers, "
             f"and `dt={values[1]:g}`."
         )
     width, last = columns, counts[-1]
@@ -99,7 +99,11 @@ def _rows(lines: list[str], start: int, file: str, alone: bool) -> tuple[list[in
     texts = [lines[i] for i in found]
     if ";" in sample or "," in sample:
         # Commas within numbers that blanks or semicolons separate are decimal ones.
-        apart = ";" in sample or (alone and _DECIMAL.fullmatch(sample.strip())) or (re.search(r"\S\s+\S", sample) is not None and re.search(r",\s|\s,", sample) is None)
+        apart = (
+            ";" in sample
+            or (alone and _DECIMAL.fullmatch(sample.strip()))
+            or (re.search(r"\S\s+\S", sample) is not None and re.search(r",\s|\s,", sample) is None)
+        )
         decimal = "." not in sample and apart
         mixed = next((i for i in found if "." in lines[i]), None) if decimal else None
         if mixed is not None:

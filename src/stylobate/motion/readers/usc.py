@@ -31,7 +31,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
 
 
 def _rows(lines: list[str], count: int) -> tuple[list[str], bool]:
-    """Lines from the first of the samples on without the blank that may begin their rows (1X,10F7.3); whether all are there."""
+    """Lines from the first sample on, without the blank that may begin their rows (1X,10F7.3); whether all are there."""
     full, rest = divmod(2 * count, PER_ROW)
     widths = [WIDTH * PER_ROW] * full + [WIDTH * rest] * (rest > 0)
     rows = [line.rstrip() for line in lines[: len(widths)]]
