@@ -63,8 +63,10 @@ def test_what_is_read_back_is_the_curve(measure, unit, imt, size, tmp_path):
     x = np.geomspace(0.05, 3.0, 30)
     exact = [0.5 * math.erfc(-(math.log(one_) - one.log_median) / one.beta / math.sqrt(2.0)) for one_ in x]
     assert probability(size * x) == pytest.approx(exact, abs=1e-9)
-    assert low <= size * 0.1 and high >= size * 2.0
-    assert probability(low) < 1e-4 and probability(high) > 1.0 - 1e-4
+    assert low <= size * 0.1
+    assert high >= size * 2.0
+    assert probability(low) < 1e-4
+    assert probability(high) > 1.0 - 1e-4
 
 
 def test_several_curves_of_one_state_are_one_model(tmp_path):

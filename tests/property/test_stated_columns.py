@@ -1,4 +1,4 @@
-"""Columns of text are read as stated, by our header or by ``columns``; anything else is refused, and what is proposed reads."""
+"""Columns of text: our header, or ``columns`` as stated; anything else is refused, and what is proposed reads."""
 
 import re
 
@@ -164,7 +164,7 @@ def test_other_words_behind_the_numbers_are_refused(line, put):
 
 
 def test_what_a_file_states_itself_is_not_overruled(put):
-    with pytest.raises(InputError, match="names its columns itself.*leave `columns` out"):
+    with pytest.raises(InputError, match=r"names its columns itself.*leave `columns` out"):
         read_motion(put("time_s,ax_g", 1), columns="t [s], x [gal]")
     with pytest.raises(InputError, match="its columns are in g, but unit is given as 'gal'"):
         read_motion(put("time_s,ax_g", 1), "gal")

@@ -10,9 +10,8 @@ from typer.core import TyperCommand, TyperOption
 #: Options that few runs need, of commands that have many.
 RARE = frozenset({
     "across", "synthetic", "unit", "dt", "columns", "component", "azimuth", "azimuths", "signs", "condition",
-    "vertical", "whole", "until_end", "output_interval", "settings", "losses", "project", "scatter", "motion_scatter", "seed", "pictures",
-    "half_step",
-    "threads", "dask", "device", "mix_devices",
+    "vertical", "whole", "until_end", "output_interval", "settings", "losses", "project", "scatter", "motion_scatter",
+    "seed", "pictures", "half_step", "threads", "dask", "device", "mix_devices",
 })  # fmt: skip
 
 #: Options that fit on a screen with their help.
