@@ -740,8 +740,8 @@ def test_columns_of_tsmip_are_read_with_their_sense(put):
     ("labels", "azimuth", "sign"),
     [
         ("Up,+UP,UP-DN,UPDN,U-D,UD,V,Z,VERTIC,Vert(Up),Vertical-Up,Roof UP,HNV,HNZ,BHZ,UP1", None, 1.0),
-        ("HNZ00,BHZ10,HNZ2C,HLZ--,HNZ 00,XX.HILL.00.HNZ,XX_HILL_HGZ10", None, 1.0),
-        ("Down,-UP,-V,V;-,V-,Z(-),D-U,DN-UP,Vert(Down),Vertical Down,Roof DN", None, -1.0),
+        ("HNZ00,BHZ10,HNZ2C,00HNZ,Z00,UP00,VERT1,HLZ--,HNZ 00,XX.HILL.00.HNZ,XX_HILL_HGZ10", None, 1.0),
+        ("Down,-UP,-V,V;-,V-,Z(-),D-U,DN-UP,Vert(Down),Vertical Down,Roof DN,DWN00", None, -1.0),
         ("N 10.5 E,N10.5E,N 10.5° E,N10.5,NORTH 10.5 EAST,10.5 deg", 10.5, 0.0),
         ("N45°E,N45E,NE,North-East,45", 45.0, 0.0),
         ("N345,N 345,N15W,345 DEG", 345.0, 0.0),

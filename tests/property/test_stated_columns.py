@@ -152,6 +152,15 @@ def test_a_line_of_count_and_step_is_told_and_its_remedy_works(tmp_path):
     assert motion.acceleration == pytest.approx(g * WAVES[:, 0])
 
 
+@pytest.mark.parametrize(
+    "header",
+    ["time_s,ax_g,ay_g", "TIME_S; AX_G; AY_G", '"time_s","ax_g","ay_g"', "# time_s ax_g ay_g", "time_s,ax_g,ay_g,"],
+)
+def test_our_header_however_it_is_separated(header, put):
+    motion = read_motion(put(header, 2))
+    assert motion.lateral == pytest.approx(g * WAVES[:, 1])
+
+
 @pytest.mark.parametrize("mark", ["*** End Data ***", "END", "-- end of file --", "# end", "EOF"])
 def test_a_mark_of_the_end_is_no_damage(mark, put):
     assert read_motion(put("time_s,ax_g", 1, below=mark + "\n")).steps == len(WAVES)

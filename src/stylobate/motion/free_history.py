@@ -27,10 +27,7 @@ EXAMPLE = "name the columns as in time_s,tilt_deg, or time_s,tilt_x_deg,tilt_y_d
 #: Fewest samples of a history.
 FEWEST = 20
 
-_NAME = re.compile(
-    r"(?P<what>time|t(?![a-z])|tilt|lean|rotation|displacement|disp|u(?![a-wz]))[_ ]?(?P<axis>x|y)?"
-    r"[\s_(\[,/]*(?P<unit>[a-z°]*)[)\]]?"
-)
+_NAME = re.compile(r"(?P<what>time|tilt|displacement)(?:_(?P<axis>x|y))?(?:_(?P<unit>[a-z°]+))?")
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,7 +175,7 @@ def _columns(header: str, table: np.ndarray, unit: str | None, file: str) -> tup
     number = table.shape[1]
     if not header:
         grows = number > 1 and bool((np.diff(table[:, 0]) > 0.0).all())
-        if number - grows > 2:
+        if number - grows > 1:
             raise InputError(f"{file} has rows of {number} numbers without column names; {EXAMPLE}.")
         kind, size = _unit(unit, "", file)
         return 1.0 if grows else None, list(range(int(grows), number)), kind, size
@@ -191,7 +188,7 @@ def _columns(header: str, table: np.ndarray, unit: str | None, file: str) -> tup
     timed, axes, measured = None, {}, set()
     for i, one in enumerate(found):
         assert one is not None
-        if one["what"] in ("time", "t"):
+        if one["what"] == "time":
             timed = TIME_UNITS.get(one["unit"] or "s")
             if timed is None or i or one["axis"]:
                 raise InputError(f"{file}: its header has the column {names[i]!r}; {EXAMPLE}, times first.")
@@ -200,8 +197,7 @@ def _columns(header: str, table: np.ndarray, unit: str | None, file: str) -> tup
         if axis in axes:
             raise InputError(f"{file}: its header names two columns alike; {EXAMPLE}.")
         axes[axis] = i
-        angular = one["what"] in ("tilt", "lean", "rotation")
-        measured.add(_unit(one["unit"] or unit, "tilt" if angular else "displacement", file))
+        measured.add(_unit(one["unit"] or unit, one["what"], file))
     if sorted(axes) not in ([""], ["x"], ["x", "y"]) or len(measured) != 1:
         raise InputError(f"{file}: its header names no one tilt or displacement, along x or along x and y; {EXAMPLE}.")
     kind, size = measured.pop()

@@ -151,7 +151,7 @@ def read(source: Source, unit: str | None, dt: float | None, columns: str | None
 def _header(lines: list[str], file: str) -> list[Column] | None:
     """Columns of the line that names them as this package does; behind it stand comments at most."""
     for number, line in reversed(list(enumerate(lines, 1))):
-        cells = [cell.strip('"') for cell in re.split(r"\s*[,;\t]\s*|\s+", line.lower().strip("#% \t"))]
+        cells = [cell.strip('"') for cell in re.split(r"\s*[,;\t]\s*|\s+", line.lower().strip("#% \t,;"))]
         found = [_OWN.fullmatch(cell) for cell in cells]
         if all(found):
             columns = [

@@ -38,13 +38,13 @@ _POINTS = {
     "NE": 45.0, "SE": 135.0, "SW": 225.0, "NW": 315.0,
 }  # fmt: skip
 #: SEED codes of accelerometers whose last letter is a direction; any code that ends in Z is vertical. The two signs of a
-#: location may touch the code, as in HNZ00.
-_CODE = re.compile(r"(?:[BCDEFGHLMS][NLG](?P<way>[NEV])|[A-Z]{2}(?P<up>Z))(?:\d[A-Z0-9]|[A-Z]\d)?")
+#: location may touch the code, as in HNZ00 and 00HNZ.
+_CODE = re.compile(r"(?:\d\d)?(?:[BCDEFGHLMS][NLG](?P<way>[NEV])|[A-Z]{2}(?P<up>Z))(?:\d[A-Z0-9]|[A-Z]\d)?")
 #: A vertical of a sensor, wherever its code stands in a label: XX.HILL.00.HNZ.
-_CODE_UP = re.compile(r"[BCDEFGHLMS][HLNG]Z(?:\d[A-Z0-9]|[A-Z]\d)?")
+_CODE_UP = re.compile(r"(?:\d\d)?[BCDEFGHLMS][HLNG]Z(?:\d[A-Z0-9]|[A-Z]\d)?")
 #: Words of the vertical that leave its sense open, which then is upward; and those that state it.
 _UPRIGHT = {"V", "Z", "VER", "VRT", "VERT", "VERTIC", "VERTICAL"}
-_UP = {"U", "UP", "UP1", "UP2", "UP3", "UD", "UPDN", "UPDOWN", "UPWARD", "UPWARDS"}
+_UP = {"U", "UP", "UD", "UPDN", "UPDOWN", "UPWARD", "UPWARDS"}
 _DOWN = {"D", "DN", "DWN", "DU", "DOWN", "DNUP", "DOWNUP", "DOWNWARD", "DOWNWARDS"}
 
 
@@ -58,6 +58,9 @@ def direction(label: str) -> tuple[float | None, bool, float]:
     text = re.sub(r"\b([NSEW])(?:ORTH|OUTH|AST|EST)\b", r"\1", text)
     words = re.findall(r"[A-Z0-9]+", text)
     minus = -1.0 if re.match(r"-\s*[A-Z]", text) or re.search(r"[A-Z](?:;?-|\s?\(-\))$", text) else 1.0
+    bare = words[0].rstrip("0123456789") if words else ""
+    if bare in (_UPRIGHT | _UP | _DOWN) - {"U", "D", "V"}:  # UP1, VERT00, Z00
+        words[0] = bare
     code = _CODE.fullmatch(words[0]) if words else None
     if words and (words[0] in _UPRIGHT or (code and (code["up"] or code["way"] == "V"))):
         return None, True, -minus if len(words) > 1 and words[1] in _DOWN and len(words[1]) > 1 else minus

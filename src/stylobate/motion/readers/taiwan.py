@@ -35,12 +35,12 @@ def read(source: Source) -> tuple[list[Component], dict]:
     unit = text.get("amplitudeunit", "").split(".")[0].strip()
     if acceleration_unit(unit or "gal")[0] != "gal" or not unit:
         raise InputError(f"{file}: AmplitudeUnit is {unit!r}, where gal is expected; convert the file to columns.")
-    time, *names = re.split(r"[;\s]+", text["datasequence"])
+    sequence, line = header.get("datasequence", ("", 0))
+    time, *names = re.split(r"[;\s]+", sequence)
     found = [_COLUMN.fullmatch(name) for name in names]
     if time != "Time" or sorted(one["label"] for one in found if one) != ["E", "N", "U"]:
         raise InputError(
-            f"{file}, line {header['datasequence'][1]}: expected the columns Time U(+); N(+); E(+) in any order, found "
-            f"{text['datasequence']!r}; convert the file to columns under a header such as time_s,ax_g."
+            f"{file}, line {line}: expected the columns Time U(+); N(+); E(+) in any order, found {sequence!r}; convert the file to columns under a header such as time_s,ax_g."
         )
     count = sum(1 for line in lines[start:] if line.strip())
     table = read_numbers(lines[start:], start, file, "rows of a time and three values", count=4 * count, width=10)
