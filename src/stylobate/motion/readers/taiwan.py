@@ -40,7 +40,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
     found = [_COLUMN.fullmatch(name) for name in names]
     if time != "Time" or sorted(one["label"] for one in found if one) != ["E", "N", "U"]:
         raise InputError(
-            f"{file}, line {line}: expected the columns Time U(+); N(+); E(+) in any order, found {sequence!r}; convert the file to columns under a header such as time_s,ax_g."
+            f"{file}, line {line}: expected the columns Time U(+); N(+); E(+) in any order, found {sequence!r}; convert the "
+            "file to columns under a header such as time_s,ax_g."
         )
     count = sum(1 for line in lines[start:] if line.strip())
     table = read_numbers(lines[start:], start, file, "rows of a time and three values", count=4 * count, width=10)
