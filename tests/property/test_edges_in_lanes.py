@@ -6,7 +6,7 @@ from bodies_in_space import turn
 
 from stylobate.kernels.run_codes import LANES
 from stylobate.kernels.space import edges, lane_records
-from stylobate.kernels.space.boundary import boundary
+from stylobate.kernels.space.boundary import AREA, EDGE, boundary
 from stylobate.kernels.space.records import LESS, workspace_of_joints
 from stylobate.models.shared.lanes import aligned_zeros
 

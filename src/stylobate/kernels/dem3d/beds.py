@@ -9,8 +9,8 @@ from .pose import cross
 from .records import BETA
 from .rim import overlap
 
-#: Torsion over shear stiffness and polar moment of what touches, limit of torsion over that of shear and ρ: a disc under even
-#: pressure has 1, 2R/3.
+#: Torsion over shear stiffness and polar moment of what touches, limit of torsion over that of shear and ρ: a disc under
+#: even pressure has 1, 2R/3.
 EVEN = (1.0, 2.0 * math.sqrt(2.0) / 3.0)
 
 

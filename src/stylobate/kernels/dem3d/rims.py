@@ -16,8 +16,8 @@ from .pose import cross, in_space
 from .records import BETA
 from .rim import angle_of, angle_to, overlap, press, press_askew
 
-#: Torsion over shear stiffness and polar moment of what touches, limit of torsion over that of shear and ρ: a closed disc has
-#: K_s R²/2 and 2R/3.
+#: Torsion over shear stiffness and polar moment of what touches, limit of torsion over that of shear and ρ: a closed disc
+#: has K_s R²/2 and 2R/3.
 ON_RIM = (0.5, 2.0 / 3.0)
 
 

@@ -1,9 +1,9 @@
 """Friction of a face: a shear force and a torsion that remember, in two layers, within one limit surface.
 
-Shear is carried by what touches, evenly, pressed much or little: a layer is a spring of stiffness k = k_s A in shear at the
-centroid of its area A, and j = κ k_s J in torsion about that centroid, J the polar moment of the area about it. Such a spring
-has a potential as long as its area is the same: the tangent stiffness is symmetric, and no closed loop of small motions does
-work. Only Coulomb's limit knows the pressure, and its middle P.
+Shear is carried by what touches, evenly, pressed much or little: a layer is a spring of stiffness k = k_s A in shear at
+the centroid of its area A, and j = κ k_s J in torsion about that centroid, J the polar moment of the area about it. Such a
+spring has a potential as long as its area is the same: the tangent stiffness is symmetric, and no closed loop of small
+motions does work. Only Coulomb's limit knows the pressure, and its middle P.
 
 What touches changes. Two layers remember: the *core* has touched all the time since the face last slipped; the *fresh* layer
 is what has closed since, and came without force. What opens is taken from the fresh layer, and only then from the core, so

@@ -10,8 +10,8 @@ from .acting import act_at, add, let_go, mobility, motion_then
 from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, MOMENT, POLAR, PRESS, SECOND, SQUARE, boundary
 from .friction import rub
 
-#: Torsion over shear stiffness and polar moment of what touches, limit of torsion over that of shear and ρ: a closed disc has
-#: K_s R²/2 and 2R/3.
+#: Torsion over shear stiffness and polar moment of what touches, limit of torsion over that of shear and ρ: a closed disc
+#: has K_s R²/2 and 2R/3.
 TORSION, LEVER = 0.5, 2.0 / 3.0
 
 #: Keeps quotients of nothing by nothing at nothing.
