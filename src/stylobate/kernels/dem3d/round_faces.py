@@ -83,17 +83,19 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     at = along(velocity, 1.0, vector(spin, minus(centre, c)))
     slip, turning = along(at, -dot(at, n), n), dot(spin, n)
     # friction with one limit for both  # Eq. (E6)
-    limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * math.sqrt(spread), o.pivot[l]
+    limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * math.sqrt(spread)
+    pivot = o.pivot[l]
     own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle, 1.0 / torsion[0]
+    turning = turning if pivot > 0.0 else 0.0
     core, fresh = layers(e, v, l)
-    core, fresh, q, twist, power = friction(core, fresh, own, n, slip, turning, dt, limits)
+    core, fresh, q, twist, power, spun = friction(core, fresh, own, n, slip, turning, dt, limits)
     remember(e, v, l, core, fresh)
-    sums.shear[l] -= 0.5 * dt * power
+    sums.shear[l] -= 0.5 * dt * (power + pivot * spun)
     if e.d.shape[0] > 1:
         # dashpots parallel to the springs; friction in sum stays within Coulomb's
         g, turn = dragged(q, twist, own, n, slip, turning, o.damp[BETA, l], limits)
         drag = along((fx - ex, fy - ey, fz - ez), 1.0, g)
-        m = along(along((mx - ix, my - iy, mz - iz), 1.0, vector(centre, g)), turn, n)
+        m = along(along((mx - ix, my - iy, mz - iz), 1.0, vector(centre, g)), pivot * turn, n)
         if o.roll.shape[0] > 1:
             a = minus(middle, c)
             a = along(a, -dot(a, n), n)
@@ -110,7 +112,7 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
         e.d[3, l], e.d[4, l], e.d[5, l] = m
     # all of it on the two drums
     force = along((fx, fy, fz), 1.0, q)
-    m = along(along((mx, my, mz), 1.0, vector(centre, q)), twist, n)
+    m = along(along((mx, my, mz), 1.0, vector(centre, q)), pivot * twist, n)
     f.f[0, l], f.f[1, l], f.f[2, l] = force
     f.up[0, l], f.up[1, l], f.up[2, l] = minus(m, vector((cx - rx, cy - ry, cz - rz), force))
     f.lo[0, l], f.lo[1, l], f.lo[2, l] = minus(scaled(-v.ht[l], vector(z, force)), m)

@@ -10,13 +10,15 @@ is what has closed since, and came without force. What opens is taken from the f
 that a vibration that opens and closes an edge takes nothing from the core, and a lasting push does not creep. What opens
 takes its share of the force with it: stored energy never rises. At the limit the whole face slips, and all of it is core.
 
-Areas are known by three moments each: k, j and the centroid. A core that is part of what touches leaves a fresh layer whose
-moments are those of an area, too::
+Areas are known by three moments each: k, j and the centroid. What a core leaves of the area that touches is an area, too, if
+its polar moment is none below 0::
 
-    k_fresh = k − k_core      j_fresh = j − j_core − κ (k_core k / k_fresh) |C_core − C|² ≥ 0
+    j − j_core − κ (k_core k / k_fresh) |C_core − C|² ≥ 0,   k_fresh = k − k_core
 
-where they would not be, under a drum that rolls, the core has moved with what touches: its centroid is taken along as far as
-the inequality asks for. Forces go with it, as under a wheel that rolls without creeping.
+Where it would be, under a drum that rolls, the core has gone along with what touches: its centroid is taken as far as the
+inequality asks for. Its force goes with it, as under a wheel that rolls without creeping, and what is fresh becomes core
+on the way. A torsion does not go along: stone enters under a rolling edge free of shear, and what it gathers there by
+spinning has no moment about the middle (strip theory of rolling contact: Johnson 1985, chapter 8).
 """
 
 import math
@@ -33,17 +35,8 @@ NOTHING = 1e-30
 #: Squares of limits below this are none [N²], [N² m²].
 NO_LIMIT = 1e-12
 
-#: No part of a face is farther from its centroid than so many radii of gyration, squared.
-REACH = 9.0
-
-
-@law
-def remaining(now, before):
-    """Share of a spring's force that remains when its stiffness changes.
-
-    Parts that open take their share of the shear with them, parts that close come with none.
-    """
-    return min(now / max(before, NOTHING), 1.0)
+#: Of what is fresh so much becomes core while a face rolls on by a radius of gyration.
+RENEWED = 4.0
 
 
 @law
@@ -58,13 +51,22 @@ def limit_distance(x, y):
 
 
 @long_law
-def slipped(force, moment, k, j, arm, n, a, b):
-    """A shear force and a torsion about P one step nearer to the limit surface, which has 1/√a and 1/√b for its limits.
+def limited(force, torsion, k, j, arm, n, limits):
+    """Shear force at the centroid and torsion about it, brought back to the limit surface if they are beyond it.
+
+    ``limits`` as of :func:`friction`; that of torsion is about the middle of pressure P, from which ``arm`` goes to the
+    centroid. Also whether they were beyond it.
 
     The face slips along the normal of the surface (associated flow) against its springs: slip and spin stand to each other
-    as for a disc under even pressure. The surface is convex and its distance of first degree: a step ends on the surface or
-    outside of it, and takes stored energy away. ``arm`` goes from P to the centroid, about which ``k`` and ``j`` are.
+    as for a disc under even pressure. The surface is convex and its distance of first degree: a step along the normal of
+    where the forces are ends on the surface or outside of it, and takes stored energy away; so does the rest of the way,
+    towards the origin.
     """
+    moment = torsion + dot(cross(arm, force), n)
+    square = max(limits[0] * limits[0], NO_LIMIT)
+    other = max(limits[0] * limits[0] * limits[1] * limits[1], NO_LIMIT)
+    each = 1.0 / (square * other)
+    a, b = each * other, each * square
     x, y = dot(force, force) * a, moment * moment * b
     distance = limit_distance(x, y)
     each = 1.0 / max(x + y, NOTHING)
@@ -72,29 +74,22 @@ def slipped(force, moment, k, j, arm, n, a, b):
     spin = b * (1.0 + COUPLING * u * u) * moment
     slip = along(scaled(a * (1.0 + COUPLING * v * v), force), spin, cross(n, arm))
     size = (distance - 1.0) * distance / max(k * dot(slip, slip) + j * spin * spin, NOTHING)
-    change = scaled(size * k, slip)
-    return minus(force, change), moment - size * j * spin - dot(cross(arm, change), n)
-
-
-@long_law
-def limited(force, torsion, k, j, arm, n, limits):
-    """Shear force at the centroid and torsion about it, brought back to the limit surface if they are beyond it.
-
-    ``limits`` as of :func:`friction`; that of torsion is about the middle of pressure P, from which ``arm`` goes to the
-    centroid. Also whether they were beyond it.
-    """
-    limit, lever, pivot = limits
-    some = pivot > 0.0
-    each = (1.0 if some else 0.0) / (pivot if some else 1.0)
-    moment = torsion * each + dot(cross(arm, force), n)
-    most = limit * lever
-    a, b = 1.0 / max(limit * limit, NO_LIMIT), 1.0 / max(most * most, NO_LIMIT)
-    beyond = limit_distance(dot(force, force) * a, moment * moment * b) > 1.0
-    force, moment = slipped(force, moment, k, j, arm, n, a, b)
-    force, moment = slipped(force, moment, k, j, arm, n, a, b)
+    force, torsion = along(force, -size * k, slip), torsion - size * j * spin
+    moment = torsion + dot(cross(arm, force), n)
     less = 1.0 / limit_distance(dot(force, force) * a, moment * moment * b)
-    force = scaled(less, force)
-    return force, pivot * (less * moment - dot(cross(arm, force), n)), beyond
+    return scaled(less, force), less * torsion, distance > 1.0
+
+
+@law
+def twisted(torsion, j, spin, dt, rolled):
+    """Torsion of a layer after a step of spinning, in which what touches has rolled on by so many radii of gyration.
+
+    Stone that has entered since holds none; only what turns faster than it rolls gathers some.
+    """
+    torsion *= max(1.0 - rolled, 0.0)
+    angle = abs(spin) * dt
+    angle = max(angle - rolled, 0.0) if torsion * spin <= 0.0 else angle
+    return torsion - j * (angle if spin > 0.0 else -angle)
 
 
 @long_law
@@ -105,6 +100,7 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
     ----------
     core : tuple
         Shear force [N], torsion about its centroid [N m], k [N/m], j [N m], centroid [m]; forces are on the upper body.
+        Where the face slipped, k is negative.
     fresh : tuple
         Shear force, torsion, k and j of the fresh layer.
     face : tuple
@@ -114,7 +110,7 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
     slip, spin, dt : vector, float, float
         Velocity of the upper face over the lower one at C, across n, relative spin about n, step.
     limits : tuple
-        Coulomb's limit of the force [N], the lever of torsion about P [m], and the share of torsion that acts [-].
+        Coulomb's limit of the force [N], and the lever of torsion about P [m].
 
     Returns
     -------
@@ -122,71 +118,69 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
         As given.
     force, torsion : vector, float
         Of both layers, at C and about it.
-    power : float
-        Of the friction a step ago and now, together, on the upper body [W].
+    power, turning : float
+        Of the force and of the torsion, a step ago and now, together, on the upper body [W].
     """
     before, turn_before, k_before, j_before, place = core
-    f, t, kf_before, jf_before = fresh
+    f_before, t_before, kf_before, jf_before = fresh
     k, j, centre, middle, polar = face
-    pivot = limits[2]
-    none = k_before <= 0.0
-    kc = k if none else min(k, k_before)
-    jc = j if none else min(j, j_before)
-    kf = k - kc
-    # how far from C the centroid of the core may be, so that the fresh layer is an area
+    # what slips, or begins to touch, is all core
+    whole, new = k_before <= 0.0, k_before == 0.0
+    k_before, j_before = k if new else abs(k_before), j if new else j_before
+    kc, jc = (k, j) if whole else (min(k, k_before), min(j, j_before))
+    kf, jf = k - kc, j - jc
+    # how far the centroid of the core is from C, and may be so that the rest is an area, in radii of gyration
     away = minus(place, centre)
-    square = dot(away, away)
-    room = polar * (j - jc) * kf / max(kc * k, NOTHING)
-    within = min(room, REACH * polar * j * kf * kf / max(k * kc * kc, NOTHING))
-    near = math.sqrt(min(within / max(square, NOTHING), 1.0))
-    away = scaled(near, away)
-    jf = max((j - jc) * (1.0 - min(near * near * square / max(room, NOTHING), 1.0)), 0.0)
-    other = scaled(-kc / max(kf, NOTHING), away)
-    before, turn_before = scaled(remaining(kc, k_before), before), remaining(jc, j_before) * turn_before
-    f_before, t_before = scaled(remaining(kf, kf_before), f), remaining(jf, jf_before) * t
+    each = 1.0 / max(polar * j * kc, NOTHING)
+    distance = 0.0 if whole else math.sqrt(dot(away, away) * k * kc * each)
+    reach = math.sqrt(polar * kf * jf * each)
+    rolled = min(max(distance - reach, 0.0), 1.0)
+    renewed = min(RENEWED * rolled, 1.0)
+    away = scaled((1.0 - renewed) * min(reach / max(distance, NOTHING), 1.0), away)
+    at_core = along(slip, spin, cross(n, away))
+    power, turning = dot(before, at_core) + dot(f_before, slip), (turn_before + t_before) * spin
+    # what opens takes its share along
+    each = 1.0 / max(k_before * j_before, NOTHING)
+    before, turn_before = scaled(min(kc * j_before * each, 1.0), before), min(jc * k_before * each, 1.0) * turn_before
+    each = 1.0 / max(kf_before * jf_before, NOTHING)
+    f_before, t_before = scaled(min(kf * jf_before * each, 1.0), f_before), min(jf * kf_before * each, 1.0) * t_before
+    before, f_before = along(before, renewed, f_before), scaled(1.0 - renewed, f_before)
+    turn_before, t_before = turn_before + renewed * t_before, (1.0 - renewed) * t_before
+    kc, jc, kf, jf = kc + renewed * kf, jc + renewed * jf, (1.0 - renewed) * kf, (1.0 - renewed) * jf
     # both springs
-    at_core, at_fresh = along(slip, spin, cross(n, away)), along(slip, spin, cross(n, other))
-    out = dot(before, n)
-    force = along(along(before, -out, n), -kc * dt, at_core)
-    torsion = turn_before - pivot * jc * dt * spin
-    out = dot(f_before, n)
-    f = along(along(f_before, -out, n), -kf * dt, at_fresh)
-    t = t_before - pivot * jf * dt * spin
-    power = dot(before, at_core) + dot(f_before, at_fresh) + (turn_before + t_before) * spin
+    force, f = along(before, -kc * dt, at_core), along(f_before, -kf * dt, slip)
+    torsion, t = twisted(turn_before, jc, spin, dt, rolled), twisted(t_before, jf, spin, dt, rolled)
     total = along(force, 1.0, f)
-    turning = torsion + t + dot(cross(away, force), n) + dot(cross(other, f), n)
-    total, turning, beyond = limited(total, turning, k, j, minus(centre, middle), n, limits)
-    power += dot(total, slip) + turning * spin
+    total = along(total, -dot(total, n), n)
+    twist = torsion + t + dot(cross(away, force), n)
+    total, twist, beyond = limited(total, twist, k, j, minus(centre, middle), n, limits)
     # where the face slips, all that touches is core
     keep = 0.0 if beyond else 1.0
     core = (
-        (
-            total[0] if beyond else force[0],
-            total[1] if beyond else force[1],
-            total[2] if beyond else force[2],
-        ),
-        turning if beyond else torsion,
-        k if beyond else kc,
+        (total[0], total[1], total[2]) if beyond else (force[0], force[1], force[2]),
+        twist if beyond else torsion,
+        -k if beyond else kc,
         j if beyond else jc,
         along(centre, keep, away),
     )
-    return core, (scaled(keep, f), keep * t, keep * kf, keep * jf), total, turning, power
+    fresh = scaled(keep, f), keep * t, keep * kf, keep * jf
+    return core, fresh, total, twist, power + dot(total, slip), turning + twist * spin
 
 
 @long_law
-def dragged(total, turning, face, n, slip, spin, beta, limits):
+def dragged(total, twist, face, n, slip, spin, beta, limits):
     """Force and torsion of dashpots parallel to the springs of friction, at C and about it; all of it in sum stays within
     Coulomb's limit. Parameters as of :func:`friction`, ``beta`` is dashpot over stiffness [s]."""
     k, j, centre, middle, _ = face
-    force, torsion = along(total, -beta * k, slip), turning - beta * limits[2] * j * spin
+    force, torsion = along(total, -beta * k, slip), twist - beta * j * spin
     force, torsion, _ = limited(force, torsion, k, j, minus(centre, middle), n, limits)
-    return minus(force, total), torsion - turning
+    return minus(force, total), torsion - twist
 
 
 @law
-def stored(core, fresh, pivot):
-    """Energy that the two layers hold, of which a share ``pivot`` of torsion acts [J]."""
+def stored(core, fresh):
+    """Energy that the two layers hold in shear and in torsion [J]."""
     f, t, k, j, _ = core
     g, s, kf, jf = fresh
-    shear = dot(f, f) / max(k, NOTHING) + dot(g, g) / max(kf, NOTHING)
-    return 0.5 * (shear + t * t / max(pivot * j, NOTHING) + s * s / max(pivot * jf, NOTHING))
+    shear = dot(f, f) / max(abs(k), NOTHING) + dot(g, g) / max(kf, NOTHING)
+    return 0.5 * shear, 0.5 * (t * t / max(j, NOTHING) + s * s / max(jf, NOTHING))

@@ -373,7 +373,7 @@ def press(p, a, u, b, v, vertex, numbers, now, simplex):
     face = ks * area, ks * area * square, minus(centre, place(u)), ru, 1.0
     f, twist = rub(
         p, u, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
-        face, (mu * (fn + dn), math.sqrt(mean), 1.0), scaled(dn, n), w, now,
+        face, (mu * (fn + dn), math.sqrt(mean)), scaled(dn, n), w, now,
     )  # fmt: skip
     p.fn = fn
     grown = max(area - p.area, 0.0) * (now.dt / max(now.last, 1e-300) if p.area > 0.0 else 1.0)

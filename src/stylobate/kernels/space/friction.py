@@ -68,7 +68,7 @@ def rub(q, u, n, slip, rolling, spin, past, past_spin, face, limits, push, veloc
     core = turned(of(q.s), n, rolling * dt), q.st, q.kf, q.kt, outward(u, of(q.at))
     fresh = turned(of(q.fs), n, rolling * dt), q.ft, q.ff, q.fj
     at = at_centroid(face, n, slip, spin)
-    core, fresh, f, torsion, _ = friction(core, fresh, face, n, at, spin, dt, limits)
+    core, fresh, f, torsion, _, _ = friction(core, fresh, face, n, at, spin, dt, limits)
     g, more = (0.0, 0.0, 0.0), 0.0
     if now.beta > 0.0:
         g, more = dragged(f, torsion, face, n, at, spin, now.beta, limits)
@@ -101,8 +101,8 @@ def turned(f, n, angle):
 @long_law
 def held_by(q):
     """Energy that the friction springs of a contact hold [J]."""
-    core = of(q.s), q.st, q.kf, q.kt, 0.0
-    return stored(core, (of(q.fs), q.ft, q.ff, q.fj), 1.0)
+    shear, torsion = stored((of(q.s), q.st, q.kf, q.kt, 0.0), (of(q.fs), q.ft, q.ff, q.fj))
+    return shear + torsion
 
 
 @kernel

@@ -135,7 +135,7 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
     face = kf, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at, 1.0 / TORSION
     dn = normal_dashpot(pressing, 0.0, vn, restitution_share(now.dull, now.calm, vn))
     past, past_spin = motion_then(e, u, v)
-    limits = e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread), 1.0
+    limits = e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread)
     f, twist = rub(
         e, u, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
         face, limits, scaled(dn, n), w, now,

@@ -164,12 +164,12 @@ def act(damped, e, u, v, s, o, l):
     slip, spin, before, turn = along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
     centre = along(ml, 1.0, in_axes(s, l, (centre[0], centre[1], 0.0)))
     face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at, 1.0 / TORSION
-    limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread), 1.0
+    limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
     rolling = 0.5 * (spin_u + spin_v) * last
     core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l], outward(u, l, e.at)
     fresh = turned(row(e.fs, l), n, rolling), e.ft[l], e.ff[l], e.fj[l]
     there = at_centroid(face, n, slip, spin)
-    core, fresh, f, torsion, _ = friction(core, fresh, face, n, there, spin, last, limits)
+    core, fresh, f, torsion, _, _ = friction(core, fresh, face, n, there, spin, last, limits)
     # nothing is remembered of a joint that is open
     keep = 1.0 if pressing > 0.0 else 0.0
     half = 0.5 * last

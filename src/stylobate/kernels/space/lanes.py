@@ -162,7 +162,8 @@ def look(state):
 def held_by(e, l):
     """Energy that the friction springs of a joint hold [J]."""
     core = row(e.s, l), e.st[l], e.kf[l], e.kt[l], 0.0
-    return stored(core, (row(e.fs, l), e.ft[l], e.ff[l], e.fj[l]), 1.0)
+    shear, torsion = stored(core, (row(e.fs, l), e.ft[l], e.ff[l], e.fj[l]))
+    return shear + torsion
 
 
 @strict
