@@ -138,8 +138,8 @@ def press_chord(d, slope, low, high):
     # pressure lies on the chord, whatever rounding leaves of one that is none
     first = min(max(first, low * n), high * n)
     second = min(max(second, 0.0), max(low * low, high * high) * n)
-    reach = q - p, 0.5 * (q2 - p2), (q2 * q - p2 * p) * (1.0 / 3.0)
-    return n, first, second, max(d * n + slope * first, 0.0), *reach
+    cube = (q2 * q - p2 * p) * (1.0 / 3.0)
+    return n, first, second, max(d * n + slope * first, 0.0), q - p, 0.5 * (q2 - p2), cube
 
 
 @law

@@ -97,10 +97,10 @@ def chipped_remains(e, u, l, steepest, tangent, way, ru, rl, cosine):
 def chipped_upper(kn, d, along, across, r, left):
     """Pressure of what is left of the upper drum's arc, and of the chord."""
     cos_g, sin_g, kept, side, _, _, ex, ey, cosine, low, high = left
-    p, c, s, q, twice, *touching = press_upper(
+    p, c, s, q, twice, reach, x, y, square = press_upper(
         d, along, across, r, -cos_g, -sin_g, kept, side, ex, ey, cosine, low, high
     )
-    return kn * p, kn * c, kn * s, kn * q, kn * twice, *touching
+    return kn * p, kn * c, kn * s, kn * q, kn * twice, reach, x, y, square
 
 
 @law

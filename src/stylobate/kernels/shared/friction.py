@@ -35,6 +35,9 @@ NOTHING = 1e-30
 #: Squares of limits below this are none [N²], [N² m²].
 NO_LIMIT = 1e-12
 
+#: The fresh layer becomes core where the face slips: all of it by a thousandth of the limit.
+SLIPPED = 1e3
+
 #: Of what is fresh so much becomes core while a face rolls on by a radius of gyration.
 RENEWED = 4.0
 
@@ -55,7 +58,7 @@ def limited(force, torsion, k, j, arm, n, limits):
     """Shear force at the centroid and torsion about it, brought back to the limit surface if they are beyond it.
 
     ``limits`` as of :func:`friction`; that of torsion is about the middle of pressure P, from which ``arm`` goes to the
-    centroid. Also whether they were beyond it.
+    centroid. Also how far they were beyond it, over its distance.
 
     The face slips along the normal of the surface (associated flow) against its springs: slip and spin stand to each other
     as for a disc under even pressure. The surface is convex and its distance of first degree: a step along the normal of
@@ -77,7 +80,7 @@ def limited(force, torsion, k, j, arm, n, limits):
     force, torsion = along(force, -size * k, slip), torsion - size * j * spin
     moment = torsion + dot(cross(arm, force), n)
     less = 1.0 / limit_distance(dot(force, force) * a, moment * moment * b)
-    return scaled(less, force), less * torsion, distance > 1.0
+    return scaled(less, force), less * torsion, distance - 1.0
 
 
 @law
@@ -87,9 +90,10 @@ def twisted(torsion, j, spin, dt, rolled):
     Stone that has entered since holds none; only what turns faster than it rolls gathers some.
     """
     torsion *= max(1.0 - rolled, 0.0)
-    angle = abs(spin) * dt
-    angle = max(angle - rolled, 0.0) if torsion * spin <= 0.0 else angle
-    return torsion - j * (angle if spin > 0.0 else -angle)
+    way = j * abs(spin) * dt
+    back = min(abs(torsion), way) if torsion * spin > 0.0 else 0.0
+    way = back + max(way - back - j * rolled, 0.0)
+    return torsion - (way if spin > 0.0 else -way)
 
 
 @long_law
@@ -154,17 +158,14 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
     total = along(total, -dot(total, n), n)
     twist = torsion + t + dot(cross(away, force), n)
     total, twist, beyond = limited(total, twist, k, j, minus(centre, middle), n, limits)
-    # where the face slips, all that touches is core
-    keep = 0.0 if beyond else 1.0
-    core = (
-        (total[0], total[1], total[2]) if beyond else (force[0], force[1], force[2]),
-        twist if beyond else torsion,
-        -k if beyond else kc,
-        j if beyond else jc,
-        along(centre, keep, away),
-    )
-    fresh = scaled(keep, f), keep * t, keep * kf, keep * jf
-    return core, fresh, total, twist, power + dot(total, slip), turning + twist * spin
+    # where the face slips, all that touches becomes core
+    keep = max(1.0 - SLIPPED * beyond, 0.0)
+    away, f, t, kf, jf = scaled(keep, away), scaled(keep, f), keep * t, keep * kf, keep * jf
+    force = minus(total, f)
+    torsion = twist - t - dot(cross(away, force), n)
+    kc = k - kf
+    core = force, torsion, kc if keep > 0.0 else -kc, j - jf, along(centre, 1.0, away)
+    return core, (f, t, kf, jf), total, twist, power + dot(total, slip), turning + twist * spin
 
 
 @long_law
