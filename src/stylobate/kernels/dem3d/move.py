@@ -251,7 +251,7 @@ def stored_in_faces(joint, lane, l):
         e = joint[q]
         elastic += e.en[l]
         if e.s.shape[0] == 3:
-            core = (e.s[0, l], e.s[1, l], e.s[2, l]), e.t[l], e.kf[l], e.kt[l], 0.0
+            core = (e.s[0, l], e.s[1, l], e.s[2, l]), e.t[l], e.kf[l], e.kt[l]
             shear, torsion = stored(core, ((e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.ff[l], e.fj[l]))
             held += shear + lane[0].pivot[l] * torsion
         elif e.kf[l] > 0.0:

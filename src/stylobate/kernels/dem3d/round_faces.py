@@ -85,7 +85,7 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     # friction with one limit for both  # Eq. (E6)
     limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * math.sqrt(spread)
     pivot = o.pivot[l]
-    own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle, 1.0 / torsion[0]
+    own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle
     turning = turning if pivot > 0.0 else 0.0
     core, fresh = layers(e, v, l)
     core, fresh, q, twist, power, spun = friction(core, fresh, own, n, slip, turning, dt, limits)
@@ -122,13 +122,7 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
 def layers(e, v, l):
     """Both layers of shear of a joint a step ago, in space: see ``shared/friction.py``."""
     return (
-        (
-            in_space(v, l, e.s[0, l], e.s[1, l], e.s[2, l]),
-            e.t[l],
-            e.kf[l],
-            e.kt[l],
-            in_space(v, l, e.at[0, l], e.at[1, l], e.at[2, l]),
-        ),
+        (in_space(v, l, e.s[0, l], e.s[1, l], e.s[2, l]), e.t[l], e.kf[l], e.kt[l]),
         (in_space(v, l, e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.ff[l], e.fj[l]),
     )
 
@@ -136,8 +130,7 @@ def layers(e, v, l):
 @law
 def remember(e, v, l, core, fresh):
     """Write both layers into the record of a joint, in the axes of the drum below."""
-    s, e.t[l], e.kf[l], e.kt[l], at = core
+    s, e.t[l], e.kf[l], e.kt[l] = core
     e.s[0, l], e.s[1, l], e.s[2, l] = in_body(v, l, s[0], s[1], s[2])
-    e.at[0, l], e.at[1, l], e.at[2, l] = in_body(v, l, at[0], at[1], at[2])
     s, e.ft[l], e.ff[l], e.fj[l] = fresh
     e.fs[0, l], e.fs[1, l], e.fs[2, l] = in_body(v, l, s[0], s[1], s[2])

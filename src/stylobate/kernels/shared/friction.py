@@ -9,16 +9,7 @@ What touches changes. Two layers remember: the *core* has touched all the time s
 is what has closed since, and came without force. What opens is taken from the fresh layer, and only then from the core, so
 that a vibration that opens and closes an edge takes nothing from the core, and a lasting push does not creep. What opens
 takes its share of the force with it: stored energy never rises. At the limit the whole face slips, and all of it is core.
-
-Areas are known by three moments each: k, j and the centroid. What a core leaves of the area that touches is an area, too, if
-its polar moment is none below 0::
-
-    j − j_core − κ (k_core k / k_fresh) |C_core − C|² ≥ 0,   k_fresh = k − k_core
-
-Where it would be, under a drum that rolls, the core has gone along with what touches: its centroid is taken as far as the
-inequality asks for. Its force goes with it, as under a wheel that rolls without creeping, and what is fresh becomes core
-on the way. A torsion does not go along: stone enters under a rolling edge free of shear, and what it gathers there by
-spinning has no moment about the middle (strip theory of rolling contact: Johnson 1985, chapter 8).
+Under a drum that rolls the forces go along with what touches, as under a wheel that rolls without creeping.
 """
 
 import math
@@ -35,11 +26,11 @@ NOTHING = 1e-30
 #: Squares of limits below this are none [N²], [N² m²].
 NO_LIMIT = 1e-12
 
+#: A layer of less than this share of what touches is none: areas are no more exact.
+NO_LAYER = 1e-12
+
 #: The fresh layer becomes core where the face slips: all of it by a thousandth of the limit.
 SLIPPED = 1e3
-
-#: Of what is fresh so much becomes core while a face rolls on by a radius of gyration.
-RENEWED = 4.0
 
 
 @law
@@ -84,16 +75,11 @@ def limited(force, torsion, k, j, arm, n, limits):
 
 
 @law
-def twisted(torsion, j, spin, dt, rolled):
-    """Torsion of a layer after a step of spinning, in which what touches has rolled on by so many radii of gyration.
-
-    Stone that has entered since holds none; only what turns faster than it rolls gathers some.
-    """
-    torsion *= max(1.0 - rolled, 0.0)
-    way = j * abs(spin) * dt
-    back = min(abs(torsion), way) if torsion * spin > 0.0 else 0.0
-    way = back + max(way - back - j * rolled, 0.0)
-    return torsion - (way if spin > 0.0 else -way)
+def opened(force, torsion, k, j, k_before, j_before, k_least, j_least):
+    """What remains of a layer when its stiffness has become k and j; less than the least of either is none."""
+    k_before, j_before = max(k_before, k_least), max(j_before, j_least)
+    each = 1.0 / (k_before * j_before)
+    return scaled(min(k * j_before * each, 1.0), force), min(j * k_before * each, 1.0) * torsion
 
 
 @long_law
@@ -102,13 +88,10 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
 
     Parameters
     ----------
-    core : tuple
-        Shear force [N], torsion about its centroid [N m], k [N/m], j [N m], centroid [m]; forces are on the upper body.
-        Where the face slipped, k is negative.
-    fresh : tuple
-        Shear force, torsion, k and j of the fresh layer.
+    core, fresh : tuple
+        Layers: shear force on the upper body [N], torsion [N m], k [N/m], j [N m].
     face : tuple
-        Of what touches now: k, j, centroid C, middle of pressure P; and 1/κ.
+        Of what touches now: k, j, centroid C, middle of pressure P.
     n : vector
         Normal of the face.
     slip, spin, dt : vector, float, float
@@ -119,52 +102,33 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
     Returns
     -------
     core, fresh : tuple
-        As given.
+        As given, now.
     force, torsion : vector, float
         Of both layers, at C and about it.
     power, turning : float
         Of the force and of the torsion, a step ago and now, together, on the upper body [W].
     """
-    before, turn_before, k_before, j_before, place = core
-    f_before, t_before, kf_before, jf_before = fresh
-    k, j, centre, middle, polar = face
-    # what slips, or begins to touch, is all core
-    whole, new = k_before <= 0.0, k_before == 0.0
-    k_before, j_before = k if new else abs(k_before), j if new else j_before
-    kc, jc = (k, j) if whole else (min(k, k_before), min(j, j_before))
+    before, turn_before, k_before, j_before = core
+    f, t, kf_before, jf_before = fresh
+    k, j, centre, middle = face
+    power, turning = dot(along(before, 1.0, f), slip), (turn_before + t) * spin
+    new = k_before == 0.0  # what begins to touch is core
+    kc, jc = (k, j) if new else (min(k, k_before), min(j, j_before))
     kf, jf = k - kc, j - jc
-    # how far the centroid of the core is from C, and may be so that the rest is an area, in radii of gyration
-    away = minus(place, centre)
-    each = 1.0 / max(polar * j * kc, NOTHING)
-    distance = 0.0 if whole else math.sqrt(dot(away, away) * k * kc * each)
-    reach = math.sqrt(polar * kf * jf * each)
-    rolled = min(max(distance - reach, 0.0), 1.0)
-    renewed = min(RENEWED * rolled, 1.0)
-    away = scaled((1.0 - renewed) * min(reach / max(distance, NOTHING), 1.0), away)
-    at_core = along(slip, spin, cross(n, away))
-    power, turning = dot(before, at_core) + dot(f_before, slip), (turn_before + t_before) * spin
-    # what opens takes its share along
-    each = 1.0 / max(k_before * j_before, NOTHING)
-    before, turn_before = scaled(min(kc * j_before * each, 1.0), before), min(jc * k_before * each, 1.0) * turn_before
-    each = 1.0 / max(kf_before * jf_before, NOTHING)
-    f_before, t_before = scaled(min(kf * jf_before * each, 1.0), f_before), min(jf * kf_before * each, 1.0) * t_before
-    before, f_before = along(before, renewed, f_before), scaled(1.0 - renewed, f_before)
-    turn_before, t_before = turn_before + renewed * t_before, (1.0 - renewed) * t_before
-    kc, jc, kf, jf = kc + renewed * kf, jc + renewed * jf, (1.0 - renewed) * kf, (1.0 - renewed) * jf
-    # both springs
-    force, f = along(before, -kc * dt, at_core), along(f_before, -kf * dt, slip)
-    torsion, t = twisted(turn_before, jc, spin, dt, rolled), twisted(t_before, jf, spin, dt, rolled)
-    total = along(force, 1.0, f)
+    k_least, j_least = max(NO_LAYER * k, NOTHING), max(NO_LAYER * j, NOTHING)
+    k_before, j_before = (k, j) if new else (k_before, j_before)
+    force, torsion = opened(before, turn_before, kc, jc, k_before, j_before, k_least, j_least)
+    f, t = opened(f, t, kf, jf, kf_before, jf_before, k_least, j_least)
+    # both springs; the fresh layer, and both
+    f, t = along(f, -kf * dt, slip), t - jf * dt * spin
+    total = along(along(force, -kc * dt, slip), 1.0, f)
     total = along(total, -dot(total, n), n)
-    twist = torsion + t + dot(cross(away, force), n)
+    twist = torsion - jc * dt * spin + t
     total, twist, beyond = limited(total, twist, k, j, minus(centre, middle), n, limits)
     # where the face slips, all that touches becomes core
     keep = max(1.0 - SLIPPED * beyond, 0.0)
-    away, f, t, kf, jf = scaled(keep, away), scaled(keep, f), keep * t, keep * kf, keep * jf
-    force = minus(total, f)
-    torsion = twist - t - dot(cross(away, force), n)
-    kc = k - kf
-    core = force, torsion, kc if keep > 0.0 else -kc, j - jf, along(centre, 1.0, away)
+    f, t, kf, jf = scaled(keep, f), keep * t, keep * kf, keep * jf
+    core = minus(total, f), twist - t, k - kf, j - jf
     return core, (f, t, kf, jf), total, twist, power + dot(total, slip), turning + twist * spin
 
 
@@ -172,7 +136,7 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
 def dragged(total, twist, face, n, slip, spin, beta, limits):
     """Force and torsion of dashpots parallel to the springs of friction, at C and about it; all of it in sum stays within
     Coulomb's limit. Parameters as of :func:`friction`, ``beta`` is dashpot over stiffness [s]."""
-    k, j, centre, middle, _ = face
+    k, j, centre, middle = face
     force, torsion = along(total, -beta * k, slip), twist - beta * j * spin
     force, torsion, _ = limited(force, torsion, k, j, minus(centre, middle), n, limits)
     return minus(force, total), torsion - twist
@@ -181,7 +145,7 @@ def dragged(total, twist, face, n, slip, spin, beta, limits):
 @law
 def stored(core, fresh):
     """Energy that the two layers hold in shear and in torsion [J]."""
-    f, t, k, j, _ = core
+    f, t, k, j = core
     g, s, kf, jf = fresh
-    shear = dot(f, f) / max(abs(k), NOTHING) + dot(g, g) / max(kf, NOTHING)
+    shear = dot(f, f) / max(k, NOTHING) + dot(g, g) / max(kf, NOTHING)
     return 0.5 * shear, 0.5 * (t * t / max(j, NOTHING) + s * s / max(jf, NOTHING))

@@ -5,7 +5,7 @@ The law is that of ``shared/friction.py``; legend of what is remembered: ``pair`
 
 from ..jit import kernel, long_law
 from ..shared.friction import dragged, friction, stored
-from ..shared.vectors import along, cross, dot, inward, length, minus, of, outward, put, scaled
+from ..shared.vectors import along, cross, dot, length, minus, of, put, scaled
 
 
 @long_law
@@ -37,15 +37,13 @@ def about_middle(face, n, force, torsion):
 
 
 @kernel
-def rub(q, u, n, slip, rolling, spin, past, past_spin, face, limits, push, velocity, now):
+def rub(q, n, slip, rolling, spin, past, past_spin, face, limits, push, velocity, now):
     """Friction at t_n; brings its memory from t_{n−1} to t_n.
 
     Parameters
     ----------
     q : record
         What remembers, of a pair or of a joint.
-    u : record
-        The first body.
     n : vector
         Normal of the contact.
     slip, rolling, spin : vector, float, float
@@ -54,7 +52,7 @@ def rub(q, u, n, slip, rolling, spin, past, past_spin, face, limits, push, veloc
     past, past_spin : vector, float
         Velocity and spin after the last force, where it acted, against which it does the second half of its work.
     face, limits : tuple
-        As of :func:`~stylobate.kernels.shared.friction.friction`, places from the centroid of the first body.
+        As of :func:`~stylobate.kernels.shared.friction.friction`.
     push, velocity : vector, vector
         What dissipates besides in pressure, and the velocity against which it does.
 
@@ -65,7 +63,7 @@ def rub(q, u, n, slip, rolling, spin, past, past_spin, face, limits, push, veloc
     """
     dt = now.last
     tell(q, past, past_spin, now)
-    core = turned(of(q.s), n, rolling * dt), q.st, q.kf, q.kt, outward(u, of(q.at))
+    core = turned(of(q.s), n, rolling * dt), q.st, q.kf, q.kt
     fresh = turned(of(q.fs), n, rolling * dt), q.ft, q.ff, q.fj
     at = at_centroid(face, n, slip, spin)
     core, fresh, f, torsion, _, _ = friction(core, fresh, face, n, at, spin, dt, limits)
@@ -79,7 +77,6 @@ def rub(q, u, n, slip, rolling, spin, past, past_spin, face, limits, push, veloc
     q.pd = dot(g, velocity) + more * spin
     now.visc -= 0.5 * dt * q.pd
     put(q.s, core[0])
-    put(q.at, inward(u, core[4]))
     put(q.fs, fresh[0])
     q.st, q.kf, q.kt, q.ft, q.ff, q.fj = core[1], core[2], core[3], fresh[1], fresh[2], fresh[3]
     put(q.f, f)
@@ -101,7 +98,7 @@ def turned(f, n, angle):
 @long_law
 def held_by(q):
     """Energy that the friction springs of a contact hold [J]."""
-    shear, torsion = stored((of(q.s), q.st, q.kf, q.kt, 0.0), (of(q.fs), q.ft, q.ff, q.fj))
+    shear, torsion = stored((of(q.s), q.st, q.kf, q.kt), (of(q.fs), q.ft, q.ff, q.fj))
     return shear + torsion
 
 
@@ -110,4 +107,4 @@ def relax(q):
     """Nothing is remembered any more."""
     q.t = q.dt = q.kf = q.kt = q.st = q.ft = q.ff = q.fj = q.en = q.pf = q.pd = 0.0
     for c in range(3):
-        q.f[c] = q.d[c] = q.s[c] = q.fs[c] = q.at[c] = 0.0
+        q.f[c] = q.d[c] = q.s[c] = q.fs[c] = 0.0

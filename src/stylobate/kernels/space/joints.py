@@ -132,12 +132,12 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
     pressing *= share
     closed, polar, centre = closed
     kf = share * e.ks * closed
-    face = kf, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at, 1.0 / TORSION
+    face = kf, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at
     dn = normal_dashpot(pressing, 0.0, vn, restitution_share(now.dull, now.calm, vn))
     past, past_spin = motion_then(e, u, v)
     limits = e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread)
     f, twist = rub(
-        e, u, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
+        e, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
         face, limits, scaled(dn, n), w, now,
     )  # fmt: skip
     act_at(e, n, at, rv)

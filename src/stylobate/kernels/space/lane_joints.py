@@ -5,7 +5,7 @@ Legend: ``lane_records.py``; u is the body of the lower face, v that of the uppe
 
 import math
 
-from ..dem3d.pose import in_body, in_space
+from ..dem3d.pose import in_space
 from ..jit import apart, law
 from ..plane.loose import OVERLAP_FROM
 from ..shared.friction import dragged, friction
@@ -163,19 +163,17 @@ def act(damped, e, u, v, s, o, l):
     write(e.rb, l, rv)
     slip, spin, before, turn = along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
     centre = along(ml, 1.0, in_axes(s, l, (centre[0], centre[1], 0.0)))
-    face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at, 1.0 / TORSION
+    face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at
     limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
     rolling = 0.5 * (spin_u + spin_v) * last
-    core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l], outward(u, l, e.at)
+    core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l]
     fresh = turned(row(e.fs, l), n, rolling), e.ft[l], e.ff[l], e.fj[l]
     there = at_centroid(face, n, slip, spin)
     core, fresh, f, torsion, _, _ = friction(core, fresh, face, n, there, spin, last, limits)
     # nothing is remembered of a joint that is open
     keep = 1.0 if pressing > 0.0 else 0.0
     half = 0.5 * last
-    place, layer = core[4], core[0]
-    write(e.s, l, scaled(keep, layer))
-    write(e.at, l, in_body(u, l, place[0], place[1], place[2]))
+    write(e.s, l, scaled(keep, core[0]))
     write(e.fs, l, scaled(keep, fresh[0]))
     e.st[l], e.kf[l], e.kt[l] = keep * core[1], keep * core[2], keep * core[3]
     e.ft[l], e.ff[l], e.fj[l] = keep * fresh[1], keep * fresh[2], keep * fresh[3]

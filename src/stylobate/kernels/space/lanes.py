@@ -161,7 +161,7 @@ def look(state):
 @strict
 def held_by(e, l):
     """Energy that the friction springs of a joint hold [J]."""
-    core = row(e.s, l), e.st[l], e.kf[l], e.kt[l], 0.0
+    core = row(e.s, l), e.st[l], e.kf[l], e.kt[l]
     shear, torsion = stored(core, (row(e.fs, l), e.ft[l], e.ff[l], e.fj[l]))
     return shear + torsion
 
