@@ -6,7 +6,7 @@ from bodies_in_space import turn
 
 from stylobate.kernels.run_codes import LANES
 from stylobate.kernels.space import edges, lane_records
-from stylobate.kernels.space.boundary import boundary
+from stylobate.kernels.space.boundary import AREA, EDGE, LOWER, PRESS, boundary
 from stylobate.kernels.space.records import LESS, workspace_of_joints
 from stylobate.models.shared.lanes import aligned_zeros
 
@@ -86,8 +86,8 @@ def test_faces_that_touch_in_a_corner_or_along_a_line(half):
     level = [np.eye(3)] * LANES, np.zeros((LANES, 3)), np.zeros((LANES, 3))
     sums = sums_in_lanes(rectangle(0.9, 0.9), 0.3, [place] * LANES, *level)[:, 0]
     share = 0.25 if half else 0.5
-    assert 0.5 * sums[14] == pytest.approx(share * np.pi * 0.09, rel=1e-7)
-    assert sums[15] == pytest.approx(share * np.pi * 0.6 + 0.6, rel=1e-7)
+    assert 0.5 * sums[AREA] == pytest.approx(share * np.pi * 0.09, rel=1e-7)
+    assert sums[EDGE] == pytest.approx(share * np.pi * 0.6 + 0.6, rel=1e-7)
     inscribed = sums_in_lanes(rectangle(0.9, 0.9), 0.45, [np.array([0.0, 0.0, -1e-4])] * LANES, *level)[:, 0]
-    assert inscribed[[14, 15]] == pytest.approx([2.0 * np.pi * 0.2025, np.pi * 0.9], rel=1e-4)
-    assert inscribed[[0, 7]].sum() == pytest.approx(1e-4 * inscribed[15], rel=1e-9)
+    assert inscribed[[AREA, EDGE]] == pytest.approx([2.0 * np.pi * 0.2025, np.pi * 0.9], rel=1e-4)
+    assert inscribed[[PRESS, LOWER + PRESS]].sum() == pytest.approx(1e-4 * inscribed[EDGE], rel=1e-9)

@@ -112,27 +112,37 @@ def _upright(first: np.ndarray, axes: np.ndarray) -> np.ndarray:
     return np.einsum("nk,...nk->...n", first[:, 2, :], axes[..., 2, :])
 
 
+def _as_drawn(structure: Structure, body: int) -> tuple[np.ndarray, np.ndarray]:
+    """Centroid of a body as drawn [m], and its axes as columns; those of the ground for the body that is it."""
+    stone: Any = structure.bodies[body]
+    if getattr(stone, "pieces", None) is None:
+        return np.array([0.0, 0.0, structure.ground]), np.eye(3)
+    return np.array(stone.position), stone.axes
+
+
 def joint_histories(
     structure: Structure, position: np.ndarray, axes: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Largest gap of every joint [m], offset along it [m] and twist about its normal [rad] since the start.
+    """Largest gap of every joint [m], and since the start offset along it [m] and twist about its normal [rad].
 
-    Shapes (T, J), (T, J, 2), (T, J).
+    A gap is counted from where the faces touch without pressure, as they are drawn: an edge that rises less than its weight
+    has pressed it has not opened. Shapes (T, J), (T, J, 2), (T, J).
     """
     joints = structure.space_joints or ()
     count = len(position), len(joints)
     opening, slip, twist = np.zeros(count), np.zeros((*count, 2)), np.zeros(count)
     for k, joint in enumerate(joints):
         u, v = joint.lower, joint.upper
-        # what was at the joint on either body, seen from the body below in the axes of the joint
-        frame = axes[:, u] @ (axes[0, u].T @ joint.frame)
-        below = position[:, u] + frame @ (joint.frame.T @ (joint.origin - position[0, u]))
-        turned = frame.swapaxes(1, 2) @ (axes[:, v] @ axes[0, v].T)
+        (place_u, axes_u), (place_v, axes_v) = (_as_drawn(structure, i) for i in (u, v))
+        # what was drawn at the joint on either body, seen from the body below in the axes of the joint
+        frame = axes[:, u] @ (axes_u.T @ joint.frame)
+        below = position[:, u] + frame @ (joint.frame.T @ (joint.origin - place_u))
+        turned = frame.swapaxes(1, 2) @ (axes[:, v] @ axes_v.T)
         moved = np.einsum("tba,tb->ta", frame, position[:, v] - below)
-        corners = joint.origin + joint.corners @ joint.frame[:, :2].T - position[0, v]
-        height = moved[:, 2, None] + turned[:, 2] @ corners.T
+        corners = joint.origin + joint.corners @ joint.frame[:, :2].T - place_v
+        gap = np.maximum((moved[:, 2, None] + turned[:, 2] @ corners.T).max(axis=1), 0.0)
         offset = moved[:, :2] + turned[:, :2] @ corners.mean(axis=0)
-        opening[:, k] = np.maximum((height - height[0]).max(axis=1), 0.0)
+        opening[:, k] = np.maximum(gap - gap[0], 0.0)
         slip[:, k] = offset - offset[0]
         relative = turned @ joint.frame
         twist[:, k] = np.unwrap(

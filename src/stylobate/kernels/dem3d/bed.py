@@ -33,7 +33,8 @@ def support(along, cos_g, sin_g, ra, rl, q_u, cos_l, sin_l):
 
 @law
 def strip(sums, one, middle, half, d, g, along, across, ra, rl):
-    """Adds a strip: area, depth, its moments along and across, of second order, and its square, each times the area."""
+    """Adds a strip: area, depth, its moments along and across, of second order, and its square, each times the area; and
+    moments of the area along and across, and of second order."""
     x = middle + half * one[0]
     depth = max(d + g * x, 0.0)
     upper = math.sqrt(max(ra * ra - (x - along) * (x - along), 0.0))
@@ -43,13 +44,17 @@ def strip(sums, one, middle, half, d, g, along, across, ra, rl):
     y = 0.5 * (top + bottom)
     area = half * one[1] * chord
     n = area * depth
+    square = x * x + y * y + chord * chord * (1.0 / 12.0)
     return (
         sums[0] + area,
         sums[1] + n,
         sums[2] + n * x,
         sums[3] + n * y,
-        sums[4] + n * (x * x + y * y + chord * chord * (1.0 / 12.0)),
+        sums[4] + n * square,
         sums[5] + n * depth,
+        sums[6] + area * x,
+        sums[7] + area * y,
+        sums[8] + area * square,
     )
 
 
@@ -66,7 +71,7 @@ def settle(d, g, along, across, ra, rl, q_u, cos_l, sin_l):
     low = max(low, -d / max(g, 1e-18))
     half = max(0.5 * (high - low), 0.0)
     middle = 0.5 * (high + low)
-    sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    sums = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     sums = strip(sums, STRIPS[0], middle, half, d, g, along, across, ra, rl)
     sums = strip(sums, STRIPS[1], middle, half, d, g, along, across, ra, rl)
     sums = strip(sums, STRIPS[2], middle, half, d, g, along, across, ra, rl)
@@ -86,7 +91,17 @@ def settle_askew(d, gx, gy, along, across, ra, rl, q_u, cos_l, sin_l):
     c = 1.0 if flat else gx * each
     s = 0.0 if flat else gy * each
     sums = settle(d, g, along * c + across * s, across * c - along * s, ra, rl, q_u, cos_l, sin_l)
-    return sums[0], sums[1], sums[2] * c - sums[3] * s, sums[2] * s + sums[3] * c, sums[4], sums[5]
+    return (
+        sums[0],
+        sums[1],
+        sums[2] * c - sums[3] * s,
+        sums[2] * s + sums[3] * c,
+        sums[4],
+        sums[5],
+        sums[6] * c - sums[7] * s,
+        sums[6] * s + sums[7] * c,
+        sums[8],
+    )
 
 
 @law
@@ -97,20 +112,23 @@ def settle_ring(d, gx, gy, along, across, ra, rl, ia, il):
     """
     s = math.sqrt(along * along + across * across)
     _, cos_u, _, _, cos_l, sin_l, _, _ = overlap(ra, rl, s)
-    a0, n0, x0, y0, q0, e0 = settle_askew(d, gx, gy, along, across, ra, rl, -cos_u, cos_l, sin_l)
+    a = settle_askew(d, gx, gy, along, across, ra, rl, -cos_u, cos_l, sin_l)
     _, cos_u, _, _, cos_l, sin_l, _, _ = overlap(ia, rl, s)
-    a1, n1, x1, y1, q1, e1 = settle_askew(d, gx, gy, along, across, ia, rl, -cos_u, cos_l, sin_l)
+    b = settle_askew(d, gx, gy, along, across, ia, rl, -cos_u, cos_l, sin_l)
     _, cos_u, _, _, cos_l, sin_l, _, _ = overlap(ra, il, s)
-    a2, n2, x2, y2, q2, e2 = settle_askew(d, gx, gy, along, across, ra, il, -cos_u, cos_l, sin_l)
+    c = settle_askew(d, gx, gy, along, across, ra, il, -cos_u, cos_l, sin_l)
     _, cos_u, _, _, cos_l, sin_l, _, _ = overlap(ia, il, s)
-    a3, n3, x3, y3, q3, e3 = settle_askew(d, gx, gy, along, across, ia, il, -cos_u, cos_l, sin_l)
-    n = n0 - n1 - n2 + n3
+    e = settle_askew(d, gx, gy, along, across, ia, il, -cos_u, cos_l, sin_l)
+    n = a[1] - b[1] - c[1] + e[1]
     some = 1.0 if n > 0.0 else 0.0
     return (
-        max(a0 - a1 - a2 + a3, 0.0) * some,
+        max(a[0] - b[0] - c[0] + e[0], 0.0) * some,
         n * some,
-        (x0 - x1 - x2 + x3) * some,
-        (y0 - y1 - y2 + y3) * some,
-        max(q0 - q1 - q2 + q3, 0.0) * some,
-        max(e0 - e1 - e2 + e3, 0.0) * some,
+        (a[2] - b[2] - c[2] + e[2]) * some,
+        (a[3] - b[3] - c[3] + e[3]) * some,
+        max(a[4] - b[4] - c[4] + e[4], 0.0) * some,
+        max(a[5] - b[5] - c[5] + e[5], 0.0) * some,
+        (a[6] - b[6] - c[6] + e[6]) * some,
+        (a[7] - b[7] - c[7] + e[7]) * some,
+        max(a[8] - b[8] - c[8] + e[8], 0.0) * some,
     )

@@ -3,13 +3,14 @@
 import math
 
 from ..jit import law
+from ..shared.friction import NOTHING
 from .bed import settle, settle_askew, settle_ring
-from .friction import NOTHING
 from .pose import cross
 from .records import BETA
 from .rim import overlap
 
-#: Torsion over shear stiffness and ρ², limit of torsion over that of shear and ρ: a disc under even pressure has 1, 2R/3.
+#: Torsion over shear stiffness and polar moment of what touches, limit of torsion over that of shear and ρ: a disc under
+#: even pressure has 1, 2R/3.
 EVEN = (1.0, 2.0 * math.sqrt(2.0) / 3.0)
 
 
@@ -43,7 +44,13 @@ def on_bed(still, moving, limit, e, o, u, v, l, leaning, way, c, velocity, spin)
     kn = e.kn[l]
     slope = sine / cosine
     d = -(cx * zx + cy * zy + cz * zz) - slope * along
-    area, n, x, y, second, square = still(e, l, cosine, d, slope, along, across, ra, rl, -cos_u, cos_l, sin_l)
+    area, n, x, y, second, square, ax, ay, squares = still(
+        e, l, cosine, d, slope, along, across, ra, rl, -cos_u, cos_l, sin_l
+    )
+    each = 1.0 / max(area, NOTHING)
+    ax, ay = ax * each, ay * each
+    centre = ax * hx + ay * tx, ax * hy + ay * ty, ax * hz + ay * tz
+    touching = area, max(squares - area * (ax * ax + ay * ay), 0.0), centre
     # regions of the upper face push along the lower normal, regions of the lower face along the upper one
     share = min(max((cos_g + cos_u) / max(cos_l + cos_u, NOTHING), 0.0), 1.0)
     low, high = (1.0 - share) / cosine, share * cosine
@@ -61,14 +68,16 @@ def on_bed(still, moving, limit, e, o, u, v, l, leaning, way, c, velocity, spin)
         gx = beta * (ax * hx + ay * hy + az * hz)
         gy = beta * (ax * tx + ay * ty + az * tz)
         d -= beta * (vx * zx + vy * zy + vz * zz) + gx * along + gy * across
-        _, n, x, y, second, _ = moving(e, l, cosine, d, slope + gx, gy, along, across, ra, rl, -cos_u, cos_l, sin_l)
+        _, n, x, y, second, _, _, _, _ = moving(
+            e, l, cosine, d, slope + gx, gy, along, across, ra, rl, -cos_u, cos_l, sin_l
+        )
         n, x, y, second = kn * n, kn * x, kn * y, kn * second
         pressure = resultant(n, x, y, low, high, hx, hy, hz, tx, ty, tz, normal, other)
     each = 1.0 / max(n, NOTHING)
     x, y = x * each, y * each
     spread = max(second * each - x * x - y * y, 0.0)
     middle = x * hx + y * tx, x * hy + y * ty, x * hz + y * tz
-    return n * (low + high), spread, area, (EVEN[0], limit(e, l)), middle, pressure, elastic
+    return n * (low + high), spread, touching, (EVEN[0], limit(e, l)), middle, pressure, elastic
 
 
 @law

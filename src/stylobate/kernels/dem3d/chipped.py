@@ -81,8 +81,10 @@ def up_to(end, deepest, touching):
 
 @law
 def press_left(d, along, across, x, y, kept, side):
-    """Integrals (L, N, C, S) of the depth d + along · cos φ + across · sin φ where it is positive, over what is left of the
-    arc about (x, y)."""
+    """Integrals (L, N, C, S, X, Y; ``rim.py``) of the depth d + along · cos φ + across · sin φ where it is positive.
+
+    Over what is left of the arc about (x, y).
+    """
     g = math.sqrt(along * along + across * across)
     each = 1.0 / max(g, TINY)
     flat = g < TINY
@@ -105,8 +107,10 @@ def press_left(d, along, across, x, y, kept, side):
     n = max(d * length + g * sines, 0.0)
     first = d * sines + 0.5 * g * (length + double)
     second = d * cosines + 0.5 * g * squares
-    first, second = min(max(first, -n), n), side * min(max(second, -n), n)
-    return length, n, first * gx - second * gy, first * gy + second * gx
+    first, second, cosines = min(max(first, -n), n), side * min(max(second, -n), n), side * cosines
+    return (
+        length, n, first * gx - second * gy, first * gy + second * gx, sines * gx - cosines * gy, sines * gy + cosines * gx,
+    )  # fmt: skip
 
 
 @law
@@ -123,7 +127,7 @@ def chord(ru, rl, cosine, reach, sine, tau):
 
 @law
 def press_chord(d, slope, low, high):
-    """Integrals over a chord of the depth d + slope · y where it is positive: length, depth, depth y, depth y², depth²."""
+    """Integrals over a chord where the depth d + slope · y is positive: of depth times 1, y, y², and depth; of 1, y, y²."""
     steep = slope if abs(slope) > TINY else TINY
     zero = min(max(-d / steep, low), high)
     p, q = (zero if steep > 0.0 else low), (high if steep > 0.0 else zero)
@@ -134,7 +138,8 @@ def press_chord(d, slope, low, high):
     # pressure lies on the chord, whatever rounding leaves of one that is none
     first = min(max(first, low * n), high * n)
     second = min(max(second, 0.0), max(low * low, high * high) * n)
-    return q - p, n, first, second, max(d * n + slope * first, 0.0)
+    cube = (q2 * q - p2 * p) * (1.0 / 3.0)
+    return n, first, second, max(d * n + slope * first, 0.0), q - p, 0.5 * (q2 - p2), cube
 
 
 @law
@@ -143,18 +148,21 @@ def press_upper(d, along, across, ru, x, y, kept, side, ex, ey, cosine, low, hig
 
     For the depth d + along · cos φ + across · sin φ on the rim; ``cosine`` is that of half the chip's angle. Returns the
     integral of depth, its moments along the slope and across it, that of the square of the distance from the middle of the
-    face, the integral of the depth's square, and the touching length of the arc [rad] and of the chord [m].
+    face, the integral of the depth's square; and of what touches the length, its moments along and across, and that of the
+    square of the distance [m], [m²], [m³].
     """
-    length, n, c, s = press_left(d, along, across, x, y, kept, side)
+    length, n, c, s, p, q = press_left(d, along, across, x, y, kept, side)
     far, each = ru * cosine, 1.0 / ru
     toward, slope = (along * ex + across * ey) * each, (across * ex - along * ey) * each
-    reach, m, beside, second, square = press_chord(d + far * toward, slope, low, high)
+    m, beside, second, square, reach, middle, spread = press_chord(d + far * toward, slope, low, high)
     return (
         ru * n + m,
         ru * ru * c + far * m * ex - beside * ey,
         ru * ru * s + far * m * ey + beside * ex,
         ru * ru * ru * n + far * far * m + second,
         ru * (d * n + along * c + across * s) + square,
-        length,
-        reach,
+        ru * length + reach,
+        ru * ru * p + far * reach * ex - middle * ey,
+        ru * ru * q + far * reach * ey + middle * ex,
+        ru * ru * ru * length + far * far * reach + spread,
     )

@@ -3,6 +3,7 @@
 import math
 
 from ..jit import apart, law, strict
+from ..shared.friction import stored
 from .pose import cross
 from .records import ALPHA, LOCAL
 from .turning import spun, turned
@@ -242,16 +243,18 @@ def kinetic_and_gravitational(body, lane, ground, k, dt, l):
 
 
 @strict
-def stored_in_faces(joint, l):
+def stored_in_faces(joint, lane, l):
     """Energy that joints between faces hold in one lane by pressure, and by friction [J]."""
     elastic = 0.0
-    stored = 0.0
+    held = 0.0
     for q in range(joint.shape[0]):
         e = joint[q]
         elastic += e.en[l]
-        if e.kf[l] > 0.0:
+        if e.s.shape[0] == 3:
+            core = (e.s[0, l], e.s[1, l], e.s[2, l]), e.t[l], e.kf[l], e.kt[l]
+            shear, torsion = stored(core, ((e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.ff[l], e.fj[l]))
+            held += shear + lane[0].pivot[l] * torsion
+        elif e.kf[l] > 0.0:
             for c in range(e.s.shape[0]):
-                stored += 0.5 * e.s[c, l] ** 2 / e.kf[l]
-        if e.kt[l] > 0.0:
-            stored += 0.5 * e.t[l] ** 2 / e.kt[l]
-    return elastic, stored
+                held += 0.5 * e.s[c, l] ** 2 / e.kf[l]
+    return elastic, held

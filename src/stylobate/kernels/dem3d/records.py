@@ -19,9 +19,9 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
                tx ty          half widths of the upper face along i and j [m] (round drums: unused)
     joint[j]   kn ks co       stiffness and cohesion per area [N/m³], [N/m³], [Pa]
                mu             tan φ
-               s[3] t         shear force on the drum above in the axes of the drum below [N], torsion moment [N m];
-                              with corners one shear force for each of them, x, y, z, and no torsion moment
-               kf kt          shear and torsion stiffness that (each) s and t were stored with [N/m], [N m]
+               s[3] t kf kt   core of the shear, see shared/friction.py: force on the drum above in the axes of that below
+                              [N], torsion [N m], its k [N/m] and j [N m];  fs[3] ft ff fj  the same of the fresh layer;
+                              with corners ``s`` is one shear force for each of them, x, y, z, and all else but kf is 0
                en             elastic energy of the normal pressure [J]
                ox oy ot       slip in the axes of the drum below [m] and twist [rad] at the start
                tw             twist at the last look, full turns counted [rad]
@@ -159,8 +159,9 @@ def joint_type(face: str, damped: bool, some: Fields) -> np.dtype:
         "corner": some("chip", 1) + some("w", SHARED),
     }
     return np.dtype(
-        some("kn ks co mu t kf kt en ox oy ot tw")
+        some("kn ks co mu t kf kt en ox oy ot tw ft ff fj")
         + some("s", 3 * CORNERS if cornered else 3)
+        + some("fs", 1 if cornered else 3)
         + some("d", dashpots)
         + own.get(face, some("chip", 1))
     )

@@ -12,6 +12,7 @@ Legend (all in one frame; origin in the middle of the lower face)::
     d, g          depth along a rim: d + g cos φ, φ from where it is deepest                 [m]
     rho           area of the overlap over the length of its rim                             [m]
     L N C S       length of the touching arc [rad], integrals of depth over it, of depth cos φ and of depth sin φ  [m]
+    X Y           integrals of cos φ and of sin φ over the touching arc                      [rad]
 """
 
 import math
@@ -74,7 +75,7 @@ def overlap(ru, rl, s):
 
 @law
 def press(d, g, gamma, cos_gamma, sin_gamma, psi, cos_psi, sin_psi):
-    """Integrals (L, N, C, S) of the depth d + g cos φ where it is positive, over the arc gamma ± psi.
+    """Integrals (L, N, C, S, X, Y) of the depth d + g cos φ where it is positive, over the arc gamma ± psi.
 
     Both angles lie in [0, π], so that the touching part is one or two intervals. Their ends are those of the arc or of
     the touching part of the whole rim: sines and cosines follow from the addition theorem.
@@ -108,7 +109,7 @@ def press(d, g, gamma, cos_gamma, sin_gamma, psi, cos_psi, sin_psi):
     c = d * sines + 0.5 * g * (length + double)
     s = d * cosines + 0.5 * g * squares
     # the middle of pressure lies within the rim, whatever is left of a force that goes to zero
-    return length, n, min(max(c, -n), n), min(max(s, -n), n)
+    return length, n, min(max(c, -n), n), min(max(s, -n), n), sines, cosines
 
 
 @law
@@ -122,6 +123,6 @@ def press_askew(d, along, across, x, y, psi, cos_psi, sin_psi):
     u, v = x * c + y * s, y * c - x * s
     side = -1.0 if v < 0.0 else 1.0
     v *= side
-    length, n, first, second = press(d, g, angle_to(u, v), u, v, psi, cos_psi, sin_psi)
-    second *= side
-    return length, n, first * c - second * s, first * s + second * c
+    length, n, first, second, p, q = press(d, g, angle_to(u, v), u, v, psi, cos_psi, sin_psi)
+    second, q = second * side, q * side
+    return length, n, first * c - second * s, first * s + second * c, p * c - q * s, p * s + q * c

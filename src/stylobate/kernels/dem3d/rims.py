@@ -3,20 +3,21 @@
 What two rims are is handed in: ``remains`` gives what is left of them and the overlap's area over its rim, ``upper`` and
 ``lower`` the pressure of either rim, over what remains, for a depth d + along · cos φ + across · sin φ. That of the upper
 one, which may have a chord, comes as: force, first moments along and across, second moment about its middle, twice the
-energy, and the touching length of arc [rad] and of chord [m]; that of the lower one as the arc's length [rad], and the
-integrals of depth and of its moments over it.
+energy; and of what touches the length, its moments along and across, and the second one about its middle [m], [m²], [m³].
+That of the lower one as the arc's length [rad], the integrals of depth and of its moments over it, and of cos φ and sin φ.
 """
 
 import math
 
 from ..jit import law
+from ..shared.friction import NOTHING
 from .chipped import chord, extent, left_of, press_left, press_upper
-from .friction import NOTHING
 from .pose import cross, in_space
 from .records import BETA
 from .rim import angle_of, angle_to, overlap, press, press_askew
 
-#: Torsion over shear stiffness and ρ², limit of torsion over that of shear and ρ: a closed disc has K_s R²/2 and 2R/3.
+#: Torsion over shear stiffness and polar moment of what touches, limit of torsion over that of shear and ρ: a closed disc
+#: has K_s R²/2 and 2R/3.
 ON_RIM = (0.5, 2.0 / 3.0)
 
 
@@ -34,11 +35,10 @@ def whole_upper_still(kn, d, along, across, r, left):
     """Pressure of the upper drum's arc where depth does not vary across the lean."""
     cos_g, sin_g, side, psi, cos_psi, sin_psi, _, _, _ = left
     k = kn * r
-    length, n, c, s = press(d, along, math.pi - angle_to(cos_g, sin_g), -cos_g, sin_g, psi, cos_psi, sin_psi)
+    length, n, c, s, x, y = press(d, along, math.pi - angle_to(cos_g, sin_g), -cos_g, sin_g, psi, cos_psi, sin_psi)
     twice = k * (d * n + along * c)
-    s *= -side
-    p = k * n
-    return p, k * r * c, k * r * s, p * r * r, twice, length, 0.0
+    s, y, p, square, reach = -side * s, -side * y, k * n, r * r, r * length
+    return p, k * r * c, k * r * s, p * square, twice, reach, square * x, square * y, square * reach
 
 
 @law
@@ -46,17 +46,17 @@ def whole_upper(kn, d, along, across, r, left):
     """Pressure of the upper drum's arc."""
     cos_g, sin_g, side, psi, cos_psi, sin_psi, _, _, _ = left
     k = kn * r
-    length, n, c, s = press_askew(d, along, across, -cos_g, -side * sin_g, psi, cos_psi, sin_psi)
+    _, n, c, s, _, _ = press_askew(d, along, across, -cos_g, -side * sin_g, psi, cos_psi, sin_psi)
     p = k * n
-    return p, k * r * c, k * r * s, p * r * r, 0.0, length, 0.0
+    return p, k * r * c, k * r * s, p * r * r, 0.0, 0.0, 0.0, 0.0, 0.0
 
 
 @law
 def whole_lower_still(d, along, across, left):
     """Pressure of the lower drum's arc where depth does not vary across the lean."""
     cos_g, sin_g, side, _, _, _, psi, cos_psi, sin_psi = left
-    length, n, c, s = press(d, along, angle_to(cos_g, sin_g), cos_g, sin_g, psi, cos_psi, sin_psi)
-    return length, n, c, s * side
+    length, n, c, s, x, y = press(d, along, angle_to(cos_g, sin_g), cos_g, sin_g, psi, cos_psi, sin_psi)
+    return length, n, c, s * side, x, y * side
 
 
 @law
@@ -97,10 +97,10 @@ def chipped_remains(e, u, l, steepest, tangent, way, ru, rl, cosine):
 def chipped_upper(kn, d, along, across, r, left):
     """Pressure of what is left of the upper drum's arc, and of the chord."""
     cos_g, sin_g, kept, side, _, _, ex, ey, cosine, low, high = left
-    p, c, s, q, twice, length, reach = press_upper(
+    p, c, s, q, twice, reach, x, y, square = press_upper(
         d, along, across, r, -cos_g, -sin_g, kept, side, ex, ey, cosine, low, high
     )
-    return kn * p, kn * c, kn * s, kn * q, kn * twice, length, reach
+    return kn * p, kn * c, kn * s, kn * q, kn * twice, reach, x, y, square
 
 
 @law
@@ -146,8 +146,19 @@ def on_rims(remains, upper_still, lower_still, upper, lower, e, o, u, v, l, lean
     kl = kn * rl
     # depths along the rims and their pressure  # Eq. (E4)
     du, dl = -(cx * zx + cy * zy + cz * zz), -(cx * nx + cy * ny + cz * nz)
-    pu, cu, su, qu, twice, lu, lc = upper_still(kn, du, ru * sine, 0.0, ru, left)
-    ll, nl, cl, sl = lower_still(dl, rl * sine, 0.0, left)
+    pu, cu, su, qu, twice, lu, xu, yu, squares = upper_still(kn, du, ru * sine, 0.0, ru, left)
+    ll, nl, cl, sl, xl, yl = lower_still(dl, rl * sine, 0.0, left)
+    # area of what touches, its centroid, and its second moment about that
+    lu, xu, yu, squares = cosine * lu, cosine * xu, cosine * yu, cosine * squares
+    ll, xl, yl = rl * ll, rl * rl * xl, rl * rl * yl
+    each = 1.0 / max(lu + ll, NOTHING)
+    px, py, pz = first_moment(lu, c, xu, d, yu, t)
+    wx, wy, wz = first_moment(0.0, c, xl, h, yl, t)
+    squares += rl * rl * ll + 2.0 * (cx * px + cy * py + cz * pz) - lu * (cx * cx + cy * cy + cz * cz)
+    px, py, pz = px + wx, py + wy, pz + wz
+    squares -= each * (px * px + py * py + pz * pz)
+    centre = px * each, py * each, pz * each
+    touching = rho * (lu + ll), rho * max(squares, 0.0), centre
     e.en[l] = 0.5 * (twice + kl * (dl * nl + rl * sine * cl))
     pl, cl, sl = kl * nl, kl * rl * cl, kl * rl * sl
     first, second, elastic = resultant(pu, cu, su, pl, cl, sl, c, d, h, t, z, n)
@@ -161,13 +172,13 @@ def on_rims(remains, upper_still, lower_still, upper, lower, e, o, u, v, l, lean
         along = ru * (sine + beta * (ax * dx + ay * dy + az * dz))
         across = ru * beta * (ax * tx + ay * ty + az * tz)
         du -= beta * (vx * zx + vy * zy + vz * zz)
-        pu, cu, su, qu, _, _, _ = upper(kn, du, along, across, ru, left)
+        pu, cu, su, qu, _, _, _, _, _ = upper(kn, du, along, across, ru, left)
         ax, ay, az = cross(ox, oy, oz, nx, ny, nz)
         along = rl * (sine + beta * (ax * hx + ay * hy + az * hz))
         across = rl * beta * (ax * tx + ay * ty + az * tz)
         ax, ay, az = cross(ox, oy, oz, cx, cy, cz)
         dl -= beta * ((vx - ax) * nx + (vy - ay) * ny + (vz - az) * nz)
-        _, nl, cl, sl = lower(dl, along, across, left)
+        _, nl, cl, sl, _, _ = lower(dl, along, across, left)
         pl, cl, sl = kl * nl, kl * rl * cl, kl * rl * sl
         first, second, pressure = resultant(pu, cu, su, pl, cl, sl, c, d, h, t, z, n)
     # normal resultant, its middle P and its spread about P
@@ -185,8 +196,7 @@ def on_rims(remains, upper_still, lower_still, upper, lower, e, o, u, v, l, lean
         - (cl * cl + sl * sl) * el
         + pu * pl * each * (gx * gx + gy * gy + gz * gz)
     ) * each
-    closed = rho * (ru * cosine * lu + rl * ll + cosine * lc)
-    return pressing, max(spread, 0.0), closed, ON_RIM, middle, pressure, elastic
+    return pressing, max(spread, 0.0), touching, ON_RIM, middle, pressure, elastic
 
 
 @law

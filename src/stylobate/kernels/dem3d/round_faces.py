@@ -4,8 +4,8 @@ A law of pressure, of faces that carry on their rims (``rims.py``) or on a bed (
 the lane, both drums, and how the faces stand to each other it gives::
 
     pressing, spread      normal force [N], mean square distance of pressure from its middle [m²]
-    closed                area of what touches [m²]
-    torsion               κ and λ of K_T = κ K_s ρ² and of the limit λ ρ μ N
+    touching              area of what touches [m²], its polar moment about its centroid [m⁴], and that centroid [m]
+    torsion               κ and λ of K_T = κ k_s J and of the limit λ ρ μ N
     middle                of pressure [m]
     pressure, elastic     its force and moment about the middle of the face below; the same without dashpots
 """
@@ -13,8 +13,10 @@ the lane, both drums, and how the faces stand to each other it gives::
 import math
 
 from ..jit import law
-from .friction import NOTHING, kept, returned
-from .pose import cross, faces, in_body, in_space, lean, middles, passing
+from ..shared.friction import NOTHING, dragged, friction
+from ..shared.vectors import along, dot, length, minus, scaled
+from ..shared.vectors import cross as vector
+from .pose import faces, in_body, in_space, lean, middles, passing
 from .records import BETA
 
 #: Share of a relative rolling velocity that its resistance may take in one step.
@@ -54,98 +56,81 @@ def on_face(pressure_of, e, f, o, sums, u, v, l):
     leaning = (nx, ny, nz, hx, hy, hz, tx, ty, tz, sine, cosine)
     way = middles(cx, cy, cz, hx, hy, hz, tx, ty, tz)
     face, velocity, spin = (rx, ry, rz, cx, cy, cz), (vx, vy, vz), (ox, oy, oz)
-    pressing, spread, closed, torsion, middle, pressure, elastic = pressure_of(
+    pressing, spread, touching, torsion, middle, pressure, elastic = pressure_of(
         e, o, u, v, l, leaning, way, (cx, cy, cz), velocity, spin
     )
-    rub(e, f, o, sums, u, v, l, pressing, spread, closed, torsion, face, middle, velocity, spin, pressure, elastic)
+    rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middle, velocity, spin, pressure, elastic)
 
 
 @law
-def rub(e, f, o, sums, u, v, l, pressing, spread, closed, torsion, face, middle, velocity, spin, pressure, elastic):
+def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middle, velocity, spin, pressure, elastic):
     """Adds friction to the pressure of a joint and puts the sum on the two drums.
 
     Vectors, beside those of a law of pressure: ``face`` from the upper centroid to the middle of its face, and that middle
     from the one below; ``velocity`` of the upper face's middle and ``spin`` as seen from the drum below.
     """
-    damped = e.d.shape[0] > 1
-    kf, cohesion = e.ks[l] * closed, e.co[l] * closed
+    area, squares, centre = touching
     rx, ry, rz, cx, cy, cz = face
-    px, py, pz = middle
-    vx, vy, vz = velocity
-    ox, oy, oz = spin
+    c = (cx, cy, cz)
     fx, fy, fz, mx, my, mz = pressure
     ex, ey, ez, ix, iy, iz = elastic
     dt = o.dt[l]
-    zx, zy, zz = v.kx[l], v.ky[l], v.kz[l]
-    ht = v.ht[l]
+    z = (v.kx[l], v.ky[l], v.kz[l])
     # the tangent plane of friction
-    nx, ny, nz = fx + NOTHING * zx, fy + NOTHING * zy, fz + NOTHING * zz
-    each = 1.0 / math.sqrt(nx * nx + ny * ny + nz * nz)
-    nx, ny, nz = nx * each, ny * each, nz * each
-    # slip and spin of the upper drum over the lower one at P
-    ax, ay, az = cross(ox, oy, oz, px - cx, py - cy, pz - cz)
-    ax, ay, az = vx + ax, vy + ay, vz + az
-    slip = ax * nx + ay * ny + az * nz
-    ax, ay, az = ax - slip * nx, ay - slip * ny, az - slip * nz
-    turning = ox * nx + oy * ny + oz * nz
+    n = along((fx, fy, fz), NOTHING, z)
+    n = scaled(1.0 / length(n), n)
+    # slip and spin of the upper drum over the lower one at the centroid of what touches
+    at = along(velocity, 1.0, vector(spin, minus(centre, c)))
+    slip, turning = along(at, -dot(at, n), n), dot(spin, n)
     # friction with one limit for both  # Eq. (E6)
-    kt = torsion[0] * kf * spread * o.pivot[l]
-    sx, sy, sz = in_space(v, l, e.s[0, l], e.s[1, l], e.s[2, l])
-    old = e.t[l]
-    keep = kept(kf, e.kf[l])
-    out = sx * nx + sy * ny + sz * nz
-    qx = keep * (sx - out * nx) - kf * dt * ax
-    qy = keep * (sy - out * ny) - kf * dt * ay
-    qz = keep * (sz - out * nz) - kf * dt * az
-    twist = kept(kt, e.kt[l]) * old - kt * dt * turning
-    limit = e.mu[l] * pressing + cohesion
-    arm = torsion[1] * math.sqrt(spread)
-    keep, less = returned(qx * qx + qy * qy + qz * qz, twist * twist, limit, limit * arm * o.pivot[l], kf, kt)
-    qx, qy, qz, twist = qx * keep, qy * keep, qz * keep, twist * less
-    sums.shear[l] -= 0.5 * dt * ((sx + qx) * ax + (sy + qy) * ay + (sz + qz) * az + (old + twist) * turning)
-    e.s[0, l], e.s[1, l], e.s[2, l] = in_body(v, l, qx, qy, qz)
-    e.t[l] = twist
-    e.kf[l] = kf
-    e.kt[l] = kt
-    if damped:
+    limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * math.sqrt(spread)
+    pivot = o.pivot[l]
+    own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle
+    turning = turning if pivot > 0.0 else 0.0
+    core, fresh = layers(e, v, l)
+    core, fresh, q, twist, power, spun = friction(core, fresh, own, n, slip, turning, dt, limits)
+    remember(e, v, l, core, fresh)
+    sums.shear[l] -= 0.5 * dt * (power + pivot * spun)
+    if e.d.shape[0] > 1:
         # dashpots parallel to the springs; friction in sum stays within Coulomb's
-        drag = o.damp[BETA, l] * kf
-        gx, gy, gz = qx - drag * ax, qy - drag * ay, qz - drag * az
-        turn = twist - o.damp[BETA, l] * kt * turning
-        keep, less = returned(gx * gx + gy * gy + gz * gz, turn * turn, limit, limit * arm * o.pivot[l], kf, kt)
-        gx, gy, gz, turn = gx * keep - qx, gy * keep - qy, gz * keep - qz, turn * less - twist
-        ex, ey, ez = fx - ex + gx, fy - ey + gy, fz - ez + gz
-        ax, ay, az = cross(px, py, pz, gx, gy, gz)
-        ix, iy, iz = mx - ix + ax + turn * nx, my - iy + ay + turn * ny, mz - iz + az + turn * nz
+        g, turn = dragged(q, twist, own, n, slip, turning, o.damp[BETA, l], limits)
+        drag = along((fx - ex, fy - ey, fz - ez), 1.0, g)
+        m = along(along((mx - ix, my - iy, mz - iz), 1.0, vector(centre, g)), pivot * turn, n)
         if o.roll.shape[0] > 1:
-            ax, ay, az = px - cx, py - cy, pz - cz
-            slip = ax * nx + ay * ny + az * nz
-            ax, ay, az = ax - slip * nx, ay - slip * ny, az - slip * nz
-            ax, ay, az = resistance(o.roll[0, l], pressing, ax, ay, az, ox, oy, oz, u, v, l, dt)
-            mx, my, mz = mx + ax, my + ay, mz + az
-            ix, iy, iz = ix + ax, iy + ay, iz + az
-        qx, qy, qz, twist = qx + gx, qy + gy, qz + gz, twist + turn
-        ax, ay, az = cross(ox, oy, oz, cx, cy, cz)
-        sums.visc[l] -= (
-            0.5
-            * dt
-            * (
-                (ex + e.d[0, l]) * (vx - ax)
-                + (ey + e.d[1, l]) * (vy - ay)
-                + (ez + e.d[2, l]) * (vz - az)
-                + (ix + e.d[3, l]) * ox
-                + (iy + e.d[4, l]) * oy
-                + (iz + e.d[5, l]) * oz
-            )
-        )
-        e.d[0, l], e.d[1, l], e.d[2, l] = ex, ey, ez
-        e.d[3, l], e.d[4, l], e.d[5, l] = ix, iy, iz
+            a = minus(middle, c)
+            a = along(a, -dot(a, n), n)
+            a = resistance(o.roll[0, l], pressing, a[0], a[1], a[2], spin[0], spin[1], spin[2], u, v, l, dt)
+            mx, my, mz = mx + a[0], my + a[1], mz + a[2]
+            m = along(m, 1.0, a)
+        q, twist = along(q, 1.0, g), twist + turn
+        before = (e.d[0, l], e.d[1, l], e.d[2, l])
+        power = dot(along(drag, 1.0, before), minus(velocity, vector(spin, c)))
+        before = (e.d[3, l], e.d[4, l], e.d[5, l])
+        power += dot(along(m, 1.0, before), spin)
+        sums.visc[l] -= 0.5 * dt * power
+        e.d[0, l], e.d[1, l], e.d[2, l] = drag
+        e.d[3, l], e.d[4, l], e.d[5, l] = m
     # all of it on the two drums
-    fx, fy, fz = fx + qx, fy + qy, fz + qz
-    ax, ay, az = cross(px, py, pz, qx, qy, qz)
-    mx, my, mz = mx + ax + twist * nx, my + ay + twist * ny, mz + az + twist * nz
-    ax, ay, az = cross(cx - rx, cy - ry, cz - rz, fx, fy, fz)
-    f.f[0, l], f.f[1, l], f.f[2, l] = fx, fy, fz
-    f.up[0, l], f.up[1, l], f.up[2, l] = mx - ax, my - ay, mz - az
-    ax, ay, az = cross(-ht * zx, -ht * zy, -ht * zz, fx, fy, fz)
-    f.lo[0, l], f.lo[1, l], f.lo[2, l] = ax - mx, ay - my, az - mz
+    force = along((fx, fy, fz), 1.0, q)
+    m = along(along((mx, my, mz), 1.0, vector(centre, q)), pivot * twist, n)
+    f.f[0, l], f.f[1, l], f.f[2, l] = force
+    f.up[0, l], f.up[1, l], f.up[2, l] = minus(m, vector((cx - rx, cy - ry, cz - rz), force))
+    f.lo[0, l], f.lo[1, l], f.lo[2, l] = minus(scaled(-v.ht[l], vector(z, force)), m)
+
+
+@law
+def layers(e, v, l):
+    """Both layers of shear of a joint a step ago, in space: see ``shared/friction.py``."""
+    return (
+        (in_space(v, l, e.s[0, l], e.s[1, l], e.s[2, l]), e.t[l], e.kf[l], e.kt[l]),
+        (in_space(v, l, e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.ff[l], e.fj[l]),
+    )
+
+
+@law
+def remember(e, v, l, core, fresh):
+    """Write both layers into the record of a joint, in the axes of the drum below."""
+    s, e.t[l], e.kf[l], e.kt[l] = core
+    e.s[0, l], e.s[1, l], e.s[2, l] = in_body(v, l, s[0], s[1], s[2])
+    s, e.ft[l], e.ff[l], e.fj[l] = fresh
+    e.fs[0, l], e.fs[1, l], e.fs[2, l] = in_body(v, l, s[0], s[1], s[2])

@@ -145,7 +145,7 @@ def stored(joint, lane, l):
     """Energy that all joints hold in one lane by pressure, and by friction [J]."""
     if rows(joint, "rest"):
         return lambda joint, lane, l: (lane[0].en[l], lane[0].st[l])
-    return lambda joint, lane, l: stored_in_faces(joint, l)
+    return lambda joint, lane, l: stored_in_faces(joint, lane, l)
 
 
 @chosen

@@ -2,8 +2,8 @@
 
 from ..dem3d.move import omega
 from ..jit import long_law
+from ..shared.vectors import along, cross, dot, minus, of, put
 from .friction import relax, tell
-from .vectors import along, cross, dot, minus, of, put
 
 
 @long_law

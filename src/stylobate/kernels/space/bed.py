@@ -8,13 +8,13 @@ import math
 
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
+from ..shared.vectors import across, along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
 from .acting import act_at, add, mobility, motion_then
 from .friction import late, relax, rub
 from .nearest import parting
 from .overlap import DEEP_A, DEEP_B, INNER, MIDDLE, MOMENT, NORMAL, REF, SHADOW, SPREAD, VOLUME, overlap
 from .records import DRUM, GROUND, LESS
 from .solids import draw, reach
-from .vectors import across, along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
 
 #: (Mean distance from the middle)² over the mean of its square: of a line, and of a disc.  # Eq. (Q3)
 OF_LINE, OF_DISC = 0.75, 8.0 / 9.0
@@ -306,7 +306,7 @@ def returnable(fn, last, gain, before, depth, vn, ease, dt, held):
 @long_law
 def alone(p):
     """Vector area, volume and work of the contact of two shapes, where no other shape has a part in it."""
-    put(p.s, of(p.total[NORMAL : NORMAL + 3]))
+    put(p.va, of(p.total[NORMAL : NORMAL + 3]))
     p.whole, p.held = p.total[VOLUME], p.en
 
 
@@ -316,7 +316,7 @@ def gather(pair, count, shape, p):
 
     The work that presses it belongs to its parts as their volumes do.
     """
-    s, own = of(p.s), p.whole
+    s, own = of(p.va), p.whole
     for k in range(count):
         q = pair[k]
         same = shape[q.a].body == shape[p.a].body and shape[q.b].body == shape[p.b].body
@@ -327,24 +327,28 @@ def gather(pair, count, shape, p):
     if p.whole > own:
         p.held *= own / p.whole
         if dot(s, s) > 0.0:
-            put(p.s, s)
+            put(p.va, s)
 
 
 @kernel
 def press(p, a, u, b, v, vertex, numbers, now, simplex):
     """Force of the bed at t_n on two bodies that overlap, with k_n, k_s and tan φ; brings its memory from t_{n−1} to t_n."""
     total = p.total
-    area = length(of(p.s))
-    n = scaled(1.0 / area, of(p.s))
+    area = length(of(p.va))
+    n = scaled(1.0 / area, of(p.va))
     mean_depth = p.whole / area
     volume = total[VOLUME]
     p.en = p.held
     if p.whole > volume:
         area = max(dot(of(total[NORMAL : NORMAL + 3]), n), LEAST * area)
     c = along(of(total[REF : REF + 3]), 1.0 / volume, of(total[MOMENT : MOMENT + 3]))
+    centre = c  # of what touches
+    if total[SHADOW] > 0.0:
+        centre = along(of(total[REF : REF + 3]), 1.0 / total[SHADOW], of(total[MIDDLE : MIDDLE + 3]))
+        centre = along(centre, dot(minus(c, centre), n), n)
     if a.kind == DRUM or b.kind == DRUM:
         face_contact(p, n, a, u, b, v, vertex, total, simplex)
-        c = on_line(p, c, a, u, b, v)
+        c, centre = on_line(p, c, a, u, b, v), on_line(p, centre, a, u, b, v)
     square, mean = spread_of(total, n, a, u, b, v)
     ru = minus(c, place(u))
     rv = minus(c, place(v))
@@ -366,9 +370,10 @@ def press(p, a, u, b, v, vertex, numbers, now, simplex):
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
     p.pn = fn * vn
     p.en -= before + 0.5 * p.pn * now.last
+    face = ks * area, ks * area * square, minus(centre, place(u)), ru
     f, twist = rub(
         p, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
-        ks * area, ks * area * square, mu * (fn + dn), math.sqrt(mean), scaled(dn, n), w, now,
+        face, (mu * (fn + dn), math.sqrt(mean)), scaled(dn, n), w, now,
     )  # fmt: skip
     p.fn = fn
     grown = max(area - p.area, 0.0) * (now.dt / max(now.last, 1e-300) if p.area > 0.0 else 1.0)

@@ -15,17 +15,18 @@ All in the frame of the lower face: origin in its middle, x and y along it, z ou
     sums           of the pieces of the upper edge, then of those of the lower one, of edges that lie on one another half
                    and half in PRESS and FIRST: PRESS, integral of depth [m²];
                    FIRST 3, of depth times place [m³]; SECOND, of depth times place squared [m⁴]; SQUARE, of depth squared
-                   [m³]; LENGTH, that touches [m]; then AREA twice that of the overlap [m²], and EDGE, its length [m]
+                   [m³]; then of both: AREA twice that of the overlap [m²], EDGE, its length [m]; LENGTH of what touches
+                   [m], MOMENT 2, its moments along x and y [m²], and POLAR, of its place squared [m³]
 """
 
 import math
 
 from ..dem3d.rim import overlap, press_askew
 from ..jit import kernel, law, long_law
-from .vectors import along, cross, dot, minus, of
+from ..shared.vectors import along, cross, dot, minus, of
 
 #: Places in ``sums``, those of the lower edge behind those of the upper one.
-PRESS, FIRST, SECOND, SQUARE, LENGTH, LOWER, AREA, EDGE = 0, 1, 4, 5, 6, 7, 14, 15
+PRESS, FIRST, SECOND, SQUARE, LOWER, AREA, EDGE, LENGTH, MOMENT, POLAR = 0, 1, 4, 5, 6, 12, 13, 14, 15, 17
 
 #: Sines below this are none: faces that are parallel to rounding.
 PARALLEL = 1e-15
@@ -115,7 +116,11 @@ def add_segment(sums, at, p, q, d0, d1, shared):
     square = (3.0 * d0 + d1) * dot(p, p) + 2.0 * (d0 + d1) * dot(p, q) + (d0 + 3.0 * d1) * dot(q, q)
     sums[at + SECOND] += size * square / 12.0
     sums[at + SQUARE] += size * (d0 * d0 + d0 * d1 + d1 * d1) / 3.0
-    sums[at + LENGTH] += share * flat
+    reach = share * flat
+    sums[LENGTH] += reach
+    sums[MOMENT] += 0.5 * reach * (p[0] + q[0])
+    sums[MOMENT + 1] += 0.5 * reach * (p[1] + q[1])
+    sums[POLAR] += reach * (p[0] * (p[0] + q[0]) + q[0] * q[0] + p[1] * (p[1] + q[1]) + q[1] * q[1]) / 3.0
 
 
 @kernel
@@ -125,7 +130,7 @@ def add_arc(sums, at, c, e, t, radius, flat, depth, slope, side, x, y, psi, cos_
     The depth is ``depth`` in the middle and grows by ``slope`` to the rim along e, by ``side`` along t; ``flat`` is the
     radius that is seen from above.
     """
-    length, n, along_e, along_t = press_askew(depth, slope, side, x, y, psi, cos_psi, sin_psi)
+    length, n, along_e, along_t, reach_e, reach_t = press_askew(depth, slope, side, x, y, psi, cos_psi, sin_psi)
     sums[AREA] += 2.0 * flat * flat * psi  # what depends on the middle is added by the caller
     sums[EDGE] += 2.0 * flat * psi
     m = along(along((0.0, 0.0, 0.0), along_e, e), along_t, t)
@@ -134,7 +139,11 @@ def add_arc(sums, at, c, e, t, radius, flat, depth, slope, side, x, y, psi, cos_
         sums[at + FIRST + k] += radius * (n * c[k] + radius * m[k])
     sums[at + SECOND] += radius * (n * dot(c, c) + 2.0 * radius * dot(c, m) + radius * radius * n)
     sums[at + SQUARE] += radius * (depth * n + slope * along_e + side * along_t)
-    sums[at + LENGTH] += flat * length
+    m = along(along((0.0, 0.0, 0.0), radius * reach_e, e), radius * reach_t, t)
+    sums[LENGTH] += flat * length
+    sums[MOMENT] += flat * (length * c[0] + m[0])
+    sums[MOMENT + 1] += flat * (length * c[1] + m[1])
+    sums[POLAR] += flat * (length * (c[0] * c[0] + c[1] * c[1] + radius * radius) + 2.0 * (c[0] * m[0] + c[1] * m[1]))
 
 
 @kernel

@@ -10,7 +10,21 @@ import math
 
 from ..dem3d.rim import TINY, angle_of, angle_to, overlap, press_askew
 from ..jit import apart, kernel, law
-from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, PARALLEL, PRESS, SECOND, SQUARE, flush
+from .boundary import (
+    AREA,
+    EDGE,
+    FIRST,
+    LENGTH,
+    LOWER,
+    MOMENT,
+    PARALLEL,
+    POLAR,
+    PRESS,
+    SECOND,
+    SQUARE,
+    flush,
+)
+from .records import OF_SUMS
 
 #: Rows of ``disc``.
 CX, CY, FLAT, DEPTH, SLOPE, SIDE, DEEP_X, DEEP_Y, STEEP, HALF, COSINE, SINE = range(12)
@@ -36,7 +50,7 @@ def begin(s):
         s.m[1, l] = ny - (nz * wx - nx * wz)
         s.m[2, l] = nz - (nx * wy - ny * wx)
         s.lift[l] = s.v[0, l] * nx + s.v[1, l] * ny + s.v[2, l] * nz
-        for k in range(16):
+        for k in range(OF_SUMS):
             s.sums[k, l] = 0.0
 
 
@@ -93,7 +107,11 @@ def add_piece(s, at, l, live, px, py, pz, qx, qy, qz, d, e):
     square += (two + last) * (qx * qx + qy * qy + qz * qz)
     s.sums[at + SECOND, l] += size * square * (1.0 / 12.0)
     s.sums[at + SQUARE, l] += size * (first * first + first * last + last * last) * (1.0 / 3.0)
-    s.sums[at + LENGTH, l] += share * flat
+    reach = share * flat
+    s.sums[LENGTH, l] += reach
+    s.sums[MOMENT, l] += 0.5 * reach * (px + qx)
+    s.sums[MOMENT + 1, l] += 0.5 * reach * (py + qy)
+    s.sums[POLAR, l] += reach * (px * (px + qx) + qx * qx + py * (py + qy) + qy * qy) * (1.0 / 3.0)
 
 
 @law
@@ -179,8 +197,8 @@ def along_disc(s, l, upper, radius):
 
 
 @law
-def add_rim(s, at, l, upper, radius, flat, length, n, along, across):
-    """Add an arc with its integrals of depth, along the steepest descent in the face and across it."""
+def add_rim(s, at, l, upper, radius, flat, length, n, along, across, reach, beside):
+    """Add an arc with its integrals of depth, along the steepest descent in the face and across it; and of what touches."""
     hx, hy = s.hx[l], s.hy[l]
     slant = s.n[2, l] if upper else 1.0
     fall = -s.sine[l] if upper else 0.0
@@ -196,7 +214,12 @@ def add_rim(s, at, l, upper, radius, flat, length, n, along, across):
     s.sums[at + FIRST + 2, l] += radius * (n * cz + radius * mz)
     square = n * (cx * cx + cy * cy + cz * cz + radius * radius) + 2.0 * radius * (cx * mx + cy * my + cz * mz)
     s.sums[at + SECOND, l] += radius * square
-    s.sums[at + LENGTH, l] += flat * length
+    mx = radius * (reach * slant * hx - beside * hy)
+    my = radius * (reach * slant * hy + beside * hx)
+    s.sums[LENGTH, l] += flat * length
+    s.sums[MOMENT, l] += flat * (length * cx + mx)
+    s.sums[MOMENT + 1, l] += flat * (length * cy + my)
+    s.sums[POLAR, l] += flat * (length * (cx * cx + cy * cy + radius * radius) + 2.0 * (cx * mx + cy * my))
 
 
 @apart
@@ -214,12 +237,12 @@ def two_discs(s, e):
         y = 0.0 if on else (cy * hx - cx * hy) * each
         psi_u, cos_u, sin_u, psi_l, cos_l, sin_l, area, rim = overlap(flat, rl, away)
         d, slope, side = along_disc(s, l, True, ru)
-        length, n, along, across = press_askew(d, slope, side, -x, -y, psi_u, cos_u, sin_u)
-        add_rim(s, 0, l, True, ru, flat, length, n, along, across)
+        length, n, along, across, p, q = press_askew(d, slope, side, -x, -y, psi_u, cos_u, sin_u)
+        add_rim(s, 0, l, True, ru, flat, length, n, along, across, p, q)
         s.sums[SQUARE, l] += ru * (d * n + slope * along + side * across)
         d, slope, side = along_disc(s, l, False, rl)
-        length, n, along, across = press_askew(d, slope, side, x, y, psi_l, cos_l, sin_l)
-        add_rim(s, LOWER, l, False, rl, rl, length, n, along, across)
+        length, n, along, across, p, q = press_askew(d, slope, side, x, y, psi_l, cos_l, sin_l)
+        add_rim(s, LOWER, l, False, rl, rl, length, n, along, across, p, q)
         s.sums[LOWER + SQUARE, l] += rl * (d * n + slope * along + side * across)
         s.sums[AREA, l] = 2.0 * area
         s.sums[EDGE, l] = rim
@@ -330,7 +353,9 @@ def end_disc(s, e, upper):
         first, second = min(max(first, -n), n), min(max(second, -n), n)
         x, y = s.disc[SLOPE, l], s.disc[SIDE, l]
         along, across = first * x - second * y, first * y + second * x
-        add_rim(s, at, l, upper, radius, flat, length, n, along, across)
+        cosines = s.arc[COSINES, l]
+        p, q = sines * x - cosines * y, sines * y + cosines * x
+        add_rim(s, at, l, upper, radius, flat, length, n, along, across, p, q)
         s.sums[at + SQUARE, l] += radius * (d * n + steep * first)
         # ends of arcs back along x and y
         gx, gy = s.disc[DEEP_X, l], s.disc[DEEP_Y, l]

@@ -1,11 +1,11 @@
-"""Friction of a contact: a shear force and a torsion moment that remember, in axes of space that turn with the contact.
+"""Friction of a contact of bodies in space: its memory, in axes of space that turn with the contact, and its work.
 
-The limit surface is that of faces in ``dem3d``; legend of what is remembered: ``pair`` in ``records.py``.
+The law is that of ``shared/friction.py``; legend of what is remembered: ``pair`` in ``records.py``.
 """
 
-from ..dem3d.friction import kept, returned
 from ..jit import kernel, long_law
-from .vectors import along, cross, dot, length, of, put, scaled
+from ..shared.friction import dragged, friction, stored
+from ..shared.vectors import along, cross, dot, length, minus, of, put, scaled
 
 
 @long_law
@@ -24,8 +24,20 @@ def tell(q, past, past_spin, now):
     now.visc -= late(q.pd, dot(of(q.d), past) + q.dt * past_spin, now)
 
 
+@long_law
+def at_centroid(face, n, slip, spin):
+    """Slip at the centroid of what touches, from that at the middle of pressure."""
+    return along(slip, spin, cross(n, minus(face[2], face[3])))
+
+
+@long_law
+def about_middle(face, n, force, torsion):
+    """Torsion about the middle of pressure of a force at the centroid and a torsion about it."""
+    return torsion + dot(cross(minus(face[2], face[3]), force), n)
+
+
 @kernel
-def rub(q, n, slip, rolling, spin, past, past_spin, kf, kt, limit, arm, push, velocity, now):
+def rub(q, n, slip, rolling, spin, past, past_spin, face, limits, push, velocity, now):
     """Friction at t_n; brings its memory from t_{n−1} to t_n.
 
     Parameters
@@ -35,66 +47,64 @@ def rub(q, n, slip, rolling, spin, past, past_spin, kf, kt, limit, arm, push, ve
     n : vector
         Normal of the contact.
     slip, rolling, spin : vector, float, float
-        Velocity of the second body over the first one across n; mean and difference of the spins about n.
+        Velocity of the second body over the first one across n at the middle of pressure; mean and difference of the spins
+        about n.
     past, past_spin : vector, float
         Velocity and spin after the last force, where it acted, against which it does the second half of its work.
-    kf, kt, limit, arm : float
-        Stiffness in shear and torsion, friction times pressure, and the arm of its torsion.
+    face, limits : tuple
+        As of :func:`~stylobate.kernels.shared.friction.friction`.
     push, velocity : vector, vector
         What dissipates besides in pressure, and the velocity against which it does.
 
     Returns
     -------
     force, twist : vector, float
-        On the second body, with ``push``: shear force and torsion moment about n.
+        On the second body, with ``push``, at the middle of pressure: shear force and torsion moment about n.
     """
     dt = now.last
-    f, turn = of(q.f), q.t
     tell(q, past, past_spin, now)
-    f, twist = sprung(f, turn, q.kf, q.kt, n, slip, rolling, spin, kf, kt, limit, arm, dt)
-    g, more = slowed(f, twist, slip, spin, kf, kt, limit, arm, push, now.beta)
+    core = turned(of(q.s), n, rolling * dt), q.st, q.kf, q.kt
+    fresh = turned(of(q.fs), n, rolling * dt), q.ft, q.ff, q.fj
+    at = at_centroid(face, n, slip, spin)
+    core, fresh, f, torsion, _, _ = friction(core, fresh, face, n, at, spin, dt, limits)
+    g, more = (0.0, 0.0, 0.0), 0.0
+    if now.beta > 0.0:
+        g, more = dragged(f, torsion, face, n, at, spin, now.beta, limits)
+    twist, more = about_middle(face, n, f, torsion), about_middle(face, n, g, more)
+    g = along(g, 1.0, push)
     q.pf = dot(f, slip) + twist * spin
     now.shear -= 0.5 * dt * q.pf
     q.pd = dot(g, velocity) + more * spin
     now.visc -= 0.5 * dt * q.pd
+    put(q.s, core[0])
+    put(q.fs, fresh[0])
+    q.st, q.kf, q.kt, q.ft, q.ff, q.fj = core[1], core[2], core[3], fresh[1], fresh[2], fresh[3]
     put(q.f, f)
     put(q.d, g)
     q.t = twist
     q.dt = more
-    q.kf = kf
-    q.kt = kt
     return along(f, 1.0, g), twist + more
 
 
 @long_law
-def sprung(f, turn, soft, supple, n, slip, rolling, spin, kf, kt, limit, arm, dt):
-    """Springs of friction at t_n, from a force f and a moment ``turn`` of stiffness ``soft`` and ``supple`` a step ago;
-    others as of :func:`rub`.
-
-    Returns the shear force and the torsion moment.
-    """
+def turned(f, n, angle):
+    """A shear force a step ago, turned into the tangent plane of now, and about its normal by a small angle."""
     size = length(f)
     f = along(f, -dot(f, n), n)
     f = scaled(size / max(length(f), 1e-300), f)
-    f = along(f, rolling * dt, cross(n, f))
-    f = along(scaled(kept(kf, soft), f), -kf * dt, slip)
-    twist = kept(kt, supple) * turn - kt * dt * spin
-    keep, less = returned(dot(f, f), twist * twist, limit, limit * arm, kf, kt)
-    return scaled(keep, f), twist * less
+    return along(f, angle, cross(n, f))
 
 
 @long_law
-def slowed(f, twist, slip, spin, kf, kt, limit, arm, push, beta):
-    """Force and moment of dashpots parallel to the springs of friction; all of it in sum stays within Coulomb's limit."""
-    g = along(f, -beta * kf, slip)
-    more = twist - beta * kt * spin
-    keep, less = returned(dot(g, g), more * more, limit, limit * arm, kf, kt)
-    return along(along(push, keep, g), -1.0, f), more * less - twist
+def held_by(q):
+    """Energy that the friction springs of a contact hold [J]."""
+    shear, torsion = stored((of(q.s), q.st, q.kf, q.kt), (of(q.fs), q.ft, q.ff, q.fj))
+    return shear + torsion
 
 
 @kernel
 def relax(q):
     """Nothing is remembered any more."""
-    q.t = q.dt = q.kf = q.kt = q.en = q.pf = q.pd = 0.0
+    q.t = q.dt = q.kf = q.kt = q.st = q.ft = q.ff = q.fj = q.en = q.pf = q.pd = 0.0
     for c in range(3):
-        q.f[c] = q.d[c] = 0.0
+        q.f[c] = q.d[c] = q.s[c] = q.fs[c] = 0.0

@@ -5,12 +5,13 @@ import math
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
 from ..plane.loose import handover
+from ..shared.vectors import along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
 from .acting import act_at, add, let_go, mobility, motion_then
-from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, PRESS, SECOND, SQUARE, boundary
+from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, MOMENT, POLAR, PRESS, SECOND, SQUARE, boundary
 from .friction import rub
-from .vectors import along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
 
-#: Torsion over shear stiffness and ρ², limit of torsion over that of shear and ρ: a closed disc has K_s R²/2 and 2R/3.
+#: Torsion over shear stiffness and polar moment of what touches, limit of torsion over that of shear and ρ: a closed disc
+#: has K_s R²/2 and 2R/3.
 TORSION, LEVER = 0.5, 2.0 / 3.0
 
 #: Keeps quotients of nothing by nothing at nothing.
@@ -58,10 +59,21 @@ def face_pressure(e, u, v, beta, edge, up, arcs, sums):
     middle = scaled(1.0 / max(pressing, NOTHING), along(first, 1.0, other))
     spread = k * (sums[SECOND] + sums[LOWER + SECOND]) / max(pressing, NOTHING) - dot(middle, middle)
     stored = 0.5 * k * (sums[SQUARE] + sums[LOWER + SQUARE])
-    closed = area / max(sums[EDGE], NOTHING) * (sums[LENGTH] + sums[LOWER + LENGTH])
+    touches, polar, at = touching(
+        area / max(sums[EDGE], NOTHING), sums[LENGTH], sums[MOMENT], sums[MOMENT + 1], sums[POLAR]
+    )
+    closed = touches, polar, along(scaled(at[0], i), at[1], j)
     force = along(scaled(upper, z), lower, n)
     moment = along(cross(first, z), 1.0, cross(other, n))
     return force, moment, ml, pressing, middle, max(spread, 0.0), stored, closed, area, dot(z, n)
+
+
+@long_law
+def touching(rho, length, x, y, polar):
+    """Area of what touches, its polar moment about its centroid, and where that is, from sums over its edge."""
+    each = 1.0 / max(length, NOTHING)
+    x, y = x * each, y * each
+    return rho * length, rho * max(polar - length * (x * x + y * y), 0.0), (x, y)
 
 
 @long_law
@@ -118,13 +130,15 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
     spin_u = dot((u.wx[0], u.wy[0], u.wz[0]), n)
     spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
     pressing *= share
+    closed, polar, centre = closed
     kf = share * e.ks * closed
+    face = kf, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at
     dn = normal_dashpot(pressing, 0.0, vn, restitution_share(now.dull, now.calm, vn))
     past, past_spin = motion_then(e, u, v)
+    limits = e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread)
     f, twist = rub(
         e, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
-        kf, TORSION * kf * spread, e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread),
-        scaled(dn, n), w, now,
+        face, limits, scaled(dn, n), w, now,
     )  # fmt: skip
     act_at(e, n, at, rv)
     if now.dull > 0.0:

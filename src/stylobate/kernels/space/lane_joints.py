@@ -8,10 +8,11 @@ import math
 from ..dem3d.pose import in_space
 from ..jit import apart, law
 from ..plane.loose import OVERLAP_FROM
-from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, PRESS, SECOND, SQUARE
-from .friction import slowed, sprung
-from .joints import LEVER, NOTHING, TORSION
-from .vectors import along, cross, dot, length, minus, scaled
+from ..shared.friction import dragged, friction
+from ..shared.vectors import along, cross, dot, length, minus, scaled
+from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, MOMENT, POLAR, PRESS, SECOND, SQUARE
+from .friction import about_middle, at_centroid, turned
+from .joints import LEVER, NOTHING, TORSION, touching
 
 
 @law
@@ -145,7 +146,10 @@ def act(damped, e, u, v, s, o, l):
     each = 1.0 / max(pressing, NOTHING)
     middle = in_axes(s, l, scaled(each, middle))
     spread = max(k * (s.sums[SECOND, l] + s.sums[LOWER + SECOND, l]) * each - dot(middle, middle), 0.0)
-    closed = area / max(s.sums[EDGE, l], NOTHING) * (s.sums[LENGTH, l] + s.sums[LOWER + LENGTH, l])
+    closed, polar, centre = touching(
+        area / max(s.sums[EDGE, l], NOTHING),
+        s.sums[LENGTH, l], s.sums[MOMENT, l], s.sums[MOMENT + 1, l], s.sums[POLAR, l],
+    )  # fmt: skip
     n = along(force, NOTHING, row(s.z, l))
     n = scaled(1.0 / length(n), n)
     at = along(ml, 1.0, middle)
@@ -157,19 +161,31 @@ def act(damped, e, u, v, s, o, l):
     write(e.n, l, n)
     write(e.ra, l, at)
     write(e.rb, l, rv)
-    kf, slip, spin, before, turn = e.ks[l] * closed, along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
-    kt, limit, arm = TORSION * kf * spread, e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
-    f, twist = sprung(before, turn, e.kf[l], e.kt[l], n, slip, 0.5 * (spin_u + spin_v), spin, kf, kt, limit, arm, last)
+    slip, spin, before, turn = along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
+    centre = along(ml, 1.0, in_axes(s, l, (centre[0], centre[1], 0.0)))
+    face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at
+    limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
+    rolling = 0.5 * (spin_u + spin_v) * last
+    core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l]
+    fresh = turned(row(e.fs, l), n, rolling), e.ft[l], e.ff[l], e.fj[l]
+    there = at_centroid(face, n, slip, spin)
+    core, fresh, f, torsion, _, _ = friction(core, fresh, face, n, there, spin, last, limits)
     # nothing is remembered of a joint that is open
     keep = 1.0 if pressing > 0.0 else 0.0
     half = 0.5 * last
-    f, twist = scaled(keep, f), keep * twist
+    write(e.s, l, scaled(keep, core[0]))
+    write(e.fs, l, scaled(keep, fresh[0]))
+    e.st[l], e.kf[l], e.kt[l] = keep * core[1], keep * core[2], keep * core[3]
+    e.ft[l], e.ff[l], e.fj[l] = keep * fresh[1], keep * fresh[2], keep * fresh[3]
+    twist = keep * about_middle(face, n, f, torsion)
+    g, more = f, torsion
+    f = scaled(keep, f)
     o.shear[l] -= half * (dot(before, past) + dot(f, slip) + (turn + twist) * spin)
     write(e.f, l, f)
-    e.t[l], e.kf[l], e.kt[l] = twist, keep * kf, keep * kt
+    e.t[l] = twist
     if damped:
-        g, more = slowed(f, twist, slip, spin, kf, kt, limit, arm, (0.0, 0.0, 0.0), o.beta[l])
-        g, more = scaled(keep, g), keep * more
+        g, more = dragged(g, more, face, n, there, spin, o.beta[l], limits)
+        g, more = scaled(keep, g), keep * about_middle(face, n, g, more)
         o.visc[l] -= half * (dot(g, w) + dot(row(e.d, l), past) + (more + e.dt[l]) * spin)
         write(e.d, l, g)
         e.dt[l] = more

@@ -18,16 +18,17 @@ Legend; names not listed are those of ``records.py``, numbers of bodies and coun
                disc[12]       of a round face: where it is, radius as seen from above, depth in its middle, and how the depth
                               changes along its rim, see ``edges.py``
                arc[9]         sums over the ends of its arcs
-               sums[16]       see ``boundary.py``;  force moment en  of the elastic pressure, where there is damping
+               sums[18]       see ``boundary.py``;  force moment en  of the elastic pressure, where there is damping
     feed ground watch         as in ``dem3d/records.py``
 """
 
 import numpy as np
 
 from ..dem3d.records import fields
+from .records import OF_SUMS
 
-#: Rows of ``disc``, ``arc`` and ``sums``.
-OF_DISC, OF_ARC, OF_SUMS = 12, 9, 16
+#: Rows of ``disc`` and ``arc``.
+OF_DISC, OF_ARC = 12, 9
 
 
 def types() -> dict[str, np.dtype]:
@@ -48,8 +49,8 @@ def types() -> dict[str, np.dtype]:
         ),
         "joint": np.dtype(
             counts("lower upper level first_l many_l first_u many_u")
-            + fields("ml il jl mu iu ju f d gf gm n ra rb", 3)
-            + fields("rl ru kn ks tan co width from_c apart_c apart t dt kf kt en")
+            + fields("ml il jl mu iu ju f d gf gm n ra rb s fs", 3)
+            + fields("rl ru kn ks tan co width from_c apart_c apart t dt kf kt en st ft ff fj")
         ),
         "corner": np.dtype(fields("x y z")),
         "between": np.dtype(counts("lower upper") + fields("gap")),

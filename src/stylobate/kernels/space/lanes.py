@@ -16,6 +16,8 @@ from ..ground import BEFORE, sample
 from ..jit import apart, kernel, law, strict
 from ..run_codes import CHUNK, FAILED, RUNNING
 from ..shared.frame import run_chunks
+from ..shared.friction import stored
+from ..shared.vectors import along, dot, length, minus, place, scaled
 from .edges import sum_up
 from .joints import NOTHING
 from .lane_joints import act_damped, act_elastic, keep_elastic, look_along, look_on, place_corner, row
@@ -23,7 +25,6 @@ from .motion import carried_on
 from .nearest import parting
 from .records import GROUND
 from .solids import reach
-from .vectors import along, dot, length, minus, place, scaled
 
 
 @apart
@@ -160,12 +161,9 @@ def look(state):
 @strict
 def held_by(e, l):
     """Energy that the friction springs of a joint hold [J]."""
-    held = 0.0
-    if e.kf[l] > 0.0:
-        held += 0.5 * (e.f[0, l] ** 2 + e.f[1, l] ** 2 + e.f[2, l] ** 2) / e.kf[l]
-    if e.kt[l] > 0.0:
-        held += 0.5 * e.t[l] ** 2 / e.kt[l]
-    return held
+    core = row(e.s, l), e.st[l], e.kf[l], e.kt[l]
+    shear, torsion = stored(core, (row(e.fs, l), e.ft[l], e.ff[l], e.fj[l]))
+    return shear + torsion
 
 
 @strict

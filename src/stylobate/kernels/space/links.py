@@ -7,7 +7,7 @@ body in the axes of the link. Records and legend: ``shared/link_records.py``, an
 from ..dem3d.links import across, against_opening, at_place, clear, ends, put, slowed, straight
 from ..jit import kernel, long_law
 from ..shared.links import begun, clamped, handed_over, note_break, note_peaks
-from .vectors import of, outward
+from ..shared.vectors import of, outward
 
 
 @long_law

@@ -6,7 +6,7 @@ from ..dem3d.look import straighten
 from ..dem3d.move import omega, rotate_any, twice_kinetic
 from ..jit import kernel, law, strict
 from ..run_codes import FAILED
-from .vectors import along, dot, length, of, put, scaled
+from ..shared.vectors import along, dot, length, of, put, scaled
 
 
 @law

@@ -7,8 +7,8 @@ better corners of it.
 import math
 
 from ..jit import kernel, long_law
+from ..shared.vectors import along, cross, dot, minus, of, place, put, scaled
 from .solids import farthest
-from .vectors import along, cross, dot, minus, of, place, put, scaled
 
 #: Corners tried at most; a direction is good when no corner comes nearer by this share.
 TRIED, GOOD = 40, 1e-6

@@ -17,8 +17,8 @@ Legend of ``total``, all about a point ``REF`` of the overlap::
 import math
 
 from ..jit import kernel, long_law
+from ..shared.vectors import along, cross, dot, minus, of, outward, place, put
 from .records import DRUM
-from .vectors import along, cross, dot, minus, of, outward, place, put
 
 #: Places in ``total``.
 VOLUME, MOMENT, NORMAL, SHADOW, MIDDLE, SPREAD, REF, DEEP_A, DEEP_B, INNER = 0, 1, 4, 7, 8, 11, 17, 20, 24, 28

@@ -21,8 +21,9 @@ Legend::
                n[3]           direction from a to b: normal of the contact, or an axis that parts them [-]
                ta[3] tb[3]    directions in which drums a and b turn a facet, from their axes; along n where they are 0
                side           1, 2: it is the side of drum a, or b, that is touched
-               f[3] t         shear force on b [N], torsion moment on b about n [N m]
-               kf kt          stiffness they were stored with [N/m], [N m]
+               f[3] t         shear force on b at the middle of what touches [N], torsion on b about n there [N m]
+               s[3] st kf kt  core of the shear, see shared/friction.py, in space: force, torsion [N m], k [N/m], j [N m];
+                              fs[3] ft ff fj  the same of the fresh layer
                fn en          normal force at the last step [N], elastic energy of the pressure [J]
                pn pf pd       power of pressure, friction springs and dashpots at the last step, before they acted [W]
                d[3]           dashpots: force on b [N], and torsion [N m] in ``dt``
@@ -30,7 +31,7 @@ Legend::
                ra[3] rb[3]    its middle at the last step from the centroid of either body [m]
                gap            how far apart the shapes are along n [m], where they do not touch
                share          of the bed in what the shapes hold, 0 where they do not touch;  total[SUMS]  of their overlap
-               s[3] whole     vector area [m²] and volume [m³] of the contact that theirs is a part of;  held  its share of
+               va[3] whole    vector area [m²] and volume [m³] of the contact that theirs is a part of;  held  its share of
                               the work that has pressed that [J]
     joint[j]   a b            shapes of the lower and the upper face, a body each
                ml il jl       middle and two directions of the lower face in the axes of its body, il × jl out of it [m], [-]
@@ -43,7 +44,8 @@ Legend::
                apart_c apart  faces that open at a tilt of more than this cosine, or an overlap below it [m²], part for good
                weight live    1 joint, 0 bed, between them both; 0: the faces have parted for good
                gf gm          force and moment of damping on the upper body about the middle of the lower face [N], [N m]
-               f t kf kt d dt en pf pd n ra rb  what is remembered, as of a pair;  over  area of the overlap [m²]
+               f t s st kf kt fs ft ff fj d dt en pf pd n ra rb  what is remembered, as of a pair;  over  area of the
+                              overlap [m²]
     law[a, b]  k_n, k_s [N/m³], tan φ of bodies a < b
     now        dt last earlier  step, the last part of one that was taken, and the one before [s]
                kick           longest time for which forces at t_n may act [s]
@@ -80,8 +82,8 @@ LESS = 1.0 - 1.0e-10
 #: Most vertices and faces of a shape, most corners of a clipped face.
 MOST_VERTICES, MOST_FACES, MOST_CORNERS = 256, 512, 1024
 
-#: Sums over the surface of an overlap, see ``overlap.py``.
-SUMS = 29
+#: Sums over the surface of an overlap, see ``overlap.py``, and over the edge of one, see ``boundary.py``.
+SUMS, OF_SUMS = 29, 18
 
 
 def types() -> dict[str, np.dtype]:
@@ -105,14 +107,14 @@ def types() -> dict[str, np.dtype]:
         "loop": np.dtype(counts("first count inner")),
         "pair": np.dtype(
             counts("a b joint side")
-            + fields("n ta tb f d ra rb s", 3)
+            + fields("n ta tb f d ra rb va s fs", 3)
             + fields("total", SUMS)
-            + fields("t dt kf kt fn en area gap share whole held pn pf pd")
+            + fields("t dt kf kt st ft ff fj fn en area gap share whole held pn pf pd")
         ),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
-            + fields("ml il jl mu iu ju f d gf gm n ra rb", 3)
-            + fields("rl ru kn ks tan co width from_c to_c apart_c apart weight t dt kf kt en over pf pd")
+            + fields("ml il jl mu iu ju f d gf gm n ra rb s fs", 3)
+            + fields("rl ru kn ks tan co width from_c to_c apart_c apart weight t dt kf kt st ft ff fj en over pf pd")
         ),
         "now": np.dtype(
             fields("dt last earlier kick eta dull calm beta skin rate deepest work shear visc")
@@ -149,4 +151,4 @@ def workspace() -> tuple[np.ndarray, ...]:
 
 def workspace_of_joints() -> tuple[np.ndarray, ...]:
     """Arrays that one joint needs: corners of the upper face, arcs, and sums, see ``boundary.py``."""
-    return np.zeros((MOST_VERTICES, 3)), np.zeros((MOST_VERTICES, 2)), np.zeros(16)
+    return np.zeros((MOST_VERTICES, 3)), np.zeros((MOST_VERTICES, 2)), np.zeros(OF_SUMS)

@@ -5,10 +5,10 @@ The list is in the order of the shapes, and a pair keeps its memory as long as i
 
 from ..jit import kernel, long_law
 from ..run_codes import FAILED
+from ..shared.vectors import dot, length, minus, of, outward, place, put, scaled
 from .bed import forget
 from .nearest import parting
 from .records import GROUND
-from .vectors import dot, length, minus, of, outward, place, put, scaled
 
 #: Where two shapes touch from the start, the second is taken so much smaller to see in which direction it lies.
 SMALLER = 0.99

@@ -9,8 +9,8 @@ import math
 import numpy as np
 
 from ..jit import kernel, long_law
+from ..shared.vectors import across, along, cross, dot, inward, minus, of, outward, place, put, scaled
 from .records import BLOCK, DRUM, FACETS, GROUND
-from .vectors import across, along, cross, dot, inward, minus, of, outward, place, put, scaled
 
 #: Cosine and sine of the middle of every facet, and of the edge before it, from the middle of the first.
 RING = np.array(

@@ -12,12 +12,12 @@ from ..run_codes import CHUNK, FAILED
 from ..shared.links import add_to_ledger
 from .acting import let_go
 from .bed import alone, foresee, forget, gather, press, touching
+from .friction import held_by
 from .joints import on_joint
 from .links import add_links, look_at_links
 from .motion import check, kinetic_and_gravitational, move
 from .overlap import INNER
 from .search import list_pairs
-from .vectors import of
 
 #: A step is taken in parts of which none is longer than this over the circular frequency of the stiffest contact.
 PART = 0.25
@@ -130,18 +130,6 @@ def advance(state, chunks):
         check(body, now)
         if now.status == FAILED:
             break
-
-
-@strict
-def held_by(q):
-    """Energy that the friction springs of a contact hold [J]."""
-    f = of(q.f)
-    held = 0.0
-    if q.kf > 0.0:
-        held += 0.5 * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / q.kf
-    if q.kt > 0.0:
-        held += 0.5 * q.t * q.t / q.kt
-    return held
 
 
 @strict

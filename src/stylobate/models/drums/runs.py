@@ -311,8 +311,16 @@ class LaneRuns(LaneEngine):
             ledger_imbalance(row, most, self.begun(lane, row), one.barrier)
             for row, most, lane, one in zip(change, work, lanes, packed, strict=True)
         ]
+        set_off = [
+            most == 0.0
+            and self.options.start is None
+            and isinstance(self.column(lane), Column)  # which is in equilibrium at the start
+            and ledger.released(row) > self.start[lane, 3]
+            for row, most, lane in zip(change, work, lanes, strict=True)
+        ]
         failed = [
-            one == FAILED or bool(ledger.out_of_balance(share)) for one, share in zip(status, imbalance, strict=True)
+            one == FAILED or moved or bool(ledger.out_of_balance(share))
+            for one, moved, share in zip(status, set_off, imbalance, strict=True)
         ]
         outcomes = [
             classify(one == COLLAPSED, *facts)
@@ -354,7 +362,7 @@ class LaneRuns(LaneEngine):
         if outcome is Outcome.FAILED:
             if self.watch["status"][0, lane] == FAILED:
                 return f"the state is not finite at {self.time(lane):.4g} s; try a smaller step_factor"
-            return ledger.out_of_balance(imbalance)
+            return ledger.out_of_balance(imbalance) or ledger.SET_OFF
         if outcome is not Outcome.COLLAPSED:
             return ""
         return self.lost(self.collapse(lane), self.column(lane))

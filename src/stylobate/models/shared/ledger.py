@@ -6,6 +6,7 @@ what is not accounted for.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -20,6 +21,10 @@ LARGEST_IMBALANCE = 0.25
 MADE_ENERGY = (
     "the column overturns by energy that the steps have made: its input never was enough; shorten the time_step"
 )
+
+
+#: Why a run has failed in which what was at rest moves.
+SET_OFF = "what lay at rest began to move though the ground did nothing; shorten the time_step"
 
 
 #: A ledger, as an array or as floats.
@@ -62,3 +67,33 @@ def out_of_balance(share: float, allowed: float = LARGEST_IMBALANCE) -> str:
     if share <= allowed:
         return ""
     return f"the energy ledger is out of balance by {share:.2g} (allowed is {allowed}); shorten the time_step"
+
+
+#: At rest: for so long [s], no more kinetic energy than this share of what the weight stores in the contacts.
+REST_TIME, REST_SHARE = 0.5, 1e-2
+
+
+def set_off_by_itself(time: np.ndarray, base: np.ndarray, kinetic: np.ndarray, stored: float) -> str:
+    """Why a run has failed in which what lies at rest gathers way while the ground does nothing; empty if it does not.
+
+    What is in equilibrium and at rest stays so as long as the acceleration of the ground does not change: that it moves all
+    the same is a fault of the law of contact or of the step, which no ledger shows where stones slide down.
+
+    Parameters
+    ----------
+    time, base : array
+        [s], shape (T,), and acceleration of the ground [m/s²], shape (T, 3).
+    kinetic : array
+        Kinetic energy [J], shape (T,), of a structure that was in equilibrium at the start.
+    stored : float
+        What its contacts store under its weight [J].
+    """
+    changes = np.flatnonzero((np.diff(base, axis=0) != 0.0).any(axis=1)) + 1
+    for first, end in zip([0, *changes], [*changes, len(time)], strict=True):
+        rested, since = first == 0 and not base[0].any(), math.inf
+        for now, energy in zip(time[first:end], kinetic[first:end], strict=True):
+            since = min(since, now) if energy <= REST_SHARE * stored else math.inf
+            rested = rested or now - since >= REST_TIME
+            if rested and energy > stored:
+                return SET_OFF
+    return ""

@@ -214,6 +214,8 @@ def response_of(
         )
     failure = failure or ledger.out_of_balance(imbalance, LARGEST_IMBALANCE)
     acceleration, displacement = ground_histories(motion, stack["time"])
+    if made.balanced:
+        failure = failure or ledger.set_off_by_itself(stack["time"], acceleration, change[:, 1], float(start[3]))
     recorded = recorded_in_space(
         structure,
         stack["time"],

@@ -1,4 +1,4 @@
-"""Vectors in space as three numbers: what the laws of this room do with them."""
+"""Vectors in space as three numbers: what laws of contacts do with them."""
 
 import math
 

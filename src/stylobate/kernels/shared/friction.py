@@ -1,0 +1,151 @@
+"""Friction of a face: a shear force and a torsion that remember, in two layers, within one limit surface.
+
+Shear is carried by what touches, evenly, pressed much or little: a layer is a spring of stiffness k = k_s A in shear at
+the centroid of its area A, and j = κ k_s J in torsion about that centroid, J the polar moment of the area about it. Such a
+spring has a potential as long as its area is the same: the tangent stiffness is symmetric, and no closed loop of small
+motions does work. Only Coulomb's limit knows the pressure, and its middle P.
+
+What touches changes. Two layers remember: the *core* has touched all the time since the face last slipped; the *fresh* layer
+is what has closed since, and came without force. What opens is taken from the fresh layer, and only then from the core, so
+that a vibration that opens and closes an edge takes nothing from the core, and a lasting push does not creep. What opens
+takes its share of the force with it: stored energy never rises. At the limit the whole face slips, and all of it is core.
+Under a drum that rolls the forces go along with what touches, as under a wheel that rolls without creeping.
+"""
+
+import math
+
+from ..jit import law, long_law
+from .vectors import along, cross, dot, minus, scaled
+
+#: Coupling of the limit surface: with it the surface of a disc under even pressure is met to 1 %.
+COUPLING = 0.57
+
+#: Keeps quotients of nothing by nothing at nothing, and others far from overflowing.
+NOTHING = 1e-30
+
+#: Squares of limits below this are none [N²], [N² m²].
+NO_LIMIT = 1e-12
+
+#: A layer of less than this share of what touches is none: areas are no more exact.
+NO_LAYER = 1e-12
+
+#: The fresh layer becomes core where the face slips: all of it by a thousandth of the limit.
+SLIPPED = 1e3
+
+
+@law
+def limit_distance(x, y):
+    """Distance of a shear force and a torsion from the origin, over that of the limit surface; 1 on it and inside.
+
+    √(X + Y + 0.57 X Y / (X + Y)) with X and Y the squares of their shares of the two limits: pure sliding and pure
+    spinning are exact.
+    """
+    both = x + y
+    return math.sqrt(max(both + COUPLING * x * y / max(both, NOTHING), 1.0))
+
+
+@long_law
+def limited(force, torsion, k, j, arm, n, limits):
+    """Shear force at the centroid and torsion about it, brought back to the limit surface if they are beyond it.
+
+    ``limits`` as of :func:`friction`; that of torsion is about the middle of pressure P, from which ``arm`` goes to the
+    centroid. Also how far they were beyond it, over its distance.
+
+    The face slips along the normal of the surface (associated flow) against its springs: slip and spin stand to each other
+    as for a disc under even pressure. The surface is convex and its distance of first degree: a step along the normal of
+    where the forces are ends on the surface or outside of it, and takes stored energy away; so does the rest of the way,
+    towards the origin.
+    """
+    moment = torsion + dot(cross(arm, force), n)
+    square = max(limits[0] * limits[0], NO_LIMIT)
+    other = max(limits[0] * limits[0] * limits[1] * limits[1], NO_LIMIT)
+    each = 1.0 / (square * other)
+    a, b = each * other, each * square
+    x, y = dot(force, force) * a, moment * moment * b
+    distance = limit_distance(x, y)
+    each = 1.0 / max(x + y, NOTHING)
+    u, v = x * each, y * each
+    spin = b * (1.0 + COUPLING * u * u) * moment
+    slip = along(scaled(a * (1.0 + COUPLING * v * v), force), spin, cross(n, arm))
+    size = (distance - 1.0) * distance / max(k * dot(slip, slip) + j * spin * spin, NOTHING)
+    force, torsion = along(force, -size * k, slip), torsion - size * j * spin
+    moment = torsion + dot(cross(arm, force), n)
+    less = 1.0 / limit_distance(dot(force, force) * a, moment * moment * b)
+    return scaled(less, force), less * torsion, distance - 1.0
+
+
+@law
+def opened(force, torsion, k, j, k_before, j_before, k_least, j_least):
+    """What remains of a layer when its stiffness has become k and j; less than the least of either is none."""
+    k_before, j_before = max(k_before, k_least), max(j_before, j_least)
+    each = 1.0 / (k_before * j_before)
+    return scaled(min(k * j_before * each, 1.0), force), min(j * k_before * each, 1.0) * torsion
+
+
+@long_law
+def friction(core, fresh, face, n, slip, spin, dt, limits):
+    """Friction of a face at t_n, from its layers a step ago.
+
+    Parameters
+    ----------
+    core, fresh : tuple
+        Layers: shear force on the upper body [N], torsion [N m], k [N/m], j [N m].
+    face : tuple
+        Of what touches now: k, j, centroid C, middle of pressure P.
+    n : vector
+        Normal of the face.
+    slip, spin, dt : vector, float, float
+        Velocity of the upper face over the lower one at C, across n, relative spin about n, step.
+    limits : tuple
+        Coulomb's limit of the force [N], and the lever of torsion about P [m].
+
+    Returns
+    -------
+    core, fresh : tuple
+        As given, now.
+    force, torsion : vector, float
+        Of both layers, at C and about it.
+    power, turning : float
+        Of the force and of the torsion, a step ago and now, together, on the upper body [W].
+    """
+    before, turn_before, k_before, j_before = core
+    f, t, kf_before, jf_before = fresh
+    k, j, centre, middle = face
+    power, turning = dot(along(before, 1.0, f), slip), (turn_before + t) * spin
+    new = k_before == 0.0  # what begins to touch is core
+    kc, jc = (k, j) if new else (min(k, k_before), min(j, j_before))
+    kf, jf = k - kc, j - jc
+    k_least, j_least = max(NO_LAYER * k, NOTHING), max(NO_LAYER * j, NOTHING)
+    k_before, j_before = (k, j) if new else (k_before, j_before)
+    force, torsion = opened(before, turn_before, kc, jc, k_before, j_before, k_least, j_least)
+    f, t = opened(f, t, kf, jf, kf_before, jf_before, k_least, j_least)
+    # both springs; the fresh layer, and both
+    f, t = along(f, -kf * dt, slip), t - jf * dt * spin
+    total = along(along(force, -kc * dt, slip), 1.0, f)
+    total = along(total, -dot(total, n), n)
+    twist = torsion - jc * dt * spin + t
+    total, twist, beyond = limited(total, twist, k, j, minus(centre, middle), n, limits)
+    # where the face slips, all that touches becomes core
+    keep = max(1.0 - SLIPPED * beyond, 0.0)
+    f, t, kf, jf = scaled(keep, f), keep * t, keep * kf, keep * jf
+    core = minus(total, f), twist - t, k - kf, j - jf
+    return core, (f, t, kf, jf), total, twist, power + dot(total, slip), turning + twist * spin
+
+
+@long_law
+def dragged(total, twist, face, n, slip, spin, beta, limits):
+    """Force and torsion of dashpots parallel to the springs of friction, at C and about it; all of it in sum stays within
+    Coulomb's limit. Parameters as of :func:`friction`, ``beta`` is dashpot over stiffness [s]."""
+    k, j, centre, middle = face
+    force, torsion = along(total, -beta * k, slip), twist - beta * j * spin
+    force, torsion, _ = limited(force, torsion, k, j, minus(centre, middle), n, limits)
+    return minus(force, total), torsion - twist
+
+
+@law
+def stored(core, fresh):
+    """Energy that the two layers hold in shear and in torsion [J]."""
+    f, t, k, j = core
+    g, s, kf, jf = fresh
+    shear = dot(f, f) / max(k, NOTHING) + dot(g, g) / max(kf, NOTHING)
+    return 0.5 * shear, 0.5 * (t * t / max(j, NOTHING) + s * s / max(jf, NOTHING))
