@@ -1,0 +1,63 @@
+"""The oracle of friction node by node, held against closed forms before anything is held against it."""
+
+import math
+
+import numpy as np
+import pytest
+from oracles import coulomb_nodes as nodes
+
+G, R = 9.81, 0.25
+LOW = nodes.drum(nodes.disc(2 * R), 2 * R, 0.02)
+
+
+def test_a_low_drum_slides_down_a_slope_beyond_its_friction():
+    """g (sin α − μ cos α), in any direction; counted from when the springs of shear have given way."""
+    gravity = nodes.slope(37.0, 0.7)
+    seen = nodes.run(LOW, 0.5, gravity=gravity)
+    speed = (seen.velocity[-1] - seen.velocity[10])[:2] / (seen.time[-1] - seen.time[10])
+    found = math.hypot(*gravity[:2]) + 0.7 * gravity[2]
+    assert speed @ (math.cos(0.7), math.sin(0.7)) == pytest.approx(found, rel=1e-3)
+    assert speed @ (-math.sin(0.7), math.cos(0.7)) == pytest.approx(0.0, abs=1e-3 * found)
+
+
+def test_below_its_friction_it_stands():
+    """Where the load is put on at once, it springs to and fro between nothing and twice the load over k_s A."""
+    gravity = nodes.slope(18.0)
+    seen = nodes.run(LOW, 1.0, gravity=gravity)
+    spring = LOW.mass * gravity[0] / (2.5e9 * math.pi * R**2)
+    assert seen.place[:, 0].max() == pytest.approx(2.0 * spring, rel=0.05)
+    assert seen.heat[-1] == 0.0
+
+
+@pytest.mark.parametrize("lean, falls", [(0.97, False), (1.02, True)])
+def test_a_block_overturns_at_its_slenderness(lean, falls):
+    """b/h of a slope that is tilted slowly: the joint gives way by its elastic toe a little before."""
+    body = nodes.block(nodes.box(0.5, 0.5), 0.5, 0.5, 1.0)
+    time = np.arange(0.0, 12.0, 0.01)
+    tilt = np.minimum(time / 6.0, 1.0) * math.atan(lean * 0.5)
+    push = 9.81 * np.stack((-np.sin(tilt), 0.0 * tilt, np.cos(tilt) - 1.0), axis=1)
+    assert nodes.run(body, 12.0, push=push, step=0.01).fell is falls
+
+
+@pytest.mark.parametrize(
+    "base, arm",
+    [(nodes.disc(2 * R), R), (nodes.ring(2 * R, 0.0, 24), 2 * R / 3), (nodes.ring(2 * R, R, 24), 7 * R / 9)],
+    ids=["rim", "disc", "ring"],
+)
+def test_a_spinning_drum_stops(base, arm):
+    """C ω / (μ m g times the mean distance of pressure from the axis): R on a rim, 2R/3 on a disc, 7R/9 on a ring of R/2."""
+    body = nodes.drum(base, 2 * R, 0.02)
+    seen = nodes.run(body, 0.3, spin=(0.0, 0.0, 5.0), every=1e-3)
+    stop = body.inertia[2] * 5.0 / (0.7 * body.mass * G * arm)
+    stopped = seen.time[np.argmax(seen.spin[:, 2] < 0.0)]
+    assert stopped == pytest.approx(stop, rel=0.03)  # the spring first turns back a little later
+    assert seen.heat[-1] == pytest.approx(0.5 * body.inertia[2] * 25.0, rel=0.01)
+
+
+def test_a_chipped_disc_has_its_area_and_stands_on_its_chord():
+    base = nodes.chipped(2 * R, 0.1, 512)
+    grid = (np.arange(2000) + 0.5) / 2000 * 2 * R - R
+    x, y = np.meshgrid(grid, grid)
+    left = ((x * x + y * y < R * R) & (x < R - 0.1)).mean() * (2 * R) ** 2
+    assert base.area.sum() == pytest.approx(left, rel=1e-3)
+    assert base.place[:, 0].max() == pytest.approx(R - 0.1)
