@@ -9,15 +9,15 @@ Displacements are three shifts [m] and three turns [rad] of the middle of the up
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 import stylobate as st
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.space import assemblies, lanes
 from stylobate.motion import Motion
@@ -140,7 +140,7 @@ class Rig:
     def along(self, path: np.ndarray) -> np.ndarray:
         """What resists along a path, shape (steps, lanes, 6); the first place of the path is where the rig is."""
         found = [self.step(path[0], path[0])]
-        found += [self.step(a, b) for a, b in zip(path[:-1], path[1:], strict=True)]
+        found += [self.step(a, b) for a, b in itertools.pairwise(path)]
         return np.array(found)
 
 
@@ -324,7 +324,7 @@ def loaded(rig: Rig, rng: np.random.Generator, lean: float = 0.8) -> np.ndarray:
 
 def straight(knots: np.ndarray, steps: int) -> np.ndarray:
     """A path through some places, straight between them."""
-    parts = [a + (b - a) * np.arange(1, steps + 1)[:, None, None] / steps for a, b in zip(knots[:-1], knots[1:], strict=True)]
+    parts = [a + (b - a) * np.arange(1, steps + 1)[:, None, None] / steps for a, b in itertools.pairwise(knots)]
     return np.concatenate((knots[:1], *parts))
 
 
@@ -352,7 +352,9 @@ def tangent(rig: Rig, at: np.ndarray, size: float = 1e-8) -> np.ndarray:
     return found / scale[:, None]
 
 
-def loops(rig: Rig, at: np.ndarray, rng: np.random.Generator, size: float, turns: int = 3, steps: int = 400) -> np.ndarray:
+def loops(
+    rig: Rig, at: np.ndarray, rng: np.random.Generator, size: float, turns: int = 3, steps: int = 400
+) -> np.ndarray:
     """A random closed loop of turns of so much [rad], and of shifts as large times the radius, from where rigs are."""
     planes = np.linalg.qr(rng.normal(size=(rig.lanes, 6, 2)))[0] * np.array([rig.radius] * 3 + [1.0] * 3)[:, None]
     angle = np.linspace(0.0, 2.0 * math.pi * turns, steps * turns + 1)[:, None, None]

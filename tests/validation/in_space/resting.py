@@ -116,7 +116,9 @@ def rests(number: int) -> dict[str, Any]:
     share = rng.uniform(*(ABOVE if above else BELOW))
     borne = st.limit_directions(structure, [azimuth]).limits[0].multiplier
     model = st.DistinctElement3D(**options)
-    response = st.simulate(structure, lasting(share * borne, azimuth, slope), model, until_end=True, output_interval=0.1)
+    response = st.simulate(
+        structure, lasting(share * borne, azimuth, slope), model, until_end=True, output_interval=0.1
+    )
     place, time = response.body_position, response.time
     later = time >= SETTLED
     ends = bool(response.measures.collapsed) or time[-1] < LASTS - 0.5
@@ -135,8 +137,8 @@ def resting() -> Iterator[dict[str, Any]]:
 
 
 def counted_at_rest(rows: list[dict[str, Any]]) -> dict[str, Any]:
-    """By kinds of scenes: below what they bear, how many, how many crept and fell, and by how much at most; above it, how many,
-    and how many neither fell nor moved."""
+    """Of each kind how many scenes bear their load, how many of them crept and fell, and the farthest way; how many do not bear
+    it, and how many of those neither fell nor moved."""
     found = {}
     for kind in dict.fromkeys(row["kind"] for row in rows):
         some = [row for row in rows if row["kind"] == kind]
