@@ -26,7 +26,7 @@ def test_below_its_friction_it_stands():
     seen = nodes.run(LOW, 1.0, gravity=gravity)
     spring = LOW.mass * gravity[0] / (2.5e9 * math.pi * R**2)
     assert seen.place[:, 0].max() == pytest.approx(2.0 * spring, rel=0.05)
-    assert seen.heat[-1] == 0.0
+    assert seen.heat[-1] < 0.01 * LOW.mass * gravity[0] * spring  # of nodes that rocking relieves
 
 
 @pytest.mark.parametrize(("lean", "falls"), [(0.97, False), (1.02, True)])
@@ -65,10 +65,10 @@ def test_a_chipped_disc_has_its_area_and_stands_on_its_chord():
 
 @pytest.mark.parametrize("softer", [2.0, 0.5])
 def test_a_drum_that_wobbles_twists_by_the_force_that_it_rolls_with(softer):
-    """Steady wobbling at 0.05 rad: twist per radian of precession is 1 − cos θ + (T/N) (k_n/k_s) θ, whatever the toe's length.
+    """Steady wobbling: per radian of precession a twist of 1 − cos θ + (T/N) (k_n/k_s) θ, whatever the length of the toe.
 
-    A rolling toe holds a force T across its way by turning on itself: shear of a stone at s is ω (a² − s²) / 2v, with a moment
-    of nothing (strips, as of Kalker's simplified theory). 0.0137 and 0.0043; 0.0012 without the second term.
+    A rolling toe holds a force T across its way by turning on itself: shear of a stone at s is ω (a² − s²) / 2v, which has no
+    moment (strips, as of Kalker's simplified theory). 0.0137 and 0.0043; 0.0012 without the second term.
     """
     body, theta, a, b = nodes.drum(nodes.disc(0.55, 256), 0.55, 2.5), 0.05, 0.275, 1.25
     sine, cosine, mass = math.sin(theta), math.cos(theta), body.mass

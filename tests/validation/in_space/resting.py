@@ -64,7 +64,7 @@ def column(rng, joint, section, count, lean):
         height=wide * rng.uniform(2.0, 5.0), bottom_width=wide, top_width=wide * rng.uniform(0.7, 1.0), drums=count,
         density=DENSITY, joint=joint, section=section,
     )  # fmt: skip
-    return made.replace(as_found=st.AsFound((st.FoundDrum(1, tilt=lean, azimuth=40.0),))) if lean else made
+    return made.replace(as_found=st.AsFound((st.FoundDrum(1, tilt=lean, tilt_azimuth=40.0),))) if lean else made
 
 
 #: Kinds of scenes with how often they are drawn: the cheap ones more.
@@ -121,7 +121,7 @@ def rests(number: int) -> dict[str, Any]:
     )
     place, time = response.body_position, response.time
     later = time >= SETTLED
-    ends = bool(response.measures.collapsed) or time[-1] < LASTS - 0.5
+    ends = bool(response.measures.collapsed or time[-1] < LASTS - 0.5)
     way = math.inf if ends else float(np.linalg.norm(place[later] - place[later][0], axis=2).max())
     return {
         "scene": number, "kind": kind, "losses": options["losses"], "slope": slope, "share": round(share, 3),
@@ -137,8 +137,8 @@ def resting() -> Iterator[dict[str, Any]]:
 
 
 def counted_at_rest(rows: list[dict[str, Any]]) -> dict[str, Any]:
-    """Of each kind how many scenes bear their load, how many of them crept and fell, and the farthest way; how many do not bear
-    it, and how many of those neither fell nor moved."""
+    """Of each kind: scenes that bear their load, those that crept and fell, the farthest way; those that do not bear it, and
+    those of them that neither fell nor moved."""
     found = {}
     for kind in dict.fromkeys(row["kind"] for row in rows):
         some = [row for row in rows if row["kind"] == kind]
