@@ -1,4 +1,5 @@
-"""Many scenes in space at once: turned and renumbered, tumbles, collapses to rest; renewed by ``make populations``."""
+"""Many scenes in space at once: turned and renumbered, tumbles, collapses to rest, loads that last; renewed by ``make
+populations``."""
 
 import json
 import math
@@ -22,6 +23,7 @@ from stylobate.models.space.assemblies import engine_of, step_for
 
 from .plane import GALLERY
 from .random_scenes import scene, tumble, turned
+from .resting import counted_at_rest, resting
 
 #: What is kept.
 FILE = Path(__file__).with_name("populations.json")
@@ -180,6 +182,7 @@ POPULATIONS: dict[str, Callable[[], Iterator[dict[str, Any]]]] = {
     "turning": turning,
     "tumbling": tumbling,
     "collapsing": collapsing,
+    "resting": resting,
 }
 
 
@@ -229,7 +232,7 @@ def spread(rows: list[dict[str, Any]]) -> dict[str, Any]:
 
 
 #: What is kept of a population, where that is not all rows.
-KEPT = {"turning": counted, "tumbling": spread}
+KEPT = {"turning": counted, "tumbling": spread, "resting": counted_at_rest}
 
 
 def renew(*names: str) -> None:
@@ -293,6 +296,20 @@ def collapses_table() -> str:
         fell = "" if row["fallen"] is None else row["fallen"]
         missed = row["failed"] or f"{100.0 * row['missed']:.2g} %"
         lines.append(f"| {row['structure']} | {row['size']} | {fell} | {missed} | {depth} | {row['lasted']:.3g} s |")
+    return "\n".join(lines) + "\n"
+
+
+def resting_table() -> str:
+    """What becomes of scenes under loads that last, by their kinds, in Markdown."""
+    lines = [
+        "| scene | below what it bears | crept more than 0.02 mm | fell | farthest | above it | neither fell nor moved |",
+        "| --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for kind, told in stored()["resting"].items():
+        far = f"{1000.0 * told['farthest']:.2g} mm"
+        lines.append(
+            f"| {kind} | {told['below']} | {told['crept']} | {told['fell']} | {far} | {told['above']} | {told['stood']} |"
+        )
     return "\n".join(lines) + "\n"
 
 
