@@ -217,13 +217,8 @@ def _held(link: dict) -> str:
     """Resistance of a link, in words."""
     held = []
     for kind, name in (("shear", "shear"), ("tension", "axial")):
-        bar, stone = link[f"{name}_capacity_n"], link[f"stone_{kind}_n"]
-        if stone and stone < (bar or math.inf):
-            computed = f"{bar / 1e3:.4g} kN" if bar else "without a limit"
-            least = f"{stone / 1e3:.4g} kN in {kind}, where the stone gives way ({link['stone']}; the bar by itself: "
-            held.append(f"{least}{computed}, with which it is computed)")
-        elif bar:
-            held.append(f"{bar / 1e3:.4g} kN in {kind}")
+        if capacity := link[f"{name}_capacity_n"]:
+            held.append(f"{capacity / 1e3:.4g} kN in {kind}")
     limit = f"holds {' and '.join(held)}" if held else "without a limit"
     pulled = f", pretensioned with {link['pretension_n'] / 1e3:.4g} kN" if link["pretension_n"] else ""
     return f"{limit}{pulled}" + (f"; {link['governs']}" if link["governs"] else "")

@@ -126,8 +126,26 @@ def _by_level(result: Numbers) -> list[Item]:
 
 
 def _links(links: list[dict[str, Any]]) -> Rows:
-    header = ["state", "link", "runs", "broke in", "at capacity in", "largest force over capacity", "median"]
-    keys = ("state", "link", "runs", "broken", "at_capacity", "largest_over_capacity", "median_over_capacity")
+    header = [
+        "state",
+        "link",
+        "runs",
+        "broke in",
+        "at capacity in",
+        "largest force over capacity",
+        "median",
+        "limited by",
+    ]
+    keys = (
+        "state",
+        "link",
+        "runs",
+        "broken",
+        "at_capacity",
+        "largest_over_capacity",
+        "median_over_capacity",
+        "limited_by",
+    )
     body = [[n.plain(link.get(key)) for key in keys] for link in links[:MOST]]
     left_out = f" The first {MOST} of {len(links)}; links.csv holds all." if len(links) > MOST else ""
     return Rows(header, body, BORE + left_out, numbers=True)
@@ -135,8 +153,8 @@ def _links(links: list[dict[str, Any]]) -> Rows:
 
 #: Caption of the table of links.
 BORE = (
-    "What the links bore; 1: at its capacity, it yields or breaks. Links are computed with the stiffness and the capacity "
-    "given: pull-out, cracks in the stone around them and their anchorage are to be judged apart."
+    "What the links bore; 1: at its capacity, it yields or breaks. The capacity is that of the link in its stone: of bar, "
+    "anchor and stone the least, as far as these are known."
 )
 
 #: Most rows of a table of links.
