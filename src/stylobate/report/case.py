@@ -144,10 +144,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
 FOOT, PAGES = "page {page} of {pages}", re.compile(r"\{(pages?)\}")
 
 #: What a report in another language says of itself before anything else.
-SPOKEN_IN = (
-    "Numbers have a decimal point; a comma in a number groups thousands. Names, commands, parameters of the program and "
-    "what is cited are as they are."
-)
+SPOKEN_IN = "Names, commands, parameters of the program and what is cited are as they are."
 PARTS_IN_ENGLISH = "Parts in English, because they are not translated or are pictures drawn before: {sections}."
 
 
