@@ -213,8 +213,8 @@ def test_the_first_page_has_the_shares_and_each_doubt_once():
     )
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(case, "_title", lambda result, language: "")
-        patch.setattr(case, "_sections_of", lambda result, told, all_: [result])
-        cases = [case._case(one, set(), [], Language()) for one in (run, several)]
+        patch.setattr(case, "_sections_of", lambda result, all_: [result])
+        cases = [case._case(one, k, {}, [], Language()) for k, one in enumerate((run, several), start=1)]
     assert [one["verdict"] for one in cases] == ["It stands. 1 of 15 falls.", "It falls at 1 g."]
     (note,) = case._notes([one["notes"] for one in cases])
     assert note.texts == [f"On all of them: {plane}", f"On 2: {other}"]
