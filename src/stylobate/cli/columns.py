@@ -123,7 +123,7 @@ def parts_of(structure: Structure) -> dict:
         "mass_kg": sum(one.mass for one in moving),
         "heaviest": heaviest.name,
         "heaviest_mass_kg": heaviest.mass,
-        "height_m": float(corners[:, 2].max()) - (structure.ground or 0.0),
+        "height_m": structure.height,
         "extent_m": np.ptp(corners, axis=0).tolist(),
         "frequency_parameter_rad_s": structure.frequency_parameter,
         "links": [_link(link) for link in structure.placed_links],

@@ -26,6 +26,9 @@ from .shapes import Glued, Outlined, Placed, Shape, hull
 from .turning import about, quaternion_of
 from .words import as_html, described
 
+#: Corners by which round faces are measured.
+AROUND = 720
+
 
 class Body(Protocol):
     """A rigid body as it stands, in axes along and normal to the base, from the middle of what it stands on.
@@ -235,6 +238,13 @@ class Structure:
     def stack(self) -> Any:
         """The column that it is, drums and joints from the base up; None where it is no single stack of drums."""
         return None
+
+    @property
+    def height(self) -> float:
+        """From the ground, or its lowest point where there is none, to its highest point [m]; of a column that of its drums
+        together, along its axis."""
+        ends = np.concatenate([p.mesh(AROUND).vertices[:, 2] for b in self.bodies if not b.fixed for p in b.placed])
+        return float(ends.max()) - (float(ends.min()) if self.ground is None else self.ground)
 
     @property
     def described(self) -> str:

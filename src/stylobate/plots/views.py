@@ -148,6 +148,9 @@ class Seen:
         if len(self.levels) > 2 and view is ALONG_X:
             draw_chain(axes, sheet, self.levels, float(low[0]))
         else:
+            if view is not PLAN:  # one height from every side, whatever leans
+                low[1] = self.levels[0] if self.structure.stack is not None else high[1] - self.structure.height
+                high[1] = low[1] + self.structure.height
             dimension(axes, sheet, 1, low, high)
         if len(set(self.names)) <= NAMED:
             _names(axes, sheet, self.solids, self.names, view)

@@ -249,11 +249,14 @@ def _blocks(structure: Structure) -> list[Item]:
     ]
     body = []
     for one in near[:MOST]:
-        size, depth = np.ptp(one.corners, axis=0), np.ptp(one.shape.mesh().vertices[:, 1])
+        size, depth = np.ptp(one.shape.outline, axis=0), np.ptp(one.shape.mesh().vertices[:, 1])
         kind = "held" if one.fixed else f"{one.mass:.0f}"
         body.append([one.name, f"{size[0]:.3f}", f"{size[1]:.3f}", f"{depth:.3f}", kind])
     rows = Rows(
-        ["block", "width [m]", "height [m]", "depth [m]", "mass [kg]"], body, "Blocks, from edge to edge.", numbers=True
+        ["block", "width [m]", "height [m]", "depth [m]", "mass [kg]"],
+        body,
+        "Blocks, from edge to edge along their own axes.",
+        numbers=True,
     )
     laws = [
         [
