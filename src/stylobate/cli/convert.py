@@ -25,6 +25,9 @@ def convert(
         "LEVEL|none", "Where the ground lies; the lowest point if not given, none where there are supports."
     ),
     fixed: list[str] | None = o.option("NAME", "A stone that moves with the ground; may be repeated."),
+    north: float | None = o.option(
+        "DEG", "Bearing of the x axis of a survey that states bearings, clockwise from north."
+    ),
     compas: str = o.option("dem|assembly", "Package of COMPAS that .json is written for.", "dem"),
     *,
     execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")],
@@ -37,7 +40,7 @@ def convert(
     from ..exchange.convert import convert as converted
     from . import console
 
-    reading = Reading(material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()))
+    reading = Reading(material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()), north)
     structure, words, files = converted(model, to, reading, compas)
     moving = sum(not body.fixed for body in structure.bodies)
     found = {"name": structure.name, "kind": structure.kind, "bodies": moving, "fitted": words}

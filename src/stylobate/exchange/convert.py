@@ -60,6 +60,8 @@ class Reading:
         Level of the ground [m]; None for the lowest point, False for none.
     fixed : sequence of str
         Names of stones that move with the ground.
+    north : float, optional
+        Bearing of the x axis of a survey, clockwise from north [degrees].
     """
 
     def __init__(
@@ -70,6 +72,7 @@ class Reading:
         tolerance: float = TOLERANCE,
         ground: float | bool | None = None,
         fixed: tuple[str, ...] = (),
+        north: float | None = None,
     ) -> None:
         if becomes not in KINDS:
             raise InputError(f"`as` is {becomes!r}; allowed are {', '.join(KINDS)}.", "as")
@@ -77,7 +80,7 @@ class Reading:
         if isinstance(ground, float):
             check_range("level of the ground", ground, -FAR_AWAY, FAR_AWAY, unit="m", field="ground")
         self.material, self.becomes, self.unit = material, becomes, unit
-        self.tolerance, self.ground, self.fixed = tolerance, ground, fixed
+        self.tolerance, self.ground, self.fixed, self.north = tolerance, ground, fixed, north
 
 
 def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tuple[Structure, list[str], list[Path]]:
@@ -143,7 +146,7 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
     InputError
     """
     if path.suffix.lower() in SURVEYS:
-        tables, notes = survey_tables(path, reading.material)
+        tables, notes = survey_tables(path, reading.material, reading.north)
         tables.setdefault("name", path.stem)
         column = made_of(Column, tables, shown(path))
         return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]

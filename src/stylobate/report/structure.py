@@ -115,6 +115,7 @@ def _properties(column: Column) -> list[tuple[str, str]]:
         ("slenderness α, of R from the vertical", n.angle(column.slenderness)),
         ("frequency parameter p, as one rigid block", f"{column.frequency_parameter:.3f} rad/s"),
         ("static acceleration that opens the first joint", what_opens(column)[1]),
+        ("north", column.north_words),
     ]
 
 
@@ -246,6 +247,7 @@ def _blocks(structure: Structure) -> list[Item]:
         ("blocks", f"{sum(not one.fixed for one in bodies)} that can move" + (f", {held} held" if held else "")),
         ("joints", str(len(joints_of))),
         ("ground", "none" if structure.ground is None else f"level at z = {structure.ground:g} m"),
+        ("north", structure.north_words),
     ]
     body = []
     for one in near[:MOST]:
