@@ -6,6 +6,8 @@ import re
 
 import pytest
 
+from stylobate.analysis.critical_words import sentence
+from stylobate.analysis.population import set_against
 from stylobate.cli.main import call
 from stylobate.report.language import language_of, sentences_of
 
@@ -120,6 +122,25 @@ def test_a_table_of_two_results_stands_once(statics, tmp_path):
 def test_numbers_are_as_readers_write_them_and_names_as_they_are(text, italian):
     assert language_of("it", ["Record 0.3"]).say(text) == italian
     assert language_of("en").say(text) == text
+
+
+@pytest.mark.parametrize("language", ["it", "el"])
+def test_what_is_said_of_undecided_runs_is_all_in_its_language(language):
+    """A column that may have fallen below its first collapse, with columns like it and alone."""
+    stretches = [("stands", 0.1, 0.2, 2), ("undecided", 0.3, 0.3, 1), ("collapsed", 0.4, 0.6, 3)]
+    found = {
+        "amplitudes_g": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6], "runs": 6, "undecided": 1, "failed": 0, "replicates": 4,
+        "lowest_collapse_g": 0.3, "lowest_collapse_factor": 0.75, "critical_g": 0.4, "open_below": 2,
+        "alternation": [{"verdict": v, "from_g": a, "to_g": b, "runs": n} for v, a, b, n in stretches],
+    }  # fmt: skip
+    twins = {"undecided": 3, "failed": 0, "critical_16_g": 0.3, "critical_50_g": 0.4, "bounds": {}}
+    run = {"collapsed": False, "decided": False, "outcome": "displaced"}
+    said = [sentence(found | {"certainty": one}) for one in (twins, None)]
+    said.append(set_against(run, {"collapsed": 3, "stands": 0, "undecided": 0}, 0.95))
+    spoken = language_of(language)
+    for text in said:
+        assert "collapse" in text
+        assert not spoken.is_english(spoken.say(text), 1), spoken.say(text)
 
 
 @pytest.mark.parametrize("language", ["it", "el"])
