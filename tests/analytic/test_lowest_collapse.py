@@ -95,7 +95,9 @@ def test_what_has_no_verdict_is_no_collapse_of_a_column_alike():
     assert ". Runs below that without a verdict, which may be collapses: 2." in found.summary()["sentence"]
     assert over("usss").summary()["sentence"].startswith("No amplitude looked at, 0.2 to 0.5 g, surely collapses the")
     alike = over("ssus", ["sssc", "sssc"]).summary()["sentence"]
-    assert "84 % by 0.5 g. Runs below that without a verdict, which may be collapses: 1. No amplitude looked at" in alike
+    assert (
+        "84 % by 0.5 g. Runs below that without a verdict, which may be collapses: 1. No amplitude looked at" in alike
+    )
     assert "No amplitude looked at, 0.2 to 0.5 g, surely collapses this one; larger ones" in alike
     assert "0.5 g, collapses this one" in over("ssss", ["sssc", "sssc"]).summary()["sentence"]
 

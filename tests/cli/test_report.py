@@ -249,6 +249,14 @@ def test_what_was_changed_is_said(place, tmp_path):
     assert "mine" in text
 
 
+def test_a_survival_is_told_with_its_interval(place, tmp_path):
+    (found,) = read_results([place / "out survival <i>"])
+    (one,) = found.summary["hazards"]
+    ends = [one[f"survival_probability{end}"] for end in ("", "_low", "_high")]
+    (file,) = write_report([found], tmp_path / "r.html")
+    assert "{:.2g} ({:.2g}–{:.2g}, 95 %)".format(*ends) in " ".join(Page(file.read_text(encoding="utf-8")).text.split())
+
+
 def test_states_have_a_page_of_their_own(place, tmp_path):
     (found,) = read_results([place / "out states <i>"])  # not as a study, whose plan lies there as well
     assert found.kind is Kind.STATES

@@ -213,12 +213,10 @@ def compare_states(
     told = [evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
+    weak = [stone_that_breaks(column.placed_links) for column in named[1:]]
     differences = tuple(
-        dataclasses.replace(
-            with_undecided(told[first], one, curves[first], curve, samples, seed, confidence),
-            stone=stone_that_breaks(column.placed_links),
-        )
-        for first, one, curve, column in zip(compared.values(), told[1:], curves[1:], named[1:], strict=True)
+        dataclasses.replace(with_undecided(told[at], one, curves[at], curve, samples, seed, confidence), stone=words)
+        for at, one, curve, words in zip(compared.values(), told[1:], curves[1:], weak, strict=True)
     )
     side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records, told[0].laws))
     before = doubt(labels, named, model) if study.of_one_law else ""

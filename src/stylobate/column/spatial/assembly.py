@@ -325,19 +325,16 @@ class SpatialAssembly(Structure):
 
     def to_dict(self) -> dict:
         """Everything that defines it, as plain values in SI units."""
-        return (
-            {
-                "stones": [stone.to_dict() for stone in self.stones],
-                "joint": given(self.joint),
-                "name": self.name,
-                "gravity": self.gravity,
-                "ground": self.ground,
-                "overrides": [[one, other, given(law)] for one, other, law in self.overrides],
-                "settle": self.settle,
-            }
-            | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
-            | ({} if self.north is None else {"north": self.north})
-        )
+        more = {"links": [link.to_dict() for link in self.links] or None, "north": self.north}
+        return {
+            "stones": [stone.to_dict() for stone in self.stones],
+            "joint": given(self.joint),
+            "name": self.name,
+            "gravity": self.gravity,
+            "ground": self.ground,
+            "overrides": [[one, other, given(law)] for one, other, law in self.overrides],
+            "settle": self.settle,
+        } | {key: value for key, value in more.items() if value is not None}
 
     @classmethod
     def from_dict(cls, data: dict) -> SpatialAssembly:
