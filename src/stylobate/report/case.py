@@ -221,8 +221,10 @@ def _once(section: page.Section, number: int, shown: dict[bytes, int]) -> page.S
         return page.Section(section.title, [f"As in case {case}."])
     items: list[page.Item] = []
     for item in section.items:
-        case = earlier(item) if isinstance(item, (page.Rows, page.Facts, page.Picture)) else number
-        items += [item] if case == number else [*filter(None, [item.caption]), f"As in case {case}."]
+        if isinstance(item, (page.Rows, page.Facts, page.Picture)) and (case := earlier(item)) < number:
+            items += [*filter(None, [item.caption]), f"As in case {case}."]
+        else:
+            items.append(item)
     return page.Section(section.title, items)
 
 
