@@ -85,17 +85,20 @@ def test_the_first_number_is_the_lowest_collapse_of_all_columns():
 def test_no_single_amplitude_where_verdicts_alternate_and_none_below_what_has_no_verdict():
     assert "at 0.3 g, 1.2 times the record (" in (said := over("scsc").summary()["sentence"])
     assert "but stands again at 0.4 g: no single amplitude is its limit." in said
-    assert "runs below that without a verdict, which may be collapses: 1" in over("sucs").summary()["sentence"]
+    assert "Runs below that without a verdict, which may be collapses: 1." in over("sucs").summary()["sentence"]
 
 
 def test_what_has_no_verdict_is_no_collapse_of_a_column_alike():
     found = over("ssss", ["ussc", "usss"])  # nothing is decided at the first amplitude, so its share is not known
     assert math.isnan(found.population.probability[0])
     assert found.summary()["sentence"].startswith("Of 3 columns, this one and 2 like it, the first falls at 0.5 g")
-    assert "; runs below that without a verdict, which may be collapses: 2; of those" in found.summary()["sentence"]
+    assert ". Runs below that without a verdict, which may be collapses: 2." in found.summary()["sentence"]
     assert over("usss").summary()["sentence"].startswith("No amplitude looked at, 0.2 to 0.5 g, surely collapses the")
     alike = over("ssus", ["sssc", "sssc"]).summary()["sentence"]
-    assert "84 % by 0.5 g. No amplitude looked at, 0.2 to 0.5 g, surely collapses this one; larger ones" in alike
+    assert (
+        "84 % by 0.5 g. Runs below that without a verdict, which may be collapses: 1. No amplitude looked at" in alike
+    )
+    assert "No amplitude looked at, 0.2 to 0.5 g, surely collapses this one; larger ones" in alike
     assert "0.5 g, collapses this one" in over("ssss", ["sssc", "sssc"]).summary()["sentence"]
 
 
@@ -142,7 +145,7 @@ def test_what_is_undecided_under_another_motion_may_be_a_smaller_factor():
     suite = CriticalSuite((over("sssc"), over("suuu", motion=RECORD.replace(name="other.csv"))), 1.0).summary()
     assert suite["open_below"] == 2  # at 0.3 and 0.4 g
     assert (
-        "0.5 g, the smallest factor at which any surely does; runs below that factor without a verdict, which may be "
+        "0.5 g, the smallest factor at which any surely does. Runs below that factor without a verdict, which may be "
         "collapses: 2."
     ) in suite["sentence"]
 

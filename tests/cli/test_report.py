@@ -213,8 +213,8 @@ def test_the_first_page_has_the_shares_and_each_doubt_once():
     )
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(case, "_title", lambda result, language: "")
-        patch.setattr(case, "_sections_of", lambda result, told, all_: [result])
-        cases = [case._case(one, set(), [], Language()) for one in (run, several)]
+        patch.setattr(case, "_sections_of", lambda result, all_: [result])
+        cases = [case._case(one, k, {}, [], Language()) for k, one in enumerate((run, several), start=1)]
     assert [one["verdict"] for one in cases] == ["It stands. 1 of 15 falls.", "It falls at 1 g."]
     (note,) = case._notes([one["notes"] for one in cases])
     assert note.texts == [f"On all of them: {plane}", f"On 2: {other}"]
@@ -247,6 +247,14 @@ def test_what_was_changed_is_said(place, tmp_path):
     text = Page(file.read_text()).text
     assert "Changed by somebody since stylobate wrote it: replicates.csv" in text
     assert "mine" in text
+
+
+def test_a_survival_is_told_with_its_interval(place, tmp_path):
+    (found,) = read_results([place / "out survival <i>"])
+    (one,) = found.summary["hazards"]
+    ends = [one[f"survival_probability{end}"] for end in ("", "_low", "_high")]
+    (file,) = write_report([found], tmp_path / "r.html")
+    assert "{:.2g} ({:.2g}–{:.2g}, 95 %)".format(*ends) in " ".join(Page(file.read_text(encoding="utf-8")).text.split())
 
 
 def test_states_have_a_page_of_their_own(place, tmp_path):

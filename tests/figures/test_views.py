@@ -1,5 +1,7 @@
 """Elevations from two sides and the plan: measures, names, one scale of both elevations."""
 
+import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -44,6 +46,31 @@ def test_links_are_marked_where_they_are():
     expected = [(0.7, 0.0), (0.7, 1.5)], [(0.8, 0.0), (0.8, 1.5)], [(0.7, 0.8), (0.7, 0.8)]
     for (found,), ends in zip(marks, expected):
         assert found == pytest.approx(np.array(ends), abs=1e-12)
+
+
+def test_a_column_has_one_height_however_it_leans():
+    """That of its drums, 7.0785 m: in words, and drawn from every side; the box around it is 7.1 m high."""
+    joint = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
+    drums = [st.Drum(high, 1.1, 1.1, 2600.0, "circular") for high in (2.0, 2.5, 2.5785)]
+    leans = st.AsFound((st.FoundDrum(2, tilt=1.0, tilt_azimuth=40.0),), base_tilt=0.5, base_azimuth=70.0)
+    column = st.Column.of_drums(drums, joint).replace(as_found=leans)
+    box = np.concatenate([part.mesh(48).vertices for body in column.bodies for part in body.placed])
+    assert np.ptp(box[:, 2]) > 7.09
+    front, side, _, _ = plots.draw_views(column).axes
+    (elevation,) = plots.draw_elevation(column).axes
+    assert all(f"{column.height:.3f} m" in words(axes) for axes in (front, side, elevation))
+    assert "7.0785 m high" in column.describe()
+    assert [one for axes in (front, side) for one in words(axes) if re.fullmatch(r"7\.\d+ m", one)] == ["7.079 m"] * 2
+
+
+@pytest.mark.parametrize("north", [0.0, 37.0, 270.0])
+def test_north_stands_beside_the_plan_where_it_is_stated(north):
+    """x points so far clockwise from north: north is so far from x towards y."""
+    column = st.read_column(FOLDER / "column5.toml")
+    plan = plots.draw_views(column.replace(north=north)).axes[2]
+    (arrow,) = [one for one in plan.texts if one.get_text() == "N"]
+    assert math.degrees(math.atan2(*arrow.xyann[::-1])) % 360.0 == pytest.approx(north)
+    assert "N" not in words(plots.draw_views(column).axes[2])
 
 
 @pytest.mark.parametrize("name", ["column", "plane", "specimen", "found"])

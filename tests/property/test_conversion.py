@@ -22,8 +22,10 @@ from stylobate.column.as_found import AsFound, FoundDrum
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.files import write_column
 from stylobate.column.found_in_space import space_geometry
+from stylobate.column.kinds import FROM_DICT
 from stylobate.column.links import Dowel
 from stylobate.column.presets import preset
+from stylobate.column.projection import project
 from stylobate.column.tables import made_of
 from stylobate.exchange.convert import Reading, convert, read_model
 from stylobate.exchange.survey import survey_tables, survey_text
@@ -511,6 +513,34 @@ def test_a_note_on_a_drum_is_the_surveyors(tmp_path):
     written = (tmp_path / "b.toml").read_text()
     assert "# drum 1: cracked at NE\n" in written
     assert written.count("[[drum]]\n") == 2
+
+
+BY_COMPASS = (
+    "# section: circular\n# base_tilt: 0.5\n# base_bearing: 90\n"
+    "height,bottom_width,top_width,density,normal_stiffness,shear_stiffness,friction_angle,offset_mm,offset_bearing_deg\n"
+    "2,1.1,1.0,2600,5e10,2.5e10,35,0,\n2,1.0,0.9,2600,5e10,2.5e10,35,50,67\n"
+)
+
+
+def test_bearings_of_a_survey_ask_where_north_is(tmp_path):
+    """Clockwise from north, where x points to 37°: 67° is 30° from x away from y, and east 53°."""
+    path = tmp_path / "survey.csv"
+    path.write_text(BY_COMPASS, encoding="utf-8")
+    with pytest.raises(st.InputError, match="does not say where north is"):
+        survey_tables(path)
+    column, _, _ = read_model(path, Reading(north=37.0))
+    found = column.as_found
+    assert (column.north, found.of(2).offset_azimuth, found.base_azimuth) == (37.0, 330.0, 307.0)
+    path.write_text(f"# north: 37\n{BY_COMPASS}", encoding="utf-8")
+    assert read_model(path, Reading())[0] == column
+    path.write_text(survey_text(column), encoding="utf-8")
+    assert made_of(st.Column, survey_tables(path)[0]).replace(name=column.name) == column
+    assert FROM_DICT["column"](column.to_dict()) == column
+    assert project(column, 30.0).column.north == 7.0
+    path.write_text(BY_COMPASS.replace("offset_bearing_deg", "offset_bearing_deg,offset_azimuth_deg")
+                    .replace(",67\n", ",67,30\n"), encoding="utf-8")  # fmt: skip
+    with pytest.raises(st.InputError, match="offset_bearing and offset_azimuth, which are one thing"):
+        survey_tables(path, north=37.0)
 
 
 def test_links_are_not_lost_in_a_survey():

@@ -59,9 +59,10 @@ def sentence_of_suite(s: Mapping[str, Any], kind: str = "column", like: str = "c
             + (f", {fell[1]} it or one like it" if twins else "")
             + f". Most harm: {worst['motion']}, which collapses it{or_like} {already}at "
             f"{worst['lowest_collapse_factor']:.3g} times the record, {worst['lowest_collapse_g']:.4g} g, the smallest "
-            f"factor at which any {'surely ' * bool(s['open_below'])}does{_below(s['open_below'], ' that factor')}."
+            f"factor at which any {'surely ' * bool(s['open_below'])}does."
         )
-    return " ".join(filter(None, (words, _open(s, twins), "" if twins else one_alone(like))))
+    below = "" if worst is None else _below(s["open_below"], " that factor")
+    return " ".join(filter(None, (words, below, _open(s, twins), "" if twins else one_alone(like))))
 
 
 def as_recorded(own: Mapping[str, Any]) -> str:
@@ -85,10 +86,10 @@ def _with_twins(s: Mapping[str, Any], kind: str, like: str, twins: Mapping[str, 
     words = (
         f"Of {number + 1} {like}, this one and {number} like it, the first falls {_at(s, lowest, s['amplitudes_g'])}"
     )
-    words += _below(s["open_below"])
+    below = _below(s["open_below"])
     shares = [(share, _by(twins, f"critical_{share}_g")) for share in (16, 50, 84)]
     said = ", ".join(f"{share} % {by}" for share, by in shares if by)
-    return f"{words}; of those like it fall {said}." if said else f"{words}."
+    return f"{words}{f'; of those like it fall {said}' if said else ''}. {below}".rstrip()
 
 
 def _by(twins: Mapping[str, Any], name: str) -> str:
@@ -120,7 +121,7 @@ def _alone(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | None) -> 
         words += ", and not surely at all larger ones"
     elif first < stretches[-1]["to_g"]:
         words += f", and at all larger ones up to {_last(s):.4g} g"
-    return f"{words}{'' if there else _below(before)}."
+    return f"{words}. {'' if there else _below(before)}".rstrip()
 
 
 def _none(s: Mapping[str, Any], whom: str, without_verdict: int) -> str:
@@ -129,7 +130,7 @@ def _none(s: Mapping[str, Any], whom: str, without_verdict: int) -> str:
 
 
 def _below(without_verdict: int, what: str = " that") -> str:
-    return f"; runs below{what} without a verdict, which may be collapses: {without_verdict}" if without_verdict else ""
+    return f"Runs below{what} without a verdict, which may be collapses: {without_verdict}." if without_verdict else ""
 
 
 def _open(s: Mapping[str, Any], twins: Mapping[str, Any] | None) -> str:

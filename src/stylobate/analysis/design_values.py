@@ -51,29 +51,21 @@ DIGITS = 9
 
 
 class Quantity(NamedTuple):
-    """What a link is designed for: name, unit, key in the row of a run, fields of the link and of the stone around it that
-    limit it, and whether it acts along the link."""
+    """What a link is designed for: name, unit, key in the row of a run, field of the link that limits it, and whether it
+    acts along the link."""
 
     name: str
     unit: str
     key: str
     limit: str
-    stone: str
     along: bool
-
-    def capacity(self, link: PlacedLink) -> tuple[float, str]:
-        """What the link bears, or the stone around it where that is less, and which of them it is."""
-        own, stone = float(getattr(link, self.limit)), math.inf
-        if self.stone and link.stone is not None:
-            stone = float(getattr(link.stone, self.stone))
-        return (stone, "stone") if stone < own else (own, "link")
 
 
 QUANTITIES = (
-    Quantity("shear force", "N", "link_peak_shear_n", "shear_capacity", "shear", False),
-    Quantity("tension", "N", "link_peak_tension_n", "axial_capacity", "pull", True),
-    Quantity("slip", "m", "link_peak_slip_m", "ultimate_slip", "", False),
-    Quantity("elongation", "m", "link_peak_elongation_m", "ultimate_elongation", "", True),
+    Quantity("shear force", "N", "link_peak_shear_n", "shear_capacity", False),
+    Quantity("tension", "N", "link_peak_tension_n", "axial_capacity", True),
+    Quantity("slip", "m", "link_peak_slip_m", "ultimate_slip", False),
+    Quantity("elongation", "m", "link_peak_elongation_m", "ultimate_elongation", True),
 )
 
 
@@ -101,7 +93,7 @@ def design_values(
         ``records``, ``laws`` of the joints (0: taken as known), ``collapsed``, ``gone`` (runs that collapse or lose the
         link), ``undecided``, ``told`` (whether values are told at this level); for 50, 84 and 95 %, ``value_84`` with
         ``low_84`` and ``high_84``, the value that this share of the motions does not exceed and its interval; ``capacity``
-        of the link, or of the stone around it where that is less (``limited_by``: link or stone), and ``use_value_84`` with
+        of the link in its stone, as it is computed (``limited_by``: link or stone), and ``use_value_84`` with
         ``use_low_84`` and ``use_high_84``, the same over it. Infinite: beyond all that was computed; NaN where there is no
         capacity. ``record_84`` is the record of the run whose force or way ``value_84`` is, None where that is none that
         stands or is open. Of forces at the level that is told ``instant_84_s``, when it acts in that run [s], and of shear
@@ -116,8 +108,7 @@ def design_values(
     Notes
     -----
     A run that collapses, or in which the link is lost, exceeds every slip; its force is the capacity of the link, which no
-    force exceeds. Runs are computed with that one: where the stone bears less, its use may be above 1, and forces beyond it
-    are not to be relied on.
+    force exceeds.
     An undecided run counts with its peaks so far in the value and the lower limit, and as a collapse in the upper one.
     Every record counts once, however many twins it has. The interval holds the values x for which Wilson's interval of the
     share of records that stay below x holds the fractile: with n records the upper limit of 84 % is finite from 21 of
@@ -228,9 +219,8 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
         for one in QUANTITIES:
             if not _has(link, one):
                 continue
-            limit = float(getattr(link, one.limit))
-            most = limit if one.unit == "N" else math.inf
-            capacity, limited_by = one.capacity(link)
+            capacity = float(getattr(link, one.limit))
+            most = capacity if one.unit == "N" else math.inf
             peak = np.minimum(np.array([run[k] for run in table[one.key]], dtype=float), most)
             low = np.where(gone, most, peak)
             high = np.where(said == v.UNDECIDED, most, low)
@@ -238,7 +228,8 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
                 "link": link.name, "kind": link.kind, "quantity": one.name, "unit": one.unit, "runs": len(table),
                 "records": int(owner.max()) + 1, "laws": len(np.unique(law[law > 0])),
                 "collapsed": int((said == v.COLLAPSED).sum()), "gone": int(gone.sum()),
-                "undecided": int((said == v.UNDECIDED).sum()), "capacity": capacity, "limited_by": limited_by,
+                "undecided": int((said == v.UNDECIDED).sum()), "capacity": capacity,
+                "limited_by": link.limited_by(one.limit),
                 "record_84": None, "instant_84_s": math.nan, "azimuth_84_deg": math.nan, "run": None, "place": k,
             }  # fmt: skip
             for share in FRACTILES:

@@ -96,6 +96,8 @@ class Difference:
         As typed; the measure is empty where the levels are of none.
     confidence : float
         Of the intervals.
+    stone : str
+        What limits the links of this state instead of them, in words.
     """
 
     state: str
@@ -119,6 +121,7 @@ class Difference:
     limit_state: str = "collapse"
     im: str = ""
     confidence: float = 0.95
+    stone: str = ""
 
     @property
     def conclusion(self) -> str:
@@ -147,7 +150,11 @@ class Difference:
 
     @property
     def advice(self) -> str:
-        """Advice, in one sentence that can be read in one way only."""
+        """Advice, in one sentence that can be read in one way only, and what to mind beside it."""
+        return f"{self._advice} {self.stone}".rstrip()
+
+    @property
+    def _advice(self) -> str:
         against = f"than “{self.against}” against {self.limit_state}"
         measure = self.state not in NO_MEASURE
         if self.conclusion == STRONGER:

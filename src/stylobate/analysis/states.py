@@ -13,6 +13,7 @@ import numpy as np
 
 from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.cases import Study
+from ..column.links.stone import stone_that_breaks
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
 from ..models.base import Model
@@ -86,7 +87,8 @@ class StateComparison(Shown):
 
     @property
     def links(self) -> pandas.DataFrame:
-        """One row per link that acts: state, link, runs, in how many it broke or bore its capacity, force over capacity."""
+        """One row per link that acts: state, link, runs, in how many it broke or bore its capacity, force over capacity, and
+        whether the link or the stone around it limits that."""
         import pandas
 
         rows: list[dict[str, Any]] = []
@@ -94,20 +96,21 @@ class StateComparison(Shown):
             mine: Any = self.table[self.table["state"] == label]
             if "link_broken_s" not in mine:
                 continue
-            names = [link.name for link in column.placed_links if link.acts]
+            links = [link for link in column.placed_links if link.acts]
             told = [(b, u) for b, u in zip(mine["link_broken_s"], mine["link_utilisation"]) if isinstance(b, list)]
-            for k, name in enumerate(names):
+            for k, link in enumerate(links):
                 broke = [b[k] for b, _ in told if b[k] is not None]
                 used = [u[k] for _, u in told]
                 rows.append(
                     {
                         "state": label,
-                        "link": name,
+                        "link": link.name,
                         "runs": len(told),
                         "broken": len(broke),
                         "largest_over_capacity": max(used, default=math.nan),
                         "median_over_capacity": float(np.median(used)) if used else math.nan,
                         "at_capacity": sum(one >= AT_CAPACITY for one in used),
+                        "limited_by": "stone" if link.breaks_stone else "link",
                     }
                 )
         return pandas.DataFrame(rows)
@@ -210,9 +213,10 @@ def compare_states(
     told = [evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
+    weak = [stone_that_breaks(column.placed_links) for column in named[1:]]
     differences = tuple(
-        with_undecided(told[first], one, curves[first], curve, samples, seed, confidence)
-        for first, one, curve in zip(compared.values(), told[1:], curves[1:], strict=True)
+        dataclasses.replace(with_undecided(told[at], one, curves[at], curve, samples, seed, confidence), stone=words)
+        for at, one, curve, words in zip(compared.values(), told[1:], curves[1:], weak, strict=True)
     )
     side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records, told[0].laws))
     before = doubt(labels, named, model) if study.of_one_law else ""

@@ -123,9 +123,10 @@ def parts_of(structure: Structure) -> dict:
         "mass_kg": sum(one.mass for one in moving),
         "heaviest": heaviest.name,
         "heaviest_mass_kg": heaviest.mass,
-        "height_m": float(corners[:, 2].max()) - (structure.ground or 0.0),
+        "height_m": structure.height,
         "extent_m": np.ptp(corners, axis=0).tolist(),
         "frequency_parameter_rad_s": structure.frequency_parameter,
+        "north_deg": structure.north,
         "links": [_link(link) for link in structure.placed_links],
     }
 
@@ -143,6 +144,7 @@ def _assembled(structure: Structure) -> dict[str, str]:
         "extent": f"{x:.4g} m along x, {y:.4g} m along y, {z:.4g} m along z",
         "mass": f"{p['mass_kg']:.0f} kg",
         "heaviest": f"{p['heaviest']}, {p['heaviest_mass_kg']:.0f} kg",
+        "north": structure.north_words,
         **{link["name"]: _held(link) for link in p["links"]},
         **_stone(structure),
     }
@@ -167,6 +169,7 @@ def properties(column: Column) -> dict:
         "restitution": column.restitution,
         "uplift_g": column.uplift_acceleration / g,
         "as_found": column.to_dict().get("as_found"),
+        "north_deg": column.north,
         "links": [_link(link) for link in column.placed_links],
     }
 
@@ -199,6 +202,7 @@ def _facts(column: Column) -> dict[str, str]:
         "slenderness": f"{p['slenderness_rad']:.4f} rad",
         "frequency parameter": f"{p['frequency_parameter_rad_s']:.4f} rad/s",
         "static uplift": f"{p['uplift_g']:.4f} g",
+        "north": column.north_words,
         **_as_found(column),
         **{link["name"]: _held(link) for link in p["links"]},
         **_stone(column),
@@ -217,13 +221,8 @@ def _held(link: dict) -> str:
     """Resistance of a link, in words."""
     held = []
     for kind, name in (("shear", "shear"), ("tension", "axial")):
-        bar, stone = link[f"{name}_capacity_n"], link[f"stone_{kind}_n"]
-        if stone and stone < (bar or math.inf):
-            computed = f"{bar / 1e3:.4g} kN" if bar else "without a limit"
-            least = f"{stone / 1e3:.4g} kN in {kind}, where the stone gives way ({link['stone']}; the bar by itself: "
-            held.append(f"{least}{computed}, with which it is computed)")
-        elif bar:
-            held.append(f"{bar / 1e3:.4g} kN in {kind}")
+        if capacity := link[f"{name}_capacity_n"]:
+            held.append(f"{capacity / 1e3:.4g} kN in {kind}")
     limit = f"holds {' and '.join(held)}" if held else "without a limit"
     pulled = f", pretensioned with {link['pretension_n'] / 1e3:.4g} kN" if link["pretension_n"] else ""
     return f"{limit}{pulled}" + (f"; {link['governs']}" if link["governs"] else "")

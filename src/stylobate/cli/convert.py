@@ -28,6 +28,9 @@ def convert(
         "NAMES", 'Columns of a survey: "drum, height [cm], bottom_width [cm], top_width [cm], -", - to leave one out.'
     ),
     fixed: list[str] | None = o.option("NAME", "A stone that moves with the ground; may be repeated."),
+    north: float | None = o.option(
+        "DEG", "Bearing of the x axis of a survey that states bearings, clockwise from north."
+    ),
     compas: str = o.option("dem|assembly", "Package of COMPAS that .json is written for.", "dem"),
     *,
     execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")],
@@ -40,7 +43,7 @@ def convert(
     from ..exchange.convert import convert as converted
     from . import console
 
-    reading = Reading(material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()), columns)
+    reading = Reading(material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()), columns, north)
     structure, words, files = converted(model, to, reading, compas)
     moving = sum(not body.fixed for body in structure.bodies)
     found = {"name": structure.name, "kind": structure.kind, "bodies": moving, "fitted": words}

@@ -35,7 +35,7 @@ def limit(
     from ..analysis.limit import limit_analysis
     from ..analysis.limit_assemblies import listed
     from ..analysis.limit_directions import limit_directions
-    from ..column.links.stone import stone_words
+    from ..column.links.stone import stone_at_limit
     from ..motion.ranges import azimuth_range
     from . import console
 
@@ -60,7 +60,7 @@ def limit(
         if all_round is not None:
             summary = all_round.summary() | summary
         if summary["links"]:
-            summary["stone_around_links"] = stone_words(stone.placed_links)
+            summary["stone_around_links"] = stone_at_limit(stone.placed_links)
         if files.wanted:
             from .. import plots
             from ..analysis.limit import towards
@@ -105,7 +105,7 @@ def limit(
         facts[link["link"] if names.count(link["link"]) == 1 else f"{link['link']}, {link['action']}"] = link_words(
             link
         )
-    if words := stone_words(stone.placed_links):
+    if words := stone_at_limit(stone.placed_links):
         facts["stone around links"] = words
     console.say(f"{sentence}.", facts, files)
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from .assembly import Assembly
 from .block import Block
 from .column import Column
-from .links.link import Link, Numbers
+from .links.link import Link
 from .links.placed import PlacedLink, Point, stands_at
 
 
@@ -45,10 +44,7 @@ def links_of_column(
         places = ends(one)
         crossing = places[1:]  # what crosses a joint lies on the lower face of its upper drum
         where = dict(zip(("at", "to"), places if one.straight else crossing, strict=False))
-        # what stone a pin leaves was looked at in the column
-        fields: dict[str, Any] = {field.name: getattr(one, field.name) for field in dataclasses.fields(Numbers)}
-        numbers = Numbers(**{**fields, "diameter": 0.0})
-        links.append(type(link)(between=between, name=prefix + one.name, numbers=numbers, **where))
+        links.append(type(link)(between=between, name=prefix + one.name, numbers=one.alone, **where))
     return links
 
 

@@ -59,6 +59,8 @@ class Assembly(Structure):
         Laws between two blocks by their names, of their joint and wherever else they strike each other.
     links : sequence of Link
         Clamps, dowels, bars, ties, cores, layers and pads ``between`` two bodies each; kept in numbers.
+    north : float, optional
+        Bearing of the x axis, clockwise from north [degrees]; nothing is known of north where it is left out.
 
     Raises
     ------
@@ -84,9 +86,11 @@ class Assembly(Structure):
     ground: float | None = 0.0
     overrides: tuple[tuple[str, str, Joint], ...] = ()
     links: tuple[Link, ...] = ()
+    north: float | None = None
 
     def __post_init__(self) -> None:
         check_fields(self, "blocks", Block)
+        self._check_north()
         object.__setattr__(self, "links", in_numbers(self.links, self.name))
         if self.gravity != 0.0:
             check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²", remedy="or 0")

@@ -51,6 +51,7 @@ class AssemblyTable(Table):
     material: str | None = None
     depth: float = 1.0
     gravity: float = STANDARD_GRAVITY
+    north: float | None = None
     ground: float | bool = 0.0
     joint: JointTable | None = None
     block: list[BlockTable] | None = None
@@ -157,7 +158,14 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
     for doubt in piece_doubts(pieces, laws, table.gravity):
         warn(doubt)
     return Assembly(
-        tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides), tuple(links)
+        tuple(blocks),
+        joint,
+        table.name or default_name,
+        table.gravity,
+        ground,
+        tuple(overrides),
+        tuple(links),
+        table.north,
     )
 
 

@@ -63,6 +63,8 @@ class Column(DrumStack):
         Dowels, bars, ties, cores, layers and pads that strengthen it; the closed-form properties know nothing of them.
     losses : Losses, optional
         Losses and law of its joints in place of the model's, of columns that are drawn (:class:`Scatter`).
+    north : float, optional
+        Bearing of the x axis, clockwise from north [degrees]; nothing is known of north where it is left out.
 
     Raises
     ------
@@ -94,6 +96,7 @@ class Column(DrumStack):
     material: str | None = None
     links: tuple[Link, ...] = ()
     losses: Losses | None = None
+    north: float | None = None
 
     def __post_init__(self) -> None:
         self._check()
@@ -123,6 +126,7 @@ class Column(DrumStack):
         if len({drum.section for drum in self.drums}) > 1:
             raise InputError("the drums mix circular and rectangular sections; give all drums the same section.")
         object.__setattr__(self, "gravity", check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²"))
+        self._check_north()
         if self.material is not None:
             object.__setattr__(self, "material", material(self.material).name)
         self.check_rings()

@@ -64,8 +64,7 @@ def tables_of(column: Column) -> dict[str, Any]:
     common = Counter(column.joints).most_common(1)[0][0]
     sizes = ("height", "bottom_width", "top_width", "density")
     table: dict[str, Any] = {"name": column.name, "section": first.section, "gravity": column.gravity}
-    if column.material is not None:
-        table["material"] = column.material
+    table |= {key: value for key in ("material", "north") if (value := getattr(column, key)) is not None}
     table["drum"] = [{key: getattr(drum, key) for key in (*sizes, *_depths(drum))} for drum in column.drums]
     table["joint"] = _joint_fields(common)
     others = [{"index": i, **_joint_fields(joint)} for i, joint in enumerate(column.joints, 1) if joint != common]
@@ -93,7 +92,7 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
         tuple(FoundDrum(**drum) for drum in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
     )
     links = tuple(link_from_dict(fields) for fields in data.get("links", ()))
-    who = {"name": data["name"], "gravity": data["gravity"], "material": data.get("material")}
+    who = {"name": data["name"], "gravity": data["gravity"]} | {key: data.get(key) for key in ("material", "north")}
     who["losses"] = Losses(**data["losses"]) if "losses" in data else None
     return Column.of_fields(drums=drums, joints=joints, as_found=as_found, links=links, **who)
 

@@ -93,7 +93,8 @@ def project(column: Column, azimuth: float) -> Projection:
     name = f"{column.name}, projected onto {angle:g}°"
     links = tuple(_turned(link, at.turned, angle) for link in column.links)
     with within(f"{column.name!r} cannot be projected onto azimuth {angle:g}°"):
-        plane = column.replace(drums=drums, as_found=whole, name=name, links=links)
+        north = None if column.north is None else column.north - angle
+        plane = column.replace(drums=drums, as_found=whole, name=name, links=links, north=north)
         chips = [_chips(column, plane, j, way) for j in range(column.n)]
         kept = tuple(
             dataclasses.replace(one, chip_left=left, chip_right=right)

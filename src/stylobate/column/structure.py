@@ -16,7 +16,7 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, check_range
 from .as_found import AS_BUILT, AsFound
 from .faces import Bed, FacePair
 from .joint import Joint
@@ -25,6 +25,9 @@ from .links.placed import PlacedLink
 from .shapes import Glued, Outlined, Placed, Shape, hull
 from .turning import about, quaternion_of
 from .words import as_html, described
+
+#: Corners by which round faces are measured.
+AROUND = 720
 
 
 class Body(Protocol):
@@ -166,6 +169,7 @@ class Structure:
 
     name: str
     gravity: float
+    north: float | None = None
     ground: float | None = 0.0
     as_found: AsFound = AS_BUILT
     links: tuple[Link, ...] = ()
@@ -235,6 +239,26 @@ class Structure:
     def stack(self) -> Any:
         """The column that it is, drums and joints from the base up; None where it is no single stack of drums."""
         return None
+
+    def _check_north(self) -> None:
+        """Refuse what is no bearing; kept within a full circle."""
+        if self.north is not None:
+            bearing = check_range("north", self.north, -360.0, 360.0, unit="degrees", field="north")
+            object.__setattr__(self, "north", bearing % 360.0)
+
+    @property
+    def north_words(self) -> str:
+        """What is known of north."""
+        if self.north is None:
+            return "not stated; azimuths are from x towards y, and none is a bearing"
+        return f"x points to {self.north:g}° clockwise from north; azimuths are from x towards y"
+
+    @property
+    def height(self) -> float:
+        """From the ground, or its lowest point where there is none, to its highest point [m]; of a column that of its drums
+        together, along its axis."""
+        ends = np.concatenate([p.mesh(AROUND).vertices[:, 2] for b in self.bodies if not b.fixed for p in b.placed])
+        return float(ends.max()) - (float(ends.min()) if self.ground is None else self.ground)
 
     @property
     def described(self) -> str:

@@ -98,6 +98,7 @@ class ColumnTable(Table):
     density: float | None = None
     material: str | None = None
     gravity: float = STANDARD_GRAVITY
+    north: float | None = None
     tapered: TaperedTable | None = None
     drum: list[DrumTable] | None = None
     joint: JointTable | None = None
@@ -261,7 +262,9 @@ def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
         column = kind.of_drums(drums, joint, overrides=overrides, name=name, gravity=table.gravity)
     else:
         raise InputError("there is neither [tapered] nor [[drum]]; add one of the two.")
-    return column if stone is None else column.replace(material=stone.name)
+    more = {"material": None if stone is None else stone.name, "north": table.north}
+    more = {key: value for key, value in more.items() if value is not None}
+    return column.replace(**more) if more else column
 
 
 def _drum(i: int, one: DrumTable, table: ColumnTable, common: float | None) -> Drum:

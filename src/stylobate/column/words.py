@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from .. import notebook
 from ..constants import g
 
@@ -13,12 +11,11 @@ from ..constants import g
 def described(structure: Any) -> str:
     """What a structure is, in a sentence or two: bodies, size and mass."""
     moving = [body for body in structure.bodies if not body.fixed]
-    corners = np.concatenate([body.corners for body in moving])
-    height, mass = float(corners[:, 1].max()) - (structure.ground or 0.0), sum(body.mass for body in moving)
+    mass = sum(body.mass for body in moving)
     links = f" with {_number(len(structure.placed_links), ('link', 'links'))}" if structure.placed_links else ""
     found = ", as found" if structure.as_found else ""
     said = f"{structure.name}: {structure.described} of {_number(len(moving), structure.counted)}{links}{found}, "
-    said += f"{height:.4g} m high, {mass / 1e3:.4g} t."
+    said += f"{structure.height:g} m high, {mass / 1e3:.4g} t."
     if structure.slenderness is not None and structure.frequency_parameter is not None:
         said += f" Slenderness {structure.slenderness:.3f} rad, p = {structure.frequency_parameter:.3f} rad/s."
     if structure.uplift_acceleration is not None:

@@ -62,6 +62,8 @@ class Reading:
         Names of stones that move with the ground.
     columns : str, optional
         Of a survey whose row of names is not ours, such as ``drum, height [cm], bottom_width [cm], top_width [cm], -``.
+    north : float, optional
+        Bearing of the x axis of a survey, clockwise from north [degrees].
     """
 
     def __init__(
@@ -73,6 +75,7 @@ class Reading:
         ground: float | bool | None = None,
         fixed: tuple[str, ...] = (),
         columns: str | None = None,
+        north: float | None = None,
     ) -> None:
         if becomes not in KINDS:
             raise InputError(f"`as` is {becomes!r}; allowed are {', '.join(KINDS)}.", "as")
@@ -81,7 +84,7 @@ class Reading:
             check_range("level of the ground", ground, -FAR_AWAY, FAR_AWAY, unit="m", field="ground")
         self.material, self.becomes, self.unit = material, becomes, unit
         self.tolerance, self.ground, self.fixed = tolerance, ground, fixed
-        self.columns = columns
+        self.columns, self.north = columns, north
 
 
 def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tuple[Structure, list[str], list[Path]]:
@@ -149,7 +152,7 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
     InputError
     """
     if path.suffix.lower() in SURVEYS:
-        tables, notes = survey_tables(path, reading.material, reading.columns)
+        tables, notes = survey_tables(path, reading.material, reading.columns, reading.north)
         tables.setdefault("name", path.stem)
         column = made_of(Column, tables, shown(path))
         return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]

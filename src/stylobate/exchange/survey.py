@@ -27,6 +27,9 @@ UNITS = {"m": 1.0, "cm": 100.0, "mm": 1000.0}
 #: Columns that are angles [degrees].
 ANGLES = ("offset_azimuth", "tilt", "tilt_azimuth", "turn", "chip_azimuth")
 
+#: The same as bearings, clockwise from north, and the azimuths that they make where north is stated [degrees].
+BEARINGS = {"offset_bearing": "offset_azimuth", "tilt_bearing": "tilt_azimuth", "base_bearing": "base_azimuth"}
+
 #: Columns of the joint under a drum, with their units.
 JOINT = {
     "normal_stiffness": "n_m3",
@@ -42,7 +45,7 @@ NOTE = "note"
 
 #: What stands for a column that is left out, where columns are stated; and all names of columns.
 LEFT_OUT = "-"
-KNOWN = ("drum", "density", *LENGTHS, *ANGLES, *JOINT, NOTE)
+KNOWN = ("drum", "density", *LENGTHS, *ANGLES, *list(BEARINGS)[:2], *JOINT, NOTE)
 
 #: What spreadsheets show where a formula has failed.
 FAILED_CELL = re.compile(r"#[A-Z0-9/_]+[!?]?|Err:\d+")
@@ -51,7 +54,7 @@ FAILED_CELL = re.compile(r"#[A-Z0-9/_]+[!?]?|Err:\d+")
 BLANK = '";,\t\r\n '
 
 #: What is said of the whole column, in lines ``# key: value`` above the table.
-FACTS = ("name", "section", "material", "gravity", "base_tilt", "base_azimuth")
+FACTS = ("name", "section", "material", "gravity", "north", "base_tilt", "base_azimuth", "base_bearing")
 
 _SIZES = ("height", "bottom_width", "top_width", "depth", "top_depth", "density")
 
@@ -71,7 +74,8 @@ def survey_text(column: Column) -> str:
         )
     found, table = column.as_found, tables_of(column)
     facts = {"name": column.name, "section": column.drums[0].section, "material": column.material}
-    facts |= {"gravity": column.gravity, "base_tilt": found.base_tilt, "base_azimuth": found.base_azimuth}
+    facts |= {"gravity": column.gravity, "north": column.north}
+    facts |= {"base_tilt": found.base_tilt, "base_azimuth": found.base_azimuth}
     overrides = {one["index"]: one for one in table.get("joint_override", ())}
     rows = []
     for i, drum in enumerate(table["drum"], 1):
@@ -82,7 +86,7 @@ def survey_text(column: Column) -> str:
     names = list(dict.fromkeys(names))
     text = io.StringIO()
     for key, value in facts.items():
-        if value not in (None, 0.0):
+        if value is not None and (value or key == "north"):
             text.write(f"# {key}: {' '.join(str(value).split())}\n")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([_header(name) for name in names])
@@ -97,7 +101,9 @@ def _header(name: str) -> str:
     return f"{name}_{unit}" if unit else name
 
 
-def survey_tables(path: Path, stone: str | None = None, stated: str | None = None) -> tuple[dict[str, Any], list[str]]:
+def survey_tables(
+    path: Path, stone: str | None = None, stated: str | None = None, north: float | None = None
+) -> tuple[dict[str, Any], list[str]]:
     """Content of a column file of a survey, and what the surveyor has to say of drums, "drum 3: …".
 
     Separated by commas, semicolons or tabs; decimal commas are read where commas do not separate. Of a workbook the one
@@ -112,6 +118,8 @@ def survey_tables(path: Path, stone: str | None = None, stated: str | None = Non
     stated : str, optional
         What each column holds, where the row of names is not ours, such as
         ``drum, height [cm], bottom_width [cm], top_width [cm], -``.
+    north : float, optional
+        Bearing of the x axis, clockwise from north [degrees]; that of the survey if left out.
 
     Raises
     ------
@@ -149,6 +157,10 @@ def survey_tables(path: Path, stone: str | None = None, stated: str | None = Non
     if missing is not None:
         raise InputError(f"{name} has no column {missing!r}; add it, such as {missing}_m.")
     read = [_row(row, columns, number, decimal, name) for number, row in enumerate(rows, 1)]
+    if north is not None:
+        facts["north"] = north
+    for one in (facts, *read):
+        _turn_bearings(one, facts.get("north"), name)
     numbers = [row.pop("drum", None) for row in read]
     if any(one is not None for one in numbers) and numbers != [float(i) for i in range(1, len(read) + 1)]:
         raise InputError(
@@ -180,7 +192,7 @@ def _note(row: list[str], columns: list[str]) -> str:
 
 
 def _tables(facts: dict[str, Any], rows: list[dict[str, float]], stone: str | None, name: str) -> dict[str, Any]:
-    table: dict[str, Any] = {key: facts[key] for key in ("name", "material", "gravity") if key in facts}
+    table: dict[str, Any] = {key: facts[key] for key in ("name", "material", "gravity", "north") if key in facts}
     table["section"] = facts.get("section", "circular")
     if stone is not None:
         table["material"] = stone
@@ -205,6 +217,21 @@ def _tables(facts: dict[str, Any], rows: list[dict[str, float]], stone: str | No
     if drums:
         found["drum"] = drums
     return table | ({"as_found": found} if found else {})
+
+
+def _turn_bearings(found: dict[str, Any], north: float | None, name: str) -> None:
+    """Azimuths from x towards y in place of bearings, which run the other way round and from north."""
+    for bearing in [key for key in BEARINGS if key in found]:
+        azimuth = BEARINGS[bearing]
+        if azimuth in found:
+            raise InputError(f"{name} has {bearing} and {azimuth}, which are one thing; keep one of the two.")
+        if north is None:
+            raise InputError(
+                f"{name} states {bearing}, clockwise from north, and does not say where north is; give the bearing of the x "
+                "axis of the column: a line `# north: 37` above its table, or `north`.",
+                "north",
+            )
+        found[azimuth] = (north - found.pop(bearing)) % 360.0
 
 
 def _facts(rows: list[list[str]], separator: str, name: str) -> tuple[dict[str, Any], list[list[str]]]:
@@ -315,7 +342,7 @@ def _column(cell: str, name: str) -> tuple[str, float]:
     stem, _, unit = text.rpartition("_")
     if stem in LENGTHS and unit in UNITS:
         return stem, UNITS[unit]
-    if text == "density_kg_m3" or (stem in ANGLES and unit in ("deg", "degrees", "°")):
+    if text == "density_kg_m3" or (stem in angles and unit in ("deg", "degrees", "°")):
         return "density" if text == "density_kg_m3" else stem, 1.0
     own = next((key for key, unit in JOINT.items() if unit and text == f"{key}_{unit}"), None)
     if own is not None:

@@ -17,6 +17,7 @@ from ..column.links.placed import strokes
 from ..column.shapes import hull
 from ..column.structure import Body, Structure
 from ..column.turning import matrix_of
+from ..constants import DEGREE
 from .elevation import NAMED, WRITTEN, Sheet, dimension, draw_chain, levels_of
 from .solids import MARK, STONE, Solid, Surface, painted, painting_order, surface_of
 from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, styled
@@ -148,6 +149,9 @@ class Seen:
         if len(self.levels) > 2 and view is ALONG_X:
             draw_chain(axes, sheet, self.levels, float(low[0]))
         else:
+            if view is not PLAN:  # one height from every side, whatever leans
+                low[1] = self.levels[0] if self.structure.stack is not None else high[1] - self.structure.height
+                high[1] = low[1] + self.structure.height
             dimension(axes, sheet, 1, low, high)
         if len(set(self.names)) <= NAMED:
             _names(axes, sheet, self.solids, self.names, view)
@@ -175,6 +179,7 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
     for axes, (view, said) in zip((front, side, plan), SEEN):
         seen.draw(axes, seen.sheet(axes, view, 0.0 if view is PLAN else scale), view)
         axes.set_title(said, fontsize=8.5, color=GREY)
+    _mark_north(plan, structure)
     _paint(oblique, seen.solids, OBLIQUE)
     _mark_links(oblique, structure, OBLIQUE)
     oblique.set_aspect("equal")
@@ -246,6 +251,16 @@ def _mark_links(axes: Axes, structure: Structure, view: View) -> None:
     for stroke in strokes(structure.placed_links):
         ends = view.across(np.array([place(stroke.lower), place(stroke.upper)]))
         axes.plot(ends[:, 0], ends[:, 1], color=BLUE, linewidth=1.2, zorder=4, scalex=False, scaley=False)
+
+
+def _mark_north(plan: Axes, structure: Structure) -> None:
+    """An arrow to north beside the plan, where that is stated: x points so far clockwise from it."""
+    if structure.north is None:
+        return
+    way = 22.0 * math.cos(structure.north * DEGREE), 22.0 * math.sin(structure.north * DEGREE)
+    arrow = {"arrowstyle": "<-", "lw": 1.0, "color": BLACK, "shrinkB": 0}
+    words = {"xycoords": "axes fraction", "textcoords": "offset points", "ha": "center", "va": "center"}
+    plan.annotate("N", (0.93, 0.9), way, arrowprops=arrow, fontsize=8, annotation_clip=False, **words)
 
 
 def _mark_found(axes: Axes, seen: Seen, view: View) -> None:

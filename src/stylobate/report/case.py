@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import re
 from collections.abc import Iterable, Sequence
@@ -22,7 +23,7 @@ from .language import Language, language_of, speaking
 from .others import sections_of
 from .pdf import print_pdf
 from .project import Project, front_sections
-from .record import NOTE, SOURCES
+from .record import NOTE, SOURCES, files_section
 from .runs import run_sections, several_sections
 
 _log = logging.getLogger("stylobate")
@@ -102,19 +103,19 @@ def write_report(
 
 
 def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, project: Project | None) -> list[Path]:
-    told: set[str] = set()
+    shown: dict[bytes, int] = {}
     own = _names(found) | ({project.site} if project is not None else set())
     language = language_of("en" if project is None else project.language, own)
     with speaking(language):
         cases = []
         for number, one in enumerate(found, start=1):
             _log.info("case %d of %d: %s, %s.", number, len(found), one.kind.value, one.folder)
-            cases.append(_case(one, told, found, language))
+            cases.append(_case(one, number, shown, found, language))
     front = []
     if project is not None:
-        cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
-        sections = front_sections(project, found, cases, cited)
-        front = [page.part(language.section(section)) for section in sections]
+        front = [page.part(language.section(section)) for section in front_sections(project, found, cases)]
+    cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
+    end = [files_section(found), page.Section(SOURCES, [page.Points(list(map(page.Own, cited)))])]
     names = _heading(found, project)
     kinds = ", ".join(dict.fromkeys(language.say(TITLES[one.kind.value]) for one in found))
     day = date.today().isoformat()
@@ -127,6 +128,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
         "lead": page.kinds(lead),
         "cases": cases,
         "front": front,
+        "end": [page.part(language.section(section)) for section in end],
         "project": project,
         "language": language.tag,
         "say": language.say,
@@ -144,10 +146,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
 FOOT, PAGES = "page {page} of {pages}", re.compile(r"\{(pages?)\}")
 
 #: What a report in another language says of itself before anything else.
-SPOKEN_IN = (
-    "Numbers have a decimal point; a comma in a number groups thousands. Names, commands, parameters of the program and "
-    "what is cited are as they are."
-)
+SPOKEN_IN = "Names, commands, parameters of the program and what is cited are as they are."
 PARTS_IN_ENGLISH = "Parts in English, because they are not translated or are pictures drawn before: {sections}."
 
 
@@ -180,30 +179,53 @@ def _names(found: Sequence[Result]) -> set[str]:
     compared = [one for one in found if isinstance(one, Numbers) and one.kind is Kind.STATES]
     labels = [state["label"] for one in compared for state in one.summary["states"]]
     bodies = [body.name for stands in standing for body in stands.bodies if not (body.fixed and body.name == "ground")]
-    return {
+    given = {
         *motions,
         *(name for name in bodies if not NUMBERED.fullmatch(name)),
         *(label for label in labels if label not in NO_MEASURE),
         *(one.name for one in found),
         *(stands.name for one in found for stands in one.structures),
     }
+    return given - {*TITLES.values()}
 
 
-def _case(result: Result, told: set[str], all_: Sequence[Result], language: Language) -> dict[str, Any]:
+def _case(
+    result: Result, number: int, shown: dict[bytes, int], all_: Sequence[Result], language: Language
+) -> dict[str, Any]:
     """A case as the template takes it; its verdict is what the verdicts of its first section begin with."""
-    sections = _sections_of(result, told, all_)
+    sections = _sections_of(result, all_)
     notes = [item for item in sections[0].items if isinstance(item, page.Note) and "verdict" in item.look]
     verdict = " ".join(text for note in notes for text in note.texts[: note.first])
     said = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
     known = [text.removeprefix(NOTE) for text in said if text.startswith(NOTE)]
     sources = [item for part in sections if part.title == SOURCES for item in part.items]
+    rest = [part for part in sections[1:] if part.title != SOURCES]
+    parts = [sections[0], *(_once(part, number, shown) for part in rest)]
     return {
         "cited": [text for item in sources if isinstance(item, page.Points) for text in item.texts],
         "title": _title(result, language),
         "verdict": "\n".join(map(language.say, verdict.split("\n"))),
         "notes": known,
-        "parts": [page.part(language.section(section)) for section in sections],
+        "parts": [page.part(language.section(section)) for section in parts],
     }
+
+
+def _once(section: page.Section, number: int, shown: dict[bytes, int]) -> page.Section:
+    """A section of a case with reference to the earlier case that shows the same, of all of it or of a table or picture."""
+
+    def earlier(content: Any) -> int:
+        known = hashlib.sha256(repr(content).encode()).digest()
+        return shown.setdefault(known, number)
+
+    if (case := earlier(section.items)) < number:
+        return page.Section(section.title, [f"As in case {case}."])
+    items: list[page.Item] = []
+    for item in section.items:
+        if isinstance(item, (page.Rows, page.Facts, page.Picture)) and (case := earlier(item)) < number:
+            items += [*filter(None, [item.caption]), f"As in case {case}."]
+        else:
+            items.append(item)
+    return page.Section(section.title, items)
 
 
 def _notes(notes: Sequence[Sequence[str]]) -> list[page.Item]:
@@ -219,10 +241,10 @@ def _notes(notes: Sequence[Sequence[str]]) -> list[page.Item]:
     return [page.Note(each, "fair")] if each else []
 
 
-def _sections_of(result: Result, told: set[str], all_: Sequence[Result]) -> list[page.Section]:
+def _sections_of(result: Result, all_: Sequence[Result]) -> list[page.Section]:
     """Sections of a result; values that cannot have been written by stylobate are bad input, not a fault of it."""
     try:
-        return _sections(result, told, all_)
+        return _sections(result, all_)
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         if isinstance(error, StylobateError):
             raise
@@ -232,14 +254,14 @@ def _sections_of(result: Result, told: set[str], all_: Sequence[Result]) -> list
         ) from error
 
 
-def _sections(result: Result, told: set[str], all_: Sequence[Result]) -> list[page.Section]:
+def _sections(result: Result, all_: Sequence[Result]) -> list[page.Section]:
     if isinstance(result, RunResult):
-        return run_sections(result, told)
+        return run_sections(result)
     if isinstance(result, SeveralRuns):
-        return several_sections(result, told)
+        return several_sections(result)
     mine = {structure.digest for structure in result.structures}
     runs = [one for one in all_ if isinstance(one, RunResult) and one.response.structure.digest in mine]
-    return sections_of(result, told, next((run for run in runs if run.motion is not None), None))
+    return sections_of(result, next((run for run in runs if run.motion is not None), None))
 
 
 def _title(result: Result, language: Language) -> str:

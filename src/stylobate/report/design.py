@@ -101,7 +101,7 @@ def design_items(design: Design | None, pictures: dict[str, Path]) -> list[Item]
         caption += "The file design.csv holds every level, quantity, and 50 and 95 %."
         limited, acts = (told if set(told.values()) <= set(worst) else {} for told in (LIMITED, ACTS))
         if limited:
-            caption += " The capacity is that of the link, or what the stone around it bears where that is less."
+            caption += " The capacity is that of the link in its stone, with which it is computed."
         if acts:
             caption += " Forces are told at an instant of the run that governs; shear pushes the body above "
             caption += "towards an azimuth."

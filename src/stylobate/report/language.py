@@ -12,7 +12,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from ..atomic import replacing
-from ..column.toml import Table, parse_toml, read_table
+from ..column.toml import Table, read_table
 from ..errors import InputError
 from ..reading import shown
 from .page import Code, Facts, Item, Note, Own, Picture, Points, Section
@@ -37,14 +37,23 @@ _WITHIN = rf"(?:(?!(?<={_LAST})\. {_FIRST}).)+?"
 #: A word; what holds an underscore or a digit is a name of the program.
 _WORD = re.compile(r"(?<![\w./-])[A-Za-z]{2,}(?!\w|\.\w)")
 
+#: A number of a text, with its groups and decimals; not what is typed, a version or a clause of a code.
+_FIGURE = (
+    r"(?<![\w./=:])(?<!\d,)(?<!-\d, )"
+    r"(?:[1-9]\d{0,2}(?:,\d{3})+(?:\.\d+)?|\d+\.\d+)(?:e[+-]?\d+)?(?![\w]|[.,]\d)"
+)
+
 #: Letters of a sentence between its placeholders below which it fits almost anything: it counts where all of that is known.
 _FEW = 12
 
 
 class Translations(Table):
-    """A file of translations: the tag of its language (BCP 47), and English sentences with their translations."""
+    """A file of translations: the tag of its language (BCP 47), marks of decimals and between groups of three digits, and
+    English sentences with their translations."""
 
     language: str
+    decimal: str = "."
+    groups: str = ","
     sentences: dict[str, str]
 
 
@@ -59,6 +68,8 @@ class Language:
         English sentences to translations, both with the same named placeholders; empty for English.
     own : iterable of str
         Names that belong to the reader, such as those of columns and motions: they are in no language.
+    decimal, groups : str
+        Mark before the decimals of a number, and between groups of three digits.
 
     Attributes
     ----------
@@ -68,7 +79,14 @@ class Language:
         Sections of which a part stayed English, in their order, as keys.
     """
 
-    def __init__(self, tag: str = "en", table: Mapping[str, str] | None = None, own: Iterable[str] = ()) -> None:
+    def __init__(
+        self,
+        tag: str = "en",
+        table: Mapping[str, str] | None = None,
+        own: Iterable[str] = (),
+        decimal: str = ".",
+        groups: str = ",",
+    ) -> None:
         self.tag, self.table, self.own = tag, dict(table or {}), set(own)
         self.english: dict[str, None] = {}
         self._open = False
@@ -80,11 +98,27 @@ class Language:
         self._words = words - {
             word.lower() for one in self.table.values() for word in _WORD.findall(HOLE.sub(" ", one))
         }
-        self.say: Callable[[str], str] = cache(self._say)
+        self._said: Callable[[str], str] = cache(self._say)
+        names = [re.escape(one) for one in sorted(self.own, key=len, reverse=True) if re.search(r"\d[.,]\d", one)]
+        self._figures, self._marks = (
+            re.compile("|".join([*names, f"(?P<figure>{_FIGURE})"])),
+            {".": decimal, ",": groups},
+        )
+
+    def say(self, text: str) -> str:
+        """A text in this language as far as it is known, sentence by sentence, with its numbers as readers write them."""
+        return text if not self.foreign or text in self.own else self.figures(self._said(text))
+
+    def figures(self, text: str) -> str:
+        """A text with its numbers as readers of this language write them."""
+
+        def written(found: re.Match[str]) -> str:
+            return "".join(self._marks.get(one, one) for one in found[0]) if found["figure"] else found[0]
+
+        return self._figures.sub(written, text)
 
     def _say(self, text: str) -> str:
-        """A text in this language as far as it is known: whole, or sentence by sentence."""
-        if not self.foreign or text in self.own or not _WORD.search(text):
+        if text in self.own or not _WORD.search(text):
             return text
         if text not in self.table and self._may_be_list(text) and (found := self._listed(text, (", ",))) != text:
             return found  # an entry could hold all of a list in one of its placeholders
@@ -122,7 +156,7 @@ class Language:
         partly = None
         for pattern, into, few in self._patterns:
             if found := pattern.fullmatch(text):
-                held = {name: self.say(value) for name, value in found.groupdict().items()}
+                held = {name: self._said(value) for name, value in found.groupdict().items()}
                 said = into.format(**held)
                 if "text" in held or not any(self.is_english(one, 1) for one in held.values()):
                     return said
@@ -198,7 +232,7 @@ def language_of(name: str, own: Iterable[str] = ()) -> Language:
     if name == "en":
         return Language()
     if name in LANGUAGES:
-        return Language(name, sentences_of(name), own)
+        return _spoken(file_of(name), own)
     if not name.endswith(".toml"):
         known = ", ".join(f'"{one}"' for one in ("en", *LANGUAGES))
         raise InputError(
@@ -218,23 +252,36 @@ def language_of(name: str, own: Iterable[str] = ()) -> Language:
                 f"{shown(name)}: the translation of {english!r} must hold {', '.join(HOLE.findall(english)) or 'no'} "
                 "in braces, as the sentence does."
             )
-    return Language(found.language, {one: said for one, said in found.sentences.items() if said.strip()}, own)
+    return _spoken(found, own)
+
+
+def _spoken(file: Translations, own: Iterable[str]) -> Language:
+    table = {one: said for one, said in file.sentences.items() if said.strip()}
+    return Language(file.language, table, own, file.decimal, file.groups)
 
 
 @cache
+def file_of(tag: str) -> Translations:
+    """The file of a language that comes with the package."""
+    return read_table(Path(str(files("stylobate.report") / "languages" / f"{tag}.toml")), Translations)
+
+
 def sentences_of(tag: str) -> dict[str, str]:
-    """The table of a language that comes with the package."""
-    return parse_toml(Path(str(files("stylobate.report") / "languages" / f"{tag}.toml")))["sentences"]
+    """Its table."""
+    return file_of(tag).sentences
 
 
 def write_template(path: Path) -> Path:
     """Write a file of all sentences of a report with empty translations."""
     import tomli_w
 
-    text = tomli_w.dumps({"language": "", "sentences": dict.fromkeys(sentences_of(LANGUAGES[0]), "")})
+    text = tomli_w.dumps(
+        {"language": "", "decimal": ".", "groups": ",", "sentences": dict.fromkeys(sentences_of(LANGUAGES[0]), "")}
+    )
     head = (
-        "# Sentences of a report. Give the tag of the language, such as de, and write each translation behind its\n"
-        "# sentence, with the same names in braces. What stays empty stays English in the report, which says so.\n"
+        "# Sentences of a report. Give the tag of the language, such as de, the marks before decimals and between groups\n"
+        "# of three digits, and write each translation behind its sentence, with the same names in braces. What stays\n"
+        "# empty stays English in the report, which says so.\n"
     )
     with replacing(path) as partial:
         partial.write_text(head + text, encoding="utf-8")

@@ -41,7 +41,6 @@ from .record import (
     warnings_of,
 )
 from .risk import fragility_result, risk_result, survival_result
-from .runs import once
 from .sequence import until_fall_result
 from .shaking import motions_section
 from .states import advice_notes, states_items
@@ -53,14 +52,12 @@ from .tables import COUNTED, COUNTED_HOW, MOST, counts_of, table
 FROM_RUNS = (Kind.FRAGILITY, Kind.RISK, Kind.SURVIVAL)
 
 
-def sections_of(result: Result, told: set[str], run: RunResult | None = None) -> list[Section]:
+def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
     """All sections of a result that is not a run.
 
     Parameters
     ----------
     result : Result
-    told : set of str
-        As in :func:`stylobate.report.runs.run_sections`.
     run : RunResult, optional
         Of the same column in the same report: its motion is the demand in the capacity spectrum check of a pushover.
     """
@@ -68,7 +65,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     columns = [structure.stack for structure in result.structures if structure.stack is not None]
     labels = _labels(result)
     if result.kind is Kind.STATES:
-        parts = _states(result, columns, told)
+        parts = _states(result, columns)
     else:
         verdict, body = _TELL[result.kind](result)
         note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
@@ -80,7 +77,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
         for label, structure in zip(labels, result.structures[:5], strict=False):
             section = structure_section(structure)
             section = replace(section, title=f"The state “{label}”") if label else section
-            parts.append(once(section, structure.digest, told))
+            parts.append(section)
         parts += [motions_section(result)] if asked is not None and asked.motions else []
         parts.append(Section("What was found", body))
     if result.kind is Kind.PUSHOVER and columns:
@@ -89,13 +86,13 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
         statics = statics_section(columns[0], None)
         if labels[0]:
             statics = replace(statics, items=[f"Of the state “{labels[0]}”.", *statics.items])
-        parts.append(once(statics, f"statics {columns[0].digest}", told))
+        parts.append(statics)
     models = [str(model["name"]) for model in asked.models] if asked is not None else []
     models = models or [str(result.summary[key]) for key in ("model",) if key in result.summary]
     if result.kind in (Kind.PUSHOVER, Kind.LIMIT):
-        parts.append(once(static_model(), "statics model", told))
+        parts.append(static_model())
     elif models:
-        parts.append(once(model_section(models), f"model {models}", told))
+        parts.append(model_section(models))
     parameters = asked.models[0]["parameters"] if asked is not None and len(asked.models) == 1 else {}
     parts.append(record_section(result, parameters, versions_of(result)))
     keys = [key for name in models if (kind := known_model(name)) for key in kind.references]
@@ -120,7 +117,7 @@ def _labels(result: Result) -> list[str]:
     return names if len(names) == len(result.structures) > 1 else [""] * max(len(result.structures), 1)
 
 
-def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[Section]:
+def _states(result: Result, columns: Sequence[Column]) -> list[Section]:
     """Advice and what it rests on; the first state in full, of the others what they differ by."""
     assert isinstance(result, Numbers)
     labels = [str(state["label"]) for state in result.summary["states"]]
@@ -131,10 +128,9 @@ def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[S
         column = structure.stack
         if number == 0 or column is None or not columns:
             whole = structure_section(structure)
-            parts.append(once(replace(whole, title=f"The state “{label}”"), structure.digest, told))
+            parts.append(replace(whole, title=f"The state “{label}”"))
         else:
             parts.append(state_section(column, label, columns[0], labels[0]))
-            told.add(structure.digest)
     return [*parts, *([statics_of_states(dict(zip(labels, columns)))] if columns else [])]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ from ..version import __version__
 from .design import SHOWN, design_of, governing_rows
 from .language import language_of
 from .page import Facts, Item, Own, Points, Rows, Section
-from .record import known_model, titled
+from .record import files_of, known_model, titled
 
 
 class Project(Table):
@@ -60,9 +61,7 @@ def read_project(path: str | Path) -> Project:
     return project
 
 
-def front_sections(
-    project: Project, results: Sequence[Result], cases: Sequence[dict[str, Any]], cited: Sequence[str]
-) -> list[Section]:
+def front_sections(project: Project, results: Sequence[Result], cases: Sequence[dict[str, Any]]) -> list[Section]:
     """Sections of the first page.
 
     Parameters
@@ -71,8 +70,6 @@ def front_sections(
     results : sequence of Result
     cases : sequence of dict
         The case of each result, whose ``verdict`` is its answer: it is repeated as it stands there.
-    cited : sequence of str
-        What the cases cite, each once.
     """
     apart = ("role", "place", "language")
     known = [(key, Own(value)) for key, value in project if isinstance(value, str) and key not in apart]
@@ -84,7 +81,7 @@ def front_sections(
         *_design_values(results),
         Section("Assumptions of this report", [Points(said), "What the models assume stands with each case."]),
         Section("Limits: what is not covered", _limits(results)),
-        Section("Sources of the results", _sources(results, cited)),
+        Section("Sources of the results", _sources(results)),
     ]
 
 
@@ -118,16 +115,10 @@ def _models(result: Result) -> list[str]:
     return [str(model["name"]) for model in result.asked.models] if result.asked is not None else []
 
 
-def _sources(results: Sequence[Result], cited: Sequence[str]) -> list[Item]:
-    """Files with their digests, programs, and what is cited."""
-    state = {True: "as written", False: "changed since", None: "no list to check by"}
-    files = [
-        [str(k), Own(file.name), file.digest, state[file.unchanged]]
-        for k, result in enumerate(results, start=1)
-        for one in (result.runs if isinstance(result, SeveralRuns) else (result,))
-        for file in one.files
-    ]
+def _sources(results: Sequence[Result]) -> list[Item]:
+    """Programs, and the digest by which the signature holds for the files that are listed at the end."""
+    listed = "".join(f"{file.digest}  {file.name}\n" for _, file in files_of(results))
     computed = dict.fromkeys(one.asked.version for one in results if one.asked is not None)
     pairs = [("computed by stylobate", ", ".join(computed) or "not known"), ("written by stylobate", __version__)]
-    items: list[Item] = [Facts(pairs), Rows(["case", "file", "SHA-256", "state"], files, "Files", numbers=True)]
-    return [*items, "Cited:", Points(list(map(Own, cited)))] if cited else items
+    pairs.append(("SHA-256 of the list of files", hashlib.sha256(listed.encode()).hexdigest()))
+    return [Facts(pairs), "The files with their digests, and what is cited, stand at the end of the appendix."]

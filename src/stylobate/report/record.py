@@ -9,7 +9,8 @@ from ..bibliography import Citation
 from ..errors import InputError
 from ..models.base import Model
 from ..models.registry import model_class
-from ..results import Result
+from ..results import Result, SeveralRuns
+from ..results.kinds import FileFact
 from ..version import __version__
 from . import numbers as n
 from .page import Code, Facts, Item, Note, Own, Points, Rows, Section
@@ -137,7 +138,7 @@ def warnings_of(result: Result, more: Sequence[str] = ()) -> list[Item]:
 
 
 def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapping[str, Any]) -> Section:
-    """Parameters of the computation, versions, and the files with their digests."""
+    """Parameters of the computation and versions."""
     items: list[Item] = []
     if parameters:
         items.append(
@@ -148,10 +149,24 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
         )
     known = {key: str(value) for key, value in versions.items() if value not in (None, "")}
     items.append(Facts([*known.items(), ("folder", Own(result.folder))], "Versions and inputs"))
-    state = {True: "as written", False: "changed since", None: "no list to check by"}
-    body = [[Own(file.name), file.digest, state[file.unchanged]] for file in result.files]
-    items.append(Rows(["file", "SHA-256", "state"], body, "Files this report rests on", numbers=True))
     return Section("Parameters, versions and digests", items)
+
+
+def files_section(results: Sequence[Result]) -> Section:
+    """Files of all results, by the number of the result, with their digests."""
+    state = {True: "as written", False: "changed since", None: "no list to check by"}
+    body = [[str(k), Own(file.name), file.digest, state[file.unchanged]] for k, file in files_of(results)]
+    return Section("Files this report rests on", [Rows(["case", "file", "SHA-256", "state"], body, numbers=True)])
+
+
+def files_of(results: Sequence[Result]) -> list[tuple[int, FileFact]]:
+    """Files of results, each with the number of its result from 1."""
+    return [
+        (k, file)
+        for k, result in enumerate(results, start=1)
+        for one in (result.runs if isinstance(result, SeveralRuns) else (result,))
+        for file in one.files
+    ]
 
 
 def sources_section(citation: Citation) -> Section:

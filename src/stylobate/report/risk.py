@@ -91,8 +91,8 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         levels = " to ".join(f"{level:.3g}" for level in known["levels"])
         counted = [*(["records"] * (_over(known) == "records")), "runs", "exceeded", "undecided", "failed"]
         pairs += [
-            ("median of the fragility", f"{median_words(known)} (95 %: {median})"),
-            ("dispersion β of the fragility", f"{n.plain(known['beta'])} (95 %: {beta})"),
+            ("median of the fragility", f"{median_words(known)} ({median}, 95 %)"),
+            ("dispersion β of the fragility", f"{n.plain(known['beta'])} ({beta}, 95 %)"),
             ("intensities of its runs", f"{levels}{unit}"),
             (" / ".join(counted), " / ".join(str(known[one]) for one in counted)),
             ("p of its fit", n.plain(known["p_value"])),
@@ -116,13 +116,19 @@ def survival_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         "survival_probability_high",
         "weight",
     ]
-    said = ", ".join(f"{hazard['hazard']}: {float(hazard['survival_probability']):.2g}" for hazard in s["hazards"])
+    said = ", ".join(f"{hazard['hazard']}: {_survives(hazard)}" for hazard in s["hazards"])
     sentence = (
         f"Probability that the column would still stand after {n.plain(s.get('age_y'))} years, by hazard curve: {said}."
     )
     items: list[Item] = [table(s["hazards"], keys, "Hazard curves compared.")]
     items += kept(result.pictures, "survival", "Probability of having stood, over the years.")
     return (sentence, ""), items
+
+
+def _survives(hazard: Mapping[str, Any]) -> str:
+    """A probability with its interval, where it has one."""
+    best, low, high = (hazard.get(f"survival_probability{end}") for end in ("", "_low", "_high"))
+    return f"{best:.2g}" + (f" ({low:.2g}–{high:.2g}, 95 %)" if low is not None and high is not None else "")
 
 
 def _weighing(result: Numbers) -> tuple[tuple[str, str], list[Item]]:

@@ -44,20 +44,18 @@ UPLIFT = (
 )
 
 
-def run_sections(run: RunResult, told: set[str]) -> list[Section]:
+def run_sections(run: RunResult) -> list[Section]:
     """All sections of one run.
 
     Parameters
     ----------
     run : RunResult
-    told : set of str
-        Digests of structures and names of models that the report has shown already; what is shown now is added.
     """
     r, summary = run.response, run.summary
     column = r.structure.stack
     asked = run.asked.motions[0] if run.asked is not None and run.asked.motions else None
     parts = [Section("Verdict", [_verdict(run), *warnings_of(run, _doubts(run))]), asked_section(run, _asked(r))]
-    parts.append(once(structure_section(r.structure), r.structure.digest, told))
+    parts.append(structure_section(r.structure))
     parts.append(motion_section(run.motion, r, asked, column))
     parts += sequence_section(run)
     parts += _motion_of_what_stood(r, summary)
@@ -65,18 +63,10 @@ def run_sections(run: RunResult, told: set[str]) -> list[Section]:
     parts += [sure] if sure is not None else []
     parts += [statics_section(column, run)] if column is not None else []
     parts.append(_energy(r))
-    parts.append(once(model_section([r.model]), f"model {r.model}", told))
+    parts.append(model_section([r.model]))
     parts.append(record_section(run, r.provenance.get("parameters", {}), _versions(run)))
     parts.append(sources_section(cite_run(r.provenance)))
     return parts
-
-
-def once(section: Section, key: str, told: set[str]) -> Section:
-    """A section that a report of several cases shows once, and refers to afterwards."""
-    if key in told:
-        return Section(section.title, ["As in the case above."])
-    told.add(key)
-    return section
 
 
 # -- parts ---------------------------------------------------------------------------------------------------------
@@ -353,7 +343,7 @@ def _record_of(run: RunResult) -> str:
     return str((asked[0].get("record") if asked else None) or run.folder.name)
 
 
-def several_sections(found: SeveralRuns, told: set[str]) -> list[Section]:
+def several_sections(found: SeveralRuns) -> list[Section]:
     """A table of all runs, and the one with the most harm in full."""
     runs = found.runs
     codes = codes_of(np.array([verdict(run.response.summary()) for run in runs]))
@@ -390,5 +380,5 @@ def several_sections(found: SeveralRuns, told: set[str]) -> list[Section]:
     return [
         lead,
         Section(title, ["Every other run has a folder of its own, which can be reported by itself."]),
-        *run_sections(runs[worst], told),
+        *run_sections(runs[worst]),
     ]

@@ -126,17 +126,19 @@ def _by_level(result: Numbers) -> list[Item]:
 
 
 def _links(links: list[dict[str, Any]]) -> Rows:
-    header = ["state", "link", "runs", "broke in", "at capacity in", "largest force over capacity", "median"]
-    keys = ("state", "link", "runs", "broken", "at_capacity", "largest_over_capacity", "median_over_capacity")
-    body = [[n.plain(link.get(key)) for key in keys] for link in links[:MOST]]
+    body = [[n.plain(link.get(key)) for key in BORNE.values()] for link in links[:MOST]]
     left_out = f" The first {MOST} of {len(links)}; links.csv holds all." if len(links) > MOST else ""
-    return Rows(header, body, BORE + left_out, numbers=True)
+    return Rows(list(BORNE), body, BORE + left_out, numbers=True)
 
 
-#: Caption of the table of links.
+#: Columns of the table of links, by heading, and its caption.
+BORNE = {
+    "state": "state", "link": "link", "runs": "runs", "broke in": "broken", "at capacity in": "at_capacity",
+    "largest force over capacity": "largest_over_capacity", "median": "median_over_capacity", "limited by": "limited_by",
+}  # fmt: skip
 BORE = (
-    "What the links bore; 1: at its capacity, it yields or breaks. Links are computed with the stiffness and the capacity "
-    "given: pull-out, cracks in the stone around them and their anchorage are to be judged apart."
+    "What the links bore; 1: at its capacity, it yields or breaks. The capacity is that of the link in its stone: of bar, "
+    "anchor and stone the least, as far as these are known."
 )
 
 #: Most rows of a table of links.

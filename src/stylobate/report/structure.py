@@ -115,6 +115,7 @@ def _properties(column: Column) -> list[tuple[str, str]]:
         ("slenderness α, of R from the vertical", n.angle(column.slenderness)),
         ("frequency parameter p, as one rigid block", f"{column.frequency_parameter:.3f} rad/s"),
         ("static acceleration that opens the first joint", what_opens(column)[1]),
+        ("north", column.north_words),
     ]
 
 
@@ -246,14 +247,18 @@ def _blocks(structure: Structure) -> list[Item]:
         ("blocks", f"{sum(not one.fixed for one in bodies)} that can move" + (f", {held} held" if held else "")),
         ("joints", str(len(joints_of))),
         ("ground", "none" if structure.ground is None else f"level at z = {structure.ground:g} m"),
+        ("north", structure.north_words),
     ]
     body = []
     for one in near[:MOST]:
-        size, depth = np.ptp(one.corners, axis=0), np.ptp(one.shape.mesh().vertices[:, 1])
+        size, depth = np.ptp(one.shape.outline, axis=0), np.ptp(one.shape.mesh().vertices[:, 1])
         kind = "held" if one.fixed else f"{one.mass:.0f}"
         body.append([one.name, f"{size[0]:.3f}", f"{size[1]:.3f}", f"{depth:.3f}", kind])
     rows = Rows(
-        ["block", "width [m]", "height [m]", "depth [m]", "mass [kg]"], body, "Blocks, from edge to edge.", numbers=True
+        ["block", "width [m]", "height [m]", "depth [m]", "mass [kg]"],
+        body,
+        "Blocks, from edge to edge along their own axes.",
+        numbers=True,
     )
     laws = [
         [

@@ -66,6 +66,8 @@ class LinkMeasures:
         [m]
     shear_capacity, axial_capacity : float
         [N], infinite without limit.
+    limited_by : str
+        Whether the ``link`` or the ``stone`` around it limits them.
     """
 
     name: str
@@ -78,6 +80,7 @@ class LinkMeasures:
     peak_elongation: float
     shear_capacity: float
     axial_capacity: float
+    limited_by: str = "link"
 
     @property
     def broken(self) -> bool:
@@ -102,6 +105,7 @@ class LinkMeasures:
             "peak_elongation_m": self.peak_elongation,
             "shear_capacity_n": self.shear_capacity if math.isfinite(self.shear_capacity) else None,
             "axial_capacity_n": self.axial_capacity if math.isfinite(self.axial_capacity) else None,
+            "limited_by": self.limited_by,
         }
 
     @classmethod
@@ -115,6 +119,7 @@ class LinkMeasures:
             row["name"], row["kind"], row["joint"] or 0, number("broken_s", math.nan),
             *(number(name, 0.0) for name in ("peak_shear_n", "peak_tension_n", "peak_slip_m", "peak_elongation_m")),
             shear_capacity=number("shear_capacity_n", math.inf), axial_capacity=number("axial_capacity_n", math.inf),
+            limited_by=row.get("limited_by", "link"),
         )  # fmt: skip
 
 
@@ -159,7 +164,9 @@ def sentence_of(links: Sequence[LinkMeasures]) -> str:
     which = (
         f"The {first.kind} broke" if len(counted) == 1 else f"{len(broken)} of {len(counted)} {many} broke, the first"
     )
-    others = f" Of those that did not break, {_at_capacity(full)}. {YIELDS}" if full else ""
+    stone = sum(one.limited_by == "stone" for one in broken)
+    others = f" The stone around {stone} of those broke first." if stone else ""
+    others += f" Of those that did not break, {_at_capacity(full)}. {YIELDS}" if full else ""
     return f"{which} at {first.broken_at:.2f} s{where}.{others}"
 
 

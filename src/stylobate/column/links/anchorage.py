@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 from ...errors import InputError, check_range
-from .dowel import Pin
-from .link import Link
+from .link import Numbers
 
 #: k of the cone (EN 1992-4, 7.2.1.4, post-installed) and of the edge (7.2.2.5), cracked and not; in N and mm.
 CONE, EDGE = {True: 7.7, False: 11.0}, {True: 1.7, False: 2.4}
@@ -105,8 +105,12 @@ def stone_at_anchor(
     }  # fmt: skip
 
 
+#: By which formula the stone governs in shear and in tension.
+GOVERNS = "edge of the stone (EN 1992-4, 7.2.2.5)", "cone of the stone (EN 1992-4, 7.2.1.4)"
+
+
 class StoneAround(NamedTuple):
-    """What the stone around a link bears at least, which no computation takes.
+    """What the stone around a link across a joint bears at least.
 
     Parameters
     ----------
@@ -123,11 +127,6 @@ class StoneAround(NamedTuple):
     edge: float
     strength: float
 
-    def before(self, shear: float, pull: float) -> tuple[str, float, float] | None:
-        """The way in which the stone gives way before a link of these capacities does, with both forces [N]; else None."""
-        ways = ("shear", self.shear, shear), ("tension", self.pull, pull)
-        return min((way for way in ways if way[1] < way[2]), key=lambda way: way[1] / way[2], default=None)
-
     @property
     def source(self) -> str:
         """What it rests on, in words."""
@@ -135,24 +134,35 @@ class StoneAround(NamedTuple):
         return f"EN 1992-4, carried over from concrete; {where}"
 
 
-def stone_around(link: Link, edge: float, pulled: bool) -> StoneAround | None:
-    """What the stone around a link across a joint bears, cracked; None where it cannot be told.
+def in_stone(alone: Numbers) -> tuple[Numbers, StoneAround | None]:
+    """What a link across a joint holds in its stone, cracked, and what that bears; None where it cannot be told.
+
+    Capacities that are given stay. Where the stone bears less it breaks: the link snaps in shear, and is lost at the
+    elongation at which the cone breaks out.
 
     Parameters
     ----------
-    link : Link
-    edge : float
-        From its axis to the nearest edge of the stones, as built [m].
-    pulled : bool
-        Whether it holds against opening.
+    alone : Numbers
+        Of the link by itself.
     """
-    if not isinstance(link, Pin) or link.diameter is None or link.embedment is None:
-        return None
+    if not (alone.diameter and alone.stone_strength and math.isfinite(alone.lift) and math.isfinite(alone.edge)):
+        return alone, None
     try:  # the bearing, which alone asks for the yield strength, is in the capacity of the link already
         found = stone_at_anchor(
-            diameter=link.diameter, embedment=link.embedment, edge=edge, stone_strength=link.stone_strength,
+            diameter=alone.diameter, embedment=alone.lift, edge=alone.edge, stone_strength=alone.stone_strength,
             yield_strength=RANGES["yield_strength"][1],
         )  # fmt: skip
     except InputError:
-        return None
-    return StoneAround(found["edge"], found["cone"] if pulled else math.inf, edge, link.stone_strength)
+        return alone, None
+    edge, cone = found["edge"], found["cone"] if alone.axial_stiffness else math.inf
+    stone = StoneAround(edge, cone, alone.edge, alone.stone_strength)
+    held: dict[str, Any] = {}
+    governs = alone.governs.split("; ")
+    if edge < alone.shear_capacity and "shear_capacity" not in alone.stated:
+        held |= {"shear_capacity": edge, "failure": "brittle"}
+        governs[0] = GOVERNS[0]
+    if cone < alone.axial_capacity and "axial_capacity" not in alone.stated:
+        lost = (cone - alone.pretension) / alone.axial_stiffness
+        held |= {"axial_capacity": cone, "ultimate_elongation": min(alone.ultimate_elongation, max(lost, 0.0))}
+        governs[-1] = GOVERNS[1]
+    return replace(alone, **held, governs="; ".join(governs)) if held else alone, stone

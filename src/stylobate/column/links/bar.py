@@ -22,8 +22,8 @@ class Bar(Dowel):
     Parameters
     ----------
     axial_stiffness, axial_capacity : float, optional
-        Against opening of the joint at its place [N/m], [N]; elastic-plastic. The capacity from a material is the smaller
-        one of yield and bond.
+        Against opening of the joint at its place [N/m], [N]; elastic-plastic. The capacity from a material is the smallest
+        one of yield, bond and the cone of the stone, which snaps.
     bond : float, optional
         Strength of the bond to the stone [Pa], for the formula; 3 MPa if left out.
     ultimate_elongation : float, optional
@@ -60,7 +60,7 @@ class Bar(Dowel):
         """As a dowel, and against opening by even bond over its embedment in both drums."""
         across, axial = self.across(self.embedment), self._anchored()
         governs = f"{across.pop('governs')}; {axial.pop('governs')}"
-        return Numbers(**across, **axial, lift=given(self.embedment, math.inf), governs=governs)
+        return Numbers(**across, **axial, **self.stone(), lift=given(self.embedment, math.inf), governs=governs)
 
     def _anchored(self) -> dict[str, Any]:
         stiffness, capacity, ultimate = self.axial_stiffness, self.axial_capacity, self.ultimate_elongation

@@ -99,6 +99,11 @@ class Pin(Link):
             "governs": governs,
         }
 
+    def stone(self) -> dict[str, Any]:
+        """Stone that it stands in, and capacities that are given, as fields of :class:`Numbers`."""
+        stated = tuple(one for one in ("shear_capacity", "axial_capacity") if getattr(self, one, None) is not None)
+        return {"stone_strength": self.stone_strength, "stated": stated}
+
     def _shear(self, embedment: float | None) -> tuple[float, float, str, str]:
         """Stiffness [N/m], capacity [N], failure and what governs."""
         stiffness, capacity = self.shear_stiffness, self.shear_capacity
@@ -132,7 +137,8 @@ class Dowel(Pin):
     material : str, optional
         ``wood``, ``iron in lead``, ``titanium`` or ``stainless steel``: gives what is left out below.
     shear_stiffness, shear_capacity : float, optional
-        Across the joint [N/m], [N].
+        Across the joint [N/m], [N]. A capacity that is left out is the smaller one of its own and of the stone's; one that
+        is given is that of the dowel in its stone.
     clearance : float, optional
         Slack all round [m].
     hole : float, optional
@@ -140,8 +146,8 @@ class Dowel(Pin):
     ultimate_slip : float, optional
         Slip of the joint at its place at which it is lost for good [m]; never if left out and there is no material.
     failure : {"ductile", "brittle", "crushing"}, optional
-        What becomes of it at its capacity: it yields (elastic-plastic), it snaps, or it crushes the stone, so that its hole
-        grows. Left out: what the formula says that governs; ``ductile`` without material.
+        What becomes of it at its own capacity: it yields (elastic-plastic), it snaps, or it crushes the stone, so that its
+        hole grows. Left out: what the formula says that governs; ``ductile`` without material. The edge of the stone snaps.
     stone_modulus, stone_strength : float
         Young's modulus and compressive strength of the stone [Pa], for the formulas.
     """
@@ -156,7 +162,7 @@ class Dowel(Pin):
 
     def held(self, site: Site) -> Numbers:
         """By Hetényi's beam in either drum, and the weakest of Johansen's modes."""
-        return Numbers(**self.across(self.embedment), lift=given(self.embedment, math.inf))
+        return Numbers(**self.across(self.embedment), **self.stone(), lift=given(self.embedment, math.inf))
 
 
 def shear_stiffness(material: str, diameter: float, embedment: float, stone_modulus: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from ...errors import InputError, suggest
 from ..block import Block, FaceJoint
 from .link import LEAST_LENGTH, Link, in_space, point
-from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, for_each, place_all
+from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, for_each, place_all, placed
 
 #: Largest distance of the end of a tie from its body, on a bracket; and of a given place from its joint [m].
 BRACKET, BESIDE = 1.0, 1e-3
@@ -68,27 +69,30 @@ def bodies_named(link: Link, bodies: Sequence[Any]) -> tuple[int, int]:
     return one, other
 
 
-def placed_between(link: Link, lower: int, upper: int, low: Point, high: Point, **where: Any) -> PlacedLink:
-    """A link of two bodies by number, between its ends as drawn [m]; ``where`` has the other fields of its place."""
+def placed_between(
+    link: Link, lower: int, upper: int, low: Point, high: Point, edge: float = math.inf, **where: Any
+) -> PlacedLink:
+    """A link of two bodies by number, between its ends as drawn [m]; so far from the nearest edge of its joint, where it
+    brings no distance along [m]; ``where`` has the other fields of its place."""
     assert link.between is not None
     assert link.numbers is not None
-    numbers = dict(vars(link.numbers))
+    numbers = replace(link.numbers, edge=min(link.numbers.edge, edge))
     if link.lies == "side":  # it does not leave its groove by opening; its legs are longer than that
-        numbers["lift"] = math.inf
-    if math.isfinite(numbers["lift"]):
-        where["stroke"] = numbers["lift"]
+        numbers = replace(numbers, lift=math.inf)
+    if math.isfinite(numbers.lift):
+        where["stroke"] = numbers.lift
     called = link.name or f"{link.kind} between {link.between[0]} and {link.between[1]}"
-    return PlacedLink(
-        **numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark, lower=lower, upper=upper,
+    return placed(
+        numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark, lower=lower, upper=upper,
         low=low, high=high, **where,
     )  # fmt: skip
 
 
 def _placed(link: Link, bodies: Sequence[Block], joints: Sequence[FaceJoint]) -> PlacedLink:
     one, other = bodies_named(link, bodies)
-    along = (1.0, 0.0)
+    along, edge = (1.0, 0.0), math.inf
     if link.lies == "joint":
-        one, other, low, along = _in_joint(link, bodies, joints, one, other)
+        one, other, low, along, edge = _in_joint(link, bodies, joints, one, other)
         high = low
     else:
         low, high = _ends(link, bodies, one, other)
@@ -98,7 +102,9 @@ def _placed(link: Link, bodies: Sequence[Block], joints: Sequence[FaceJoint]) ->
     origins = [(x, 0.0, z) for x, z in (bodies[body].origin for body in (one, other))]
     frame = (along[0], 0.0, along[1]), (0.0, 1.0, 0.0), (-along[1], 0.0, along[0])
     stroke = STROKE * bodies[other].thickness
-    return placed_between(link, one, other, low, high, origins=(origins[0], origins[1]), frame=frame, stroke=stroke)
+    return placed_between(
+        link, one, other, low, high, edge, origins=(origins[0], origins[1]), frame=frame, stroke=stroke
+    )
 
 
 def _ends(link: Link, bodies: Sequence[Block], one: int, other: int) -> tuple[Point, Point]:
@@ -140,8 +146,9 @@ def _ends(link: Link, bodies: Sequence[Block], one: int, other: int) -> tuple[Po
 
 def _in_joint(
     link: Any, bodies: Sequence[Block], joints: Sequence[FaceJoint], one: int, other: int
-) -> tuple[int, int, Point, tuple[float, float]]:
-    """Lower and upper body, place in space [m] and direction of the joint in which a dowel, bar or layer is."""
+) -> tuple[int, int, Point, tuple[float, float], float]:
+    """Lower and upper body, place in space [m], direction of the joint and distance from its nearest edge [m] of a dowel,
+    bar or layer."""
     joint = next((j for j in joints if {j.lower, j.upper} == {one, other}), None)
     if joint is None:
         raise InputError(
@@ -175,8 +182,10 @@ def _in_joint(
                 "inward.",
                 "at",
             )
-    inside = min(s - low, high - s) - 0.5 * link.numbers.diameter
-    if link.numbers.diameter and inside < RIM:
+    edge = min(s - low, high - s)
+    inside = edge - 0.5 * link.numbers.diameter
+    looked_at = link.numbers.edge < math.inf  # in the column that brings it along
+    if link.numbers.diameter and inside < RIM and not looked_at:
         raise InputError(
             f"a {link.kind} at {s - low:.3g} m from the end of its joint leaves {1000.0 * inside:.3g} mm of stone to the "
             f"rim; at least {1000.0 * RIM:g} mm must be left: move it inward or make it thinner.",
@@ -186,7 +195,7 @@ def _in_joint(
         block = bodies[body]
         tall = float(np.ptp(block.corners @ np.array([-t[1], t[0]])))
         lift = link.numbers.lift
-        if link.numbers.diameter and not block.fixed and tall < lift < math.inf:
+        if link.numbers.diameter and not block.fixed and tall < lift < math.inf and not looked_at:
             raise InputError(
                 f"a {link.kind} is embedded by {lift:g} m, and block {block.name!r} is {tall:.4g} m high there; make "
                 "it shorter.",
@@ -194,7 +203,9 @@ def _in_joint(
             )
     link.check_joint(joint.law)
     x, z = (float(one) for one in left + s * t)
-    return joint.lower, joint.upper, (x, y, z), (float(t[0]), float(t[1]))
+    aside = min(0.5 * bodies[body].depth - abs(y) for body in (joint.lower, joint.upper) if not bodies[body].fixed)
+    edge = link.numbers.edge if looked_at else min(edge, aside)
+    return joint.lower, joint.upper, (x, y, z), (float(t[0]), float(t[1])), edge
 
 
 def _check_legs(link: Any, *blocks: Block) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,10 +12,9 @@ import numpy as np
 from ...errors import InputError
 from ..drum import Drum
 from ..stack import Stack
-from .anchorage import stone_around
 from .line import Line
 from .link import Link, Site
-from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, place_all
+from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, place_all, placed
 
 #: Points along a tie at which it is looked at whether it passes through stone.
 LOOKS = 400
@@ -76,8 +76,8 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
     place = (*link.at, float(stack.joint_heights[upper]))
     half = numbers.lift if math.isfinite(numbers.lift) else STROKE * float(stack.heights[upper])
     called = link.name or f"{link.kind} in joint {link.joint}"
-    about = {"stroke": half, "stone": stone_around(link, edge, numbers.axial_stiffness > 0.0)}
-    return _placed(link, numbers, called, stack, (upper, upper + 1), (place, place), joint=link.joint, **about)
+    numbers = replace(numbers, edge=edge if pin else math.inf)
+    return _placed(link, numbers, called, stack, (upper, upper + 1), (place, place), joint=link.joint, stroke=half)
 
 
 def _line(link: Line, stack: Stack) -> PlacedLink:
@@ -115,8 +115,8 @@ def _placed(
     link: Link, numbers: Any, called: str, stack: Stack, bodies: tuple[int, int], ends: tuple[Point, Point], **more: Any
 ) -> PlacedLink:
     origins = tuple((0.0, 0.0, float(stack.centroid_heights[body - 1]) if body else 0.0) for body in bodies)
-    return PlacedLink(
-        **vars(numbers), name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark,
+    return placed(
+        numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark,
         lower=bodies[0], upper=bodies[1], low=ends[0], high=ends[1], origins=(origins[0], origins[1]), **more,
     )  # fmt: skip
 

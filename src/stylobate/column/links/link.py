@@ -73,6 +73,12 @@ class Numbers:
         nothing does.
     governs : str
         What limits shear and tension, and by which formula.
+    stone_strength : float
+        Compressive strength of the stone about it [Pa]; 0 where its anchorage is not looked at.
+    edge : float
+        From its axis to the nearest edge of the stones that it joins [m], infinite where that is not known.
+    stated : tuple of str
+        Capacities that are given rather than computed: they are those of the link in its stone.
     """
 
     diameter: float = 0.0
@@ -93,6 +99,9 @@ class Numbers:
     bed_stiffness: float = math.inf
     bed_shear_stiffness: float = math.inf
     governs: str = ""
+    stone_strength: float = 0.0
+    edge: float = math.inf
+    stated: tuple[str, ...] = ()
 
     def joint_law(self, joint: Joint) -> Joint:
         """Law of its joint with what lies in it: with its friction, and its bed in series with the stone's stiffness."""

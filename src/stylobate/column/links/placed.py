@@ -13,7 +13,7 @@ import numpy as np
 from ...errors import InputError, within
 from ..turning import UPRIGHT, Quaternion, matrix_of
 from . import COLUMN_KINDS
-from .anchorage import StoneAround
+from .anchorage import StoneAround, in_stone
 from .link import Lies, Link, Mark, Numbers
 
 Point = tuple[float, float, float]
@@ -54,10 +54,13 @@ class PlacedLink(Numbers):
         length 1 and across the others. In a plane it slips in the first alone.
     stroke : float
         Half the length of its mark across a joint [m].
+    alone : Numbers, optional
+        What it holds by itself, without the stone around it.
     stone : StoneAround, optional
-        What the stone around it bears, where that can be told; nothing is computed with it.
+        What the stone around it bears, where that can be told.
 
-    Others as for :class:`Numbers`; of a clamp ``lift`` is infinite, because it does not leave its groove by opening.
+    Others as for :class:`Numbers`, with capacities of the link in its stone; of a clamp ``lift`` is infinite, because it
+    does not leave its groove by opening.
     """
 
     name: str
@@ -74,7 +77,17 @@ class PlacedLink(Numbers):
     joint: int = 0
     frame: tuple[Point, Point, Point] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
     stroke: float = 0.0
+    alone: Numbers | None = None
     stone: StoneAround | None = None
+
+    def limited_by(self, capacity: str) -> str:
+        """Which limits a capacity of this name: ``link`` or ``stone``."""
+        return "stone" if self.alone is not None and getattr(self, capacity) < getattr(self.alone, capacity) else "link"
+
+    @property
+    def breaks_stone(self) -> bool:
+        """Whether the stone around it gives way before it does."""
+        return "stone" in (self.limited_by("shear_capacity"), self.limited_by("axial_capacity"))
 
     @property
     def acts(self) -> bool:
@@ -126,6 +139,12 @@ class PlacedLink(Numbers):
     def crosses(self, joint: int) -> bool:
         """Whether it crosses joint 0 … n−1 of a column."""
         return self.lower <= joint < self.upper
+
+
+def placed(alone: Numbers, **where: Any) -> PlacedLink:
+    """A link that holds so much by itself, in its stone; ``where`` has the fields of its place."""
+    held, stone = in_stone(alone)
+    return PlacedLink(**vars(held), alone=alone, stone=stone, **where)
 
 
 def stands_at(place: tuple[float, float], angle: float, arm: Sequence[float] | np.ndarray) -> Point:
@@ -202,7 +221,7 @@ def _check(link: PlacedLink, others: Sequence[PlacedLink]) -> None:
     if link.pretension > link.axial_capacity:
         raise InputError(
             f"pretension of a {link.kind} is {link.pretension:g} N, more than its axial capacity of "
-            f"{link.axial_capacity:.4g} N; make it smaller.",
+            f"{link.axial_capacity:.4g} N ({link.governs}); make it smaller.",
             "pretension",
         )
     if link.pretension and not link.axial_stiffness:

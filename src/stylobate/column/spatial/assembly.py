@@ -53,6 +53,8 @@ class SpatialAssembly(Structure):
         Clamps, dowels, bars, ties, cores, layers and pads ``between`` two bodies each; kept in numbers.
     settle : bool
         Whether it begins in equilibrium; False to begin as drawn, in the air and moving if need be.
+    north : float, optional
+        Bearing of the x axis, clockwise from north [degrees]; nothing is known of north where it is left out.
 
     Raises
     ------
@@ -75,9 +77,11 @@ class SpatialAssembly(Structure):
     overrides: tuple[tuple[str, str, Joint], ...] = ()
     settle: bool = True
     links: tuple[Link, ...] = ()
+    north: float | None = None
 
     def __post_init__(self) -> None:
         check_fields(self, "stones", Stone)
+        self._check_north()
         check_kind("settle", self.settle, bool, allowed="True or False")
         object.__setattr__(self, "links", in_numbers(self.links, self.name))
         if self.gravity != 0.0:
@@ -321,6 +325,7 @@ class SpatialAssembly(Structure):
 
     def to_dict(self) -> dict:
         """Everything that defines it, as plain values in SI units."""
+        more = {"links": [link.to_dict() for link in self.links] or None, "north": self.north}
         return {
             "stones": [stone.to_dict() for stone in self.stones],
             "joint": given(self.joint),
@@ -329,7 +334,7 @@ class SpatialAssembly(Structure):
             "ground": self.ground,
             "overrides": [[one, other, given(law)] for one, other, law in self.overrides],
             "settle": self.settle,
-        } | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
+        } | {key: value for key, value in more.items() if value is not None}
 
     @classmethod
     def from_dict(cls, data: dict) -> SpatialAssembly:

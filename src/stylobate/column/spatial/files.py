@@ -79,5 +79,5 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
     stones = (*standing, *beams, *blocks)
     name = table.name or default_name
     links += links_between(table.link or [])
-    rest = tuple(overrides), table.settle, tuple(links)
+    rest = tuple(overrides), table.settle, tuple(links), table.north
     return SpatialAssembly(stones, joint, name, table.gravity, ground, *rest)

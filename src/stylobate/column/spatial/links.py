@@ -73,8 +73,9 @@ class _Scene:
                     end,
                 )
         frame: Frame = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+        edge = math.inf
         if link.lies == "joint":
-            lower, upper, low, frame = self._in_joint(link, lower, upper)
+            lower, upper, low, frame, edge = self._in_joint(link, lower, upper)
             high = low
         else:
             low, high = self._ends(link, lower, upper)
@@ -84,7 +85,7 @@ class _Scene:
         ends = lower, upper
         origins, turns = ([where(self.bodies[i]) for i in ends] for where in (self._origin, _turn))
         return placed_between(
-            link, lower, upper, low, high, origins=tuple(origins), turns=tuple(turns), frame=frame,
+            link, lower, upper, low, high, edge, origins=tuple(origins), turns=tuple(turns), frame=frame,
             stroke=STROKE * self._along(upper, frame[2]),
         )  # fmt: skip
 
@@ -145,8 +146,9 @@ class _Scene:
                     f"{self.bodies[i].name!r} at {_point(points[worst])}; {remedy}."
                 )
 
-    def _in_joint(self, link: Any, one: int, other: int) -> tuple[int, int, Point, Frame]:
-        """Lower and upper body, place [m] and axes of the joint in which a dowel, bar, layer or pad is."""
+    def _in_joint(self, link: Any, one: int, other: int) -> tuple[int, int, Point, Frame, float]:
+        """Lower and upper body, place [m], axes of the joint and distance from its nearest edge [m] of a dowel, bar, layer
+        or pad."""
         joint, place = self._joint_for(link, one, other)
         local = joint.frame.T @ (place - joint.origin)
         deep = inside(joint.edges, local[:2])
@@ -155,7 +157,8 @@ class _Scene:
                 f"a {link.kind} at {_point(place)} is outside the section, by {-deep:.3g} m; move it inward.", "at"
             )
         left = deep - 0.5 * link.numbers.diameter
-        if link.numbers.diameter and left < RIM:
+        looked_at = link.numbers.edge < math.inf  # in the column that brings it along
+        if link.numbers.diameter and left < RIM and not looked_at:
             raise InputError(
                 f"a {link.kind} at {_point(place)} leaves {1000.0 * left:.3g} mm of stone to the rim; at least "
                 f"{1000.0 * RIM:g} mm must be left: move it inward or make it thinner.",
@@ -163,7 +166,7 @@ class _Scene:
             )
         lift, normal = link.numbers.lift, joint.frame[:, 2]
         for body, part in ((joint.lower, joint.lower_part), (joint.upper, joint.upper_part)):
-            if self.bodies[body].fixed or not link.numbers.diameter:
+            if self.bodies[body].fixed or not link.numbers.diameter or looked_at:
                 continue
             tall = float(self.solids[body][part].extent(np.array([normal, -normal])).sum())
             if tall < lift < math.inf:
@@ -174,7 +177,8 @@ class _Scene:
                 )
         link.check_joint(joint.law)
         i, j, k = (_three(axis) for axis in joint.frame.T)
-        return joint.lower, joint.upper, _three(place - local[2] * normal), (i, j, k)
+        edge = link.numbers.edge if looked_at else deep
+        return joint.lower, joint.upper, _three(place - local[2] * normal), (i, j, k), edge
 
     def _joint_for(self, link: Any, one: int, other: int) -> tuple[SpaceJoint, np.ndarray]:
         """The joint of two bodies in which a link is, and its place as given, or its middle [m]."""

@@ -87,6 +87,7 @@ class SpatialTable(Table):
     density: float | None = None
     material: str | None = None
     gravity: float = STANDARD_GRAVITY
+    north: float | None = None
     ground: float | bool = 0.0
     settle: bool = True
     joint: JointTable | None = None

@@ -189,7 +189,7 @@ def link_measures(links: Sequence[PlacedLink], records: Any, lane: int, step: fl
         found.append(
             LinkMeasures(
                 link.name, link.kind, link.joint, math.nan if when < 0 else when * step, shear, pull, far, most,
-                link.shear_capacity, link.axial_capacity,
+                link.shear_capacity, link.axial_capacity, "stone" if link.breaks_stone else "link",
             )
         )  # fmt: skip
     return tuple(found)
