@@ -21,11 +21,12 @@ from ..column.tables import made_of
 from ..column.toml import checked, toml_text
 from ..errors import InputError, check_range, within
 from ..reading import shown
+from .contact_planes import brought_together
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
 from .export import refuse_existing
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND
-from .stones import assembly_tables, column_tables, distance_of, fit_all, near
+from .stones import ROUNDING, assembly_tables, column_tables, distance_of, fit_all, near
 from .survey import WORKBOOKS, survey_tables, survey_text
 
 #: Endings of what is written; of what is read besides column and assembly files.
@@ -202,6 +203,10 @@ def stand_up(
         else:
             lowest = min(float(part.points[part.used, 2].min()) for part, *_ in parts)
             ground = round(lowest if level is None else level, 7)
+        shapes, shift = brought_together([one.shape for one in stones], ground, reading.tolerance)
+        stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
+        if shift > ROUNDING:
+            words.append(f"faces that touch were brought into common planes: corners moved by up to {near(shift)}")
         tables = assembly_tables(name, stones, reading.material, ground)
         structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder)
     words.append("no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m")

@@ -13,14 +13,20 @@ from ..column.spatial.mesh_formats import MeshPart
 from ..column.spatial.moments import mesh_moments
 from ..errors import InputError
 
-#: A ring of a drum has corners that are no farther apart than this, as seen from its axis [rad]: a twelfth of a turn.
-GAP = math.radians(31.0)
+#: Between two corners a drum's side lies this share of its radius within the circle at most: twelve corners or more.
+FLAT = 1.0 - math.cos(math.radians(15.5))
 
 #: A drum is filled by its mesh to this share: twelve corners leave 4.5 % of a circle out.
 FILLED = (0.94, 1.06)
 
-#: Most vertices that a frustum is fitted to; the distance of all is told.
+#: Most corners that a frustum is fitted to; the distance of all is told.
 MOST = 4000
+
+#: Rounds of fitting, each with faces told apart by the fit before it.
+ROUNDS = 5
+
+#: Number of the side among the three surfaces of a frustum.
+SIDE = 2
 
 
 class Frustum(NamedTuple):
@@ -35,7 +41,11 @@ class Frustum(NamedTuple):
     bottom, top, height : float
         Diameters and height [m].
     residual : float
-        Largest distance of a vertex of the mesh from its surface [m].
+        Largest distance of the mesh from it, but for what lies evenly between corners [m].
+    flat : float
+        How far the sides of the mesh lie within it between their corners: the median of its faces [m].
+    filled : float
+        Volume of the mesh, as a share of its own [-].
     """
 
     foot: np.ndarray
@@ -44,18 +54,26 @@ class Frustum(NamedTuple):
     top: float
     height: float
     residual: float
-
-    @property
-    def volume(self) -> float:
-        """[m³]"""
-        return math.pi * self.height * (self.bottom**2 + self.bottom * self.top + self.top**2) / 12.0
+    flat: float
+    filled: float
 
 
 class Hull(NamedTuple):
-    """The convex hull of a mesh: its corners [m], shape (k, 3), and how far the mesh lies within it at most [m]."""
+    """The convex hull of a mesh.
+
+    Parameters
+    ----------
+    corners : array
+        [m], shape (k, 3).
+    residual : float
+        How far the mesh lies within it at most [m].
+    drum : Frustum or None
+        The drum that fits best, and not well enough; None of what is not round at all.
+    """
 
     corners: np.ndarray
     residual: float
+    drum: Frustum | None = None
 
 
 def solid_of(part: MeshPart) -> Mesh:
@@ -65,7 +83,7 @@ def solid_of(part: MeshPart) -> Mesh:
 
 
 def fitted(part: MeshPart, tolerance: float, what: str) -> Frustum | Hull:
-    """The frustum whose surface no vertex of a part is farther from than the tolerance [m], or else its hull.
+    """The frustum that a part is no farther from than the tolerance [m], or else its hull.
 
     Raises
     ------
@@ -77,20 +95,25 @@ def fitted(part: MeshPart, tolerance: float, what: str) -> Frustum | Hull:
     if not volume > LENGTHS[0] ** 3:
         inside = " its faces run clockwise: turn them round." if volume < 0.0 else " give a solid."
         raise InputError(f"{what} encloses {volume:.3g} m³;{inside}")
-    drum = fit_frustum(mesh)
-    if drum is not None and not FILLED[0] <= volume / drum.volume <= FILLED[1]:
-        drum = None
+    drum = fit_frustum(mesh, volume)
     if drum is not None and drum.residual <= tolerance:
         return drum
     hull, within = fit_hull(mesh, volume, what)
     if within > tolerance:
         said = "" if drum is None else f", and a drum does not fit it by {1e3 * drum.residual:.3g} mm"
+        enough = 1e3 * min(within, within if drum is None else drum.residual)
         raise InputError(
             f"{what} is not convex: it lies {1e3 * within:.3g} mm within its hull{said}; allowed are "
-            f"{1e3 * tolerance:g} mm: split it into convex parts, or allow more with `tolerance`.",
+            f"{1e3 * tolerance:g} mm: split it into convex parts, or allow {_rounded_up(enough):g} mm with `tolerance`.",
             "tolerance",
         )
-    return hull
+    return hull._replace(drum=drum)
+
+
+def _rounded_up(number: float) -> float:
+    """A positive number to two digits, not less than it is."""
+    step = 10.0 ** (math.floor(math.log10(number)) - 1)
+    return float(f"{math.ceil(number / step) * step:.2g}")
 
 
 def fit_hull(mesh: Mesh, volume: float, what: str) -> tuple[Hull, float]:
@@ -115,46 +138,63 @@ def _points_on(mesh: Mesh) -> np.ndarray:
     return np.concatenate((mesh.vertices, middles, [mesh.vertices[list(face)].mean(axis=0) for face in mesh.faces]))
 
 
-def fit_frustum(mesh: Mesh) -> Frustum | None:
-    """The frustum nearest to the vertices of a mesh, by least squares of their distances; None of what is not round.
+def fit_frustum(mesh: Mesh, volume: float) -> Frustum | None:
+    """The frustum of the least squares of the distances of corners from it; None of what is not round.
 
-    The axis begins as whichever principal axis of the solid, or the vertical, brings the vertices nearest.
+    A corner is as far from it as from the lower face, the upper one, or the side: from all of them to which faces of the
+    mesh belong that meet there. The axis begins as whichever principal axis, or the vertical, brings the corners nearest.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    volume : float
+        That it encloses [m³].
     """
     from scipy.optimize import least_squares
 
     moments = mesh_moments(mesh, 1.0)
     points, centre = mesh.vertices - moments.centroid, moments.centroid
+    corner, owner = np.concatenate(mesh.faces), np.repeat(np.arange(len(mesh.faces)), [len(f) for f in mesh.faces])
+    middles = np.array([points[list(face)].mean(axis=0) for face in mesh.faces])
     axes = [*np.linalg.eigh(moments.tensor)[1].T, np.array([0.0, 0.0, 1.0])]
     starts = [_start(points, axis) for axis in axes]
-    best = min(starts, key=lambda one: float(np.square(_distances(points, *one)).sum()))
-    frame, first = best
+    frame, values = min(starts, key=lambda one: float(np.square(_distances(points, *one)).sum()))
     size = float(np.ptp(points, axis=0).max())
-    some = points[:: max(1, len(points) // MOST)]
-    found: Any = least_squares(
-        lambda x: _distances(some, frame, x) / size,
-        first,
-        x_scale=size,
-        xtol=1e-15,
-        ftol=1e-15,
-        gtol=1e-15,
-        max_nfev=60,
-    )
-    values = found.x if found.cost <= 0.5 * float(np.square(_distances(some, frame, first) / size).sum()) else first
+    kinds = sides = np.zeros(0, dtype=int)
+    for _ in range(ROUNDS):
+        costs = np.square(_from_surfaces(middles, frame, values))
+        np.add.at(costs, owner, np.square(_from_surfaces(points, frame, values))[corner])
+        least, second = np.sort(costs, axis=1)[:, :2].T
+        found = np.where(4.0 * least <= second, costs.argmin(axis=1), -1)  # a face across an edge belongs to neither side
+        if np.array_equal(found, kinds):
+            break
+        kinds = found
+        sides = np.unique(np.stack((corner, kinds[owner]))[:, kinds[owner] >= 0], axis=1)
+        if len(np.unique(sides[1])) < 3:
+            return None
+        some = sides[:, :: max(1, sides.shape[1] // MOST)]
+
+        def misfit(x: np.ndarray, some: np.ndarray = some) -> np.ndarray:
+            return _from_surfaces(points[some[0]], frame, x)[np.arange(some.shape[1]), some[1]] / size
+
+        values = least_squares(misfit, values, x_scale=size, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=60).x
+        _, _, (low, high, bottom, top) = _unpacked(frame, values)
+        if high - low < LENGTHS[0] or min(bottom, top) < 0.5 * LENGTHS[0]:
+            return None
     foot, axis, (low, high, bottom, top) = _unpacked(frame, values)
-    if high - low < LENGTHS[0] or min(bottom, top) < 0.5 * LENGTHS[0]:
-        return None
     if axis[2] < 0.0:
         axis, low, high, bottom, top = -axis, -high, -low, top, bottom
-    along = (points - foot) @ axis
-    out = points - foot - np.outer(along, axis)
-    outer = np.linalg.norm(out, axis=1) > 0.7 * min(bottom, top)
-    for near in (along < low + 0.3 * (high - low), along > high - 0.3 * (high - low)):
-        if not _round(out[outer & near], axis):
-            return None
-    residual = float(np.abs(_distances(points, frame, values)).max())
+    corners = np.abs(_from_surfaces(points[sides[0]], frame, values)[np.arange(sides.shape[1]), sides[1]])
+    depth = np.abs(_from_surfaces(middles, frame, values)[:, 2])
+    flat = float(np.median(depth[kinds == SIDE]))
+    between = np.maximum(_distances(_points_on(Mesh(points, mesh.faces)), frame, values) - flat, 0.0)
+    filled = volume / (math.pi * (high - low) * (bottom**2 + bottom * top + top**2) / 3.0)
+    if flat > FLAT * max(bottom, top) or not FILLED[0] <= filled <= FILLED[1]:
+        return None
     axis = np.where(np.abs(axis) < 1e-9, 0.0, axis)
     axis = axis / np.linalg.norm(axis)
-    return Frustum(centre + foot + low * axis, axis, 2.0 * bottom, 2.0 * top, high - low, residual)
+    residual = float(max(corners.max(), between.max()))
+    return Frustum(centre + foot + low * axis, axis, 2.0 * bottom, 2.0 * top, high - low, residual, flat, filled)
 
 
 def _start(points: np.ndarray, axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -179,6 +219,16 @@ def _unpacked(
     return frame[:, :2] @ aside, axis / np.linalg.norm(axis), (low, high, bottom, top)
 
 
+def _from_surfaces(points: np.ndarray, frame: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Distances of points from the plane of the lower face, that of the upper, and the cone of the side [m], shape (n, 3)."""
+    foot, axis, (low, high, bottom, top) = _unpacked(frame, values)
+    along = (points - foot) @ axis
+    radius = np.linalg.norm(points - foot - np.outer(along, axis), axis=1)
+    slope = (top - bottom) / (high - low)
+    side = (radius - bottom - slope * (along - low)) / math.hypot(1.0, slope)
+    return np.stack((along - low, along - high, side), axis=1)
+
+
 def _distances(points: np.ndarray, frame: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Distances of points from the surface of a frustum: from the nearest of its two faces and its side [m]."""
     foot, axis, (low, high, bottom, top) = _unpacked(frame, values)
@@ -189,12 +239,3 @@ def _distances(points: np.ndarray, frame: np.ndarray, values: np.ndarray) -> np.
     from_side = np.hypot(radius - bottom - share * side[0], along - low - share * side[1])
     from_faces = [np.hypot(np.maximum(radius - r, 0.0), along - t) for t, r in ((low, bottom), (high, top))]
     return np.minimum(from_side, np.minimum(*from_faces))
-
-
-def _round(out: np.ndarray, axis: np.ndarray) -> bool:
-    """Whether what lies outward from an axis leaves no gap around it."""
-    if len(out) < 3:
-        return False
-    across = out[0] / np.linalg.norm(out[0])
-    angle = np.sort(np.arctan2(out @ np.cross(axis, across), out @ across))
-    return float(np.diff(angle, append=angle[0] + 2.0 * math.pi).max()) <= GAP

@@ -42,11 +42,13 @@ class Fitted(NamedTuple):
     @property
     def words(self) -> str:
         """What it became, and how far the mesh is from that."""
-        far = near(self.shape.residual)
-        if isinstance(self.shape, Hull):
-            return f"block of {len(self.shape.corners)} corners, within {far}"
-        one = self.shape
-        return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {far}"
+        one, far = self.shape, near(self.shape.residual)
+        if isinstance(one, Hull):
+            off = "" if one.drum is None else f" (no round drum within {near(one.drum.residual)})"
+            return f"block of {len(one.corners)} corners, within {far}{off}"
+        flat = f", {near(one.flat)} more between corners" if one.flat > ROUNDING else ""
+        more = f"; its volume is {100.0 * (1.0 / one.filled - 1.0):+.2g} % off the mesh" if one.flat > ROUNDING else ""
+        return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {far}{flat}{more}"
 
 
 def fit_all(parts: Sequence[tuple[MeshPart, bool, float | None]], tolerance: float) -> list[Fitted]:
