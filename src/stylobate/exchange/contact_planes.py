@@ -51,8 +51,8 @@ def brought_together(
 ) -> tuple[list[Frustum | Hull], float]:
     """Stones whose faces share a plane where they touch, and how far a corner moved at most [m].
 
-    A plane is that of the least squares of the corners on it, or the ground; the two ends of a drum stay parallel. A stone of
-    which a corner would move farther than the tolerance stays as it is.
+    A plane is that of the least squares of the corners on it, or the ground; ends of a drum stay parallel. A stone of which
+    a corner would move farther than the tolerance stays as it is.
 
     Parameters
     ----------
@@ -88,7 +88,11 @@ def brought_together(
         planes |= _planes({name: on[name] for name in touching if alike[name] == kind}, ground)
     moved, most = list(shapes), 0.0
     for stone, shape in enumerate(shapes):
-        found = [(face.members, planes[group[i]]) for i, face in enumerate(faces) if face.stone == stone and group[i] in planes]
+        found = [
+            (face.members, planes[group[i]])
+            for i, face in enumerate(faces)
+            if face.stone == stone and group[i] in planes
+        ]
         new, shift = _on_planes(shape, found)
         if shift <= tolerance:
             moved[stone], most = new, max(most, shift)
@@ -155,7 +159,7 @@ def _contacts(faces: Sequence[Face], tolerance: float) -> list[tuple[int, int]]:
 
 
 def _level(faces: Sequence[Face], contacts: Sequence[tuple[int, int]], tolerance: float) -> list[tuple[int, int]]:
-    """Faces in contact, of any stones, that lie in one plane within a tolerance [m]: stones that meet at an edge stay apart."""
+    """Faces in contact that lie in one plane within a tolerance [m], of any stones: those that meet at edges stay apart."""
     order = sorted({i for pair in contacts for i in pair})
     corners = np.concatenate([faces[i].corners for i in order] or [np.zeros((0, 3))])
     owner = np.repeat(np.arange(len(order)), [len(faces[i].corners) for i in order])
@@ -208,9 +212,7 @@ def _planes(on: Mapping[int, Sequence[Face]], ground: float | None) -> dict[int,
     return {name: (upward, ground if name == level else float(middles[name][2])) for name in on}
 
 
-def _on_planes(
-    shape: Frustum | Hull, planes: Sequence[tuple[tuple[int, ...], Plane]]
-) -> tuple[Frustum | Hull, float]:
+def _on_planes(shape: Frustum | Hull, planes: Sequence[tuple[tuple[int, ...], Plane]]) -> tuple[Frustum | Hull, float]:
     """A stone with faces on planes, and how far its corners moved at most [m]."""
     if not planes:
         return shape, 0.0

@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
+
+import numpy as np
 
 from ..atomic import replacing
 from ..column import Column
 from ..column.assembly_files import load_structure
-from ..column.block import FAR_AWAY
+from ..column.block import FAR_AWAY, length_of
 from ..column.files import tables_of
 from ..column.shapes import Mesh
 from ..column.spatial.files import spatial_assembly
-from ..column.spatial.mesh_files import read_stones
-from ..column.spatial.mesh_formats import MESHES, MeshPart
+from ..column.spatial.mesh_files import read_stones, unit_of, upward
+from ..column.spatial.mesh_formats import MESHES, UPWARD, MeshPart
 from ..column.spatial.tables import SpatialTable
 from ..column.structure import Structure
 from ..column.tables import made_of
 from ..column.toml import checked, toml_text
 from ..errors import InputError, check_range, within
 from ..reading import shown
-from .contact_planes import brought_together
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
+from .contact_planes import brought_together
 from .export import refuse_existing
+from .fitting import rounded_up
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND
 from .stones import ROUNDING, assembly_tables, column_tables, distance_of, fit_all, near
@@ -61,6 +65,8 @@ class Reading:
         Level of the ground [m]; None for the lowest point, False for none.
     fixed : sequence of str
         Names of stones that move with the ground.
+    up : str, optional
+        Axis of the file that is upward, ``y`` or ``z``; y of glTF and z of others unless given.
     """
 
     def __init__(
@@ -71,14 +77,17 @@ class Reading:
         tolerance: float = TOLERANCE,
         ground: float | bool | None = None,
         fixed: tuple[str, ...] = (),
+        up: str | None = None,
     ) -> None:
         if becomes not in KINDS:
             raise InputError(f"`as` is {becomes!r}; allowed are {', '.join(KINDS)}.", "as")
+        if up not in (None, *UPWARD):
+            raise InputError(f"`up` is {up!r}; allowed are {', '.join(UPWARD)}.", "up")
         check_range("`tolerance`", tolerance, 0.0, 1.0, unit="m", field="tolerance")
         if isinstance(ground, float):
             check_range("level of the ground", ground, -FAR_AWAY, FAR_AWAY, unit="m", field="ground")
         self.material, self.becomes, self.unit = material, becomes, unit
-        self.tolerance, self.ground, self.fixed = tolerance, ground, fixed
+        self.tolerance, self.ground, self.fixed, self.up = tolerance, ground, fixed, up
 
 
 def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tuple[Structure, list[str], list[Path]]:
@@ -116,7 +125,7 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
     foreign = read_from in READ
     structure, tables, words = read_model(Path(model), reading) if foreign else (load_structure(model), None, [])
     if suffix == ".toml":
-        comments = words if read_from in SURVEYS else ()
+        comments = [" ".join(line.split()) for line in words]
         content = _file_of(structure) if tables is None else toml_text(tables, comments).encode()
     elif suffix == ".csv":
         column = structure.stack
@@ -131,6 +140,7 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
     else:
         named = [Named(name, mesh, FIXED if fixed else STONE) for name, mesh, fixed, _ in surfaces_of(structure)]
         content = _glb(structure.name, named) if suffix == ".glb" else TEXTS[suffix](named).encode()
+        words += _lost(structure, suffix)
     with replacing(path) as partial:
         partial.write_bytes(content)
     return structure, words, [path]
@@ -150,10 +160,13 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
         return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]
     if path.suffix.lower() == ".json":
         name, blocks = read_compas(path)
-        parts = parts_of(blocks)
+        up, factor = reading.up or "z", unit_of(reading.unit, shown(path))
+        parts = [(part.in_metres(factor, up), *others) for part, *others in parts_of(blocks)]
     else:
-        name, parts = path.stem, [(part, False, None) for part in read_stones(path, reading.unit)]
-    return stand_up(name, parts, reading, shown(path), path.parent)
+        name, up = path.stem, reading.up or upward(path)
+        parts = [(part, False, None) for part in read_stones(path, reading.unit, up)]
+    structure, tables, words = stand_up(name, parts, reading, shown(path), path.parent)
+    return structure, tables, [f"{up} is taken as upward" + ("" if reading.up else "; `up` says otherwise"), *words]
 
 
 def parts_of(blocks: Sequence[Block]) -> list[Part]:
@@ -180,37 +193,58 @@ def stand_up(
         raise InputError(
             f"{where} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
         )
+    parts, words = _near_the_origin(parts, reading.tolerance, where)
     level, parts = _without_ground(parts)
     names = [part.name for part, *_ in parts]
     unknown = next((one for one in reading.fixed if one not in names), None)
     if unknown is not None:
         raise InputError(f"`fixed` names {unknown!r}, which {where} does not hold; it holds {_some(names)}.", "fixed")
     parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
-    with within(where):
-        stones = fit_all(parts, reading.tolerance)
-        words = [f"{one.name}: {one.words}" for one in stones]
-        if reading.becomes == "column":
-            tables, said = column_tables(name, stones, reading.material, reading.tolerance)
+    stones = fit_all(parts, reading.tolerance, where)
+    words += [f"{one.name}: {one.words}" for one in stones]
+    if reading.becomes == "column":
+        tables, said = column_tables(name, stones, reading.material, reading.tolerance, where)
+        with within(where):
             column = made_of(Column, tables)
-            said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
-            return column, tables, words + said
-        if reading.ground is False:
-            ground = None
-        elif reading.ground is not None:
-            ground = float(reading.ground)
-        elif level is None and any(one.fixed for one in stones):
-            ground = None
-        else:
-            lowest = min(float(part.points[part.used, 2].min()) for part, *_ in parts)
-            ground = round(lowest if level is None else level, 7)
-        shapes, shift = brought_together([one.shape for one in stones], ground, reading.tolerance)
-        stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
-        if shift > ROUNDING:
-            words.append(f"faces that touch were brought into common planes: corners moved by up to {near(shift)}")
-        tables = assembly_tables(name, stones, reading.material, ground)
+        said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
+        return column, tables, words + said
+    if reading.ground is False:
+        ground = None
+    elif reading.ground is not None:
+        ground = float(reading.ground)
+    elif level is None and any(one.fixed for one in stones):
+        ground = None
+    else:
+        lowest = min(float(part.points[part.used, 2].min()) for part, *_ in parts)
+        ground = round(lowest if level is None else level, 7)
+    shapes, shift = brought_together([one.shape for one in stones], ground, reading.tolerance)
+    stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
+    if shift > ROUNDING:
+        words.append(f"faces that touch were brought into common planes: corners moved by up to {near(shift)}")
+    tables = assembly_tables(name, stones, reading.material, ground)
+    with within(where):
         structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder)
     words.append("no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m")
     return structure, tables, words
+
+
+def _near_the_origin(parts: Sequence[Part], tolerance: float, where: str) -> tuple[list[Part], list[str]]:
+    """Parts without the place on a map that their coordinates begin from, and what was taken off and rounded."""
+    points = np.concatenate([part.points[part.used] for part, *_ in parts])
+    place = np.where(np.abs(points).max(axis=0) > FAR_AWAY, np.floor(points.min(axis=0)), 0.0)
+    rounding = max(part.rounding for part, *_ in parts)
+    if rounding > tolerance:
+        raise InputError(
+            f"{where} has numbers of single precision, rounded by up to {length_of(rounding)} so far from the origin; "
+            f"allowed are {length_of(tolerance)}: write it from an origin nearby or in double precision, or allow more with "
+            f"`tolerance={rounded_up(rounding):g}`.",
+            "tolerance",
+        )
+    words = [f"its numbers are rounded by up to {near(rounding)} (single precision)"] if rounding > ROUNDING else []
+    if place.any():
+        off = ", ".join(f"{axis} = {value:.0f} m" for axis, value in zip("xyz", place.tolist(), strict=True) if value)
+        words.append(f"its place was taken off: coordinates count from {off}")
+    return [(replace(part, points=part.points - place), *others) for part, *others in parts], words
 
 
 def _without_ground(parts: Sequence[Part]) -> tuple[float | None, list[Part]]:
@@ -245,6 +279,20 @@ def _clean(mesh: Mesh) -> Mesh:
     used = sorted({i for face in mesh.faces for i in face})
     numbers = {old: new for new, old in enumerate(used)}
     return Mesh(mesh.vertices[used], tuple(tuple(numbers[i] for i in face) for face in mesh.faces))
+
+
+def _lost(structure: Structure, suffix: str) -> list[str]:
+    """What a mesh does not hold of a structure."""
+    glued = [body.name for body in structure.bodies if len(body.placed) > 1 and not body.size > FAR_AWAY]
+    fixed = [body.name for body in structure.bodies if body.fixed and not body.size > FAR_AWAY]
+    words = [
+        f"{suffix} holds shapes{' without names' if suffix == '.ply' else ' and names'} alone, no densities and joints"
+    ]
+    words += [f"supports are not kept: {_some(fixed)}, to be named in `fixed`"] if fixed else []
+    loose = suffix == ".ply" and glued
+    return words + (
+        [f"glue is not kept: the parts of {_some(glued)} come loose; other formats keep it"] if loose else []
+    )
 
 
 def _glb(name: str, surfaces: list[Named]) -> bytes:

@@ -101,16 +101,16 @@ def fitted(part: MeshPart, tolerance: float, what: str) -> Frustum | Hull:
     hull, within = fit_hull(mesh, volume, what)
     if within > tolerance:
         said = "" if drum is None else f", and a drum does not fit it by {1e3 * drum.residual:.3g} mm"
-        enough = 1e3 * min(within, within if drum is None else drum.residual)
+        enough = rounded_up(min(within, within if drum is None else drum.residual))
         raise InputError(
             f"{what} is not convex: it lies {1e3 * within:.3g} mm within its hull{said}; allowed are "
-            f"{1e3 * tolerance:g} mm: split it into convex parts, or allow {_rounded_up(enough):g} mm with `tolerance`.",
+            f"{1e3 * tolerance:g} mm: split it into convex parts, or allow more with `tolerance={enough:g}`.",
             "tolerance",
         )
     return hull._replace(drum=drum)
 
 
-def _rounded_up(number: float) -> float:
+def rounded_up(number: float) -> float:
     """A positive number to two digits, not less than it is."""
     step = 10.0 ** (math.floor(math.log10(number)) - 1)
     return float(f"{math.ceil(number / step) * step:.2g}")
@@ -165,7 +165,9 @@ def fit_frustum(mesh: Mesh, volume: float) -> Frustum | None:
         costs = np.square(_from_surfaces(middles, frame, values))
         np.add.at(costs, owner, np.square(_from_surfaces(points, frame, values))[corner])
         least, second = np.sort(costs, axis=1)[:, :2].T
-        found = np.where(4.0 * least <= second, costs.argmin(axis=1), -1)  # a face across an edge belongs to neither side
+        found = np.where(
+            4.0 * least <= second, costs.argmin(axis=1), -1
+        )  # a face across an edge belongs to neither side
         if np.array_equal(found, kinds):
             break
         kinds = found
@@ -220,7 +222,7 @@ def _unpacked(
 
 
 def _from_surfaces(points: np.ndarray, frame: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Distances of points from the plane of the lower face, that of the upper, and the cone of the side [m], shape (n, 3)."""
+    """Distances of points from the planes of the lower and the upper face and the cone of the side [m], shape (n, 3)."""
     foot, axis, (low, high, bottom, top) = _unpacked(frame, values)
     along = (points - foot) @ axis
     radius = np.linalg.norm(points - foot - np.outer(along, axis), axis=1)

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..column import Column
+from ..column.block import length_of
 from ..column.drum import Drum
 from ..column.found_in_space import space_geometry
 from ..column.materials import material
@@ -16,7 +17,7 @@ from ..column.spatial.mesh_formats import MeshPart
 from ..column.turning import about
 from ..constants import DEGREE
 from ..errors import InputError
-from .fitting import Frustum, Hull, fitted
+from .fitting import Frustum, Hull, fitted, rounded_up
 
 #: A drum that leans less than this out of the one under it stands straight on it [degrees].
 STRAIGHT = 0.05
@@ -28,7 +29,7 @@ ROUNDING = 1e-6
 
 def near(distance: float) -> str:
     """A distance between what was told and what stands for it, in words [m]."""
-    return f"{1e3 * distance:.2g} mm" if distance > ROUNDING else "rounding"
+    return length_of(distance) if distance > ROUNDING else "rounding"
 
 
 class Fitted(NamedTuple):
@@ -51,8 +52,8 @@ class Fitted(NamedTuple):
         return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {far}{flat}{more}"
 
 
-def fit_all(parts: Sequence[tuple[MeshPart, bool, float | None]], tolerance: float) -> list[Fitted]:
-    """What fits each part of a model; parts called ``NAME, part 1``, ``NAME, part 2`` … are convex parts of one block.
+def fit_all(parts: Sequence[tuple[MeshPart, bool, float | None]], tolerance: float, where: str) -> list[Fitted]:
+    """What fits each part of a model, which messages call ``where``; parts ``NAME, part 1`` … are convex parts of one block.
 
     Raises
     ------
@@ -61,7 +62,7 @@ def fit_all(parts: Sequence[tuple[MeshPart, bool, float | None]], tolerance: flo
     """
     found = []
     for part, fixed, density in parts:
-        shape = fitted(part, tolerance, f"part {part.name!r}")
+        shape = fitted(part, tolerance, f"{where}: part {part.name!r}")
         if isinstance(shape, Frustum) and ", part " in part.name:
             shape = Hull(part.points[part.used], 0.0)
         found.append(Fitted(part.name, shape, fixed, density))
@@ -123,7 +124,7 @@ def _drum(one: Frustum) -> dict[str, Any]:
 
 
 def column_tables(
-    name: str, stones: Sequence[Fitted], stone: str, tolerance: float
+    name: str, stones: Sequence[Fitted], stone: str, tolerance: float, where: str
 ) -> tuple[dict[str, Any], list[str]]:
     """Content of a column file of drums that stand on one another, and what is said of them.
 
@@ -136,7 +137,13 @@ def column_tables(
     """
     other = next((one for one in stones if isinstance(one.shape, Hull)), None)
     if other is not None:
-        raise InputError(f"part {other.name!r} is no round drum; a column is made of such, write an assembly.", "as")
+        drum = other.shape.drum if isinstance(other.shape, Hull) else None
+        off = "" if drum is None else f" within {length_of(drum.residual)}"
+        more = "" if drum is None else f", or allow more with `tolerance={rounded_up(drum.residual):g}`"
+        raise InputError(
+            f"{where}: part {other.name!r} is no round drum{off}; a column is made of such: write an assembly{more}.",
+            "as",
+        )
     order = sorted(stones, key=lambda one: float(one.shape.foot[2]) if isinstance(one.shape, Frustum) else 0.0)
     drums = [one.shape for one in order if isinstance(one.shape, Frustum)]
     rows, found, gaps = [], [], []
@@ -153,8 +160,8 @@ def column_tables(
             if abs(gap) > tolerance:
                 what = "apart" if gap > 0.0 else "deep in one another"
                 raise InputError(
-                    f"{order[number - 2].name!r} and {named.name!r} are {1e3 * abs(gap):.3g} mm {what}; allowed are "
-                    f"{1e3 * tolerance:g} mm: mend the mesh, or allow more with `tolerance`.",
+                    f"{where}: {order[number - 2].name!r} and {named.name!r} are {length_of(abs(gap))} {what}; allowed are "
+                    f"{length_of(tolerance)}: mend the mesh, or allow more with `tolerance={rounded_up(abs(gap)):g}`.",
                     "tolerance",
                 )
             gaps.append(gap)
