@@ -166,7 +166,8 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
         name, up = path.stem, reading.up or upward(path)
         parts = [(part, False, None) for part in read_stones(path, reading.unit, up)]
     structure, tables, words = stand_up(name, parts, reading, shown(path), path.parent)
-    return structure, tables, [f"{up} is taken as upward" + ("" if reading.up else "; `up` says otherwise"), *words]
+    words.insert(-1, f"{up} is taken as upward" + ("" if reading.up else "; `up` says otherwise"))
+    return structure, tables, words
 
 
 def parts_of(blocks: Sequence[Block]) -> list[Part]:
@@ -193,7 +194,7 @@ def stand_up(
         raise InputError(
             f"{where} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
         )
-    parts, words = _near_the_origin(parts, reading.tolerance, where)
+    parts, notes = _near_the_origin(parts, reading.tolerance, where)
     level, parts = _without_ground(parts)
     names = [part.name for part, *_ in parts]
     unknown = next((one for one in reading.fixed if one not in names), None)
@@ -201,7 +202,7 @@ def stand_up(
         raise InputError(f"`fixed` names {unknown!r}, which {where} does not hold; it holds {_some(names)}.", "fixed")
     parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
     stones = fit_all(parts, reading.tolerance, where)
-    words += [f"{one.name}: {one.words}" for one in stones]
+    words = [f"{one.name}: {one.words}" for one in stones] + notes
     if reading.becomes == "column":
         tables, said = column_tables(name, stones, reading.material, reading.tolerance, where)
         with within(where):
