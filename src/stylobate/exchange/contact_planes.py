@@ -12,8 +12,8 @@ import numpy as np
 from ..column.shapes import cut, hull
 from .fitting import Frustum, Hull
 
-#: Faces look at one another, and triangles of a hull are one face, to this angle [rad].
-FACING = 0.02
+#: Faces look at one another, and triangles of a hull are one face, to this angle: of rounded and of measured corners [rad].
+SMOOTH, ROUGH = 0.02, 0.2
 
 #: A contact is no less than this share of the smaller face; planes that differ by less than this cut in no edge [-].
 CONTACT, EDGE = 1e-3, 1e-3
@@ -47,7 +47,7 @@ class Face(NamedTuple):
 
 
 def brought_together(
-    shapes: Sequence[Frustum | Hull], ground: float | None, tolerance: float
+    shapes: Sequence[Frustum | Hull], ground: float | None, tolerance: float, facing: float
 ) -> tuple[list[Frustum | Hull], float]:
     """Stones whose faces share a plane where they touch, and how far a corner moved at most [m].
 
@@ -61,14 +61,16 @@ def brought_together(
         Its level [m].
     tolerance : float
         Largest gap or overlap that is closed [m].
+    facing : float
+        Angle to which faces look at one another, and triangles of a hull are one face [rad].
     """
-    faces = [face for number, shape in enumerate(shapes) for face in _faces(number, shape)]
+    faces = [face for number, shape in enumerate(shapes) for face in _faces(number, shape, facing)]
     low = np.min([face.corners.min(axis=0) for face in faces], axis=0) - 1.0
     high = np.max([face.corners.max(axis=0) for face in faces], axis=0) + 1.0
     if ground is not None:
         square = np.array([(x, y, ground) for x, y in (low[:2], (high[0], low[1]), high[:2], (low[0], high[1]))])
         faces.append(Face(-1, (), square, np.array([0.0, 0.0, 1.0])))
-    contacts = _contacts(faces, tolerance)
+    contacts = _contacts(faces, tolerance, facing)
     group = _groups(len(faces), [*contacts, *_level(faces, contacts, tolerance)])
     touching = {group[i] for i, _ in contacts}
     on = {name: [face for face, one in zip(faces, group, strict=True) if one == name] for name in touching}
@@ -99,7 +101,7 @@ def brought_together(
     return moved, most
 
 
-def _faces(stone: int, shape: Frustum | Hull) -> list[Face]:
+def _faces(stone: int, shape: Frustum | Hull, facing: float) -> list[Face]:
     """Flat faces of a stone; the triangles of a hull that lie in a plane are one."""
     if isinstance(shape, Frustum):
         angle = np.arange(AROUND) * (2.0 * math.pi / AROUND)
@@ -118,7 +120,7 @@ def _faces(stone: int, shape: Frustum | Hull) -> list[Face]:
         (i, k)
         for i, others in enumerate(found.neighbors)
         for k in others.tolist()
-        if k > i and normals[i] @ normals[k] > math.cos(FACING)
+        if k > i and normals[i] @ normals[k] > math.cos(facing)
     ]
     group = np.array(_groups(len(normals), beside))
     faces = []
@@ -140,7 +142,7 @@ def _groups(count: int, links: Iterable[tuple[int, ...]]) -> list[int]:
     return connected_components(coo_array((np.ones(len(one)), (one, other)), shape=(count, count)))[1].tolist()
 
 
-def _contacts(faces: Sequence[Face], tolerance: float) -> list[tuple[int, int]]:
+def _contacts(faces: Sequence[Face], tolerance: float, facing: float) -> list[tuple[int, int]]:
     """Pairs of faces of different stones that lie on one another within a tolerance [m], by their numbers."""
     stones = sorted({face.stone for face in faces})
     own = {stone: [i for i, face in enumerate(faces) if face.stone == stone] for stone in stones}
@@ -151,7 +153,7 @@ def _contacts(faces: Sequence[Face], tolerance: float) -> list[tuple[int, int]]:
         if (low[one] > high[other] + tolerance).any() or (low[other] > high[one] + tolerance).any():
             continue
         normals = [np.array([faces[i].normal for i in own[k]]) for k in (one, other)]
-        for a, b in np.argwhere(normals[0] @ normals[1].T < -math.cos(FACING)).tolist():
+        for a, b in np.argwhere(normals[0] @ normals[1].T < -math.cos(facing)).tolist():
             pair = own[one][a], own[other][b]
             if _touch(faces[pair[0]], faces[pair[1]], tolerance):
                 found.append(pair)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -25,9 +25,9 @@ from ..column.toml import checked, toml_text
 from ..errors import InputError, check_range, within
 from ..reading import shown
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
-from .contact_planes import brought_together
+from .contact_planes import ROUGH, SMOOTH, brought_together
 from .export import refuse_existing
-from .fitting import rounded_up
+from .fitting import hull_of
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND
 from .stones import ROUNDING, assembly_tables, column_tables, distance_of, fit_all, near
@@ -43,6 +43,9 @@ TOLERANCE = 0.001
 
 #: A closed part of a model, whether it is fixed, and its density [kg/m³] if the model tells.
 Part: TypeAlias = tuple[MeshPart, bool, float | None]
+
+#: Tolerances that are tried for an advice [m], up to this share of the smallest stone.
+TOLERANCES, LOOSEST = (0.002, 0.005, 0.01, 0.02, 0.05, 0.1), 0.05
 
 #: Kinds that stones of a mesh can become.
 KINDS = ("assembly", "column")
@@ -194,57 +197,79 @@ def stand_up(
         raise InputError(
             f"{where} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
         )
-    parts, notes = _near_the_origin(parts, reading.tolerance, where)
+    parts, notes = _near_the_origin(parts)
+    rounding = max(part.rounding for part, *_ in parts)
+    notes += [f"its numbers are rounded by up to {near(rounding)} (single precision)"] if rounding > ROUNDING else []
     level, parts = _without_ground(parts)
     names = [part.name for part, *_ in parts]
     unknown = next((one for one in reading.fixed if one not in names), None)
     if unknown is not None:
         raise InputError(f"`fixed` names {unknown!r}, which {where} does not hold; it holds {_some(names)}.", "fixed")
     parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
-    stones = fit_all(parts, reading.tolerance, where)
-    words = [f"{one.name}: {one.words}" for one in stones] + notes
-    if reading.becomes == "column":
-        tables, said = column_tables(name, stones, reading.material, reading.tolerance, where)
-        with within(where):
-            column = made_of(Column, tables)
-        said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
-        return column, tables, words + said
-    if reading.ground is False:
-        ground = None
-    elif reading.ground is not None:
-        ground = float(reading.ground)
-    elif level is None and any(one.fixed for one in stones):
-        ground = None
-    else:
-        lowest = min(float(part.points[part.used, 2].min()) for part, *_ in parts)
+    hulls = [hull_of(part, f"{where}: part {part.name!r}") for part, *_ in parts]
+    lowest = min(float(part.points[part.used, 2].min()) for part, *_ in parts)
+    if reading.ground is None and (level is not None or not any(fixed for _, fixed, _ in parts)):
         ground = round(lowest if level is None else level, 7)
-    shapes, shift = brought_together([one.shape for one in stones], ground, reading.tolerance)
-    stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
-    if shift > ROUNDING:
-        words.append(f"faces that touch were brought into common planes: corners moved by up to {near(shift)}")
-    tables = assembly_tables(name, stones, reading.material, ground)
-    with within(where):
-        structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder)
-    words.append("no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m")
-    return structure, tables, words
+    else:
+        ground = None if reading.ground is None or reading.ground is False else float(reading.ground)
+
+    def stood(tolerance: float) -> tuple[Structure, dict[str, Any], list[str]]:
+        with within(where):
+            if rounding > tolerance:
+                raise InputError(
+                    f"its numbers, of single precision, are rounded by up to {length_of(rounding)} so far from the origin; "
+                    f"allowed are {length_of(tolerance)}: write it from an origin nearby, or in double precision.",
+                    "tolerance",
+                )
+            stones = fit_all(parts, hulls, tolerance)
+            words = [f"{one.name}: {one.words}" for one in stones] + notes
+            if reading.becomes == "column":
+                tables, said = column_tables(name, stones, reading.material, tolerance)
+                column = made_of(Column, tables)
+                said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
+                return column, tables, words + said
+            for facing in (SMOOTH, ROUGH):
+                shapes, shift = brought_together([one.shape for one in stones], ground, tolerance, facing)
+                stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
+                tables = assembly_tables(name, stones, reading.material, ground)
+                try:
+                    structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder)
+                    break
+                except InputError:
+                    if facing == ROUGH:
+                        raise
+            if shift > ROUNDING:
+                words.append(f"faces that touch were brought into common planes: corners moved by up to {near(shift)}")
+            words.append(
+                "no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m"
+            )
+            return structure, tables, words
+
+    try:
+        return stood(reading.tolerance)
+    except InputError as error:
+        most = LOOSEST * min(float(np.ptp(hull.corners, axis=0).max()) for hull in hulls)
+        enough = next((one for one in TOLERANCES if reading.tolerance < one <= most and _is_read(stood, one)), None)
+        if enough is None:
+            raise
+        more = f"{str(error).rstrip('.')}, or allow more with `tolerance={enough:g}`."
+        raise InputError(more, error.field) from None
 
 
-def _near_the_origin(parts: Sequence[Part], tolerance: float, where: str) -> tuple[list[Part], list[str]]:
-    """Parts without the place on a map that their coordinates begin from, and what was taken off and rounded."""
+def _is_read(stood: Callable[[float], object], tolerance: float) -> bool:
+    try:
+        stood(tolerance)
+    except InputError:
+        return False
+    return True
+
+
+def _near_the_origin(parts: Sequence[Part]) -> tuple[list[Part], list[str]]:
+    """Parts without the place on a map that their coordinates begin from, and what was taken off."""
     points = np.concatenate([part.points[part.used] for part, *_ in parts])
     place = np.where(np.abs(points).max(axis=0) > FAR_AWAY, np.floor(points.min(axis=0)), 0.0)
-    rounding = max(part.rounding for part, *_ in parts)
-    if rounding > tolerance:
-        raise InputError(
-            f"{where} has numbers of single precision, rounded by up to {length_of(rounding)} so far from the origin; "
-            f"allowed are {length_of(tolerance)}: write it from an origin nearby or in double precision, or allow more with "
-            f"`tolerance={rounded_up(rounding):g}`.",
-            "tolerance",
-        )
-    words = [f"its numbers are rounded by up to {near(rounding)} (single precision)"] if rounding > ROUNDING else []
-    if place.any():
-        off = ", ".join(f"{axis} = {value:.0f} m" for axis, value in zip("xyz", place.tolist(), strict=True) if value)
-        words.append(f"its place was taken off: coordinates count from {off}")
+    off = ", ".join(f"{axis} = {value:.0f} m" for axis, value in zip("xyz", place.tolist(), strict=True) if value)
+    words = [f"its place was taken off: coordinates count from {off}"] if off else []
     return [(replace(part, points=part.points - place), *others) for part, *others in parts], words
 
 

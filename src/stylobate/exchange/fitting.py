@@ -11,6 +11,7 @@ from ..column.drum import LENGTHS
 from ..column.shapes import Mesh
 from ..column.spatial.mesh_formats import MeshPart
 from ..column.spatial.moments import mesh_moments
+from ..column.spatial.stone import MOST_CORNERS
 from ..errors import InputError
 
 #: Between two corners a drum's side lies this share of its radius within the circle at most: twelve corners or more.
@@ -21,6 +22,9 @@ FILLED = (0.94, 1.06)
 
 #: Most corners that a frustum is fitted to; the distance of all is told.
 MOST = 4000
+
+#: Corners that are left of a hull that has too many.
+FEW_CORNERS = 120
 
 #: Rounds of fitting, each with faces told apart by the fit before it.
 ROUNDS = 5
@@ -82,41 +86,44 @@ def solid_of(part: MeshPart) -> Mesh:
     return Mesh(part.points[part.used], tuple(tuple(numbers[i] for i in face) for face in part.faces))
 
 
-def fitted(part: MeshPart, tolerance: float, what: str) -> Frustum | Hull:
-    """The frustum that a part is no farther from than the tolerance [m], or else its hull.
+def hull_of(part: MeshPart, what: str) -> Hull:
+    """The hull of a part with the drum that fits it best, whatever their distances.
 
     Raises
     ------
     InputError
-        The part is no solid, or is not convex by more than the tolerance.
+        The part is no solid.
     """
     mesh = solid_of(part)
     volume = mesh_moments(mesh, 1.0).mass
     if not volume > LENGTHS[0] ** 3:
         inside = " its faces run clockwise: turn them round." if volume < 0.0 else " give a solid."
         raise InputError(f"{what} encloses {volume:.3g} m³;{inside}")
-    drum = fit_frustum(mesh, volume)
+    return fit_hull(mesh, volume, what)._replace(drum=fit_frustum(mesh, volume))
+
+
+def within_tolerance(hull: Hull, tolerance: float, what: str) -> Frustum | Hull:
+    """The drum of a part if it is no farther from it than the tolerance [m], or else the hull.
+
+    Raises
+    ------
+    InputError
+        The part is not convex by more than the tolerance.
+    """
+    drum = hull.drum
     if drum is not None and drum.residual <= tolerance:
         return drum
-    hull, within = fit_hull(mesh, volume, what)
-    if within > tolerance:
+    if hull.residual > tolerance:
         said = "" if drum is None else f", and a drum does not fit it by {1e3 * drum.residual:.3g} mm"
-        enough = rounded_up(min(within, within if drum is None else drum.residual))
         raise InputError(
-            f"{what} is not convex: it lies {1e3 * within:.3g} mm within its hull{said}; allowed are "
-            f"{1e3 * tolerance:g} mm: split it into convex parts, or allow more with `tolerance={enough:g}`.",
+            f"{what} is not convex: it lies {1e3 * hull.residual:.3g} mm within its hull{said}; allowed are "
+            f"{1e3 * tolerance:g} mm: split it into convex parts.",
             "tolerance",
         )
-    return hull._replace(drum=drum)
+    return hull
 
 
-def rounded_up(number: float) -> float:
-    """A positive number to two digits, not less than it is."""
-    step = 10.0 ** (math.floor(math.log10(number)) - 1)
-    return float(f"{math.ceil(number / step) * step:.2g}")
-
-
-def fit_hull(mesh: Mesh, volume: float, what: str) -> tuple[Hull, float]:
+def fit_hull(mesh: Mesh, volume: float, what: str) -> Hull:
     """The hull of a mesh, and the depth of the mesh within it [m]: of a vertex, or its mean where that is more."""
     from scipy.spatial import ConvexHull, QhullError
 
@@ -128,7 +135,27 @@ def fit_hull(mesh: Mesh, volume: float, what: str) -> tuple[Hull, float]:
     some = np.array_split(points, 1 + len(points) * len(planes) // 10_000_000)
     deepest = max(0.0, *(float(-(one @ planes[:, :3].T + planes[:, 3]).max(axis=1).min()) for one in some))
     depth = max(deepest, float(found.volume - volume) / float(found.area))
-    return Hull(mesh.vertices[np.sort(found.vertices)], depth), depth
+    corners = mesh.vertices[np.sort(found.vertices)]
+    if len(corners) <= MOST_CORNERS:
+        return Hull(corners, depth)
+    corners, out = _thinned(corners)
+    return Hull(corners, max(depth, out))
+
+
+def _thinned(corners: np.ndarray) -> tuple[np.ndarray, float]:
+    """Corners of a hull without those that reach least beyond the others, and how far these do [m]."""
+    from scipy.spatial import ConvexHull
+
+    ways = np.array([way for way in np.ndindex(3, 3, 3) if way != (1, 1, 1)]) - 1.0
+    kept = np.unique((corners @ ways.T).argmax(axis=0)).tolist()
+    found: Any = ConvexHull(corners[kept], incremental=True)
+    while True:
+        out = (corners @ found.equations[:, :3].T + found.equations[:, 3]).max(axis=1)
+        farthest = int(out.argmax())
+        if len(kept) >= FEW_CORNERS or farthest in kept:
+            return corners[np.sort(kept)], max(0.0, float(out[farthest]))
+        kept.append(farthest)
+        found.add_points(corners[[farthest]])
 
 
 def _points_on(mesh: Mesh) -> np.ndarray:

@@ -17,7 +17,7 @@ from ..column.spatial.mesh_formats import MeshPart
 from ..column.turning import about
 from ..constants import DEGREE
 from ..errors import InputError
-from .fitting import Frustum, Hull, fitted, rounded_up
+from .fitting import Frustum, Hull, within_tolerance
 
 #: A drum that leans less than this out of the one under it stands straight on it [degrees].
 STRAIGHT = 0.05
@@ -52,20 +52,20 @@ class Fitted(NamedTuple):
         return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {far}{flat}{more}"
 
 
-def fit_all(parts: Sequence[tuple[MeshPart, bool, float | None]], tolerance: float, where: str) -> list[Fitted]:
-    """What fits each part of a model, which messages call ``where``; parts ``NAME, part 1`` … are convex parts of one block.
+def fit_all(
+    parts: Sequence[tuple[MeshPart, bool, float | None]], hulls: Sequence[Hull], tolerance: float
+) -> list[Fitted]:
+    """What fits each part of a model within a tolerance [m]; parts ``NAME, part 1`` … are convex parts of one block.
 
     Raises
     ------
     InputError
-        A part that is no convex solid, by its name.
+        A part that is not convex, by its name.
     """
     found = []
-    for part, fixed, density in parts:
-        shape = fitted(part, tolerance, f"{where}: part {part.name!r}")
-        if isinstance(shape, Frustum) and ", part " in part.name:
-            shape = Hull(part.points[part.used], 0.0)
-        found.append(Fitted(part.name, shape, fixed, density))
+    for (part, fixed, density), hull in zip(parts, hulls, strict=True):
+        shape = within_tolerance(hull, tolerance, f"part {part.name!r}")
+        found.append(Fitted(part.name, hull if ", part " in part.name else shape, fixed, density))
     return found
 
 
@@ -124,7 +124,7 @@ def _drum(one: Frustum) -> dict[str, Any]:
 
 
 def column_tables(
-    name: str, stones: Sequence[Fitted], stone: str, tolerance: float, where: str
+    name: str, stones: Sequence[Fitted], stone: str, tolerance: float
 ) -> tuple[dict[str, Any], list[str]]:
     """Content of a column file of drums that stand on one another, and what is said of them.
 
@@ -139,10 +139,8 @@ def column_tables(
     if other is not None:
         drum = other.shape.drum if isinstance(other.shape, Hull) else None
         off = "" if drum is None else f" within {length_of(drum.residual)}"
-        more = "" if drum is None else f", or allow more with `tolerance={rounded_up(drum.residual):g}`"
         raise InputError(
-            f"{where}: part {other.name!r} is no round drum{off}; a column is made of such: write an assembly{more}.",
-            "as",
+            f"part {other.name!r} is no round drum{off}; a column is made of such, write an assembly.", "as"
         )
     order = sorted(stones, key=lambda one: float(one.shape.foot[2]) if isinstance(one.shape, Frustum) else 0.0)
     drums = [one.shape for one in order if isinstance(one.shape, Frustum)]
@@ -160,8 +158,8 @@ def column_tables(
             if abs(gap) > tolerance:
                 what = "apart" if gap > 0.0 else "deep in one another"
                 raise InputError(
-                    f"{where}: {order[number - 2].name!r} and {named.name!r} are {length_of(abs(gap))} {what}; allowed are "
-                    f"{length_of(tolerance)}: mend the mesh, or allow more with `tolerance={rounded_up(abs(gap)):g}`.",
+                    f"{order[number - 2].name!r} and {named.name!r} are {length_of(abs(gap))} {what}; allowed are "
+                    f"{length_of(tolerance)}: mend the mesh.",
                     "tolerance",
                 )
             gaps.append(gap)
