@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -207,11 +208,6 @@ def stand_up(
         raise InputError(f"`fixed` names {unknown!r}, which {where} does not hold; it holds {_some(names)}.", "fixed")
     parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
     hulls = [hull_of(part, f"{where}: part {part.name!r}") for part, *_ in parts]
-    lowest = min(float(part.points[part.used, 2].min()) for part, *_ in parts)
-    if reading.ground is None and (level is not None or not any(fixed for _, fixed, _ in parts)):
-        ground = round(lowest if level is None else level, 7)
-    else:
-        ground = None if reading.ground is None or reading.ground is False else float(reading.ground)
 
     def stood(tolerance: float) -> tuple[Structure, dict[str, Any], list[str]]:
         with within(where):
@@ -228,10 +224,13 @@ def stand_up(
                 column = made_of(Column, tables)
                 said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
                 return column, tables, words + said
+            ground = float(reading.ground) if reading.ground is not None and reading.ground is not False else None
+            if reading.ground is None and (level is not None or not any(one.fixed for one in stones)):
+                ground = round(min(one.shape.lowest for one in stones) if level is None else level, 7) + 0.0
             for facing in (SMOOTH, ROUGH):
                 shapes, shift = brought_together([one.shape for one in stones], ground, tolerance, facing)
-                stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
-                tables = assembly_tables(name, stones, reading.material, ground)
+                level_stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
+                tables = assembly_tables(name, level_stones, reading.material, ground)
                 try:
                     structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder)
                     break
@@ -257,10 +256,12 @@ def stand_up(
 
 
 def _is_read(stood: Callable[[float], object], tolerance: float) -> bool:
-    try:
-        stood(tolerance)
-    except InputError:
-        return False
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            stood(tolerance)
+        except InputError:
+            return False
     return True
 
 

@@ -24,7 +24,7 @@ FILLED = (0.94, 1.06)
 MOST = 4000
 
 #: Corners that are left of a hull that has too many.
-FEW_CORNERS = 120
+FEW_CORNERS = 160
 
 #: Rounds of fitting, each with faces told apart by the fit before it.
 ROUNDS = 5
@@ -61,6 +61,12 @@ class Frustum(NamedTuple):
     flat: float
     filled: float
 
+    @property
+    def lowest(self) -> float:
+        """Level of its lowest point [m]."""
+        lean, top = 0.5 * math.hypot(*self.axis[:2]), self.foot[2] + self.height * self.axis[2]
+        return float(min(self.foot[2] - lean * self.bottom, top - lean * self.top))
+
 
 class Hull(NamedTuple):
     """The convex hull of a mesh.
@@ -71,13 +77,21 @@ class Hull(NamedTuple):
         [m], shape (k, 3).
     residual : float
         How far the mesh lies within it at most [m].
+    filled : float
+        Volume of the mesh, as a share of its own [-].
     drum : Frustum or None
         The drum that fits best, and not well enough; None of what is not round at all.
     """
 
     corners: np.ndarray
     residual: float
+    filled: float
     drum: Frustum | None = None
+
+    @property
+    def lowest(self) -> float:
+        """Level of its lowest point [m]."""
+        return float(self.corners[:, 2].min())
 
 
 def solid_of(part: MeshPart) -> Mesh:
@@ -137,9 +151,9 @@ def fit_hull(mesh: Mesh, volume: float, what: str) -> Hull:
     depth = max(deepest, float(found.volume - volume) / float(found.area))
     corners = mesh.vertices[np.sort(found.vertices)]
     if len(corners) <= MOST_CORNERS:
-        return Hull(corners, depth)
+        return Hull(corners, depth, volume / float(found.volume))
     corners, out = _thinned(corners)
-    return Hull(corners, max(depth, out))
+    return Hull(corners, max(depth, out), volume / float(ConvexHull(corners).volume))
 
 
 def _thinned(corners: np.ndarray) -> tuple[np.ndarray, float]:

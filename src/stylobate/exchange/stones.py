@@ -44,12 +44,13 @@ class Fitted(NamedTuple):
     def words(self) -> str:
         """What it became, and how far the mesh is from that."""
         one, far = self.shape, near(self.shape.residual)
+        more = 100.0 * (1.0 / one.filled - 1.0)
+        off = f"; its volume is {more:+.2g} % off the mesh" if abs(more) > 0.01 else ""
         if isinstance(one, Hull):
-            off = "" if one.drum is None else f" (no round drum within {near(one.drum.residual)})"
-            return f"block of {len(one.corners)} corners, within {far}{off}"
+            drum = "" if one.drum is None else f" (no round drum within {near(one.drum.residual)})"
+            return f"block of {len(one.corners)} corners, within {far}{drum}{off}"
         flat = f", {near(one.flat)} more between corners" if one.flat > ROUNDING else ""
-        more = f"; its volume is {100.0 * (1.0 / one.filled - 1.0):+.2g} % off the mesh" if one.flat > ROUNDING else ""
-        return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {far}{flat}{more}"
+        return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {far}{flat}{off}"
 
 
 def fit_all(
@@ -65,7 +66,7 @@ def fit_all(
     found = []
     for (part, fixed, density), hull in zip(parts, hulls, strict=True):
         shape = within_tolerance(hull, tolerance, f"part {part.name!r}")
-        found.append(Fitted(part.name, hull if ", part " in part.name else shape, fixed, density))
+        found.append(Fitted(part.name, hull._replace(drum=None) if ", part " in part.name else shape, fixed, density))
     return found
 
 
