@@ -75,7 +75,7 @@ def compas_blocks(found: Any, name: str, default: str) -> tuple[str, list[Block]
         Another kind of object, or a block whose geometry is no mesh.
     """
     dtype = found.get("dtype") if isinstance(found, dict) else None
-    meshes = found if isinstance(found, list) else [found]
+    meshes = found if dtype is None else [found]
     try:
         if dtype in MODELS:
             blocks = list(_of_model(found["data"], name))

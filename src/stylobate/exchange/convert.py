@@ -165,7 +165,7 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
     if path.suffix.lower() == ".json":
         name, blocks = read_compas(path)
         up, factor = reading.up or "z", unit_of(reading.unit, shown(path))
-        parts = [(part.in_metres(factor, up), *others) for part, *others in parts_of(blocks)]
+        parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in parts_of(blocks)]
     else:
         name, up = path.stem, reading.up or upward(path)
         parts = [(part, False, None) for part in read_stones(path, reading.unit, up)]
@@ -194,7 +194,8 @@ def stand_up(
     folder : Path
         That paths of meshes start from.
     """
-    if reading.material is None:
+    material = reading.material
+    if material is None:
         raise InputError(
             f"{where} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
         )
@@ -220,23 +221,24 @@ def stand_up(
             stones = fit_all(parts, hulls, tolerance)
             words = [f"{one.name}: {one.words}" for one in stones] + notes
             if reading.becomes == "column":
-                tables, said = column_tables(name, stones, reading.material, tolerance)
+                tables, said = column_tables(name, stones, material, tolerance)
                 column = made_of(Column, tables)
                 said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
                 return column, tables, words + said
             ground = float(reading.ground) if reading.ground is not None and reading.ground is not False else None
             if reading.ground is None and (level is not None or not any(one.fixed for one in stones)):
                 ground = round(min(one.shape.lowest for one in stones) if level is None else level, 7) + 0.0
-            for facing in (SMOOTH, ROUGH):
+
+            def level_at(facing: float) -> tuple[Structure, dict[str, Any], float]:
                 shapes, shift = brought_together([one.shape for one in stones], ground, tolerance, facing)
                 level_stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
-                tables = assembly_tables(name, level_stones, reading.material, ground)
-                try:
-                    structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder)
-                    break
-                except InputError:
-                    if facing == ROUGH:
-                        raise
+                tables = assembly_tables(name, level_stones, material, ground)
+                return spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder), tables, shift
+
+            try:
+                structure, tables, shift = level_at(SMOOTH)
+            except InputError:
+                structure, tables, shift = level_at(ROUGH)
             if shift > ROUNDING:
                 words.append(f"faces that touch were brought into common planes: corners moved by up to {near(shift)}")
             words.append(
@@ -271,7 +273,7 @@ def _near_the_origin(parts: Sequence[Part]) -> tuple[list[Part], list[str]]:
     place = np.where(np.abs(points).max(axis=0) > FAR_AWAY, np.floor(points.min(axis=0)), 0.0)
     off = ", ".join(f"{axis} = {value:.0f} m" for axis, value in zip("xyz", place.tolist(), strict=True) if value)
     words = [f"its place was taken off: coordinates count from {off}"] if off else []
-    return [(replace(part, points=part.points - place), *others) for part, *others in parts], words
+    return [(replace(part, points=part.points - place), fixed, density) for part, fixed, density in parts], words
 
 
 def _without_ground(parts: Sequence[Part]) -> tuple[float | None, list[Part]]:

@@ -215,10 +215,10 @@ def fit_frustum(mesh: Mesh, volume: float) -> Frustum | None:
         sides = np.unique(np.stack((corner, kinds[owner]))[:, kinds[owner] >= 0], axis=1)
         if len(np.unique(sides[1])) < 3:
             return None
-        some = sides[:, :: max(1, sides.shape[1] // MOST)]
+        some = sides[:, :: max(1, len(sides[0]) // MOST)]
 
         def misfit(x: np.ndarray, some: np.ndarray = some) -> np.ndarray:
-            return _from_surfaces(points[some[0]], frame, x)[np.arange(some.shape[1]), some[1]] / size
+            return _from_surfaces(points[some[0]], frame, x)[np.arange(len(some[0])), some[1]] / size
 
         values = least_squares(misfit, values, x_scale=size, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=60).x
         _, _, (low, high, bottom, top) = _unpacked(frame, values)
@@ -227,7 +227,7 @@ def fit_frustum(mesh: Mesh, volume: float) -> Frustum | None:
     foot, axis, (low, high, bottom, top) = _unpacked(frame, values)
     if axis[2] < 0.0:
         axis, low, high, bottom, top = -axis, -high, -low, top, bottom
-    corners = np.abs(_from_surfaces(points[sides[0]], frame, values)[np.arange(sides.shape[1]), sides[1]])
+    corners = np.abs(_from_surfaces(points[sides[0]], frame, values)[np.arange(len(sides[0])), sides[1]])
     depth = np.abs(_from_surfaces(middles, frame, values)[:, 2])
     flat = float(np.median(depth[kinds == SIDE]))
     between = np.maximum(_distances(_points_on(Mesh(points, mesh.faces)), frame, values) - flat, 0.0)
