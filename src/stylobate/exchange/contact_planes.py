@@ -18,6 +18,9 @@ SMOOTH, ROUGH = 0.02, 0.2
 #: A contact is no less than this share of the smaller face; planes that differ by less than this cut in no edge [-].
 CONTACT, EDGE = 1e-3, 1e-3
 
+#: Faces in contact within this are of one plane, whatever the tolerance [m]: courses of stones are not made level.
+LEVEL = 1e-3
+
 #: Corners around the end of a drum.
 AROUND = 24
 
@@ -71,7 +74,7 @@ def brought_together(
         square = np.array([(x, y, ground) for x, y in (low[:2], (high[0], low[1]), high[:2], (low[0], high[1]))])
         faces.append(Face(-1, (), square, np.array([0.0, 0.0, 1.0])))
     contacts = _contacts(faces, tolerance, facing)
-    group = _groups(len(faces), [*contacts, *_level(faces, contacts, tolerance)])
+    group = _groups(len(faces), [*contacts, *_level(faces, contacts, min(tolerance, LEVEL))])
     touching = {group[i] for i, _ in contacts}
     on = {name: [face for face, one in zip(faces, group, strict=True) if one == name] for name in touching}
     ends: dict[int, dict[int, int]] = {}

@@ -33,11 +33,12 @@ from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND
 from .stones import ROUNDING, assembly_tables, column_tables, distance_of, fit_all, near
 from .survey import WORKBOOKS, survey_tables, survey_text
+from .three_dec import read_three_dec
 
 #: Endings of what is written; of what is read besides column and assembly files.
 WRITTEN = (".toml", ".json", ".csv", ".obj", ".ply", ".stl", ".glb")
 SURVEYS = (".csv", *WORKBOOKS)
-READ = (*MESHES, ".json", *SURVEYS)
+READ = (*MESHES, ".json", ".dat", *SURVEYS)
 
 #: Largest distance of a mesh from what stands for it unless told otherwise [m].
 TOLERANCE = 0.001
@@ -162,14 +163,19 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
         tables.setdefault("name", path.stem)
         column = made_of(Column, tables, shown(path))
         return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]
-    if path.suffix.lower() == ".json":
+    stated: dict[str, Any] | None = None
+    if path.suffix.lower() == ".dat":
+        name, up, factor = path.stem, reading.up or "z", unit_of(reading.unit, shown(path))
+        found, stated = read_three_dec(path)
+        parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in found]
+    elif path.suffix.lower() == ".json":
         name, blocks = read_compas(path)
         up, factor = reading.up or "z", unit_of(reading.unit, shown(path))
         parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in parts_of(blocks)]
     else:
         name, up = path.stem, reading.up or upward(path)
         parts = [(part, False, None) for part in read_stones(path, reading.unit, up)]
-    structure, tables, words = stand_up(name, parts, reading, shown(path), path.parent)
+    structure, tables, words = stand_up(name, parts, reading, shown(path), path.parent, stated)
     words.insert(-1, f"{up} is taken as upward" + ("" if reading.up else "; `up` says otherwise"))
     return structure, tables, words
 
@@ -180,7 +186,7 @@ def parts_of(blocks: Sequence[Block]) -> list[Part]:
 
 
 def stand_up(
-    name: str, parts: Sequence[Part], reading: Reading, where: str, folder: Path
+    name: str, parts: Sequence[Part], reading: Reading, where: str, folder: Path, stated: dict[str, Any] | None = None
 ) -> tuple[Structure, dict[str, Any], list[str]]:
     """What stands of the parts of a model; returns and errors as of :func:`read_model`.
 
@@ -193,9 +199,11 @@ def stand_up(
         What messages call the model.
     folder : Path
         That paths of meshes start from.
+    stated : dict, optional
+        Tables that a model of polyhedra, of which none is round, gives of its joints and its gravity.
     """
     material = reading.material
-    if material is None:
+    if material is None and "joint" not in (stated or {}):
         raise InputError(
             f"{where} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
         )
@@ -208,7 +216,7 @@ def stand_up(
     if unknown is not None:
         raise InputError(f"`fixed` names {unknown!r}, which {where} does not hold; it holds {_some(names)}.", "fixed")
     parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
-    hulls = [hull_of(part, f"{where}: part {part.name!r}") for part, *_ in parts]
+    hulls = [hull_of(part, f"{where}: part {part.name!r}", stated is None) for part, *_ in parts]
 
     def stood(tolerance: float) -> tuple[Structure, dict[str, Any], list[str]]:
         with within(where):
@@ -232,7 +240,7 @@ def stand_up(
             def level_at(facing: float) -> tuple[Structure, dict[str, Any], float]:
                 shapes, shift = brought_together([one.shape for one in stones], ground, tolerance, facing)
                 level_stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
-                tables = assembly_tables(name, level_stones, material, ground)
+                tables = assembly_tables(name, level_stones, material, ground) | (stated or {})
                 return spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder), tables, shift
 
             try:

@@ -100,8 +100,8 @@ def solid_of(part: MeshPart) -> Mesh:
     return Mesh(part.points[part.used], tuple(tuple(numbers[i] for i in face) for face in part.faces))
 
 
-def hull_of(part: MeshPart, what: str) -> Hull:
-    """The hull of a part with the drum that fits it best, whatever their distances.
+def hull_of(part: MeshPart, what: str, drums: bool) -> Hull:
+    """The hull of a part with the drum that fits it best, if it may be one, whatever their distances.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def hull_of(part: MeshPart, what: str) -> Hull:
     if not volume > LENGTHS[0] ** 3:
         inside = " its faces run clockwise: turn them round." if volume < 0.0 else " give a solid."
         raise InputError(f"{what} encloses {volume:.3g} m³;{inside}")
-    return fit_hull(mesh, volume, what)._replace(drum=fit_frustum(mesh, volume))
+    return fit_hull(mesh, volume, what)._replace(drum=fit_frustum(mesh, volume) if drums else None)
 
 
 def within_tolerance(hull: Hull, tolerance: float, what: str) -> Frustum | Hull:

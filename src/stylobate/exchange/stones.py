@@ -75,15 +75,15 @@ def body_of(part: str) -> str:
     return part.partition(", part ")[0]
 
 
-def assembly_tables(name: str, stones: Sequence[Fitted], stone: str, ground: float | None) -> dict[str, Any]:
+def assembly_tables(name: str, stones: Sequence[Fitted], stone: str | None, ground: float | None) -> dict[str, Any]:
     """Content of a file of an assembly in space.
 
     Parameters
     ----------
     name : str
     stones : sequence of Fitted
-    stone : str
-        Name of a material.
+    stone : str or None
+        Name of a material; None where all is stated otherwise.
     ground : float or None
         Level of the ground [m]; None for none.
     """
@@ -103,7 +103,7 @@ def assembly_tables(name: str, stones: Sequence[Fitted], stone: str, ground: flo
             blocks[called] = facts | entry
     return {
         "name": name,
-        "material": material(stone).name,
+        **({} if stone is None else {"material": material(stone).name}),
         "ground": False if ground is None else ground,
         "block": list(blocks.values()),
     }
@@ -125,7 +125,7 @@ def _drum(one: Frustum) -> dict[str, Any]:
 
 
 def column_tables(
-    name: str, stones: Sequence[Fitted], stone: str, tolerance: float
+    name: str, stones: Sequence[Fitted], stone: str | None, tolerance: float
 ) -> tuple[dict[str, Any], list[str]]:
     """Content of a column file of drums that stand on one another, and what is said of them.
 
@@ -178,7 +178,8 @@ def column_tables(
             axis = frame[:, 2]
         if len(facts) > 1:
             found.append(facts)
-    table: dict[str, Any] = {"name": name, "section": "circular", "material": material(stone).name, "drum": rows}
+    table: dict[str, Any] = {"name": name, "section": "circular", "drum": rows}
+    table |= {} if stone is None else {"material": material(stone).name}
     if found:
         table["as_found"] = {"drum": found}
     apart = [f"drums fit on one another within {near(max(map(abs, gaps)))}"] if gaps else []
