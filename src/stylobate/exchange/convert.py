@@ -47,7 +47,7 @@ TOLERANCE = 0.001
 Part: TypeAlias = tuple[MeshPart, bool, float | None]
 
 #: Tolerances that are tried for an advice [m], up to this share of the smallest stone.
-TOLERANCES, LOOSEST = (0.002, 0.005, 0.01, 0.02, 0.05, 0.1), 0.05
+TOLERANCES, LOOSEST = (0.002, 0.005, 0.01, 0.02, 0.05, 0.1), 0.1
 
 #: Kinds that stones of a mesh can become.
 KINDS = ("assembly", "column")

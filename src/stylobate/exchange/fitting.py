@@ -81,12 +81,15 @@ class Hull(NamedTuple):
         Volume of the mesh, as a share of its own [-].
     drum : Frustum or None
         The drum that fits best, and not well enough; None of what is not round at all.
+    bent : str
+        The face whose corners are farthest out of one plane, and by how much, in words; empty where all are plane.
     """
 
     corners: np.ndarray
     residual: float
     filled: float
     drum: Frustum | None = None
+    bent: str = ""
 
     @property
     def lowest(self) -> float:
@@ -113,7 +116,19 @@ def hull_of(part: MeshPart, what: str, drums: bool) -> Hull:
     if not volume > LENGTHS[0] ** 3:
         inside = " its faces run clockwise: turn them round." if volume < 0.0 else " give a solid."
         raise InputError(f"{what} encloses {volume:.3g} m³;{inside}")
-    return fit_hull(mesh, volume, what)._replace(drum=fit_frustum(mesh, volume) if drums else None)
+    drum = fit_frustum(mesh, volume) if drums else None
+    return fit_hull(mesh, volume, what)._replace(drum=drum, bent=_bent(part))
+
+
+def _bent(part: MeshPart) -> str:
+    """The face of a part that is least plane, in words; empty where all are."""
+    off = []
+    for face in part.faces:
+        corners = part.points[list(face)]
+        corners = corners - corners.mean(axis=0)
+        off.append(0.0 if len(face) == 3 else float(np.abs(corners @ np.linalg.svd(corners)[2][-1]).max()))
+    worst = int(np.argmax(off))
+    return f", and its {part.face(worst)} is out of plane by {1e3 * off[worst]:.3g} mm" if off[worst] > 1e-6 else ""
 
 
 def within_tolerance(hull: Hull, tolerance: float, what: str) -> Frustum | Hull:
@@ -130,7 +145,7 @@ def within_tolerance(hull: Hull, tolerance: float, what: str) -> Frustum | Hull:
     if hull.residual > tolerance:
         said = "" if drum is None else f", and a drum does not fit it by {1e3 * drum.residual:.3g} mm"
         raise InputError(
-            f"{what} is not convex: it lies {1e3 * hull.residual:.3g} mm within its hull{said}; allowed are "
+            f"{what} is not convex: it lies {1e3 * hull.residual:.3g} mm within its hull{said}{hull.bent}; allowed are "
             f"{1e3 * tolerance:g} mm: split it into convex parts.",
             "tolerance",
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -115,7 +116,7 @@ def read_three_dec(path: Path) -> Model:
             )
         name = f"{called} {counts[called]}"
         check_closed(block.part, f"{name} of {where}")
-        parts.append((MeshPart(name, block.part.points, block.part.faces), i in fixed, densities.get(number)))
+        parts.append((replace(block.part, name=name), i in fixed, densities.get(number)))
     return Model(parts, stated)
 
 
