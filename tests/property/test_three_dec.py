@@ -71,6 +71,7 @@ def test_what_is_not_known_is_refused_by_its_line(old, new, says, tmp_path):
         read_model(tmp_path / "a.dat", Reading())
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not EVORA.exists(), reason="needs ../shared/monuments/evora")
 def test_the_temple_of_evora():
     """156 polyhedra; the mass of each within what its hull adds, of all within 0.1 % of a sum over the raw file.

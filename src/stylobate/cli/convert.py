@@ -12,7 +12,7 @@ from . import options as o
 def convert(
     model: str = o.argument(
         "MODEL",
-        "Mesh (OBJ, PLY, STL, glTF), COMPAS JSON, 3DEC data file, survey (CSV, workbook), preset, or file of a column or an assembly.",
+        "Mesh (OBJ, PLY, STL, glTF), COMPAS JSON, 3DEC data file, survey (CSV, workbook), preset, column or assembly file.",
     ),
     to: Path = o.option(
         "FILE", "What to write: .toml, .json, .csv, .obj, .ply, .stl or .glb; nothing may be there.", ...
