@@ -176,4 +176,4 @@ def solid(mesh: Mesh) -> tuple[trimesh.Trimesh, np.ndarray]:
     return found, middle + centroid
 
 
-TARGET = Target("meshes", 2000, 25, one)
+TARGET = Target("meshes", 2000, 20, one, limit=60.0)
