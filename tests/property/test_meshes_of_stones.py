@@ -194,6 +194,12 @@ def test_gaps_and_overlaps_up_to_the_tolerance_are_closed(tmp_path):
             read_model(path, Reading("marble", tolerance=1e-4))
 
 
+def test_a_ground_alone_is_no_model(tmp_path):
+    box = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+    with pytest.raises(st.InputError, match="holds a ground and no stones"):
+        read_model(write(tmp_path / "a.obj", {"ground": prism(box, 0.8)}), MARBLE)
+
+
 # -- where and how it stands ---------------------------------------------------------------------------------------------
 
 

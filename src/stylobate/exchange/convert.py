@@ -211,6 +211,8 @@ def stand_up(
     rounding = max(part.rounding for part, *_ in parts)
     notes += [f"its numbers are rounded by up to {near(rounding)} (single precision)"] if rounding > ROUNDING else []
     level, parts = _without_ground(parts)
+    if not parts:
+        raise InputError(f"{where} holds a ground and no stones; give those that stand on it.")
     names = [part.name for part, *_ in parts]
     unknown = next((one for one in reading.fixed if one not in names), None)
     if unknown is not None:
