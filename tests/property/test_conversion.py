@@ -222,8 +222,8 @@ def _blocks(path):
     ("change", "says"),
     [
         (lambda text: "{", "is no JSON"),
-        (lambda text: "[]", "holds None; allowed are objects of COMPAS 2"),
-        (lambda text: text.replace("compas_dem.models/BlockModel", "compas.datastructures/Mesh"), "holds 'compas.data"),
+        (lambda text: "[]", "holds a list of 0; allowed are objects of COMPAS 2"),
+        (lambda text: text.replace("compas_dem.models/BlockModel", "compas.datastructures/Graph"), "holds compas.data"),
         (lambda text: text.replace('"tree"', '"wood"'), "is not laid out as COMPAS 2 writes it"),
         (
             lambda text: text.replace('"face"', '"facets"', 1),

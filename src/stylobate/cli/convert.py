@@ -12,7 +12,7 @@ from . import options as o
 def convert(
     model: str = o.argument(
         "MODEL",
-        "Mesh (OBJ, PLY, STL, glTF), COMPAS JSON, survey (CSV, workbook), preset, or file of a column or an assembly.",
+        "Mesh (OBJ, PLY, STL, glTF), COMPAS JSON, 3DEC data file, survey (CSV, workbook), preset, column or assembly file.",
     ),
     to: Path = o.option(
         "FILE", "What to write: .toml, .json, .csv, .obj, .ply, .stl or .glb; nothing may be there.", ...
@@ -20,7 +20,10 @@ def convert(
     material: str | None = o.option("NAME", "Stone and joints of a mesh, COMPAS model or survey, such as marble."),
     kind: str = o.option("assembly|column", "What stones of a mesh become.", "assembly", flag="--as"),
     mesh_unit: str = o.option("m|cm|mm|inch|foot", "Of a mesh.", "m", flag="--unit"),
-    tolerance: str = o.option("LENGTH", "Largest distance of a mesh from what stands for it.", "1mm"),
+    up: str | None = o.option("y|z", "Axis of a mesh that is upward; y of glTF, z of others if not given."),
+    tolerance: str = o.option(
+        "LENGTH", "Largest distance of a mesh from what stands for it, and of faces that touch.", "1mm"
+    ),
     ground: str | None = o.option(
         "LEVEL|none", "Where the ground lies; the lowest point if not given, none where there are supports."
     ),
@@ -43,8 +46,11 @@ def convert(
     from ..exchange.convert import convert as converted
     from . import console
 
-    reading = Reading(material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()), columns, north)
+    reading = Reading(
+        material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()), columns, north, up
+    )
     structure, words, files = converted(model, to, reading, compas)
+    words = [console.in_options(line) for line in words]
     moving = sum(not body.fixed for body in structure.bodies)
     found = {"name": structure.name, "kind": structure.kind, "bodies": moving, "fitted": words}
     if execution.emits(found | {"files": [str(file) for file in files]}):

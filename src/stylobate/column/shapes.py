@@ -250,12 +250,17 @@ class ConvexSolid:
                     old, new = groups[one], groups[other]
                     groups = [new if group == old else group for group in groups]
         return tuple(
-            _around(
-                points, {int(i) for k in np.flatnonzero(np.array(groups) == group) for i in found.simplices[k]}, normal
-            )
+            _around(points, _rim(found.simplices[np.array(groups) == group]), normal)
             for group, normal in enumerate(normals)
             if group in groups
         )
+
+
+def _rim(triangles: np.ndarray) -> set[int]:
+    """Corners of the face that triangles make: those on an edge of one of them alone; others lie within it."""
+    edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    once, times = np.unique(edges, axis=0, return_counts=True)
+    return set(once[times == 1].ravel().tolist())
 
 
 def _around(points: np.ndarray, members: set[int], normal: np.ndarray) -> tuple[int, ...]:

@@ -9,21 +9,22 @@ from __future__ import annotations
 import json
 import uuid
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..column.shapes import Mesh
+from ..column.spatial.mesh_files import check_closed
 from ..column.spatial.mesh_formats import LARGEST, MeshPart
 from ..errors import InputError
 from ..reading import read_bytes, shown
 
 #: The kinds of files, by what their ``dtype`` ends in.
-MODELS, ASSEMBLIES = (
-    ("compas_dem.models/BlockModel", "compas_model.models/Model"),
-    "compas_assembly.datastructures/Assembly",
-)
+MODELS = "compas_dem.models/BlockModel", "compas_model.models/Model"
+ASSEMBLIES = "compas_assembly.datastructures/Assembly", "compas_cra.datastructures/CRA_Assembly"
+MESHES = "compas.datastructures/Mesh", "compas_assembly.datastructures/Block"
 
 #: Layouts that can be written.
 LAYOUTS = ("dem", "assembly")
@@ -74,25 +75,46 @@ def compas_blocks(found: Any, name: str, default: str) -> tuple[str, list[Block]
         Another kind of object, or a block whose geometry is no mesh.
     """
     dtype = found.get("dtype") if isinstance(found, dict) else None
+    meshes = found if dtype is None else [found]
     try:
         if dtype in MODELS:
             blocks = list(_of_model(found["data"], name))
-        elif dtype == ASSEMBLIES:
+        elif dtype in ASSEMBLIES:
             blocks = list(_of_assembly(found["data"], name))
+        elif meshes and all(isinstance(one, dict) and one.get("dtype") in MESHES for one in meshes):
+            blocks = [
+                Block(_mesh(one, np.eye(4), str(one.get("name") or f"block {number}"), name), False, None, str(number))
+                for number, one in enumerate(meshes, 1)
+            ]
         else:
-            kinds = ", ".join((*MODELS, ASSEMBLIES))
-            raise InputError(f"{name} holds {dtype!r}; allowed are objects of COMPAS 2 of type {kinds}.")
+            raise InputError(
+                f"{name} holds {_content(found)}; allowed are objects of COMPAS 2 of type "
+                f"{', '.join((*MODELS, *ASSEMBLIES))}, and meshes: write its blocks as closed meshes, in OBJ for one."
+            )
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
         if isinstance(error, InputError):
             raise
+        missing = f"; {error} is missing" if isinstance(error, KeyError) else ""
         raise InputError(
-            f"{name} is not laid out as COMPAS 2 writes it (at {str(error)[:60]}); write it again with json_dump."
+            f"{name} is not laid out as COMPAS 2 writes it{missing}: write its blocks as closed meshes, in OBJ for one."
         ) from None
     if not blocks:
         raise InputError(f"{name} holds no blocks; give a model of one at least.")
-    attributes = found["data"].get("attributes") if dtype == ASSEMBLIES else None
-    called = found.get("name") or (attributes or {}).get("name") or default
+    attributes = found["data"].get("attributes") if dtype in ASSEMBLIES else None
+    called = (found.get("name") if dtype in MODELS + ASSEMBLIES else None) or (attributes or {}).get("name") or default
     return str(called), _named(blocks)
+
+
+def _content(found: Any) -> str:
+    """What JSON holds, in words."""
+    if isinstance(found, list):
+        kinds = ", ".join(sorted({_content(one) for one in found})[:3])
+        return f"a list of {len(found)}{f' ({kinds})' if kinds else ''}"
+    if not isinstance(found, dict):
+        return "no object"
+    if "datatype" in found:
+        return f"an object of COMPAS 1 ({str(found['datatype'])[:60]})"
+    return str(found["dtype"])[:60] if "dtype" in found else "JSON of another program"
 
 
 def _named(blocks: Sequence[Block]) -> list[Block]:
@@ -101,7 +123,7 @@ def _named(blocks: Sequence[Block]) -> list[Block]:
     found = []
     for i, block in enumerate(blocks):
         name = names[i] if names.count(names[i]) == 1 else f"{names[i]} {names[: i + 1].count(names[i])}"
-        found.append(block._replace(part=MeshPart(name, block.part.points, block.part.faces)))
+        found.append(block._replace(part=replace(block.part, name=name)))
     return found
 
 
@@ -115,6 +137,8 @@ def _of_assembly(data: Mapping[str, Any], name: str) -> Iterator[Block]:
 
 def _of_model(data: Mapping[str, Any], name: str) -> Iterator[Block]:
     elements, materials = data["elements"], data.get("materials") or {}
+    if isinstance(elements, list):  # before compas_model 0.5
+        elements = {one["guid"]: one for one in elements}
     edges = [edge for ends in data["graph"]["edge"].values() for edge in ends.values()]
     if any(one["data"].get("features") for one in elements.values()) or any(one.get("modifiers") for one in edges):
         raise InputError(f"{name} has features or modifiers, which change its blocks; give their meshes as they are.")
@@ -157,7 +181,9 @@ def _mesh(found: Mapping[str, Any], turn: np.ndarray, called: str, name: str) ->
     faces = tuple(tuple(numbers[str(corner)] for corner in face) for face in data["face"].values())
     if len(points) < 4 or len(faces) < 4 or not np.isfinite(points).all():
         raise InputError(f"block {called!r} of {name} is no solid: {len(points)} vertices, {len(faces)} faces.")
-    return MeshPart(called, points @ turn[:3, :3].T + turn[:3, 3], faces)
+    part = MeshPart(called, points @ turn[:3, :3].T + turn[:3, 3], faces)
+    check_closed(part, f"block {called!r} of {name}")
+    return part
 
 
 # -- written -------------------------------------------------------------------------------------------------------------
@@ -243,7 +269,7 @@ def _assembly(name: str, blocks: Sequence[tuple[str, Mesh, bool, float]]) -> dic
     }
     held = {"dtype": "compas.datastructures/Graph", "data": graph, "name": "Graph", "guid": _guid(name, "graph")}
     return {
-        "dtype": ASSEMBLIES,
+        "dtype": ASSEMBLIES[0],
         "data": {"attributes": {"name": name}, "graph": held},
         "name": name,
         "guid": _guid(name),

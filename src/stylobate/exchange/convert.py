@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeAlias
+
+import numpy as np
 
 from ..atomic import replacing
 from ..column import Column
 from ..column.assembly_files import load_structure
-from ..column.block import FAR_AWAY
+from ..column.block import FAR_AWAY, length_of
 from ..column.files import tables_of
 from ..column.shapes import Mesh
 from ..column.spatial.files import spatial_assembly
-from ..column.spatial.mesh_files import read_stones
-from ..column.spatial.mesh_formats import MESHES, MeshPart
+from ..column.spatial.mesh_files import read_stones, unit_of, upward
+from ..column.spatial.mesh_formats import MESHES, UPWARD, MeshPart
 from ..column.spatial.tables import SpatialTable
 from ..column.structure import Structure
 from ..column.tables import made_of
@@ -22,22 +26,28 @@ from ..column.toml import checked, toml_text
 from ..errors import InputError, check_range, within
 from ..reading import shown
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
+from .contact_planes import ROUGH, SMOOTH, brought_together
 from .export import refuse_existing
+from .fitting import hull_of
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND
-from .stones import assembly_tables, column_tables, distance_of, fit_all, near
+from .stones import ROUNDING, assembly_tables, column_tables, distance_of, fit_all, near
 from .survey import WORKBOOKS, survey_tables, survey_text
+from .three_dec import read_three_dec
 
 #: Endings of what is written; of what is read besides column and assembly files.
 WRITTEN = (".toml", ".json", ".csv", ".obj", ".ply", ".stl", ".glb")
 SURVEYS = (".csv", *WORKBOOKS)
-READ = (*MESHES, ".json", *SURVEYS)
+READ = (*MESHES, ".json", ".dat", *SURVEYS)
 
 #: Largest distance of a mesh from what stands for it unless told otherwise [m].
 TOLERANCE = 0.001
 
 #: A closed part of a model, whether it is fixed, and its density [kg/m³] if the model tells.
 Part: TypeAlias = tuple[MeshPart, bool, float | None]
+
+#: Tolerances that are tried for an advice [m], up to this share of the smallest stone.
+TOLERANCES, LOOSEST = (0.002, 0.005, 0.01, 0.02, 0.05, 0.1), 0.1
 
 #: Kinds that stones of a mesh can become.
 KINDS = ("assembly", "column")
@@ -64,6 +74,8 @@ class Reading:
         Of a survey whose row of names is not ours, such as ``drum, height [cm], bottom_width [cm], top_width [cm], -``.
     north : float, optional
         Bearing of the x axis of a survey, clockwise from north [degrees].
+    up : str, optional
+        Axis of the file that is upward, ``y`` or ``z``; y of glTF and z of others unless given.
     """
 
     def __init__(
@@ -76,15 +88,18 @@ class Reading:
         fixed: tuple[str, ...] = (),
         columns: str | None = None,
         north: float | None = None,
+        up: str | None = None,
     ) -> None:
         if becomes not in KINDS:
             raise InputError(f"`as` is {becomes!r}; allowed are {', '.join(KINDS)}.", "as")
+        if up not in (None, *UPWARD):
+            raise InputError(f"`up` is {up!r}; allowed are {', '.join(UPWARD)}.", "up")
         check_range("`tolerance`", tolerance, 0.0, 1.0, unit="m", field="tolerance")
         if isinstance(ground, float):
             check_range("level of the ground", ground, -FAR_AWAY, FAR_AWAY, unit="m", field="ground")
         self.material, self.becomes, self.unit = material, becomes, unit
         self.tolerance, self.ground, self.fixed = tolerance, ground, fixed
-        self.columns, self.north = columns, north
+        self.columns, self.north, self.up = columns, north, up
 
 
 def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tuple[Structure, list[str], list[Path]]:
@@ -124,7 +139,7 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
         raise InputError("`columns` are those of a survey, and none is given; leave them out.", "columns")
     structure, tables, words = read_model(Path(model), reading) if foreign else (load_structure(model), None, [])
     if suffix == ".toml":
-        comments = words if read_from in SURVEYS else ()
+        comments = [" ".join(line.split()) for line in words]
         content = _file_of(structure) if tables is None else toml_text(tables, comments).encode()
     elif suffix == ".csv":
         column = structure.stack
@@ -139,6 +154,7 @@ def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tu
     else:
         named = [Named(name, mesh, FIXED if fixed else STONE) for name, mesh, fixed, _ in surfaces_of(structure)]
         content = _glb(structure.name, named) if suffix == ".glb" else TEXTS[suffix](named).encode()
+        words += _lost(structure, suffix)
     with replacing(path) as partial:
         partial.write_bytes(content)
     return structure, words, [path]
@@ -156,12 +172,21 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
         tables.setdefault("name", path.stem)
         column = made_of(Column, tables, shown(path))
         return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]
-    if path.suffix.lower() == ".json":
+    stated: dict[str, Any] | None = None
+    if path.suffix.lower() == ".dat":
+        name, up, factor = path.stem, reading.up or "z", unit_of(reading.unit, shown(path))
+        found, stated = read_three_dec(path)
+        parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in found]
+    elif path.suffix.lower() == ".json":
         name, blocks = read_compas(path)
-        parts = parts_of(blocks)
+        up, factor = reading.up or "z", unit_of(reading.unit, shown(path))
+        parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in parts_of(blocks)]
     else:
-        name, parts = path.stem, [(part, False, None) for part in read_stones(path, reading.unit)]
-    return stand_up(name, parts, reading, shown(path), path.parent)
+        name, up = path.stem, reading.up or upward(path)
+        parts = [(part, False, None) for part in read_stones(path, reading.unit, up)]
+    structure, tables, words = stand_up(name, parts, reading, shown(path), path.parent, stated)
+    words.insert(-1, f"{up} is taken as upward" + ("" if reading.up else "; `up` says otherwise"))
+    return structure, tables, words
 
 
 def parts_of(blocks: Sequence[Block]) -> list[Part]:
@@ -170,7 +195,7 @@ def parts_of(blocks: Sequence[Block]) -> list[Part]:
 
 
 def stand_up(
-    name: str, parts: Sequence[Part], reading: Reading, where: str, folder: Path
+    name: str, parts: Sequence[Part], reading: Reading, where: str, folder: Path, stated: dict[str, Any] | None = None
 ) -> tuple[Structure, dict[str, Any], list[str]]:
     """What stands of the parts of a model; returns and errors as of :func:`read_model`.
 
@@ -183,38 +208,91 @@ def stand_up(
         What messages call the model.
     folder : Path
         That paths of meshes start from.
+    stated : dict, optional
+        Tables that a model of polyhedra, of which none is round, gives of its joints and its gravity.
     """
-    if reading.material is None:
+    material = reading.material
+    if material is None and "joint" not in (stated or {}):
         raise InputError(
             f"{where} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
         )
+    parts, notes = _near_the_origin(parts)
+    rounding = max(part.rounding for part, *_ in parts)
+    notes += [f"its numbers are rounded by up to {near(rounding)} (single precision)"] if rounding > ROUNDING else []
     level, parts = _without_ground(parts)
+    if not parts:
+        raise InputError(f"{where} holds a ground and no stones; give those that stand on it.")
     names = [part.name for part, *_ in parts]
     unknown = next((one for one in reading.fixed if one not in names), None)
     if unknown is not None:
         raise InputError(f"`fixed` names {unknown!r}, which {where} does not hold; it holds {_some(names)}.", "fixed")
     parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
-    with within(where):
-        stones = fit_all(parts, reading.tolerance)
-        words = [f"{one.name}: {one.words}" for one in stones]
-        if reading.becomes == "column":
-            tables, said = column_tables(name, stones, reading.material, reading.tolerance)
-            column = made_of(Column, tables)
-            said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
-            return column, tables, words + said
-        if reading.ground is False:
-            ground = None
-        elif reading.ground is not None:
-            ground = float(reading.ground)
-        elif level is None and any(one.fixed for one in stones):
-            ground = None
-        else:
-            lowest = min(float(part.points[part.used, 2].min()) for part, *_ in parts)
-            ground = round(lowest if level is None else level, 7)
-        tables = assembly_tables(name, stones, reading.material, ground)
-        structure = spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder)
-    words.append("no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m")
-    return structure, tables, words
+    hulls = [hull_of(part, f"{where}: part {part.name!r}", stated is None) for part, *_ in parts]
+
+    def stood(tolerance: float) -> tuple[Structure, dict[str, Any], list[str]]:
+        with within(where):
+            if rounding > tolerance:
+                raise InputError(
+                    f"its numbers, of single precision, are rounded by up to {length_of(rounding)} so far from the origin; "
+                    f"allowed are {length_of(tolerance)}: write it from an origin nearby, or in double precision.",
+                    "tolerance",
+                )
+            stones = fit_all(parts, hulls, tolerance)
+            words = [f"{one.name}: {one.words}" for one in stones] + notes
+            if reading.becomes == "column":
+                tables, said = column_tables(name, stones, material, tolerance)
+                column = made_of(Column, tables)
+                said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
+                return column, tables, words + said
+            ground = float(reading.ground) if reading.ground is not None and reading.ground is not False else None
+            if reading.ground is None and (level is not None or not any(one.fixed for one in stones)):
+                ground = round(min(one.shape.lowest for one in stones) if level is None else level, 7) + 0.0
+
+            def level_at(facing: float) -> tuple[Structure, dict[str, Any], float]:
+                shapes, shift = brought_together([one.shape for one in stones], ground, tolerance, facing)
+                level_stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
+                tables = assembly_tables(name, level_stones, material, ground) | (stated or {})
+                return spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder), tables, shift
+
+            try:
+                structure, tables, shift = level_at(SMOOTH)
+            except InputError:
+                structure, tables, shift = level_at(ROUGH)
+            if shift > ROUNDING:
+                words.append(f"faces that touch were brought into common planes: corners moved by up to {near(shift)}")
+            words.append(
+                "no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m"
+            )
+            return structure, tables, words
+
+    try:
+        return stood(reading.tolerance)
+    except InputError as error:
+        most = LOOSEST * min(float(np.ptp(hull.corners, axis=0).max()) for hull in hulls)
+        enough = next((one for one in TOLERANCES if reading.tolerance < one <= most and _is_read(stood, one)), None)
+        if enough is None:
+            raise
+        more = f"{str(error).rstrip('.')}, or allow more with `tolerance={enough:g}`."
+        raise InputError(more, error.field) from None
+
+
+def _is_read(stood: Callable[[float], object], tolerance: float) -> bool:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            stood(tolerance)
+        except InputError:
+            return False
+    return True
+
+
+def _near_the_origin(parts: Sequence[Part]) -> tuple[list[Part], list[str]]:
+    """Parts without the place on a map that their coordinates begin from, and what was taken off."""
+    points = np.concatenate([part.points[part.used] for part, *_ in parts])
+    place = np.where(np.abs(points).max(axis=0) > FAR_AWAY, np.floor(points.min(axis=0)), 0.0)
+    off = ", ".join(f"{axis} = {value:.0f} m" for axis, value in zip("xyz", place.tolist(), strict=True) if value)
+    words = [f"its place was taken off: coordinates count from {off}"] if off else []
+    return [(replace(part, points=part.points - place), fixed, density) for part, fixed, density in parts], words
 
 
 def _without_ground(parts: Sequence[Part]) -> tuple[float | None, list[Part]]:
@@ -249,6 +327,20 @@ def _clean(mesh: Mesh) -> Mesh:
     used = sorted({i for face in mesh.faces for i in face})
     numbers = {old: new for new, old in enumerate(used)}
     return Mesh(mesh.vertices[used], tuple(tuple(numbers[i] for i in face) for face in mesh.faces))
+
+
+def _lost(structure: Structure, suffix: str) -> list[str]:
+    """What a mesh does not hold of a structure."""
+    glued = [body.name for body in structure.bodies if len(body.placed) > 1 and not body.size > FAR_AWAY]
+    fixed = [body.name for body in structure.bodies if body.fixed and not body.size > FAR_AWAY]
+    words = [
+        f"{suffix} holds shapes{' without names' if suffix == '.ply' else ' and names'} alone, no densities and joints"
+    ]
+    words += [f"supports are not kept: {_some(fixed)}, to be named in `fixed`"] if fixed else []
+    loose = suffix == ".ply" and glued
+    return words + (
+        [f"glue is not kept: the parts of {_some(glued)} come loose; other formats keep it"] if loose else []
+    )
 
 
 def _glb(name: str, surfaces: list[Named]) -> bytes:

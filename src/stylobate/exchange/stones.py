@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..column import Column
+from ..column.block import length_of
 from ..column.drum import Drum
 from ..column.found_in_space import space_geometry
 from ..column.materials import material
@@ -16,7 +17,7 @@ from ..column.spatial.mesh_formats import MeshPart
 from ..column.turning import about
 from ..constants import DEGREE
 from ..errors import InputError
-from .fitting import Frustum, Hull, fitted
+from .fitting import Frustum, Hull, within_tolerance
 
 #: A drum that leans less than this out of the one under it stands straight on it [degrees].
 STRAIGHT = 0.05
@@ -28,7 +29,7 @@ ROUNDING = 1e-6
 
 def near(distance: float) -> str:
     """A distance between what was told and what stands for it, in words [m]."""
-    return f"{1e3 * distance:.2g} mm" if distance > ROUNDING else "rounding"
+    return length_of(distance) if distance > ROUNDING else "rounding"
 
 
 class Fitted(NamedTuple):
@@ -42,27 +43,30 @@ class Fitted(NamedTuple):
     @property
     def words(self) -> str:
         """What it became, and how far the mesh is from that."""
-        far = near(self.shape.residual)
-        if isinstance(self.shape, Hull):
-            return f"block of {len(self.shape.corners)} corners, within {far}"
-        one = self.shape
-        return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {far}"
+        one, far = self.shape, near(self.shape.residual)
+        more = 100.0 * (1.0 / one.filled - 1.0)
+        off = f"; its volume is {more:+.2g} % off the mesh" if abs(more) > 0.01 else ""
+        if isinstance(one, Hull):
+            drum = "" if one.drum is None else f" (no round drum within {near(one.drum.residual)})"
+            return f"block of {len(one.corners)} corners, within {far}{drum}{off}"
+        flat = f", {near(one.flat)} more between corners" if one.flat > ROUNDING else ""
+        return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {far}{flat}{off}"
 
 
-def fit_all(parts: Sequence[tuple[MeshPart, bool, float | None]], tolerance: float) -> list[Fitted]:
-    """What fits each part of a model; parts called ``NAME, part 1``, ``NAME, part 2`` … are convex parts of one block.
+def fit_all(
+    parts: Sequence[tuple[MeshPart, bool, float | None]], hulls: Sequence[Hull], tolerance: float
+) -> list[Fitted]:
+    """What fits each part of a model within a tolerance [m]; parts ``NAME, part 1`` … are convex parts of one block.
 
     Raises
     ------
     InputError
-        A part that is no convex solid, by its name.
+        A part that is not convex, by its name.
     """
     found = []
-    for part, fixed, density in parts:
-        shape = fitted(part, tolerance, f"part {part.name!r}")
-        if isinstance(shape, Frustum) and ", part " in part.name:
-            shape = Hull(part.points[part.used], 0.0)
-        found.append(Fitted(part.name, shape, fixed, density))
+    for (part, fixed, density), hull in zip(parts, hulls, strict=True):
+        shape = within_tolerance(hull, tolerance, f"part {part.name!r}")
+        found.append(Fitted(part.name, hull._replace(drum=None) if ", part " in part.name else shape, fixed, density))
     return found
 
 
@@ -71,15 +75,15 @@ def body_of(part: str) -> str:
     return part.partition(", part ")[0]
 
 
-def assembly_tables(name: str, stones: Sequence[Fitted], stone: str, ground: float | None) -> dict[str, Any]:
+def assembly_tables(name: str, stones: Sequence[Fitted], stone: str | None, ground: float | None) -> dict[str, Any]:
     """Content of a file of an assembly in space.
 
     Parameters
     ----------
     name : str
     stones : sequence of Fitted
-    stone : str
-        Name of a material.
+    stone : str or None
+        Name of a material; None where all is stated otherwise.
     ground : float or None
         Level of the ground [m]; None for none.
     """
@@ -99,7 +103,7 @@ def assembly_tables(name: str, stones: Sequence[Fitted], stone: str, ground: flo
             blocks[called] = facts | entry
     return {
         "name": name,
-        "material": material(stone).name,
+        **({} if stone is None else {"material": material(stone).name}),
         "ground": False if ground is None else ground,
         "block": list(blocks.values()),
     }
@@ -121,7 +125,7 @@ def _drum(one: Frustum) -> dict[str, Any]:
 
 
 def column_tables(
-    name: str, stones: Sequence[Fitted], stone: str, tolerance: float
+    name: str, stones: Sequence[Fitted], stone: str | None, tolerance: float
 ) -> tuple[dict[str, Any], list[str]]:
     """Content of a column file of drums that stand on one another, and what is said of them.
 
@@ -134,7 +138,11 @@ def column_tables(
     """
     other = next((one for one in stones if isinstance(one.shape, Hull)), None)
     if other is not None:
-        raise InputError(f"part {other.name!r} is no round drum; a column is made of such, write an assembly.", "as")
+        drum = other.shape.drum if isinstance(other.shape, Hull) else None
+        off = "" if drum is None else f" within {length_of(drum.residual)}"
+        raise InputError(
+            f"part {other.name!r} is no round drum{off}; a column is made of such, write an assembly.", "as"
+        )
     order = sorted(stones, key=lambda one: float(one.shape.foot[2]) if isinstance(one.shape, Frustum) else 0.0)
     drums = [one.shape for one in order if isinstance(one.shape, Frustum)]
     rows, found, gaps = [], [], []
@@ -151,8 +159,8 @@ def column_tables(
             if abs(gap) > tolerance:
                 what = "apart" if gap > 0.0 else "deep in one another"
                 raise InputError(
-                    f"{order[number - 2].name!r} and {named.name!r} are {1e3 * abs(gap):.3g} mm {what}; allowed are "
-                    f"{1e3 * tolerance:g} mm: mend the mesh, or allow more with `tolerance`.",
+                    f"{order[number - 2].name!r} and {named.name!r} are {length_of(abs(gap))} {what}; allowed are "
+                    f"{length_of(tolerance)}: mend the mesh.",
                     "tolerance",
                 )
             gaps.append(gap)
@@ -170,7 +178,8 @@ def column_tables(
             axis = frame[:, 2]
         if len(facts) > 1:
             found.append(facts)
-    table: dict[str, Any] = {"name": name, "section": "circular", "material": material(stone).name, "drum": rows}
+    table: dict[str, Any] = {"name": name, "section": "circular", "drum": rows}
+    table |= {} if stone is None else {"material": material(stone).name}
     if found:
         table["as_found"] = {"drum": found}
     apart = [f"drums fit on one another within {near(max(map(abs, gaps)))}"] if gaps else []

@@ -45,7 +45,8 @@ NOTE = "note"
 
 #: What stands for a column that is left out, where columns are stated; and all names of columns.
 LEFT_OUT = "-"
-KNOWN = ("drum", "density", *LENGTHS, *ANGLES, *list(BEARINGS)[:2], *JOINT, NOTE)
+DIRECTIONS = (*ANGLES, *list(BEARINGS)[:2])
+KNOWN = ("drum", "density", *LENGTHS, *DIRECTIONS, *JOINT, NOTE)
 
 #: What spreadsheets show where a formula has failed.
 FAILED_CELL = re.compile(r"#[A-Z0-9/_]+[!?]?|Err:\d+")
@@ -270,7 +271,7 @@ def _stated(text: str) -> list[tuple[str, float]]:
         name, unit = (found["name"].replace(" ", "_"), found["unit"]) if found else ("", None)
         if name in LENGTHS and unit in UNITS:
             columns.append((name, UNITS[unit]))
-        elif name in (LEFT_OUT, "drum", NOTE, "density", *ANGLES, *JOINT) and unit in (None, _unit_of(name)):
+        elif name in (LEFT_OUT, "drum", NOTE, "density", *DIRECTIONS, *JOINT) and unit in (None, _unit_of(name)):
             columns.append((name, 1.0))
         else:
             raise InputError(
@@ -285,7 +286,7 @@ def _stated(text: str) -> list[tuple[str, float]]:
 def _unit_of(name: str) -> str:
     """Unit of a column that has one only, as typed."""
     units = {"density": "kg/m3", "normal_stiffness": "N/m3", "shear_stiffness": "N/m3", "cohesion": "Pa"}
-    return "deg" if name in ANGLES or name == "friction_angle" else units.get(name, "")
+    return "deg" if name in DIRECTIONS or name == "friction_angle" else units.get(name, "")
 
 
 def _columns_of(head: list[str], rows: list[list[str]], decimal: str, name: str) -> list[tuple[str, float]]:
@@ -336,19 +337,18 @@ def _column(cell: str, name: str) -> tuple[str, float]:
     text = "_".join(
         cell.strip().lower().replace("[", " ").replace("]", " ").replace("(", " ").replace(")", " ").split()
     )
-    known = KNOWN
-    if text in known:
+    if text in KNOWN:
         return text, 1.0
     stem, _, unit = text.rpartition("_")
     if stem in LENGTHS and unit in UNITS:
         return stem, UNITS[unit]
-    if text == "density_kg_m3" or (stem in angles and unit in ("deg", "degrees", "°")):
+    if text == "density_kg_m3" or (stem in DIRECTIONS and unit in ("deg", "degrees", "°")):
         return "density" if text == "density_kg_m3" else stem, 1.0
     own = next((key for key, unit in JOINT.items() if unit and text == f"{key}_{unit}"), None)
     if own is not None:
         return own, 1.0
     raise InputError(
-        f"{name} has a column {cell.strip()!r}; {suggest(text, known)}known are {', '.join(known)}, lengths with _m, _cm or "
+        f"{name} has a column {cell.strip()!r}; {suggest(text, KNOWN)}known are {', '.join(KNOWN)}, lengths with _m, _cm or "
         "_mm behind them."
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from ...errors import InputError
 from ...reading import shown
 from ..plausible import bulk_doubts
-from .mesh_formats import MeshPart, edges_of, parsed_parts, pieces_of
+from .mesh_formats import GLTF, MeshPart, edges_of, parsed_parts, pieces_of
 
 #: Units that a mesh may be in [m].
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "inch": 0.0254, "foot": 0.3048}
@@ -27,7 +28,7 @@ def read_mesh(path: Path, unit: str = "m") -> np.ndarray:
     InputError
         No mesh; one of several parts, with holes, that is not convex, or of a size that no stone has.
     """
-    name, factor = shown(path), _factor(unit, shown(path))
+    name, factor = shown(path), unit_of(unit, shown(path))
     objects = parsed_parts(path)
     parts = objects if len(objects) > 1 else pieces_of(objects[0])
     if len(parts) > 1:
@@ -38,18 +39,23 @@ def read_mesh(path: Path, unit: str = "m") -> np.ndarray:
     _check_sizes([part], factor, name, "unit = " + ", ".join(f'"{one}"' for one in UNITS))
     check_closed(part, name)
     _check_convex(part, name)
-    return part.points[part.used] * factor
+    return part.in_metres(factor, upward(path)).points[part.used]
 
 
-def read_stones(path: Path, unit: str = "m") -> list[MeshPart]:
-    """Every closed surface of a mesh [m], each under a name of its own.
+def upward(path: Path) -> str:
+    """The axis that is upward in a format unless told otherwise, ``y`` or ``z``."""
+    return "y" if path.suffix.lower() in GLTF else "z"
+
+
+def read_stones(path: Path, unit: str = "m", up: str | None = None) -> list[MeshPart]:
+    """Every closed surface of a mesh [m], z upward, each under a name of its own; ``up`` is the file's axis upward.
 
     Raises
     ------
     InputError
         No mesh; a part with holes; or sizes all of which no stone has.
     """
-    name, factor = shown(path), _factor(unit, shown(path))
+    name, factor = shown(path), unit_of(unit, shown(path))
     parts = [piece for part in parsed_parts(path) for piece in pieces_of(part)]
     _check_sizes(parts, factor, name, "`unit` " + ", ".join(UNITS))
     names = [part.name for part in parts]
@@ -57,11 +63,12 @@ def read_stones(path: Path, unit: str = "m") -> list[MeshPart]:
     for number, part in enumerate(parts):
         own = part.name if names.count(part.name) == 1 else f"{part.name}, {names[: number + 1].count(part.name)}"
         check_closed(part, f"part {own!r} of {name}")
-        found.append(MeshPart(own, part.points * factor, part.faces, part.lines))
+        found.append(replace(part.in_metres(factor, up or upward(path)), name=own))
     return found
 
 
-def _factor(unit: str, name: str) -> float:
+def unit_of(unit: str, name: str) -> float:
+    """A unit of a file [m]."""
     if unit not in UNITS:
         raise InputError(f"the unit of {name} is {unit!r}; allowed are {', '.join(UNITS)}.", "unit")
     return UNITS[unit]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,9 @@ from ...reading import read_bytes, shown
 #: Endings of files that hold meshes, and those that trimesh reads.
 OBJ, OTHERS = ".obj", (".ply", ".stl", ".glb", ".gltf")
 MESHES = (OBJ, *OTHERS)
+
+#: Axes that can be upward; that of glTF is y.
+UPWARD, GLTF = ("y", "z"), (".glb", ".gltf")
 
 #: Largest file [bytes].
 LARGEST = 20_000_000
@@ -34,12 +37,21 @@ class MeshPart:
         Numbers of their vertices.
     lines : tuple of int
         Line of the file that each face is on; empty where a format has none.
+    rounding : float
+        Half a unit of the last place of numbers in single precision [the file's unit]; 0 of other numbers.
     """
 
     name: str
     points: np.ndarray
     faces: tuple[tuple[int, ...], ...]
     lines: tuple[int, ...] = ()
+    rounding: float = 0.0
+
+    def in_metres(self, factor: float, up: str) -> MeshPart:
+        """The surface in m with z upward, from a unit [m] and the axis that is upward, ``y`` or ``z``."""
+        x, y, z = factor * self.points.T
+        points = np.stack((x, -z, y) if up == "y" else (x, y, z), axis=1)
+        return replace(self, points=points, rounding=factor * self.rounding)
 
     @property
     def used(self) -> np.ndarray:
@@ -105,7 +117,8 @@ def _pieces(part: MeshPart) -> list[MeshPart]:
     for number, kind in enumerate(kinds, 1):
         own = np.flatnonzero(of_face == kind).tolist()
         lines = tuple(part.lines[i] for i in own) if part.lines else ()
-        found.append(MeshPart(f"{part.name} {number}", part.points, tuple(part.faces[i] for i in own), lines))
+        faces = tuple(part.faces[i] for i in own)
+        found.append(replace(part, name=f"{part.name} {number}", faces=faces, lines=lines))
     return found
 
 
@@ -116,7 +129,7 @@ def _merged(part: MeshPart) -> MeshPart:
     faces = [tuple(dict.fromkeys(same[i] for i in face)) for face in part.faces]
     kept = [i for i, face in enumerate(faces) if len(face) >= 3]
     lines = tuple(part.lines[i] for i in kept) if part.lines else ()
-    return MeshPart(part.name, part.points, tuple(faces[i] for i in kept), lines)
+    return replace(part, faces=tuple(faces[i] for i in kept), lines=lines)
 
 
 def _obj(data: bytes, name: str, stem: str) -> list[MeshPart]:
@@ -154,7 +167,7 @@ def _obj(data: bytes, name: str, stem: str) -> list[MeshPart]:
 
 
 def _by_trimesh(data: bytes, suffix: str, path: Path, name: str) -> list[MeshPart]:
-    """Meshes of a scene where they stand; of glTF, whose y is upward, with z upward."""
+    """Meshes of a scene where they stand."""
     try:
         import trimesh
         from trimesh.resolvers import FilePathResolver
@@ -176,12 +189,13 @@ def _by_trimesh(data: bytes, suffix: str, path: Path, name: str) -> list[MeshPar
     found = []
     for node, turn, vertices, faces in surfaces:
         points = np.asarray(vertices, dtype=float) @ turn[:3, :3].T + turn[:3, 3]
-        if suffix in (".glb", ".gltf"):
-            points = np.stack((points[:, 0], -points[:, 2], points[:, 1]), axis=1)
         if len(faces):
             order = 1 if np.linalg.det(turn[:3, :3]) > 0.0 else -1  # mirrored, faces run the other way
             called = path.stem if suffix in (".ply", ".stl") and node.startswith("geometry_") else node
-            found.append(MeshPart(called, points, tuple(tuple(face[::order].tolist()) for face in np.asarray(faces))))
+            single = points.astype("f4")
+            rounding = 0.5 * float(np.spacing(np.abs(single).max())) if np.array_equal(single, points) else 0.0
+            every = tuple(tuple(face[::order].tolist()) for face in np.asarray(faces))
+            found.append(MeshPart(called, points, every, rounding=rounding))
     vertices, faces = (sum(len(getattr(one, key)) for one in found) for key in ("points", "faces"))
     if vertices < 4 or faces < 4:
         raise InputError(f"{name} holds {vertices} vertices and {faces} faces; a solid has four of each at least.")
