@@ -191,9 +191,9 @@ class Answers:
                 logs -= 0.5 * ((off / fact.sd) ** 2).sum(axis=1)
         likely = self.weights[which] * np.exp(logs[:-1] - logs[:-1].max())
         none = fallen * np.log(FALLS_OTHERWISE) + standing * np.log1p(-FALLS_OTHERWISE) + logs[-1] - logs[:-1].max()
-        factor = np.exp(min(np.log(MOST_TIMES), np.log(likely.sum() / self.weights.sum()) - none))
-        told = any(fact.sd > 0.0 and fact.kind != "fell towards" for fact in self.facts)
-        return float(factor), bool(factor >= MOST_TIMES * (1.0 - 1e-9) or (told and abc.effective(likely) < FEWEST))
+        factor = min(MOST_TIMES, float(np.exp(min(700.0, np.log(likely.sum() / self.weights.sum()) - none))))
+        told = any(fact.kind != "fell towards" for fact in self.exact)
+        return factor, bool(factor == MOST_TIMES or (told and abc.effective(likely) < FEWEST))
 
 
 def words_of(name: str, one: Posterior) -> str:
