@@ -22,7 +22,7 @@ columns = [
 ]
 seen = [
     st.Observed("stout", "stands", offsets=[(1, 0.012, 0.004, 0.003), (3, 0.030, 0.010, 0.003)]),
-    st.Observed("slender", "fell", fell_towards=30.0),
+    st.Observed("slender", "fell", fell_towards=30.0, towards_sd=15.0),
 ]
 
 # %%

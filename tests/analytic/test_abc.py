@@ -32,21 +32,16 @@ def test_posterior_of_a_normal_mean(mean):
     assert (low, middle, high) == pytest.approx(exact + spread * norm.ppf(abc.SHARES), abs=0.12 * spread)
 
 
-def test_draws_are_foretold_without_themselves(monkeypatch):
-    # The closed form of what is left out (Allen 1974) against regressions that leave each of forty draws out in turn.
+def test_ridge_regression_is_that_of_its_normal_equations(monkeypatch):
     monkeypatch.setattr(abc, "PENALTIES", np.array([1e-2]))
     stream = np.random.default_rng(2)
     features, targets = stream.standard_normal((40, 5)), stream.standard_normal((40, 2))
-    own, found = abc.expected(features, targets, features)
     scaled = (features - features.mean(axis=0)) / features.std(axis=0)
     design = np.column_stack((np.ones(40), scaled))
     penalty = 1e-2 * np.linalg.svd(scaled, compute_uv=False)[0] ** 2 * np.diag([0.0, 1, 1, 1, 1, 1])
-    for k in range(40):
-        rest = np.delete(np.arange(40), k)
-        line = np.linalg.solve(design[rest].T @ design[rest] + penalty, design[rest].T @ targets[rest])
-        assert own[k] == pytest.approx(design[k] @ line, abs=1e-9)  # of numbers of order one, in double precision
     line = np.linalg.solve(design.T @ design + penalty, design.T @ targets)
-    assert found == pytest.approx(design @ line, abs=1e-9)
+    # of numbers of order one, in double precision
+    assert abc.expected(features, targets, features) == pytest.approx(design @ line, abs=1e-9)
 
 
 def test_ranks_of_the_truth_are_even():
@@ -60,24 +55,44 @@ def test_ranks_of_the_truth_are_even():
     assert chi2.sf(((counts - 30.0) ** 2 / 30.0).sum(), 9) > 0.01
 
 
-def test_what_tells_nothing_leaves_the_prior():
-    theta, _ = conjugate()
-    noise = np.random.default_rng(3).standard_normal((DRAWS, 4))
-    taken = abc.accepted(noise, theta[:, None], np.zeros(4), 6000)
-    assert abc.spread(taken.targets[:, 0], taken.weights) == pytest.approx(1.0, abs=0.04)  # 4 standard errors
-    same = abc.accepted(np.zeros((DRAWS, 0)), theta[:, None], np.zeros(0), 10)
-    assert len(same.which) == DRAWS
-    assert np.array_equal(same.targets[:, 0], theta)
+@pytest.mark.parametrize("features", [0, 1, 2, 6, 30])
+@pytest.mark.parametrize("draws", [350, 4000])
+def test_what_tells_nothing_leaves_the_prior(draws, features):
+    # Features that are noise, few or many: means stay within four of their standard errors, and so do standard deviations.
+    stream = np.random.default_rng([draws, features])
+    targets = stream.standard_normal((draws, 4))
+    taken = abc.accepted(
+        stream.standard_normal((draws, features)), targets, np.zeros(features), max(100, int(0.3 * draws))
+    )
+    for prior, after in zip(targets.T, taken.targets.T, strict=True):
+        error = taken.effective**-0.5
+        assert np.average(after, weights=taken.weights) == pytest.approx(prior.mean(), abs=4.0 * error)
+        assert abc.spread(after, taken.weights) == pytest.approx(prior.std(), rel=4.0 * error / 2.0**0.5)
 
 
-def test_likelihood_of_a_linear_model_is_exact():
-    # What is left is Gaussian about a line in the parameter: the synthetic likelihood is the likelihood.
-    theta, measured = conjugate()
-    mean = measured.mean(axis=1, keepdims=True)
-    weights = abc.likelihood_weights(mean, np.array([0.9]), theta[:, None])
-    precision = 1.0 + 3.0 / SD**2
-    assert np.average(theta, weights=weights) == pytest.approx(3.0 / SD**2 * 0.9 / precision, abs=0.02)
-    assert abc.spread(theta, weights) == pytest.approx(precision**-0.5, rel=0.04)
+@pytest.mark.parametrize("noise", [1, 8])
+def test_intervals_hold_the_truth_with_and_without_what_tells(noise):
+    # 300 truths, each beside draws of its own: one parameter of which a feature tells something, one of which none does.
+    stream, inside = np.random.default_rng(5), []
+    for _ in range(300):
+        theta = stream.standard_normal((401, 2))
+        features = np.column_stack(
+            (theta[:, 0] + SD * stream.standard_normal(401), stream.standard_normal((401, noise)))
+        )
+        taken = abc.accepted(features[1:], theta[1:], features[0], 120)
+        ends = [abc.quantiles(taken.targets[:, k], taken.weights)[[0, 2]] for k in range(2)]
+        inside.append([low <= true <= high for (low, high), true in zip(ends, theta[0], strict=True)])
+    assert np.mean(inside, axis=0) == pytest.approx(0.9, abs=3.0 * (0.09 / 300) ** 0.5)
+
+
+def test_fewer_draws_give_wider_intervals():
+    # Nine draws part a line into ten pieces of which the next is as likely in any (Weibull); what weighs nothing is none.
+    nine, ones = np.arange(1.0, 10.0), np.ones(9)
+    assert abc.quantiles(nine, ones, (0.1, 0.5, 0.9)) == pytest.approx([1.0, 5.0, 9.0])
+    doubled = np.append(nine, nine), np.append(ones, np.zeros(9))
+    assert abc.quantiles(*doubled, (0.1, 0.5, 0.9)) == pytest.approx([1.0, 5.0, 9.0])
+    many = np.linspace(1.0, 9.0, 1000)
+    assert abc.quantiles(many, np.ones(1000))[0] > abc.quantiles(nine, ones)[0]
 
 
 def test_scores_are_normal_and_go_back():

@@ -150,6 +150,11 @@ def test_nothing_seen_leaves_the_prior(ruin, capsys):
     [
         ({"high": "fell", "fell": "offsets = [[1, 0.01, 0.0, 0.002]]"}, "what fell has none"),
         ({"fell": "fell_towards = 30"}, "leave it out, or give state"),
+        (
+            {"high": "fell", "fell": "fell_towards = 30"},
+            "without towards_sd; give both, such as fell_towards = 200 and",
+        ),
+        ({"high": "fell", "fell": "towards_sd = 15"}, "without fell_towards; give both, such as"),
         ({"low": "offsets = [[3, 0.01, 0.0, 0.002]]"}, "'low' has 2 joints"),
         ({"low": "offsets = [[1, 0.01, 0.0]]"}, "joint, x, y and sd"),
         ({"low": "offsets = [[1, 0.01, 0.0, 0.0]]"}, "allowed is \\(0"),
@@ -175,7 +180,7 @@ def test_nothing_seen_leaves_the_prior(ruin, capsys):
             {"high": "fell", "pgv": "[0.01, 0.02]"},
             "none of 300 simulations leaves all that is seen.*'high fell'.*nearest are",
         ),
-        ({"low": "no_slip_above = 0.000001", "pgv": "[0.3, 2.0]"}, "are needed: from these the PGV would be"),
+        ({"low": "no_slip_above = 0.000001", "pgv": "[0.3, 2.0]"}, "and 100 are needed; raise simulations to about"),
     ],
 )
 def test_what_is_no_ruin_is_refused(ruin, tmp_path, capsys, fields, said):

@@ -1,7 +1,7 @@
 """Posteriors of past shaking over ruins that were made, as they are kept (``make ruins``): calibrated, and wary of hands."""
 
 import pytest
-from validation.ruins.figures import TOLD, stored
+from validation.ruins.figures import KINDS, TOLD, stored
 
 KEPT = stored()
 
@@ -17,6 +17,25 @@ def test_ranks_are_even_and_intervals_hold_what_they_say(which, name):
         assert told[f"cover_{100 * share:.0f}"] == pytest.approx(
             share, abs=0.03 + 3.0 * (share * (1 - share) / ruins) ** 0.5
         )
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_intervals_hold_by_each_kind_of_observation(kind):
+    # Within three standard errors of so many ruins, and 3 % as above: azimuths that nothing tells count from the middle of
+    # the draws, and hold less; axes that offsets tell lie either side of it, and hold more.
+    told = KEPT["by_kind"][kind]
+    assert told["ruins"] >= 200
+    for name in TOLD:
+        assert told[name] == pytest.approx(0.9, abs=0.03 + 3.0 * (0.09 / told["ruins"]) ** 0.5), name
+
+
+def test_what_tells_nothing_leaves_what_else_is_told():
+    by = KEPT["by_kind"]
+    assert by["what tells nothing"] == by["states alone"]  # the same draws, of the same ruins
+    assert by["one offset, and what tells nothing"]["spread_of_pgv"] == pytest.approx(
+        by["the offset of one joint"]["spread_of_pgv"],
+        rel=0.02,  # of 240 ruins, whose errors are others
+    )
 
 
 def test_ruins_of_another_law_of_contact_are_held():

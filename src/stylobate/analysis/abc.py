@@ -1,8 +1,11 @@
 """Approximate Bayesian computation with numbers alone: draws of a prior, what each would leave, what is seen.
 
-Three steps, after Fearnhead and Prangle (2012) and Beaumont, Zhang and Balding (2002): what is seen comes down to as many
-numbers as there are parameters, their expectations by a regression; the draws nearest to it are accepted, weighted by the
-kernel of Epanechnikov; and each is moved along a local line to where it would be had it left just what is seen.
+What a draw leaves comes down to what a regression expects of its parameters (Fearnhead and Prangle 2012). The draws of
+which as much is expected as of what is seen are accepted, weighted by the kernel of Epanechnikov, and each is moved by the
+difference (Beaumont, Zhang and Balding 2002). Each is expected by a regression on draws of other folds, and what is seen by
+the same one: so intervals hold what they should whatever the regression is worth (Barber et al. 2021), and where features
+tell nothing of a parameter, its prior stays. A regression on all other draws would not do: their mean falls as the parameter
+of the one that is left out rises, and gives it away.
 """
 
 from __future__ import annotations
@@ -14,8 +17,15 @@ import numpy as np
 #: Shares of a posterior that are told: its median, and the ends of 90 %.
 SHARES = (0.05, 0.5, 0.95)
 
-#: Penalties of a regression over the largest squared singular value, of which cross-validation takes one.
-PENALTIES = np.geomspace(1e-8, 1.0, 25)
+#: Penalties of a regression over the largest squared singular value, of which cross-validation takes one; the last expects
+#: the same of all.
+PENALTIES = np.array([*np.geomspace(1e-8, 1.0, 25), np.inf])
+
+#: Folds of the draws.
+FOLDS = 5
+
+#: Draws are alike whose expectations differ by less, in standard deviations of the prior.
+ALIKE = 0.2
 
 
 class Scores:
@@ -53,7 +63,7 @@ class Accepted:
     targets : array
         Of each, moved to what is seen, shape (accepted, targets).
     distance : array
-        Of each from what is seen, in standard deviations of the summaries, shape (accepted,).
+        Of each from what is seen, shape (accepted,).
     """
 
     which: np.ndarray
@@ -63,152 +73,100 @@ class Accepted:
 
     @property
     def effective(self) -> float:
-        """Number of draws of equal weight that say as much (Kish)."""
-        return float(1.0 / np.sum(self.weights**2))
+        """Number of draws of equal weight that say as much."""
+        return float(effective(self.weights))
 
 
 def accepted(
     features: np.ndarray, targets: np.ndarray, seen: np.ndarray, count: int, before: np.ndarray | None = None
 ) -> Accepted:
-    """The draws nearest to what is seen, moved to it.
+    """The draws of which as much is expected as of what is seen, moved to it.
 
     Parameters
     ----------
     features : array
         Of each draw, shape (draws, features); without features all draws are alike.
     targets : array
-        Of each draw, shape (draws, targets).
+        Of each draw, of standard deviation one, shape (draws, targets).
     seen : array
         Features of what is seen, shape (features,).
     count : int
-        How many to accept.
+        How many to accept at least.
     before : array, optional
         Weights of the draws before anything is seen, shape (draws,); all alike by default.
     """
-    told, (at,) = summaries(features, targets, seen[None, :])
-    return nearest(told, targets, at, count, before)
+    away, fold = np.zeros(targets.shape), np.arange(len(targets)) % FOLDS
+    for k in range(FOLDS):
+        others, own = fold != k, fold == k
+        found = expected(features[others], targets[others], np.vstack((features[own], seen)))
+        away[own] = found[:-1] - found[-1]
+    return nearest(away, targets - away, count, before)
 
 
-def nearest(
-    told: np.ndarray, targets: np.ndarray, at: np.ndarray, count: int, before: np.ndarray | None = None
-) -> Accepted:
-    """The draws whose summaries are nearest to those of what is seen, moved to it; without summaries all of them.
+def nearest(away: np.ndarray, targets: np.ndarray, count: int, before: np.ndarray | None = None) -> Accepted:
+    """Draws by their distance from what is seen, of which the nearest count as ``count`` of equal weight, or all are alike.
 
     Parameters
     ----------
-    told, targets : array
-        Of each draw, shapes (draws, summaries) and (draws, targets).
-    at : array
-        Summaries of what is seen, shape (summaries,).
+    away, targets : array
+        Of each draw, shapes (draws, any number) and (draws, targets).
     count : int
-        How many to accept.
     before : array, optional
         Weights of the draws before anything is seen, shape (draws,); all alike by default.
     """
-    draws = len(targets)
-    before = np.ones(draws) if before is None else before
-    if not told.shape[1]:
-        return Accepted(np.arange(draws), before / max(1.0, before.sum()), targets, np.zeros(draws))
-    away = told - at
-    distance = np.sqrt((away**2).sum(axis=1))
-    which = np.argsort(distance, kind="stable")[: min(count + 1, draws)]
-    reach = float(distance[which[-1]])
-    if len(which) == draws:
-        reach *= 1.0 + 1e-9
-    which = which[distance[which] < reach] if reach > 0.0 else which
-    weights = 1.0 - (distance[which] / reach) ** 2 if reach > 0.0 else np.ones(len(which))  # Epanechnikov
-    weights *= before[which]
-    weights /= weights.sum()
-    return Accepted(which, weights, moved(targets[which], away[which], weights), distance[which])
+    before = np.ones(len(targets)) if before is None else before
+    distance = np.linalg.norm(away, axis=1)
+    order = np.argsort(distance, kind="stable")
+    enough = np.cumsum(before[order]) ** 2 > count * np.cumsum(before[order] ** 2)
+    last = order[np.argmax(enough) if enough.any() else -1]
+    weights = before * np.maximum(0.0, 1.0 - (distance / max(ALIKE, distance[last])) ** 2)  # Epanechnikov
+    which = np.flatnonzero(weights)
+    return Accepted(which, weights[which] / weights.sum(), targets[which], distance[which])
 
 
-def summaries(features: np.ndarray, targets: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Expectations of targets at the draws and at further points, over their standard deviations among the draws.
-
-    Parameters
-    ----------
-    features, targets : array
-        Of the draws, shapes (draws, features) and (draws, targets).
-    points : array
-        Features elsewhere, shape (points, features).
-
-    Returns
-    -------
-    array, array
-        Shapes (draws, summaries) and (points, summaries); without summaries where the features tell nothing.
-    """
-    draws = len(targets)
-    varies = features.std(axis=0) > 1e-12 if features.size and draws > 2 else np.zeros(features.shape[1], dtype=bool)
-    if not varies.any():
-        return np.zeros((draws, 0)), np.zeros((len(points), 0))
-    own, found = expected(features[:, varies], targets, points[:, varies])
-    size = own.std(axis=0)
-    telling = size > 1e-9 * targets.std(axis=0)
-    return own[:, telling] / size[telling], found[:, telling] / size[telling]
-
-
-def expected(features: np.ndarray, targets: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def expected(features: np.ndarray, targets: np.ndarray, at: np.ndarray) -> np.ndarray:
     """Expectations of targets by a ridge regression whose penalty generalised cross-validation chooses, target by target.
 
     Parameters
     ----------
     features, targets : array
-        Of the draws, shapes (draws, features) and (draws, targets).
+        Of draws, shapes (draws, features) and (draws, targets).
     at : array
-        Features at which they are wanted besides, shape (points, features).
+        Features at which they are wanted, shape (points, features).
 
     Returns
     -------
-    array, array
-        Of draws, each by all the others, so that none is foretold better than what is seen, shape (draws, targets); and at
-        the points, shape (points, targets).
+    array
+        Shape (points, targets).
     """
-    middle, size = features.mean(axis=0), features.std(axis=0)
+    middle, size, mean = features.mean(axis=0), features.std(axis=0), targets.mean(axis=0)
     size = np.where(size > 1e-12, size, np.inf)
-    own, mean = (features - middle) / size, targets.mean(axis=0)
+    own, points, off = (features - middle) / size, (at - middle) / size, targets - mean
     squares, along = np.linalg.eigh(own.T @ own)  # singular values of many draws with few features, ten times as quick
-    s = np.sqrt(np.maximum(squares[::-1], 1e-12 * squares[-1]))
-    along = along[:, ::-1] / s
-    u, points = own @ along, ((at - middle) / size) @ along
-    onto, n = u.T @ (targets - mean), len(features)
-    others, found = np.empty(targets.shape), np.empty((len(at), targets.shape[1]))
-    for k in range(targets.shape[1]):
-        total = float(np.sum((targets[:, k] - mean[k]) ** 2))
-        best, error = np.zeros(len(s)), np.inf
-        for penalty in PENALTIES:
-            kept = s**2 / (s**2 + penalty * s[0] ** 2)
-            left = total - float(np.sum(onto[:, k] ** 2 * (1.0 - (1.0 - kept) ** 2)))
-            score = left / max(1e-12, 1.0 - (1.0 + kept.sum()) / n) ** 2 if kept.sum() + 1.0 < n else np.inf
-            if score < error:
-                best, error = kept, score
-        left = targets[:, k] - mean[k] - u @ (best * onto[:, k])
-        others[:, k] = targets[:, k] - left / np.maximum(1e-12, 1.0 - 1.0 / n - u**2 @ best)  # without it (Allen 1974)
-        found[:, k] = mean[k] + points @ (best * onto[:, k])
-    return others, found
+    some = squares > 1e-12 * squares.max(initial=1e-300)
+    squares, along = squares[some], along[:, some] / np.sqrt(squares[some])
+    onto = along.T @ (own.T @ off)
+    kept = squares / (squares + PENALTIES[:, None] * squares.max(initial=1e-300))
+    left = (off**2).sum(axis=0) - (1.0 - (1.0 - kept) ** 2) @ onto**2
+    free = np.maximum(1e-12, 1.0 - (1.0 + kept.sum(axis=1)) / len(features))[:, None]
+    best = kept[np.argmin(np.where(free > 1e-6, left / free**2, np.inf), axis=0)].T
+    return mean + points @ (along @ (best * onto))
 
 
-def moved(targets: np.ndarray, away: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """Targets of draws, each moved along a local line by as far as it is away from what is seen.
-
-    Parameters
-    ----------
-    targets, away : array
-        Shapes (draws, targets) and (draws, summaries).
-    weights : array
-        Shape (draws,).
-    """
-    if len(targets) < 3 * (away.shape[1] + 1):
-        return targets
-    root = np.sqrt(weights)[:, None]
-    line, *_ = np.linalg.lstsq(root * np.column_stack((np.ones(len(away)), away)), root * targets, rcond=1e-6)
-    return targets - away @ line[1:]
+def effective(weights: np.ndarray) -> float:
+    """Number of draws of equal weight that say as much as weighted ones (Kish)."""
+    return weights.sum() ** 2 / (weights**2).sum()
 
 
 def quantiles(values: np.ndarray, weights: np.ndarray, shares: tuple[float, ...] = SHARES) -> np.ndarray:
-    """Values that shares of a weighted sample do not exceed, linear between the middles of its steps, shape (shares,)."""
+    """Values that one more draw would not exceed with probabilities ``shares``, shape (shares,).
+
+    It is as likely between any two neighbours of a sample as beyond either end (Weibull): few draws give wide intervals.
+    """
     order = np.argsort(values, kind="stable")
-    inside = np.cumsum(weights[order]) - 0.5 * weights[order]
-    return np.interp(shares, inside / weights.sum(), values[order])
+    each = weights.sum() / effective(weights)
+    below = np.cumsum(weights[order]) - 0.5 * weights[order] + 0.5 * each
+    return np.interp(shares, below / (weights.sum() + each), values[order])
 
 
 def spread(values: np.ndarray, weights: np.ndarray) -> float:
@@ -253,35 +211,3 @@ def spread_around(angles: np.ndarray, weights: np.ndarray, turn: float) -> float
     """Root of the mean square of the distances of directions from their mean direction [degrees]."""
     away = apart(angles, middle_direction(angles, weights, turn), turn)
     return float(np.sqrt(np.average(away**2, weights=weights)))
-
-
-# -- a likelihood instead ------------------------------------------------------------------------------------------
-
-
-def likelihood_weights(told: np.ndarray, at: np.ndarray, targets: np.ndarray) -> np.ndarray:
-    """Weights of draws by a synthetic likelihood (Wood 2010): what they leave is Gaussian about a quadratic in the targets.
-
-    Parameters
-    ----------
-    told : array
-        Summaries of the draws, shape (draws, summaries).
-    at : array
-        Of what is seen, shape (summaries,).
-    targets : array
-        Shape (draws, targets).
-
-    Returns
-    -------
-    array
-        Shape (draws,), of sum 1.
-    """
-    n = targets.shape[1]
-    squares = [targets[:, i] * targets[:, j] for i in range(n) for j in range(i, n)]
-    design = np.column_stack((np.ones(len(targets)), targets, *squares))
-    line, *_ = np.linalg.lstsq(design, told, rcond=1e-8)
-    left = told - design @ line
-    covariance = left.T @ left / max(1, len(left) - design.shape[1]) + 1e-9 * np.eye(told.shape[1])
-    off = at - design @ line
-    logs = -0.5 * np.einsum("ki,ij,kj->k", off, np.linalg.inv(covariance), off)
-    weights = np.exp(logs - logs.max())
-    return weights / weights.sum()

@@ -11,7 +11,7 @@ import numpy as np
 from ..campaign.ruin import Fact
 from ..campaign.simulations import Simulations
 from . import abc
-from .traces import EVENTS, LENGTHS, features, left_by, matches
+from .traces import EVENTS, errors, features, left_by, matches
 
 #: Parameters that are told, and their units.
 TOLD = {"pgv_m_s": "m/s", "pga_g": "g", "period_s": "s", "azimuth_deg": "°"}
@@ -25,14 +25,14 @@ FEWEST, SHARE = 100, 0.3
 #: Share of them by which an observation is foretold from the others.
 CLOSE = 0.1
 
+#: What is known worse than by so many standard deviations of what draws leave tells nothing: at most log(1 + 1/BADLY²)/2.
+BADLY = 3.0
+
 #: The shapes do not tell a parameter of which they leave this share of the prior's spread.
 UNTOLD = 0.9
 
-#: Share of the draws that match by which motions that are none are compared, and how many of these are made.
-NEAR, NONE_MADE = 0.1, 4000
-
-#: Probability that a column has fallen without any earthquake.
-FALLS_OTHERWISE = 0.01
+#: Probability that a column has fallen without any earthquake, and the largest Bayes factor that is told.
+FALLS_OTHERWISE, MOST_TIMES = 0.01, 1e9
 
 
 @dataclass(frozen=True)
@@ -84,13 +84,9 @@ class Answers:
         self.scores = {name: abc.Scores(table.parameters[name]) for name in TOLD if name != "azimuth_deg"}
         directions = abc.vectors(table.parameters["azimuth_deg"], table.prior.turn)
         self.targets = np.column_stack([*(one.scores for one in self.scores.values()), directions])
-        streams = [np.random.default_rng([seed, 1, number]) for number in range(len(self.facts))]
         self.matched = {fact: matches(fact, table) for fact in self.facts if fact.kind in EVENTS}
-        self.values = {
-            fact: left_by(fact, table, stream)
-            for fact, stream in zip(self.facts, streams, strict=True)
-            if fact.kind not in EVENTS
-        }
+        self.exact = {fact: left_by(fact, table) for fact in self.facts if fact.kind not in EVENTS}
+        self.values = {fact: exact + errors(fact, exact.shape, seed) for fact, exact in self.exact.items()}
 
     def matching(self, facts: Sequence[Fact]) -> np.ndarray:
         """Numbers of the draws that match all events among facts."""
@@ -102,7 +98,7 @@ class Answers:
         self, facts: Sequence[Fact], which: np.ndarray, *, sizes: bool = False
     ) -> tuple[np.ndarray, np.ndarray]:
         """Features of numbers among facts: of draws, shape (draws, features), and of what is seen, shape (features,)."""
-        told = [fact for fact in facts if fact.kind not in EVENTS]
+        told = [one for one in facts if one in self.exact and one.sd < BADLY * self.exact[one][which].std(axis=0).max()]
         if not told:
             return np.zeros((len(which), 0)), np.zeros(0)
         values = [np.vstack((self.values[one][which], [one.value])) for one in told]
@@ -116,9 +112,8 @@ class Answers:
         near = abc.accepted(found, self.targets[which], seen, self._count(which, SHARE), self.weights[which])
         return replace(near, which=which[near.which])
 
-    @staticmethod
-    def _count(which: np.ndarray, share: float) -> int:
-        return max(FEWEST, int(share * len(which)))
+    def _count(self, which: np.ndarray, share: float) -> int:
+        return max(FEWEST, int(share * abc.effective(self.weights[which])))
 
     def foretold(self, facts: Sequence[Fact], what: np.ndarray) -> abc.Accepted:
         """Draws in which as much has moved as facts say, with one number of each draw, shape (draws,), to foretell it.
@@ -127,11 +122,9 @@ class Answers:
         """
         which = self.matching(facts)
         found, seen = self.of_draws(facts, which, sizes=True)
-        size = found.std(axis=0) + 1e-12
-        count = self._count(which, CLOSE)
-        near = abc.nearest(found / size, what[which, None], seen / size, count, self.weights[which])
-        taken = which[near.which]
-        return replace(near, which=taken, targets=what[taken, None])
+        away = (found - seen) / (found.std(axis=0) + 1e-12)
+        near = abc.nearest(away, what[which, None], self._count(which, CLOSE), self.weights[which])
+        return replace(near, which=which[near.which])
 
     def posterior(self, taken: abc.Accepted) -> dict[str, Posterior]:
         """Parameters after accepted draws."""
@@ -182,40 +175,25 @@ class Answers:
             if one is fact or (one.kind == "state" and one.structure == fact.structure) or self._is_body_of(one, fact)
         ]
 
-    def shares(self) -> tuple[float, float, bool]:
-        """Probabilities of what is seen under the prior and without any earthquake, and whether the latter is a limit."""
+    def bayes_factor(self) -> tuple[float, bool]:
+        """How many times more probable what is seen is under the prior than without any earthquake; whether at least.
+
+        By likelihoods of what is measured, with the errors of the survey. A mean of few draws is seldom far above what it
+        estimates (Markov), and may be far below.
+        """
         which = self.matching(self.facts)
-        share = float(self.weights[which].sum() / self.weights.sum())
         fallen = sum(fact.kind == "state" and fact.value[0] == 1.0 for fact in self.facts)
         standing = sum(fact.kind == "state" for fact in self.facts) - fallen
-        none = FALLS_OTHERWISE**fallen * (1.0 - FALLS_OTHERWISE) ** standing
-        told = [fact for fact in self.facts if fact.kind in (*LENGTHS, "twist")]  # a fall has any direction either way
-        if not told:
-            return share, none, False
-        stream = np.random.default_rng([self.seed, 2])
-        made = [fact.sd * stream.standard_normal((NONE_MADE, len(fact.value))) for fact in told]
-        values = [
-            np.vstack(([fact.value], self.values[fact][which], one)) for fact, one in zip(told, made, strict=True)
-        ]
-        found = features(told, values, sizes=True)
-        away = np.linalg.norm((found[1:] - found[0]) / (found[1 : len(which) + 1].std(axis=0) + 1e-12), axis=1)
-        near = max(FEWEST // 5, int(NEAR * len(which)))
-        reach = np.sort(away[: len(which)])[near - 1]
-        beside = float(np.mean(away[len(which) :] <= reach))
-        return share * near / len(which), none * max(beside, 1.0 / NONE_MADE), beside == 0.0
-
-    def by_likelihood(self) -> Posterior:
-        """PGV by a synthetic likelihood, over the draws that match all events."""
-        which = self.matching(self.facts)
-        found, seen = self.of_draws(self.facts, which)
-        told, at = abc.summaries(found, self.targets[which], seen[None, :])
-        weights = self.weights[which] / self.weights[which].sum()
-        if told.shape[1]:
-            weights = weights * abc.likelihood_weights(told, at[0], self.targets[which])
-            weights /= weights.sum()
-        scores = self.scores["pgv_m_s"]
-        low, middle, high = scores.value(abc.quantiles(scores.scores[which], weights)).tolist()
-        return Posterior(middle, low, high, abc.spread(scores.scores[which], weights))
+        logs = np.zeros(len(which) + 1)  # the last: nothing has moved
+        for fact in self.exact:
+            if fact.kind != "fell towards":  # it has any direction either way
+                off = np.vstack((self.exact[fact][which], np.zeros(len(fact.value)))) - fact.value
+                logs -= 0.5 * ((off / fact.sd) ** 2).sum(axis=1)
+        likely = self.weights[which] * np.exp(logs[:-1] - logs[:-1].max())
+        none = fallen * np.log(FALLS_OTHERWISE) + standing * np.log1p(-FALLS_OTHERWISE) + logs[-1] - logs[:-1].max()
+        factor = min(MOST_TIMES, float(np.exp(min(700.0, np.log(likely.sum() / self.weights.sum()) - none))))
+        told = any(fact.kind != "fell towards" for fact in self.exact)
+        return factor, bool(factor == MOST_TIMES or (told and abc.effective(likely) < FEWEST))
 
 
 def words_of(name: str, one: Posterior) -> str:

@@ -67,8 +67,7 @@ class Inference(Shown):
     @cached_property
     def bayes_factor(self) -> tuple[float, bool]:
         """How many times more probable what is seen is under the prior than without any earthquake; whether at least."""
-        one, none, at_least = self.answers.shares()
-        return one / none, at_least
+        return self.answers.bayes_factor()
 
     @cached_property
     def told(self) -> list[dict[str, Any]]:
@@ -139,6 +138,11 @@ class Inference(Shown):
                 said.append(
                     f"What is seen is {1.0 / factor:.3g} times as probable without any such earthquake as with one."
                 )
+        if self.taken.effective < 0.5 * FEWEST:
+            said.append(
+                f"Draws that count as {self.taken.effective:.0f} carry all of this, and intervals are as wide as that asks "
+                "for; raise simulations."
+            )
         if self.outlasted is not None:
             said.append(self.outlasted.sentence(self.answers.matching(self.answers.facts)))
         return " ".join(said)
@@ -162,7 +166,6 @@ class Inference(Shown):
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate infer``."""
         factor, at_least = self.bayes_factor
-        cross = self.answers.by_likelihood()
         return {
             "sentence": self.sentence,
             "posterior": {name: one.summary() for name, one in self.posterior.items()},
@@ -181,7 +184,6 @@ class Inference(Shown):
             if self.outlasted is None
             else self.outlasted.summary(self.answers.matching(self.answers.facts)),
             "records": self.records,
-            "by_likelihood": {"pgv_m_s": cross.summary()},
             "prior": self.ruin.prior.facts() | {"records": [one.name for one in self.ruin.prior.records]},
             "columns": [one.name for one in self.ruin.structures],
             "model": self.ruin.model.name,
@@ -220,7 +222,8 @@ def infer(
 
     References
     ----------
-    Beaumont, Zhang and Balding (2002); Fearnhead and Prangle (2012); of survival, Anderson and Brune (1999).
+    Barber et al. (2021); Beaumont, Zhang and Balding (2002); Fearnhead and Prangle (2012); of survival, Anderson and Brune
+    (1999).
     """
     began = time.perf_counter()
     if not isinstance(ruin, Ruin):
@@ -254,11 +257,10 @@ def _refuse_few(answers: Answers) -> None:
             "prior, or raise simulations.",
             "prior",
         )
-    pgv = answers.posterior(answers.to(answers.facts))["pgv_m_s"]
     wanted = int(np.ceil(1.2 * FEWEST * count / len(which) / 100.0) * 100)
     raise InputError(
-        f"{len(which)} of {count} simulations leave what is seen, and {FEWEST} are needed: from these the PGV would be "
-        f"{words_of('pgv_m_s', pgv)} (90 %); raise simulations to about {wanted}, or leave out what is hardly ever left.",
+        f"{len(which)} of {count} simulations leave what is seen, and {FEWEST} are needed; raise simulations to about "
+        f"{wanted}, or leave out what is hardly ever left.",
         "simulations",
         value=count,
     )

@@ -34,15 +34,19 @@ def matches(fact: Fact, table: Simulations) -> np.ndarray:
     return (left.verdict == STANDS) & (left.largest <= fact.value[0])
 
 
-def left_by(fact: Fact, table: Simulations, stream: np.random.Generator) -> np.ndarray:
-    """What every draw leaves in the place of a number that is seen, measured as badly as that one, shape (draws, values)."""
+def left_by(fact: Fact, table: Simulations) -> np.ndarray:
+    """What every draw leaves in the place of a number that is seen, shape (draws, values)."""
     left = table.left[fact.structure]
     if fact.kind in VECTORS:
-        exact = plan(fact, left)
-    else:
-        alone = {"fell towards": left.towards, "largest": left.largest}
-        exact = (alone[fact.kind] if fact.kind in alone else left.twist[:, fact.joint])[:, None]
-    return exact + fact.sd * stream.standard_normal(exact.shape)
+        return plan(fact, left)
+    alone = {"fell towards": left.towards, "largest": left.largest}
+    return (alone[fact.kind] if fact.kind in alone else left.twist[:, fact.joint])[:, None]
+
+
+def errors(fact: Fact, shape: tuple[int, ...], seed: int) -> np.ndarray:
+    """Errors that make what draws leave as badly measured as the ruin was, the same in whatever order facts are named."""
+    stream = np.random.default_rng([seed, 1, fact.structure, list(_OF).index(fact.kind), fact.joint])
+    return fact.sd * stream.standard_normal(shape)
 
 
 def plan(fact: Fact, left: Left) -> np.ndarray:
@@ -54,7 +58,7 @@ def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool
     """Features of numbers that are seen, from which a regression expects parameters, shape (draws, features).
 
     Lengths on a scale that is linear below what can be measured and logarithmic above it, of each joint and of the whole
-    structure; bumps over all of these; directions as axes and as senses.
+    structure; bumps over those of structures; directions as axes and as senses.
 
     Parameters
     ----------
@@ -75,7 +79,7 @@ def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool
             if some:
                 for all_of_them, one in zip((levels, each, directions), of(some), strict=True):
                     all_of_them += one
-    columns = levels if sizes else [*levels, *each, *directions, *_bumps([*levels, *each])]
+    columns = levels if sizes else [*levels, *each, *directions, *_bumps(levels)]
     return np.column_stack(columns) if columns else np.zeros((len(values[0]) if values else 0, 0))
 
 
@@ -98,26 +102,20 @@ def _bumps(levels: Sequence[np.ndarray]) -> list[np.ndarray]:
 
 
 def _of_offsets(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
-    each = np.stack([one for _, one in some], axis=1)  # (draws, joints, 2)
-    scale = np.array([max(fact.sd, LEAST_OFFSET) for fact, _ in some])
-    x, y = np.moveaxis(each, -1, 0)
-    length, square = np.hypot(x, y), x * x + y * y
-    overall = [np.arcsinh(length.max(axis=1) / scale.max())]
-    bottom = square.sum(axis=1) + np.sum(scale**2)
-    axis = [(x * x - y * y).sum(axis=1) / bottom, (2.0 * x * y).sum(axis=1) / bottom]
-    long = length.sum(axis=1) + scale.sum()
-    directions = [*axis, x.sum(axis=1) / long, y.sum(axis=1) / long]
+    x, y = np.stack([one.T / max(fact.sd, LEAST_OFFSET) for fact, one in some], axis=-1)  # each over its own error
+    square = x * x + y * y
+    length = np.sqrt(square)
+    bottom, long = square.sum(axis=1) + len(some), length.sum(axis=1) + len(some)
+    directions = [(x * x - y * y).sum(axis=1) / bottom, (2.0 * x * y).sum(axis=1) / bottom]
+    directions += [x.sum(axis=1) / long, y.sum(axis=1) / long]
+    overall = [np.arcsinh(length.max(axis=1))]
     if len(some) == 1:
         return overall, [], directions
-    overall.append(np.arcsinh(np.sqrt(square.mean(axis=1)) / scale.max()))
-    directions += [one[:, j] for one in _unit(x, y, scale) for j in range(len(some))]
-    return overall, list(np.arcsinh(length / scale).T), directions
-
-
-def _unit(x: np.ndarray, y: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Axes of offsets, twice their angle, short where an offset cannot be told from none."""
-    bottom = x * x + y * y + scale**2
-    return (x * x - y * y) / bottom, 2.0 * x * y / bottom
+    overall.append(np.arcsinh(np.sqrt(square.mean(axis=1))))
+    axes = np.concatenate([x * x - y * y, 2.0 * x * y], axis=1) / np.tile(
+        square + 1.0, 2
+    )  # short where none can be told
+    return overall, list(np.arcsinh(length).T), [*directions, *axes.T]
 
 
 def _of_sizes(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:

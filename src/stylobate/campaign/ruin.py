@@ -16,9 +16,6 @@ from .prior import MOST, Prior
 #: What may have become of a column; of the last two nothing follows for this earthquake.
 STATES = ("stands", "fell", "fell before", "unknown")
 
-#: Standard deviation of the azimuth of a fall where none is given [degrees].
-TOWARDS_SD = 15.0
-
 #: Draws of the prior where no number is given.
 USUAL_COUNT = 2000
 
@@ -42,7 +39,7 @@ class Observed:
     fell_towards : float, optional
         Azimuth of the fall, from x towards y [degrees].
     towards_sd : float, optional
-        Its standard deviation [degrees], 15 by default.
+        Its standard deviation [degrees], given with it.
     offsets : sequence of (joint, x, y, sd)
         Offset vectors of joints along x and y, and the standard deviation of each component [m]; joints by their number, 1
         at the base.
@@ -92,14 +89,15 @@ class Observed:
                 f"state is {self.state!r}, and fell_towards is given; leave it out, or give state = 'fell'.",
                 "fell_towards",
             )
-        if self.towards_sd is not None and self.fell_towards is None:
-            raise InputError("towards_sd is given without fell_towards; give both.", "towards_sd")
-        if self.fell_towards is not None:
-            check_range("fell_towards", self.fell_towards, -360.0, 360.0, unit="degrees")
-            sd = TOWARDS_SD if self.towards_sd is None else self.towards_sd
-            object.__setattr__(
-                self, "towards_sd", check_range("towards_sd", sd, 0.0, 90.0, unit="degrees", open_low=True)
+        if (self.towards_sd is None) != (self.fell_towards is None):
+            one, other = ("fell_towards", "towards_sd")[:: 1 if self.towards_sd is None else -1]
+            raise InputError(
+                f"{one} is given without {other}; give both, such as fell_towards = 200 and towards_sd = 15 [degrees].",
+                other,
             )
+        if self.fell_towards is not None and self.towards_sd is not None:
+            check_range("fell_towards", self.fell_towards, -360.0, 360.0, unit="degrees")
+            check_range("towards_sd", self.towards_sd, 0.0, 90.0, unit="degrees", open_low=True)
         if self.no_slip_above is not None:
             check_range("no_slip_above", self.no_slip_above, 0.0, 100.0, unit="m", open_low=True)
         for name, numbers in (("offsets", 4), ("twists", 3)):
@@ -275,7 +273,7 @@ class Ruin:
             self._check_joints(one, structures[names.index(one.column)])
             self._check_bodies(one, structures[names.index(one.column)])
         object.__setattr__(self, "structures", structures)
-        object.__setattr__(self, "observed", observed)
+        object.__setattr__(self, "observed", tuple(sorted(observed, key=lambda one: names.index(one.column))))
 
     @staticmethod
     def _check_joints(one: Observed, structure: Structure) -> None:
@@ -350,9 +348,9 @@ class Ruin:
                 length, sd = one.largest_slip
                 label = f"{name}: largest offset, {1e3 * length:.3g} mm"
                 found.append(Fact(i, "largest", label, (length,), sd))
-            if one.fell_towards is not None:
+            if one.fell_towards is not None and one.towards_sd is not None:
                 label = f"{name} fell towards {one.fell_towards:g}°"
-                found.append(Fact(i, "fell towards", label, (one.fell_towards,), one.towards_sd or TOWARDS_SD))
+                found.append(Fact(i, "fell towards", label, (one.fell_towards,), one.towards_sd))
             for joint, x, y, sd in one.offsets:
                 label = f"{name}: offset of joint {joint}, {1e3 * math.hypot(x, y):.3g} mm"
                 found.append(Fact(i, "offset", label, (x, y), sd, joint - 1))

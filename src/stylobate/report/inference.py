@@ -35,12 +35,10 @@ def inference_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
                 s["records"], ["record", "probability", "bayes_factor_against_others"], "Records that it may have been."
             )
         )
-    cross = s["by_likelihood"]["pgv_m_s"]
     least = "at least " * bool(s["bayes_factor_is_at_least"])
     pairs = [
         ("simulations / that match / accepted", f"{s['simulations']} / {s['matching']} / {s['accepted']}"),
         ("Bayes factor against no earthquake", f"{least}{s['bayes_factor_no_earthquake']:.3g}"),
-        ("PGV by a synthetic likelihood", f"{cross['median']:.3g} m/s, {cross['low']:.3g} to {cross['high']:.3g}"),
     ]
     if lasted := s.get("survival"):
         year = lasted["earthquake"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,7 @@ from stylobate.campaign.simulations import FELL, TAIL, Simulations, simulations_
 KEPT = Path(__file__).with_name("figures.json")
 
 #: Draws of the table and of that with the prior of the figures by a forest; ruins that are made.
-DRAWS, FOREST_DRAWS, RUINS, MORE = 4000, 1600, 200, 1000
+DRAWS, FOREST_DRAWS, RUINS, MORE, OF_KIND = 4000, 1600, 200, 1000, 250
 
 #: Heights, widths below and above [m] and drums of three columns; and of slender ones, of which more fall.
 STOUT = {"A": (5.0, 0.80, 0.68, 4), "B": (6.0, 0.90, 0.76, 5), "C": (3.5, 0.60, 0.52, 3)}
@@ -33,8 +34,21 @@ SLENDER = {"A": (5.0, 0.60, 0.56, 4), "B": (6.0, 0.72, 0.66, 5), "C": (3.5, 0.42
 #: Errors with which offsets are measured where they are to tell as much as they can [m].
 SLIP_SDS = {"1 mm": 1e-3, "exact": 1e-6}
 
-#: Errors of a survey: offsets [m], azimuths of falls [degrees].
-OFFSET_SD, TOWARDS_SD = 0.003, 15.0
+#: Errors of a survey: offsets [m], azimuths of falls and twists [degrees]; the slip up to which it gives a bound alone [m].
+OFFSET_SD, TOWARDS_SD, TWIST_SD, BOUND = 0.003, 15.0, 1.0, 0.02
+
+#: Errors of what tells nothing: of offsets [m], of twists [degrees].
+UNKNOWN_OFFSET, UNKNOWN_TWIST = 10.0, 1000.0
+
+#: What a survey sees beside states; and ruins of which less is seen, or what tells nothing.
+SURVEY = ("offsets", "falls")
+KINDS = {
+    "states alone": (), "offsets of all joints": ("offsets",), "the offset of one joint": ("an offset",),
+    "twists of all joints": ("twists",), "azimuths of falls": ("falls",), "the largest slip": ("the largest",),
+    "no slip above 20 mm, or the largest": ("a bound",), "what tells nothing": ("nothing",),
+    "one offset, and what tells nothing": ("an offset", "nothing"),
+    "all that tells something": ("offsets", "twists", "falls", "a bound"),
+}  # fmt: skip
 
 
 def three_columns(sizes: dict[str, tuple[float, float, float, int]] = STOUT) -> list[st.Column]:
@@ -65,19 +79,34 @@ def table_of(prior: Prior, count: int, folder: str | Path | None = None, columns
 
 
 def seen_of(
-    table: Simulations, k: int, stream: np.random.Generator, sd: float = OFFSET_SD, falls: bool = True
+    table: Simulations, k: int, stream: np.random.Generator, kinds: Sequence[str] = SURVEY, sd: float = OFFSET_SD
 ) -> list[Fact]:
-    """What a survey sees of draw k: states, azimuths of falls, offsets of all joints; states alone with an infinite sd."""
+    """What a survey sees of draw k: states, and kinds of all else; offsets with a standard deviation [m]."""
     facts = []
+
+    def measured(i: int, kind: str, exact: np.ndarray | float, sd: float, joint: int = 0) -> None:
+        seen = exact + sd * stream.standard_normal(np.shape(exact) or 1)
+        label = f"{table.left[i].name}: {kind} {joint + 1}, {sd:g}"
+        facts.append(Fact(i, kind, label, tuple(abs(seen) if kind == "largest" else seen), sd, joint))
+
     for i, left in enumerate(table.left):
-        fell = left.verdict[k] == FELL
+        fell, joints, largest = left.verdict[k] == FELL, range(left.slip.shape[1]), float(left.largest[k])
         facts.append(Fact(i, "state", f"{left.name} {'fell' if fell else 'stands'}", (float(fell),)))
-        if fell and falls:
-            towards = left.towards[k] + TOWARDS_SD * stream.standard_normal()
-            facts.append(Fact(i, "fell towards", f"{left.name} fell towards {towards:.0f}", (towards,), TOWARDS_SD))
-        for j in range(left.slip.shape[1]) if not fell and np.isfinite(sd) else ():
-            x, y = left.slip[k, j] + sd * stream.standard_normal(2)
-            facts.append(Fact(i, "offset", f"{left.name}: joint {j + 1}", (x, y), sd, j))
+        if fell:
+            if "falls" in kinds:
+                measured(i, "fell towards", left.towards[k], TOWARDS_SD)
+            continue
+        for j in joints if "offsets" in kinds else joints[1:2] if "an offset" in kinds else ():
+            measured(i, "offset", left.slip[k, j], sd, j)
+        for j in joints if "twists" in kinds else ():
+            measured(i, "twist", left.twist[k, j], TWIST_SD, j)
+        if "a bound" in kinds and largest <= BOUND:  # a survey that gives the largest slip where it is beyond the bound
+            facts.append(Fact(i, "no slip above", f"{left.name}: no slip above", (BOUND,)))
+        elif {"a bound", "the largest"} & set(kinds):
+            measured(i, "largest", largest, sd)
+        if "nothing" in kinds:
+            measured(i, "twist", left.twist[k, 0], UNKNOWN_TWIST, 0)
+            measured(i, "offset", left.slip[k, 0], UNKNOWN_OFFSET, 0)
     return facts
 
 
@@ -140,6 +169,16 @@ def calibration(ruins: Simulations, numbers: np.ndarray, table: Simulations, ins
     return found
 
 
+def by_kind(table: Simulations, numbers: np.ndarray) -> dict:
+    """How often 90 % intervals hold what was drawn, by what is seen of ruins beside states."""
+    found = {}
+    for name, kinds in KINDS.items():
+        told = calibration(table, numbers, table, True, kinds=kinds)
+        found[name] = {one: told[one]["cover_90"] for one in TOLD}
+        found[name] |= {"ruins": told["ruins"], "spread_of_pgv": told["pgv_m_s"]["spread_over_prior"]}
+    return found
+
+
 def other_law(table: Simulations, count: int) -> dict:
     """Ruins that one law of contact has made, inferred with the other alone."""
     found = {}
@@ -187,8 +226,9 @@ def what_slips_tell(folder: Path) -> dict:
         (folder / name).mkdir(parents=True, exist_ok=True)
         table = table_of(OF_FOREST, FOREST_DRAWS, folder / name, three_columns(sizes))
         numbers = np.random.default_rng(2).permutation(FOREST_DRAWS)
-        for said, sd in {"states": np.inf, **SLIP_SDS}.items():
-            told = calibration(table, numbers, table, True, sd=sd, falls=False)
+        for said, sd in {"states": None, **SLIP_SDS}.items():
+            seen = {"kinds": ()} if sd is None else {"kinds": ("offsets",), "sd": sd}
+            told = calibration(table, numbers, table, True, **seen)
             found[f"{name}, {said}"] = told["pgv_m_s"]["error_of_ln_over_prior"]
         found[f"{name}, ruins"] = told["ruins"]
     return found
@@ -199,7 +239,7 @@ def quickness(folder: Path) -> dict:
     seen = [
         Observed("A", "stands", no_slip_above=0.05),
         Observed("B", "stands"),
-        Observed("C", "fell", fell_towards=40.0),
+        Observed("C", "fell", fell_towards=40.0, towards_sd=TOWARDS_SD),
     ]
     before, began = time.process_time(), time.perf_counter()
     infer(Ruin(three_columns(), seen, USUAL, 10_000, 1), out=folder).summary()
@@ -223,6 +263,7 @@ def renewed(folder: Path) -> dict:
     return {
         "calibration": calibration(table, numbers[:RUINS], table, True),
         "calibration_of_more": calibration(table, numbers[:MORE], table, True),
+        "by_kind": by_kind(table, numbers[:OF_KIND]),
         "other_law": other_law(table, 300),
         "moved_by_hand": moved_by_hand(table),
         "what_slips_tell": what_slips_tell(folder),

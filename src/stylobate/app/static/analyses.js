@@ -23,6 +23,7 @@ state = "stands"                           # or "fell", "fell before", "unknown"
 no_slip_above = 0.02                       # no joint is out of place by more [m]
 # offsets = [[1, 0.004, 0.002, 0.003]]     # joint, x, y, standard deviation [m]
 # fell_towards = 200                       # from x towards y [degrees], of what fell
+# towards_sd = 15                          # and its standard deviation
 
 [prior]
 pgv = [0.1, 1.5]                           # m/s
