@@ -96,6 +96,8 @@ class Difference:
         As typed; the measure is empty where the levels are of none.
     confidence : float
         Of the intervals.
+    lacking : str
+        What the runs lack for a comparison of medians; empty where they lack nothing, or a state has no curve.
     """
 
     state: str
@@ -119,6 +121,7 @@ class Difference:
     limit_state: str = "collapse"
     im: str = ""
     confidence: float = 0.95
+    lacking: str = ""
 
     @property
     def conclusion(self) -> str:
@@ -178,7 +181,7 @@ class Difference:
 
     def _median(self) -> str:
         if math.isnan(self.ratio):
-            return ""
+            return f"Medians are not compared: {self.lacking}." if self.lacking else ""
         low, high = sorted((self.ratio_best - 1.0, self.ratio_worst - 1.0))
         measure = f" ({self.im})" if self.im else ""
         change = self._change((low, high), (self.ratio_low - 1.0, self.ratio_high - 1.0), _percent)

@@ -79,9 +79,7 @@ class SpaceProgramme:
         """
         column, angle = self.column, azimuth * DEGREE
         length = float(column.joint_heights[-1] + column.heights[-1])
-        programme = ContactProgramme(
-            column.masses, self.at.centroid, column.gravity, self.rims, self.links, length
-        )
+        programme = ContactProgramme(column.masses, self.at.centroid, column.gravity, self.rims, self.links, length)
         push = base_axes(column).T @ (math.cos(angle), math.sin(angle), 0.0)
         dead, live = programme.body_force(-upward(column)), programme.body_force(push)
         programme.begin(push)

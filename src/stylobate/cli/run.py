@@ -85,26 +85,27 @@ def run(
         summaries = [conclude(follow, stone, found.motions[0], how, out, execution.as_json, drawn)]
     several: dict[str, Any] = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
     if len(asked.azimuths) > 1 or asked.signs == "both":
-        several["sentence"] = directions(summaries, stone.name, how.name, out)
+        several["sentence"] = directions(summaries, stone, how, out, campaign.tail)
         if not execution.as_json and several["sentence"]:
             print(several["sentence"])
     if not execution.emits(several if asked.several else summaries[0]):
         console.print_refused(found.refused)
 
 
-def directions(summaries: Sequence[dict], name: str, model: str, out: Path | None) -> str:
+def directions(summaries: Sequence[dict], stone: Structure, model: Model, out: Path | None, tail: float) -> str:
     """Which direction does most harm: in words, empty where all failed; and where a folder is given on a compass."""
     from ..analysis.directions import compass_of_chances, harm_words, worst
+    from ..response.words import to_decide
     from . import console
 
-    chances = compass_of_chances(summaries)
+    chances = compass_of_chances(summaries, to_decide(stone, model.parameters(), tail))
     found = worst(summaries, chances)
     if out is not None and len(chances.bearings) > 1:
         from .. import plots
 
         with console.folder(out, "directions") as folder:
             assert folder is not None
-            plots.save(plots.draw_directions(chances, f"{name}, {model}"), folder / "directions")
+            plots.save(plots.draw_directions(chances, f"{stone.name}, {model.name}"), folder / "directions")
     return "" if found is None else harm_words(found, chances)
 
 
