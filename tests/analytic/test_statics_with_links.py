@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.contact_programme import ContactProgramme
+from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.limit_directions import limit_directions, limit_in_space, weakest_direction
 from stylobate.analysis.limit_with_links import SpaceProgramme
 from stylobate.analysis.pushover import pushover

@@ -5,10 +5,9 @@ import math
 
 import numpy as np
 import pytest
-
-import stylobate as st
 from scipy.stats import multivariate_normal, norm
 
+import stylobate as st
 from stylobate.analysis.ground_motion import CORRELATED, MODELS, alike
 from stylobate.analysis.hazard import Hazard
 from stylobate.analysis.monuments import Branch, Capacity, Monument, Site, Sites

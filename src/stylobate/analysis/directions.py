@@ -125,7 +125,8 @@ class Compass:
         """How many directions have runs that may yet collapse, and what decides them; empty where none has."""
         if not (count := len(self.undecided)):
             return ""
-        return f" From {count} of {len(self.bearings)} directions runs are undecided and may collapse it{': ' * bool(self.cure)}{self.cure}."
+        cure = f": {self.cure}" if self.cure else ""
+        return f" From {count} of {len(self.bearings)} directions runs are undecided and may collapse it{cure}."
 
 
 def harm_words(found: Mapping[str, Any], compass: Compass) -> str:

@@ -129,8 +129,8 @@ def limit_directions(
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
     if len(asked) > MOST_DIRECTIONS:
         raise InputError(
-            f"there are {len(asked)} directions; allowed are 1 to {MOST_DIRECTIONS}: 0:345:24 is enough, because the weakest "
-            "direction between them is looked for.",
+            f"there are {len(asked)} directions; allowed are 1 to {MOST_DIRECTIONS}: 0:345:24 is enough, because the "
+            "weakest direction between them is looked for.",
             "directions",
             value=len(asked),
             allowed=f"1 to {MOST_DIRECTIONS}",

@@ -119,7 +119,8 @@ def run_one(
 
     options["quiet"] = share_of([motion], campaign.whole)
     if not campaign.replicates:
-        return simulate(stone, motion, model, tail=campaign.tail, progress=progress, **options), None
+        follow: dict[str, Any] = {"tail": campaign.tail, "until_decided": True, "progress": progress}
+        return simulate(stone, motion, model, **follow, **options), None
     made = dataclasses.replace(campaign, whole=False, progress=progress)
     kept = None if campaign.ledger is None else Path(campaign.ledger).with_name("response.nc")
     found = certainty(stone.stack or stone, motion, model, kept=kept, campaign=made, **options)
@@ -150,7 +151,7 @@ def each_record(
         places.append(None if out is None else out / safe_name(motion.name, places))
     campaign = follow.keywords["campaign"]
     following = {name: one for name, one in follow.keywords.items() if name not in ("model", "campaign")}
-    options = run_options(campaign.tail, **following)
+    options = run_options(campaign.tail, until_decided=True, **following)
     hasher = Hasher(model, options)
     made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **following}
     each = [
@@ -223,7 +224,11 @@ def conclude(
         if population is not None and not population.drawn.groups and not _followed(follow):
             laws = other_laws(response, motion, model, campaign)
         if laws is not None:
-            summary |= {"other_laws": laws.verdicts, "law_changes_verdict": laws.changes}
+            summary |= {
+                "other_laws": laws.verdicts,
+                "under_other_laws": laws.words,
+                "law_changes_verdict": laws.changes,
+            }
             summary |= {"doubt": laws.sentence} if laws.changes else {}
         if files.folder is not None:
             files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
@@ -256,6 +261,7 @@ def write_population(
         return
     options: dict[str, Any] = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
     options["quiet"] = response.provenance["quiet_share"]
+    options["until_decided"] = response.provenance.get("until_decided", False)
     options["until_rest"] = response.provenance.get("until_rest", False) and not model.carried(response.structure)
     middle = simulate(population.drawn.columns[population.median], motion, model.paced(response.structure), **options)
     files.picture(plots.draw_filmstrip(middle), "median")

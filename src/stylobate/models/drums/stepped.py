@@ -161,7 +161,7 @@ class SteppedDrums(Model):
         provenance = {"time_step_s": float(block.dt[0]), "residual_acceleration_at_start_m_s2": residual}
         measures = block.collect(0)
         rests = measures.stepped is not None and measures.outcome not in (Outcome.COLLAPSED, Outcome.FAILED)
-        record(last=True, until=end if rests else None)
+        record(last=True, until=max(end, int(block.feed["step"][0, 0])) if rests else None)
         return Response(column, histories(motion, states), measures, self.name, provenance, twins=twins.measures())
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
