@@ -1,4 +1,4 @@
-"""Runs of assemblies that wait, for rest or for their verdict, are those that do not, and then go on."""
+"""Runs that wait, for rest or for their verdict, are those that do not, and then go on."""
 
 import numpy as np
 import pytest
@@ -58,3 +58,30 @@ def test_many_runs_go_on_until_their_verdicts_are_certain(kind):
     assert again.time[-1] > alone.time[-1]
     assert table["peak_rotation_rad"][1] == pytest.approx(again.peak_rotation, rel=1e-9)  # lanes add in another order
     assert table["steps"][1] == again.measures.steps
+
+
+def test_a_column_that_rocks_at_the_end_goes_on_until_its_verdict_is_certain():
+    """In a critical amplitude and alone; to the end of the motion it is the run that does not go on, bit by bit."""
+    column, model = st.preset("paper-12-drums"), st.DistinctElement2D()
+    motions = [st.harmonic(0.7, amplitude * st.g, 4.0 / 0.7) for amplitude in (0.3, 0.4)]
+    alone = [st.simulate(column, motion, model) for motion in motions]
+    assert [one.decided for one in alone] == [True, False]
+    waits = [st.simulate(column, motion, model, until_decided=True) for motion in motions]
+    assert all(one.decided for one in waits)
+    assert waits[0].measures.steps == alone[0].measures.steps
+    same = len(alone[1].time) - 1  # the last row of a run may come early
+    assert np.array_equal(waits[1].drum_x[:same], alone[1].drum_x[:same])
+    assert alone[1].time[-1] < waits[1].time[-1] < alone[1].time[-1] + 10.0
+    grid = 0.3 * st.g, 0.4 * st.g, 0.1 * st.g
+    found = st.critical_amplitude(column, motions[0], model, *grid, nominal=0.3 * st.g)
+    assert found.counts["undecided"] == 0
+    assert found.table["steps"].tolist() == [one.measures.steps for one in waits]
+
+
+def test_what_cannot_move_on_does_not_wait():
+    """A column that lies still while its pretension leaves the verdict open ends with its motion, as no wait decides it."""
+    tied = st.preset("paper-monolithic").replace(
+        links=(st.Core(axial_stiffness=5e7, axial_capacity=2e5, pretension=1e5),)
+    )
+    found = st.simulate(tied, st.harmonic(1.0, 0.02 * st.g, 1.0), st.DistinctElement2D(), until_decided=True)
+    assert found.time[-1] < 1.1
