@@ -1,9 +1,12 @@
 """Runs that wait, for rest or for their verdict, are those that do not, and then go on."""
 
+import json
+
 import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.cli.main import call
 
 JOINT = st.Joint(5e8, 2.5e8, friction_coefficient=0.7)
 
@@ -76,6 +79,15 @@ def test_a_column_that_rocks_at_the_end_goes_on_until_its_verdict_is_certain():
     found = st.critical_amplitude(column, motions[0], model, *grid, nominal=0.3 * st.g)
     assert found.counts["undecided"] == 0
     assert found.table["steps"].tolist() == [one.measures.steps for one in waits]
+
+
+@pytest.mark.parametrize("replicates", ["0", "2"])
+def test_the_command_goes_on_with_a_run_and_columns_like_it(replicates, capsys):
+    command = ["run", "paper-12-drums", "--harmonic", "0.7Hz,0.4g,5.714s", "--json"]
+    assert call([*command, "--replicates", replicates]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert said["decided"]
+    assert said.get("certainty", {}).get("undecided", 0) == 0
 
 
 def test_what_cannot_move_on_does_not_wait():
