@@ -65,7 +65,8 @@ def simulate(
         Go on until everything lies still, on the ground if need be (``DistinctElement2D``, and ``DistinctElement3D`` with
         assemblies; others refuse).
     until_decided : bool
-        Go on after motion and tail, a minute at most, as long as nothing has fallen and not all lies still (assemblies).
+        Go on after motion and tail, a minute at most: columns of models that step drums as long as they move and their
+        verdict could change, assemblies as long as nothing has fallen and not all lies still. Commands and campaigns do.
     start : Start or Toss, optional
         Release the column from a pose (``Start``), with a velocity, instead of rest (``DistinctElement2D`` and
         ``DistinctElement3D``; others refuse); or a specimen from anywhere over the base (``Toss``; ``DistinctElement3D``).

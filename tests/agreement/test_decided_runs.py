@@ -1,9 +1,12 @@
-"""Runs of assemblies that wait, for rest or for their verdict, are those that do not, and then go on."""
+"""Runs that wait, for rest or for their verdict, are those that do not, and then go on."""
+
+import json
 
 import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.cli.main import call
 
 JOINT = st.Joint(5e8, 2.5e8, friction_coefficient=0.7)
 
@@ -58,3 +61,39 @@ def test_many_runs_go_on_until_their_verdicts_are_certain(kind):
     assert again.time[-1] > alone.time[-1]
     assert table["peak_rotation_rad"][1] == pytest.approx(again.peak_rotation, rel=1e-9)  # lanes add in another order
     assert table["steps"][1] == again.measures.steps
+
+
+def test_a_column_that_rocks_at_the_end_goes_on_until_its_verdict_is_certain():
+    """In a critical amplitude and alone; to the end of the motion it is the run that does not go on, bit by bit."""
+    column, model = st.preset("paper-12-drums"), st.DistinctElement2D()
+    motions = [st.harmonic(0.7, amplitude * st.g, 4.0 / 0.7) for amplitude in (0.3, 0.4)]
+    alone = [st.simulate(column, motion, model) for motion in motions]
+    assert [one.decided for one in alone] == [True, False]
+    waits = [st.simulate(column, motion, model, until_decided=True) for motion in motions]
+    assert all(one.decided for one in waits)
+    assert waits[0].measures.steps == alone[0].measures.steps
+    same = len(alone[1].time) - 1  # the last row of a run may come early
+    assert np.array_equal(waits[1].drum_x[:same], alone[1].drum_x[:same])
+    assert alone[1].time[-1] < waits[1].time[-1] < alone[1].time[-1] + 10.0
+    grid = 0.3 * st.g, 0.4 * st.g, 0.1 * st.g
+    found = st.critical_amplitude(column, motions[0], model, *grid, nominal=0.3 * st.g)
+    assert found.counts["undecided"] == 0
+    assert found.table["steps"].tolist() == [one.measures.steps for one in waits]
+
+
+@pytest.mark.parametrize("replicates", ["0", "2"])
+def test_the_command_goes_on_with_a_run_and_columns_like_it(replicates, capsys):
+    command = ["run", "paper-12-drums", "--harmonic", "0.7Hz,0.4g,5.714s", "--json"]
+    assert call([*command, "--replicates", replicates]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert said["decided"]
+    assert said.get("certainty", {}).get("undecided", 0) == 0
+
+
+def test_what_cannot_move_on_does_not_wait():
+    """A column that lies still while its pretension leaves the verdict open ends with its motion, as no wait decides it."""
+    tied = st.preset("paper-monolithic").replace(
+        links=(st.Core(axial_stiffness=5e7, axial_capacity=2e5, pretension=1e5),)
+    )
+    found = st.simulate(tied, st.harmonic(1.0, 0.02 * st.g, 1.0), st.DistinctElement2D(), until_decided=True)
+    assert found.time[-1] < 1.1

@@ -119,7 +119,7 @@ def test_a_column_found_out_of_the_plane_falls_in_its_weakest_direction_where_th
     found = (st.FoundDrum(1, tilt=-0.6, tilt_azimuth=20.0), st.FoundDrum(2, offset=0.05, offset_azimuth=80.0))
     column = stack.replace(as_found=st.AsFound(found, 0.5, 130.0))
     weakest = limit_directions(column).weakest
-    assert weakest.azimuth == 30.0
+    assert weakest.azimuth == pytest.approx(24.9, abs=0.2)
     motions = [ramp(level * weakest.multiplier, weakest.azimuth) for level in (0.98, 1.02)]
     runs = st.simulate_many(column, motions, st.DistinctElement3D(law="bed"))
     assert list(runs["collapsed"]) == [False, True]

@@ -68,6 +68,20 @@ def test_a_record_is_run_as_it_is_between_the_levels_of_the_grid():
     assert len(found.rows) == 3
 
 
+def test_shares_of_columns_alike_say_what_the_undecided_leave_open():
+    """Three of fifteen fall at 0.5 g and the others are undecided from 0.3 g on: 16 % fall by any amplitude from there."""
+    found = over("sssc", ["ssuc"] * 3 + ["suuu"] * 12)
+    told = found.summary()
+    assert told["certainty"]["critical_16_least_g"] == pytest.approx(0.3)
+    assert "fall 16 % by 0.3 to 0.5 g" in told["sentence"]
+    assert "whichever way the undecided end" in told["sentence"]
+    cured = dataclasses.replace(found, cure="go on with a tail of 130 s").summary()["sentence"]
+    assert "ended far from rest (go on with a tail of 130 s)" in cured
+    sure = over("sssc", ["sssc"] * 15).summary()
+    assert "fall 16 % by 0.5 g, 50 % by 0.5 g, 84 % by 0.5 g." in sure["sentence"]
+    assert sure["to_decide"] == ""
+
+
 def test_the_first_number_is_the_lowest_collapse_of_all_columns():
     found = over("sssc", ["sscc", "scsc", "ssss", "sssc"]).summary()
     assert (found["critical_g"], found["lowest_collapse_g"]) == pytest.approx((0.5, 0.3))

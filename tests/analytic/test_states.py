@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 
 import stylobate as st
 from stylobate import plots
@@ -15,7 +16,7 @@ from stylobate.analysis.evidence import Evidence
 from stylobate.analysis.fragility import fragility
 from stylobate.analysis.limit_states import EXCEEDED, NOT_EXCEEDED, OPEN
 from stylobate.analysis.side_by_side import median_name, shares
-from stylobate.analysis.states import _difference, compare_states
+from stylobate.analysis.states import _difference, compare_states, with_undecided
 from stylobate.cli.main import call
 from stylobate.cli.states import describe
 from stylobate.column.files import write_column
@@ -173,6 +174,52 @@ def test_the_ratio_of_medians_holds_what_wide_levels_leave_open():
     assert max(one.ratio_low for one in found) < min(one.ratio_high for one in found)
     for one in found:
         assert one.ratio_low < 1.205 / 1.395 < one.ratio_high  # the true medians, in the middle of each dozen
+
+
+def test_medians_are_compared_where_runs_show_both_and_else_what_is_missing_is_said():
+    """One collapse in 60 runs has a curve, but no median; nor has one whose median lies above all levels."""
+    levels = np.linspace(0.1, 0.6, 6)
+    im, records = np.tile(levels, 10), np.repeat([f"r{k}" for k in range(10)], 6).astype(object)
+
+    def told(name, capacity):
+        return Evidence(records, im, (im > np.repeat(capacity, 6)).astype(np.int8), "pga", "g", "collapse", name)
+
+    many = told("as found", np.linspace(0.25, 0.55, 10))
+    one = told("core", [0.55, *[0.7] * 9])
+    half = told("core", [*np.linspace(0.35, 0.55, 4), *[0.7] * 6])
+    curve = fragility(many, samples=100)
+    for other, missing in (
+        (one, "1 of 60 runs of “core” collapse, and a median needs at least 5 of them; give larger intensities"),
+        (half, "the median of “core” lies above 0.6 g, where nothing was run; give larger intensities"),
+    ):
+        rest = fragility(other, samples=100)
+        assert rest.median > levels[-1]
+        found = with_undecided(many, other, curve, rest, 100, 0, 0.95)
+        assert math.isnan(found.ratio)
+        assert found.basis.startswith(f"Medians are not compared: {missing}.")
+        assert "higher" not in found.sentence
+        assert rest.span == (levels[0], levels[-1])
+        assert max(rest.drawn()["im"]) == pytest.approx(levels[-1])
+        (axes,) = plots.draw_fragility([curve, rest]).axes[:1]
+        assert max(line.get_xdata().max() for line in axes.lines if len(line.get_xdata())) <= levels[-1] * (1.0 + 1e-9)
+        assert "> 0.6 g" in " ".join(text.get_text() for text in axes.figure.findobj(Text))
+
+
+def test_the_comparison_is_printed_before_design_values_are_computed(tmp_path, monkeypatch, capsys):
+    """A design value takes the governing runs once more; whoever waits reads the answer in the meantime."""
+    column = block(0.6)
+    bare, linked = (write_column(one, tmp_path / f"{name}.toml") for one, name in (
+        (column, "bare"), (column.replace(links=(st.Dowel(joint=1, shear_stiffness=1e8, shear_capacity=1e5),)), "linked"),
+    ))  # fmt: skip
+    seen = []
+
+    def stopped(*_, **__):
+        seen.append(capsys.readouterr().out)
+        raise st.InputError("far enough.")
+
+    monkeypatch.setattr("stylobate.analysis.design_values.design_values", stopped)
+    assert call(["states", "--as-built", str(bare), "--with", str(linked), "--pulse", "ricker,1Hz,0.3g"]) == 2
+    assert "“linked”" in seen[0]
 
 
 def test_what_a_plane_says_of_round_columns_is_doubted_before_any_advice():

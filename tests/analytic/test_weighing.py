@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.stats import multivariate_normal, norm
 
+import stylobate as st
 from stylobate.analysis.ground_motion import CORRELATED, MODELS, alike
 from stylobate.analysis.hazard import Hazard
 from stylobate.analysis.monuments import Branch, Capacity, Monument, Site, Sites
@@ -128,7 +129,7 @@ def test_together_is_the_normal_integral_and_stays_between_its_bounds():
 
 def test_monuments_that_share_earthquakes_say_less_than_those_that_do_not():
     monuments = tuple(Monument(f"m{k}", "a", known(0.35), "stands", (2400.0, 2400.0)) for k in range(3))
-    branches = tuple(Branch(f"{r:g}", 1.0, {}, faults(r), MODEL) for r in (0.002, 0.006))
+    branches = tuple(Branch(f"{r:g}", 0.5, {}, faults(r), MODEL) for r in (0.002, 0.006))
     found = weigh(Sites(SITES, monuments, branches))
     own, shared = (found.posterior(found.likelihood[one]) for one in WAYS[1:])
     assert shared[0] + 0.02 < found.weight[0] < own[0] - 0.02
@@ -205,7 +206,7 @@ def test_one_rock_of_known_age_is_the_rule_of_precarious_rocks():
     # A dispersion of 0.01 is a step: λ of k = 2 grows by exp(k²β²/2) = 1.0002
     hazards = {name: power_law(k0, name) for name, k0 in (("low", 1e-5), ("mid", 1e-4), ("high", 1e-3))}
     rock = Monument("rock", "a", known(0.5, 0.01), "stands", (8000.0, 8000.0))
-    branches = tuple(Branch(name, 1.0, {"a": one}) for name, one in hazards.items())
+    branches = tuple(Branch(name, 0.333, {"a": one}) for name, one in hazards.items())
     found = weigh(Sites((Site("a"),), (rock,), branches))
     passes = np.exp([-8000.0 * one.at(0.5) for one in hazards.values()])
     assert found.likelihood[WAYS[0]].mean(axis=1) == pytest.approx(passes, rel=8000.0 * 4e-3 * 3e-4, abs=1e-13)
@@ -222,13 +223,29 @@ def test_what_is_not_known_of_age_and_fragility_is_averaged_before_branches_are_
     exact = (math.exp(-500.0 * rate) - math.exp(-3000.0 * rate)) / (2500.0 * rate)
     assert weigh(sites).likelihood[WAYS[0]].mean() == pytest.approx(exact, rel=2e-3)
     # an uncertain median tells branches less apart than one that is exact
-    branches = tuple(Branch(f"{k0:g}", 1.0, {"a": power_law(k0)}) for k0 in (1e-5, 1e-3))
+    branches = tuple(Branch(f"{k0:g}", 0.5, {"a": power_law(k0)}) for k0 in (1e-5, 1e-3))
     sharp, blunt = (
         weigh(Sites((Site("a"),), (Monument("m", "a", known(0.5, sides=one), "stands", (2000.0, 2000.0)),), branches))
         for one in ((0.0, 0.0), (0.8, 0.8))
     )
     assert blunt.weight[1] > 3.0 * sharp.weight[1]
     assert sharp.weight_error.max() < 1e-12  # nothing is drawn
+
+
+def test_weights_that_do_not_sum_to_one_are_refused():
+    """0.5 and 0.8 are no 0.38 and 0.62; thirds that are rounded are thirds, and the remedy works."""
+    monument = Monument("m", "a", known(0.5), "stands", (2000.0, 2000.0))
+
+    def weighed(*weights):
+        branches = tuple(Branch(str(k), w, {"a": power_law(1e-4)}) for k, w in enumerate(weights))
+        return weigh(Sites((Site("a"),), (monument,), branches)).prior
+
+    with pytest.raises(st.InputError, match=r"weights of the branches sum to 1\.3; .* divide each by 1\.3"):
+        weighed(0.5, 0.8)
+    with pytest.raises(st.InputError, match=r"sum to 0\.6"):
+        weighed(0.2, 0.4)
+    assert weighed(0.5 / 1.3, 0.8 / 1.3) == pytest.approx([0.5 / 1.3, 0.8 / 1.3])
+    assert weighed(0.33, 0.33, 0.33) == pytest.approx([1 / 3] * 3)
 
 
 def test_fractiles_and_means_are_over_branches():

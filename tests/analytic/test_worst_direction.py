@@ -48,7 +48,22 @@ def test_where_none_collapses_the_picture_says_so(undecided, said):
     compass = compass_of_chances(rows)
     assert said in legend(compass)
     assert not [text for text in legend(compass) if text.startswith("worst")]
-    assert harm_words(worst(rows, compass), compass) == f"N{said[1:]}; it moves most towards 210°, under r at 210°."
+    words = harm_words(worst(rows, compass), compass)
+    assert words.startswith(f"N{said[1:]}; it moves most towards 210°, under r at 210°.")
+    assert ("From 1 of 2 directions runs are undecided and may collapse it" in words) == bool(undecided)
+
+
+@pytest.mark.parametrize("compass_of", [compass_of_shares, compass_of_chances])
+def test_undecided_runs_compete_for_the_worst_direction(compass_of):
+    rows = [row(0.0, 0.3), row(180.0, 0.52), row(270.0, 0.67, decided=False), row(300.0, 0.1, decided=False)]
+    compass = compass_of(rows, "go on with a tail of 20 s")
+    assert worst(rows, compass)["azimuth_deg"] == 270.0
+    assert compass.undecided == (270.0, 300.0)
+    words = harm_words(worst(rows, compass), compass)
+    assert "towards 270°" in words
+    assert "From 2 of 4 directions runs are undecided and may collapse it" in words
+    assert words.endswith(": go on with a tail of 20 s.")
+    plots.draw_directions(compass)
 
 
 def test_a_collapse_beyond_the_rim_is_called_one():

@@ -98,6 +98,7 @@ def test_a_path_that_ends_too_early_is_called_that(tmp_path, capsys):
         (["limit", "paper-12-drums", "--tilt", "50"], "lower the tilt"),
         (["limit", "paper-12-drums", "--tilt", "steep"], "--tilt"),
         (["limit", "no-such-column"], "no-such-column"),
+        (["limit", "paper-monolithic", "--directions", "0:90:100000"], "100000 directions; allowed are 1 to 360"),
     ],
 )
 def test_bad_input_is_one_sentence_and_exit_2(arguments, words, capsys):

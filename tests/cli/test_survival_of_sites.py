@@ -57,9 +57,9 @@ def place(tmp_path):
         rows = [f"{a:.5g},{k0 * a**-2:.5g}" for a in np.geomspace(0.02, 5.0, 12)]
         (tmp_path / f"{name}.csv").write_text("\n".join(["pgv_m_s,annual_rate", *rows]) + "\n")
         (tmp_path / f"{name}-sources.csv").write_text(SOURCES.format(rate=100.0 * k0))
-    (tmp_path / "tree.csv").write_text("branch,weight,Hill,Valley\nlow,2,A.csv,A.csv\nhigh,1,B.csv,B.csv\n")
+    (tmp_path / "tree.csv").write_text("branch,weight,Hill,Valley\nlow,0.67,A.csv,A.csv\nhigh,0.33,B.csv,B.csv\n")
     (tmp_path / "shared.csv").write_text(
-        "branch,weight,sources,model\nlow,2,A-sources.csv,akkar-bommer-2010\nhigh,1,B-sources.csv,bindi-2014\n"
+        "branch,weight,sources,model\nlow,0.67,A-sources.csv,akkar-bommer-2010\nhigh,0.33,B-sources.csv,bindi-2014\n"
     )
     (tmp_path / "sites.toml").write_text(SITES)
     return tmp_path
@@ -74,7 +74,7 @@ def said(capsys, *arguments, code=0):
 def test_sites_with_hazard_curves(place, capsys):
     found = said(capsys, "survival", place / "sites.toml", "--out", place / "out", "--json")
     low, high = found["hazards"]
-    assert (low["prior_weight"], high["prior_weight"]) == pytest.approx((2 / 3, 1 / 3))
+    assert (low["prior_weight"], high["prior_weight"]) == pytest.approx((0.67, 0.33))
     assert low["weight"] + high["weight"] == pytest.approx(1.0)
     assert low["weight_if_own"] == low["weight"] != low["weight_if_shared"]
     assert low["probability_low"] < low["probability"] < low["probability_high"]
@@ -173,6 +173,7 @@ def test_bad_branches_and_options_are_one_sentence(place, capsys):
         ("branch,weight,Hill,Sea\nlow,1,A.csv,A.csv\n", "is 'sea'"),
         ("branch,weight,Hill,Valley\nlow,-1,A.csv,A.csv\n", "weight"),
         ("branch,weight,Hill,Valley,sources,model\nlow,1,A.csv,A.csv,,\nb,1,,,A-sources.csv,bindi-2014\n", "one kind"),
+        ("branch,weight,Hill,Valley\nlow,0.5,A.csv,A.csv\nhigh,0.8,B.csv,B.csv\n", "sum to 1.3"),
         ("branch,weight,sources,model\nlow,1,A-sources.csv,mine\n", "model"),
         ("branch,weight,sources,model\nlow,1,A-sources.csv,\n", "ground-motion model"),
     ):

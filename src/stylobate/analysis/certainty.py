@@ -99,6 +99,7 @@ def certainty(
     twins, tail = drawn.columns, campaign.tail
     riding = _riding(drawn, column, model, until_end or until_rest)
     following = {"output_interval": output_interval, "until_end": until_end, "until_rest": until_rest, "quiet": quiet}
+    following["until_decided"] = True
 
     def make() -> Response:
         return simulate(
@@ -110,10 +111,10 @@ def certainty(
         rows = [twin.row() for twin in response.twins]
     else:
         product = {"own run": [column.digest, motion.name, motion.digest, [one.nameless_digest for one in riding]]}
-        digest = Hasher(model, run_options(tail)).of_product(product | following, __file__)
+        digest = Hasher(model, run_options(tail, until_decided=True)).of_product(product | following, __file__)
         response, rows = _kept(Case(column, motion), model, digest, make, kept, campaign)
     rest = until_rest and not model.carried(column)  # what is followed one by one, so are its twins
-    options = run_options(tail, until_rest=rest, quiet=quiet)
+    options = run_options(tail, until_rest=rest, quiet=quiet, until_decided=True)
     rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, options)
     doubt = "" if column.space_joints is None else caveat([column], model)
     population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail), doubt=doubt)
@@ -162,7 +163,9 @@ def _kept(
         made[0].save(place)
         return {"riding": [twin.row() for twin in made[0].twins], "files": [place.name]}
 
-    request = Request([case], Digests.of([digest]), [(np.arange(1), model, run_options(campaign.tail))])
+    request = Request(
+        [case], Digests.of([digest]), [(np.arange(1), model, run_options(campaign.tail, until_decided=True))]
+    )
     with closing(Runs(replace(campaign.of_computing, dask=None, device=CPU, progress=None))) as runs:
         ((_, row),) = runs.products(request, product)
     return made[0] if made else Response.load(place), row["riding"]

@@ -29,8 +29,8 @@ ROUNDS, CLOSE = 60, 1e-7
 #: What is left over of all weight where bodies stand [-].
 BALANCED = 1e-9
 
-#: The most that a holder holds is found to this share of it [-].
-MOST_WITHIN = 1e-3
+#: The most that a holder holds is found to this share of it [-], or of this share of the weight where it is less.
+MOST_WITHIN, NONE_HELD = 1e-3, 1e-3
 
 #: A joint takes part in the mechanism with more than this share of the fastest one [-].
 MOVES = 1e-5
@@ -64,7 +64,7 @@ class Aim(NamedTuple):
 
 
 class ContactProgramme:
-    """The programme of bodies on joints: what has been added for one direction stays for the next.
+    """The programme of bodies on joints, which grows while it is solved.
 
     Parameters
     ----------
@@ -106,6 +106,7 @@ class ContactProgramme:
         self.rows: list[np.ndarray] = []
         self.owner: list[int] = []
         self.ways: list[np.ndarray] = []
+        self.keys: list[tuple] = []
         self.known: set[tuple] = set()
 
     # -- what can act --------------------------------------------------------------------------------------------------
@@ -116,13 +117,16 @@ class ContactProgramme:
         force[:, :3] = np.outer(self.shares, direction)
         return force.ravel()
 
-    def _add(self, owner: int, way: np.ndarray, ends: tuple[tuple[int, np.ndarray], ...], force: np.ndarray) -> None:
+    def _add(
+        self, owner: int, way: np.ndarray, ends: tuple[tuple[int, np.ndarray], ...], force: np.ndarray, key: tuple = ()
+    ) -> None:
         """A force on the body at its first end and its reaction on that at the second one."""
         rows, values = [], []
         for (body, place), size in zip(ends, (force, -force), strict=True):
             if body >= 0:
                 rows.append(np.arange(6 * body, 6 * body + 6))
                 values += [size, np.cross(place - self.centroids[body], size) / self.length]
+        self.keys.append(key)
         self.owner.append(owner)
         self.ways.append(way)
         self.rows.append(np.concatenate(rows))
@@ -134,7 +138,7 @@ class ContactProgramme:
         key = (id(rim), *np.round(place / rim.half, 9), *np.round(way, 9))
         if key not in self.known:
             self.known.add(key)
-            self._add(-1, way, ((rim.upper, point), (rim.lower, point)), rim.force(way))
+            self._add(-1, way, ((rim.upper, point), (rim.lower, point)), rim.force(way), key)
 
     def hold(self, k: int, way: np.ndarray) -> None:
         """Let a holder hold in a direction of its axes."""
@@ -160,6 +164,14 @@ class ContactProgramme:
             first = math.atan2(*(holder.axes.T @ push)[::-1])
             for i in range(count):
                 self.hold(k, pointing(first + 2.0 * math.pi * i / count))
+
+    def forget(self, first: int, forces: np.ndarray) -> None:
+        """Leave out of what can act all that was added after the first ones and bears nothing in an answer."""
+        kept = [i for i in range(len(self.owner)) if i < first or (i < len(forces) and forces[i] > 0.0)]
+        self.columns, self.rows = [self.columns[i] for i in kept], [self.rows[i] for i in kept]
+        self.owner, self.ways = [self.owner[i] for i in kept], [self.ways[i] for i in kept]
+        self.keys = [self.keys[i] for i in kept]
+        self.known = set(self.keys)
 
     # -- what is borne -------------------------------------------------------------------------------------------------
 
@@ -187,7 +199,12 @@ class ContactProgramme:
             if found.multiplier >= enough or self.cut:
                 return found
             gap = self._grow(found, capacity, aim)
-            if gap <= CLOSE * max(abs(found.multiplier), 1e-3) or (aim is not None and gap <= MOST_WITHIN * CLOSE):
+            if aim is None:
+                near = CLOSE * max(abs(found.multiplier), 1e-3)
+            else:
+                force = float(aim.way @ self.held_by(found.forces, aim.holder)) / self.weight
+                near = MOST_WITHIN * max(force, NONE_HELD)
+            if gap <= near:
                 return found
         raise StylobateError(
             f"limit analysis in space did not come to an end: the bounds are {gap:.2g} g apart after {ROUNDS} rounds"

@@ -29,6 +29,7 @@ from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..notebook import Shown
 from ..response.rows import Rows
+from ..response.words import to_decide
 from . import verdicts as v
 from .capacity import Capacity, bounds, of_levels
 from .critical_population import CriticalPopulation
@@ -67,6 +68,8 @@ class CriticalAmplitude(Shown):
         Twins of the column at the same amplitudes.
     doubt : str
         Caveat before all that rests on the runs, because of their model; empty where nothing does.
+    cure : str
+        What decides runs that are undecided, see :func:`stylobate.response.words.to_decide`.
     """
 
     column: Column
@@ -78,6 +81,7 @@ class CriticalAmplitude(Shown):
     nominal: float | None = None
     population: CriticalPopulation | None = None
     doubt: str = ""
+    cure: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rows", Rows.of(self.rows))
@@ -175,6 +179,12 @@ class CriticalAmplitude(Shown):
         return v.count(self.verdicts)
 
     @property
+    def undecided(self) -> bool:
+        """Whether a run, or one of a twin, is undecided."""
+        likes = () if self.population is None else self.population.verdicts.ravel().tolist()
+        return v.UNDECIDED in (*self.verdicts, *likes)
+
+    @property
     def table(self) -> pandas.DataFrame:
         """One row per run: ``amplitude_g``, ``verdict`` and the measures."""
         table = self.rows.table()
@@ -216,6 +226,7 @@ class CriticalAmplitude(Shown):
             "wall_s": self.wall_time,
             "model": self.model,
             "doubt": self.doubt,
+            "to_decide": self.cure if self.undecided else "",
             **({} if self.population is None else self.population.summary()),
         }
         return found | {"sentence": sentence(found, self.column.kind, self.column.like)}
@@ -330,13 +341,13 @@ def sweep(
         cases, Hasher(model, campaign.options), share_of([one.motion for one in shaken], campaign.whole)
     )
     finished = run_all(request, campaign)
-    results, doubt = [], caveat([column], model)
+    results, doubt, cure = [], caveat([column], model), to_decide(column, model.parameters(), campaign.tail)
     for one, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):
         rows, record = finished[int(end - count) : int(end)], one.as_is if one.recorded else None
         known = rows[: len(amplitudes)], rows[len(amplitudes) :]
         population = None if drawn is None else CriticalPopulation.of(spread, known[1], drawn, record)
-        made = CriticalAmplitude(column, one.motion, model.name, amplitudes, known[0], 0.0, record, population, doubt)
-        results.append(made)
+        told = known[0], 0.0, record, population, doubt, cure
+        results.append(CriticalAmplitude(column, one.motion, model.name, amplitudes, *told))
     return results, time.perf_counter() - started
 
 

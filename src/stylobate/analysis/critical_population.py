@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -97,6 +98,16 @@ class CriticalPopulation(Shown):
         return {name: one.high / g for name, one in self._quantiles.items()}
 
     @property
+    def least(self) -> dict[str, float]:
+        """The same if every undecided or failed run were a collapse [g]: the amplitude above the largest surely stood."""
+        above = np.append(self.amplitudes, math.inf)
+        found = {
+            name: above[np.searchsorted(self.amplitudes, one.low, side="right")]
+            for name, one in self._quantiles.items()
+        }
+        return {name.replace("_g", "_least_g"): float(value) / g for name, value in found.items()}
+
+    @property
     def bounds(self) -> dict[str, str]:
         """Of which of these only a bound is known, as nobody stood or nobody fell below it, by name."""
         return bounds({name: (one, g) for name, one in self._quantiles.items()})
@@ -136,6 +147,7 @@ class CriticalPopulation(Shown):
                 **self.drawn.facts,
                 "confidence": self.confidence,
                 **self.percentiles,
+                **self.least,
                 "bounds": self.bounds,
                 **{one: total[one] for one in v.MADE},
             },

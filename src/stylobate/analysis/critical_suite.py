@@ -161,6 +161,7 @@ class CriticalSuite(Shown):
             "wall_s": self.wall_time,
             "model": self.results[0].model,
             "doubt": self.results[0].doubt,
+            "to_decide": self.results[0].cure if any(result.undecided for result in self.results) else "",
         }
         stands = self.results[0].column
         return found | {"sentence": sentence_of_suite(found, stands.kind, stands.like)}

@@ -89,7 +89,8 @@ def _with_twins(s: Mapping[str, Any], kind: str, like: str, twins: Mapping[str, 
     below = _below(s["open_below"])
     shares = [(share, _by(twins, f"critical_{share}_g")) for share in (16, 50, 84)]
     said = ", ".join(f"{share} % {by}" for share, by in shares if by)
-    return f"{words}{f'; of those like it fall {said}' if said else ''}. {below}".rstrip()
+    open_ = ", whichever way the undecided end" if twins.get(v.UNDECIDED) else ""
+    return f"{words}{f'; of those like it fall {said}{open_}' if said else ''}. {below}".rstrip()
 
 
 def _by(twins: Mapping[str, Any], name: str) -> str:
@@ -98,7 +99,10 @@ def _by(twins: Mapping[str, Any], name: str) -> str:
         return f"at {bound[2:]} g or below"
     if bound.startswith(">"):
         return f"only above {bound[2:]} g"
-    return f"by {value:.4g} g" if value is not None and math.isfinite(value) else ""
+    if value is None or not math.isfinite(value):
+        return ""
+    least = twins.get(name.replace("_g", "_least_g"), value)
+    return f"by {value:.4g} g" if least >= value else f"by {least:.4g} to {value:.4g} g"
 
 
 def _alone(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | None) -> str:
@@ -138,7 +142,7 @@ def _open(s: Mapping[str, Any], twins: Mapping[str, Any] | None) -> str:
     found = []
     for told, total, whose in ((s, s["runs"], ""), (twins or {}, None, " of those like it")):
         for name, meaning in (
-            (v.UNDECIDED, "ended far from rest (a longer tail may decide them)"),
+            (v.UNDECIDED, f"ended far from rest ({s.get('to_decide') or 'a longer tail may decide them'})"),
             (v.FAILED, "failed"),
         ):
             if count := told.get(name):

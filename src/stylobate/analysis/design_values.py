@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 import math
+import time
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -13,7 +15,9 @@ from ..campaign.twins import LAW
 from ..column.links.placed import PlacedLink
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
+from ..models.base import duration
 from ..response.response import Response
+from ..simulate import TOLD_WAIT
 from . import verdicts as v
 from .compare import Comparison
 from .states import StateComparison
@@ -182,7 +186,16 @@ def _told_level(sizes: np.ndarray, collapsed: np.ndarray) -> float:
 def _tell_instants(rows: list[dict[str, Any]], links: list[PlacedLink], again: Callable[[int], Response]) -> None:
     """Adds to the forces of one state at one level when and where to they act; every run is made once."""
     forces = [row for row in rows if row["run"] is not None and row["unit"] == "N" and row["value_84"] > 0.0]
-    governing = {run: again(run) for run in sorted({row["run"] for row in forces})}
+    numbers, began = sorted({row["run"] for row in forces}), time.monotonic()
+    governing: dict[int, Response] = {}
+    for done, run in enumerate(numbers):
+        if done == 1 and (left := (time.monotonic() - began) * (len(numbers) - 1)) > TOLD_WAIT:
+            logging.getLogger("stylobate").info(
+                "%d more runs that govern design values are computed once more, to tell when: about %s to go.",
+                len(numbers) - 1,
+                duration(left),
+            )
+        governing[run] = again(run)
     for row in forces:
         row |= _instant(governing[row["run"]], row["place"], links[row["place"]], row["quantity"])
 

@@ -98,6 +98,8 @@ class Difference:
         Of the intervals.
     stone : str
         What limits the links of this state instead of them, in words.
+    lacking : str
+        What the runs lack for a comparison of medians; empty where they lack nothing, or a state has no curve.
     """
 
     state: str
@@ -122,6 +124,7 @@ class Difference:
     im: str = ""
     confidence: float = 0.95
     stone: str = ""
+    lacking: str = ""
 
     @property
     def conclusion(self) -> str:
@@ -185,7 +188,7 @@ class Difference:
 
     def _median(self) -> str:
         if math.isnan(self.ratio):
-            return ""
+            return f"Medians are not compared: {self.lacking}." if self.lacking else ""
         low, high = sorted((self.ratio_best - 1.0, self.ratio_worst - 1.0))
         measure = f" ({self.im})" if self.im else ""
         change = self._change((low, high), (self.ratio_low - 1.0, self.ratio_high - 1.0), _percent)

@@ -89,8 +89,10 @@ class Compass:
         The direction that does most harm [degrees], by the value, then by the runs from there; None where none is known.
     beyond : str
         What an infinite value means.
-    sure : bool
-        Whether no run is undecided.
+    undecided : tuple of float
+        Directions from which a run is undecided, and may yet collapse [degrees].
+    cure : str
+        What decides them, of :func:`stylobate.response.words.to_decide`.
     """
 
     bearings: np.ndarray
@@ -100,7 +102,8 @@ class Compass:
     high: np.ndarray | None = None
     worst: float | None = None
     beyond: str = "no collapse seen"
-    sure: bool = True
+    undecided: tuple[float, ...] = ()
+    cure: str = ""
 
     @property
     def none_collapses(self) -> bool:
@@ -113,9 +116,17 @@ class Compass:
         if self.worst is None:
             return ""
         if self.none_collapses:
-            return f"no direction {'' if self.sure else 'surely '}collapses it"
+            return f"no direction {'surely ' if self.undecided else ''}collapses it"
         value = float(self.values[self.bearings == self.worst][0])
         return f"worst: {self.worst:g}°, {self.beyond if math.isinf(value) else f'{value:.3g}'}"
+
+    @property
+    def may_collapse(self) -> str:
+        """How many directions have runs that may yet collapse, and what decides them; empty where none has."""
+        if not (count := len(self.undecided)):
+            return ""
+        cure = f": {self.cure}" if self.cure else ""
+        return f" From {count} of {len(self.bearings)} directions runs are undecided and may collapse it{cure}."
 
 
 def harm_words(found: Mapping[str, Any], compass: Compass) -> str:
@@ -130,12 +141,16 @@ def harm_words(found: Mapping[str, Any], compass: Compass) -> str:
     towards = "" if compass.worst is None else f"towards {compass.worst:g}°, "
     if compass.worst is not None and compass.none_collapses:
         words = compass.words
-        return f"{words[:1].upper()}{words[1:]}; it moves most {towards}under {found['motion']}."
-    return f"Most harm: {towards}{found['motion']}."
+        return f"{words[:1].upper()}{words[1:]}; it moves most {towards}under {found['motion']}.{compass.may_collapse}"
+    surely = "surely collapses" if compass.undecided and found["collapsed"] else ""
+    return f"Most harm: {towards}{found['motion']}{', which ' * bool(surely)}{surely}.{compass.may_collapse}"
 
 
-def compass_of_shares(rows: Sequence[Mapping[str, Any]]) -> Compass:
-    """Share of the runs from each direction that collapse, with its interval over records, of which each counts once."""
+def compass_of_shares(rows: Sequence[Mapping[str, Any]], cure: str = "") -> Compass:
+    """Share of the runs from each direction that collapse, with its interval over records, of which each counts once.
+
+    A direction whose runs are all undecided has no share; it competes for the worst one by what its runs do, as any other.
+    """
     named = [(bearing(row), v.verdict(row), str(row["record"])) for row in rows]
     bearings = sorted({one for one, *_ in named if one is not None})
     values = []
@@ -145,19 +160,24 @@ def compass_of_shares(rows: Sequence[Mapping[str, Any]]) -> Compass:
         decided = found.exceeded + found.not_exceeded
         values.append((found.low if decided else math.nan, *found.interval))
     share, low, high = np.array(values).reshape(-1, 3).T
+    by_bearing = {at: [row for row in rows if bearing(row) == at] for at in bearings}
     order = {
-        at: (value, max(harm(row) for row in rows if bearing(row) == at))
+        at: (0.0 if math.isnan(value) else value, max(harm(row) for row in by_bearing[at]))
         for at, value in zip(bearings, share)
-        if not math.isnan(value)
+        if any(v.verdict(row) != v.FAILED for row in by_bearing[at])
     }
-    sure = all(verdict != v.UNDECIDED for _, verdict, _ in named)
+    undecided = tuple(at for at in bearings if any(map(may_collapse, by_bearing[at])))
     name = "share of the runs that collapse [-]"
-    return Compass(
-        np.array(bearings), share, name, low, high, max(order, key=lambda at: order[at], default=None), sure=sure
-    )
+    most = max(order, key=lambda at: order[at], default=None)
+    return Compass(np.array(bearings), share, name, low, high, most, undecided=undecided, cure=cure)
 
 
-def compass_of_chances(rows: Sequence[Mapping[str, Any]]) -> Compass:
+def may_collapse(row: Mapping[str, Any]) -> bool:
+    """Whether a run, or one of a column like it, is undecided."""
+    return v.verdict(row) == v.UNDECIDED or bool((row.get("certainty") or {}).get(v.UNDECIDED))
+
+
+def compass_of_chances(rows: Sequence[Mapping[str, Any]], cure: str = "") -> Compass:
     """Probability of collapse from each direction, of several records the largest; without twins, the peak displacement."""
     sound = [row for row in rows if bearing(row) is not None and v.verdict(row) != v.FAILED]
     name = peak_of(sound[0]) if sound else "peak_top_displacement_m"
@@ -174,6 +194,6 @@ def compass_of_chances(rows: Sequence[Mapping[str, Any]]) -> Compass:
     columns = np.array([found[at] for at in sorted(found)]).reshape(-1, len(names)).T
     low, high = (columns[1], columns[2]) if len(names) == 3 else (None, None)
     first = worst(sound)
-    sure = not any((row.get("certainty") or {}).get(v.UNDECIDED) or v.verdict(row) == v.UNDECIDED for row in sound)
+    undecided = tuple(sorted({float(bearing(row) or 0.0) for row in sound if may_collapse(row)}))
     most = None if first is None else bearing(first)
-    return Compass(np.array(sorted(found)), columns[0], label, low, high, most, "collapse", sure)
+    return Compass(np.array(sorted(found)), columns[0], label, low, high, most, "collapse", undecided, cure)

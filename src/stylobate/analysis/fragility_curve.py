@@ -24,6 +24,9 @@ FAR = 1000.0
 #: Dispersions on either side of the median within which a curve is drawn, and its points.
 WIDE, DRAWN = 3.5, 80
 
+#: Fewest runs on either side of a limit state with which the median of a curve is compared with others.
+FEWEST_EACH = 5
+
 #: Share of its records that runs come to as equal ones below which it is said that a few hold most of the runs [-].
 UNEQUAL = 0.7
 
@@ -154,6 +157,23 @@ class Fragility(Shown):
         )
 
     @property
+    def unsupported(self) -> str:
+        """What the runs lack for their median to be compared with that of others; empty where they lack nothing."""
+        e = self.evidence
+        how = "collapse" if e.state == "collapse" else f"exceed {e.state}"
+        for code, verb, more in ((EXCEEDED, how, "larger"), (NOT_EXCEEDED, f"do not {how}", "smaller")):
+            if (count := e.count(code)) < FEWEST_EACH:
+                return (
+                    f"{count} of {len(e.im)} runs of “{e.name}” {verb}, and a median needs at least {FEWEST_EACH} of them; "
+                    f"give {more} intensities"
+                )
+        if not self.outside:
+            return ""
+        (low, high), unit = self.levels, "" if e.unit == "-" else f" {e.unit}"
+        where, more = (f"above {high:.3g}", "larger") if self.median > high else (f"below {low:.3g}", "smaller")
+        return f"the median of “{e.name}” lies {where}{unit}, where nothing was run; give {more} intensities"
+
+    @property
     def few_laws(self) -> str:
         """Caveat on twins of too few laws of the joints; empty where there are enough, or one is taken as known."""
         return few_laws(self.laws)
@@ -197,12 +217,14 @@ class Fragility(Shown):
 
     @property
     def span(self) -> tuple[float, float]:
-        """Intensities between which it is drawn: where it rises, as far as there are runs."""
-        im = self.evidence.im
-        wide = WIDE * (self.beta if self.bracket is None else min(self.beta_interval[1], 1.0))
-        low = max(im.min(), self.median * math.exp(-wide))
-        high = min(im.max(), max(self.median * math.exp(wide), self.points.im.max()))
-        return float(low) / 1.1, 1.2 * float(high)
+        """Intensities between which it is drawn: where it rises, and never beyond the runs."""
+        (least, most), wide = (
+            self.levels,
+            WIDE * (self.beta if self.bracket is None else min(self.beta_interval[1], 1.0)),
+        )
+        if self.outside:
+            return least, most
+        return max(least, self.median * math.exp(-wide)), min(most, self.median * math.exp(wide))
 
     def drawn(self) -> dict[str, list[float]]:
         """The curve and its band over :attr:`span`, as a table."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -24,19 +25,36 @@ from .limit_with_links import SpaceProgramme
 #: Directions that are looked at where nobody says which [degrees], and halvings of the multiplier.
 ALL_ROUND, HALVINGS = tuple(float(one) for one in range(0, 360, 15)), 60
 
-#: Multipliers that differ by less than this share are the same where only the least of them is asked for [-].
-CLOSE = 1e-6
+#: Most directions of one analysis.
+MOST_DIRECTIONS = 360
+
+#: Multipliers that differ by less than this share are the same where the least of them is looked for [-].
+CLOSE = 1e-5
 
 #: A column that bears more than this is not held by its joints alone [g].
 LARGEST = 1e3
 
+#: The limit in a direction [degrees], and whether the most that links hold is looked for.
+Solve = Callable[[float, bool], DirectionLimit]
+
 
 @dataclass(frozen=True, eq=False)
 class LimitByDirection(Shown):
-    """Result of :func:`limit_directions`: one limit for each direction."""
+    """Result of :func:`limit_directions`: one limit for each direction.
+
+    Parameters
+    ----------
+    limits : tuple of DirectionLimit
+        Of the directions given, then of those in which the weakest was looked for between them.
+    dims : str
+        ``xz`` or ``xyz``.
+    all_round : bool
+        Whether the weakest one is that of all directions, and not only of those given.
+    """
 
     limits: tuple[DirectionLimit, ...]
     dims: str
+    all_round: bool = False
 
     @property
     def azimuths(self) -> np.ndarray:
@@ -65,6 +83,7 @@ class LimitByDirection(Shown):
         return {
             "collapse_multiplier_g": weak.multiplier,
             "weakest_azimuth_deg": weak.azimuth,
+            "all_round": self.all_round,
             "active_joints": [{"joint": weak.joint, "mode": weak.mode, "rate": None}],
             "dims": self.dims,
             "directions": directions,
@@ -77,21 +96,26 @@ def limit_directions(
 ) -> LimitByDirection:
     """Collapse multiplier of a column or of an assembly in space in several directions.
 
+    Where the directions go all round, without a gap of 180 degrees or more, the weakest of all is looked for between them:
+    the pushes that are borne make a convex figure, so that nothing less is borne between two directions than the chord
+    between what is borne in them. The direction in which a chord is nearest is looked at next, until none is nearer than the
+    least multiplier by more than 1e-5 of it, or as many directions again have been.
+
     Parameters
     ----------
     structure : Column, Assembly or SpatialAssembly
     azimuths : sequence of float, optional
-        Where the forces push to, from x towards y [degrees]. By default both directions of the plane for an assembly of the
-        plane and a column found in it, and every 15 degrees for any other.
+        Where the forces push to, from x towards y [degrees]; up to 360 of them. By default both directions of the plane for
+        an assembly of the plane and a column found in it, and every 15 degrees for any other.
     progress : callable, optional
-        Hears how many directions are done, of how many; what links hold at most in the weakest is one more.
+        Hears how many directions are done, of how many at most; what links hold at most in the weakest is one more.
     **loads
         Of :func:`stylobate.limit_analysis`, for the directions of the plane.
 
     Raises
     ------
     InputError
-        A direction that is not finite, or none; a column on rings; an assembly that does not stand, or
+        A direction that is not finite, none, or too many; a column on rings; an assembly that does not stand, or
         of the plane and has links or round drums.
     """
     column = check_kind("structure", structure, Structure).stack
@@ -103,25 +127,16 @@ def limit_directions(
     asked = ALL_ROUND if azimuths is None else tuple(float(azimuth) for azimuth in azimuths)
     if not asked or not np.isfinite(asked).all():
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
-    if column is None:
-        return _with_largest(AssemblyProgramme(stands).solve, asked, progress)
-    if not column.links:
-        return LimitByDirection(tuple(limit_in_space(column, one) for one in asked), "xyz")
-    column.must_carry_on_whole_faces("limit analysis in space")
-    programme = SpaceProgramme(column)  # what it learns in one direction serves the next
-    return _with_largest(lambda one, largest: DirectionLimit(one, *programme.solve(one, largest)), asked, progress)
-
-
-def _with_largest(
-    solve: Callable[[float, bool], DirectionLimit], asked: Sequence[float], progress: Progress | None
-) -> LimitByDirection:
-    """All directions; in the weakest one also the most that links hold."""
-    limits = []
-    for one in asked:
-        limits.append(solve(one, False))
-        if progress is not None:
-            progress(len(limits), len(asked) + 1)
-    found = LimitByDirection(tuple(limits), "xyz")
+    if len(asked) > MOST_DIRECTIONS:
+        raise InputError(
+            f"there are {len(asked)} directions; allowed are 1 to {MOST_DIRECTIONS}: 0:345:24 is enough, because the "
+            "weakest direction between them is looked for.",
+            "directions",
+            value=len(asked),
+            allowed=f"1 to {MOST_DIRECTIONS}",
+        )
+    solve: Solve = AssemblyProgramme(stands).solve if column is None else _of_column(column)
+    found = _all_limits(solve, asked, progress)
     weakest = found.weakest
     if not weakest.links:
         return found
@@ -133,28 +148,70 @@ def _with_largest(
         weakest.azimuth,
     )
     told = solve(weakest.azimuth, True)
-    return LimitByDirection(tuple(told if one is weakest else one for one in found.limits), "xyz")
+    limits = tuple(told if one is weakest else one for one in found.limits)
+    return LimitByDirection(limits, found.dims, found.all_round)
+
+
+def _of_column(column: Column) -> Solve:
+    """Limit of a column by the direction, and whether the most that links hold is looked for."""
+    if not column.links:
+        return lambda one, _: limit_in_space(column, one)
+    column.must_carry_on_whole_faces("limit analysis in space")
+    programme = SpaceProgramme(column)
+    return lambda one, largest: DirectionLimit(one, *programme.solve(one, largest))
+
+
+def _all_limits(solve: Solve, asked: Sequence[float], progress: Progress | None = None) -> LimitByDirection:
+    """Limits of all directions, and of those in which the weakest of all is looked for where they go all round."""
+    turns = np.sort(np.mod(asked, 360.0))
+    around = bool((np.diff(turns, append=turns[0] + 360.0) < 180.0).all())
+    limits: list[DirectionLimit] = []
+    most = len(asked) * (1 + around)
+
+    def look(azimuth: float) -> None:
+        limits.append(solve(azimuth, False))
+        if progress is not None:
+            progress(len(limits), most + 1)
+
+    for one in asked:
+        look(one)
+    while len(limits) < most and (weaker := _may_be_weaker(limits)) is not None:
+        look(weaker)
+    return LimitByDirection(tuple(limits), "xyz", around)
+
+
+def _may_be_weaker(limits: Sequence[DirectionLimit]) -> float | None:
+    """Direction in which a chord between neighbours is nearest [degrees]; None where none is nearer than the least."""
+    order = sorted(limits, key=lambda limit: limit.azimuth % 360.0)
+    nearest, where = min(limit.multiplier for limit in limits) * (1.0 - CLOSE), None
+    for one, other in zip(order, [*order[1:], order[0]], strict=True):
+        start, end = (
+            limit.multiplier * np.array((math.cos(limit.azimuth * DEGREE), math.sin(limit.azimuth * DEGREE)))
+            for limit in (one, other)
+        )
+        chord = end - start
+        along = -float(start @ chord)
+        if 0.0 < along < float(chord @ chord):
+            x, y = (start + along / float(chord @ chord) * chord).tolist()
+            if math.hypot(x, y) < nearest:
+                nearest, where = math.hypot(x, y), round(math.atan2(y, x) / DEGREE % 360.0, 2) % 360.0
+    return where
 
 
 def weakest_direction(column: Column) -> DirectionLimit:
     """What :func:`limit_directions` finds weakest, without the most that each link holds.
 
-    Without links a column bears no more than with them, and what it bears then costs next to nothing: directions in which
-    it bears more than the least that is known with links are not computed with them.
+    Without links a column bears no more than with them, and what it bears then costs next to nothing: where it bears no
+    more with them in the direction that is weakest without, no other direction is weaker.
     """
-    if not column.links:
-        return limit_directions(column).weakest
     bare = limit_directions(column.replace(links=()))
-    if bare.dims == "xz":
+    if not column.links or bare.dims == "xz":
         return limit_directions(column).weakest
-    column.must_carry_on_whole_faces("limit analysis in space")
-    programme = SpaceProgramme(column)
-    found: list[DirectionLimit] = []
-    for one in sorted(bare.limits, key=lambda limit: limit.multiplier):
-        if found and one.multiplier * (1.0 + CLOSE) >= min(limit.multiplier for limit in found):
-            break
-        found.append(DirectionLimit(one.azimuth, *programme.solve(one.azimuth)))
-    return LimitByDirection(tuple(sorted(found, key=lambda limit: limit.azimuth)), "xyz").weakest
+    solve = _of_column(column)
+    weak = solve(bare.weakest.azimuth, False)
+    if weak.multiplier <= bare.weakest.multiplier * (1.0 + CLOSE):
+        return weak
+    return _all_limits(solve, ALL_ROUND).weakest
 
 
 def _in_plane(column: Column, direction: float, loads: dict[str, Any]) -> DirectionLimit:

@@ -29,7 +29,7 @@ class SpaceLimit(NamedTuple):
 
 
 class SpaceProgramme:
-    """The programme of a column: what has been added for one direction stays for the next.
+    """The programmes of a column: a new one for each direction, which stays small.
 
     Parameters
     ----------
@@ -44,11 +44,8 @@ class SpaceProgramme:
     def __init__(self, column: Column) -> None:
         self.column, self.at = column, space_geometry(column)
         bare = column.replace(links=())
-        rims = [self._rim(bare, j) for j in range(column.n)]
-        links = [self._holder(one) for one in holds(column.placed_links) if one.strength]
-        length = float(column.joint_heights[-1] + column.heights[-1])
-        self.programme = ContactProgramme(column.masses, self.at.centroid, column.gravity, rims, links, length)
-        self.dead = self.programme.body_force(-upward(column))
+        self.rims = [self._rim(bare, j) for j in range(column.n)]
+        self.links = [self._holder(one) for one in holds(column.placed_links) if one.strength]
 
     def _rim(self, bare: Column, joint: int) -> Rim:
         """The rim of a joint, seen from where its load acts without links."""
@@ -80,15 +77,17 @@ class SpaceProgramme:
 
         With ``largest`` also the most that every link holds then, in the column's own axes.
         """
-        angle, programme = azimuth * DEGREE, self.programme
-        push = base_axes(self.column).T @ (math.cos(angle), math.sin(angle), 0.0)
-        live = programme.body_force(push)
+        column, angle = self.column, azimuth * DEGREE
+        length = float(column.joint_heights[-1] + column.heights[-1])
+        programme = ContactProgramme(column.masses, self.at.centroid, column.gravity, self.rims, self.links, length)
+        push = base_axes(column).T @ (math.cos(angle), math.sin(angle), 0.0)
+        dead, live = programme.body_force(-upward(column)), programme.body_force(push)
         programme.begin(push)
-        found = programme.converged(self.dead, live, programme.capacities)
+        found = programme.converged(dead, live, programme.capacities)
         sizes = programme.movements(found.rates)
         joint = int(np.argmax(sizes.max(axis=1) > MOVES * sizes.max()))
         mode = ("rocking", "sliding", "twisting")[int(np.argmax(sizes[joint]))]
-        return SpaceLimit(found.multiplier + 0.0, joint + 1, mode, demand(programme, self.dead, live, found, largest))
+        return SpaceLimit(found.multiplier + 0.0, joint + 1, mode, demand(programme, dead, live, found, largest))
 
 
 def held_along(hold: Hold, frame: np.ndarray) -> np.ndarray:

@@ -22,6 +22,9 @@ SEEN = ("stands", "reached")
 #: Longest time that anything has stood [y].
 OLDEST = 1e6
 
+#: By how much the weights of branches may miss 1, as shares that were rounded do [-].
+ROUNDED = 0.01
+
 
 @dataclass(frozen=True)
 class Capacity:
@@ -171,7 +174,7 @@ class Branch:
     ----------
     name : str
     weight : float
-        Before anything is seen [-]; weights of all branches are made to sum up to 1.
+        Before anything is seen [-]; weights of all branches sum to 1, but for rounding.
     curves : mapping of str to Hazard
         By site.
     sources : tuple of Source
@@ -259,3 +262,12 @@ class Sites:
             if missing:
                 what = "place (`at`)" if branch.sources else "hazard curve"
                 raise InputError(f"branch {branch.name!r} needs a {what} of site {missing[0]!r}; give one.")
+        total = sum(one.weight for one in self.branches)
+        if abs(total - 1.0) > ROUNDED * (1.0 + 1e-9):  # three times 0.33 is 0.99
+            raise InputError(
+                f"the weights of the branches sum to {total:.4g}; allowed is 1, within {ROUNDED:g}: correct them, or divide "
+                f"each by {total:.4g}.",
+                "weight",
+                value=total,
+                allowed="1",
+            )

@@ -91,7 +91,7 @@ def other_laws(response: Response, motion: Motion, model: Model, campaign: Campa
     if column is None or not at_stake or response.outcome in (Outcome.AT_REST, Outcome.FAILED):
         return None
     others = dict(_companions(column, model))
-    options = run_options(campaign.tail, quiet=response.provenance["quiet_share"])
+    options = run_options(campaign.tail, quiet=response.provenance["quiet_share"], until_decided=True)
     alone = replace(campaign.of_computing, progress=None, ledger=None, tail=campaign.tail)
     rows = batch([Case(one, motion) for one in others.values()], column, model, alone, options)
     own = v.COLLAPSED if response.collapsed else v.STANDS if response.decided else v.UNDECIDED

@@ -61,7 +61,7 @@ def largest_held(
     tells how far it reaches, and the farthest corner of the tangents is the next direction, until what is reached is as
     far but for :data:`MOST_WITHIN`. Infinite, without a direction, where nothing limits it.
     """
-    one, capacity = programme.holders[k], programme.capacities
+    one, capacity, first = programme.holders[k], programme.capacities, len(programme.rows)
     count = one.axes.shape[1]
     ways = [np.ones(1)] if count == 1 else [pointing(0.5 * math.pi * i) for i in range(4)]
     reach: list[tuple[np.ndarray, float]] = []
@@ -69,7 +69,9 @@ def largest_held(
     try:
         while ways and len(reach) < DIRECTIONS:
             way = ways.pop()
-            force = programme.held_by(programme.converged(dead, live, capacity, aim=Aim(k, way, multiplier)).forces, k)
+            found = programme.converged(dead, live, capacity, aim=Aim(k, way, multiplier))
+            force = programme.held_by(found.forces, k)
+            programme.forget(first, found.forces)
             best = force if np.linalg.norm(force) > np.linalg.norm(best) else best
             reach.append((way, float(way @ force)))
             size = float(np.linalg.norm(best))

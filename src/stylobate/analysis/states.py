@@ -259,6 +259,7 @@ def with_undecided(
             for against, for_it in ((EXCEEDED, NOT_EXCEEDED), (NOT_EXCEEDED, EXCEEDED))
         )
     no_ratio = math.isnan(known.ratio)
+    lacking = (one.unsupported for one in (first_curve, other_curve) if one is not None)
     return dataclasses.replace(
         known,
         share_low=best.share_low,
@@ -275,6 +276,7 @@ def with_undecided(
         limit_state=first.state,
         im="" if first.measure in ("im", "factor") else first.measure,
         confidence=confidence,
+        lacking=next(filter(None, lacking), ""),
     )
 
 
@@ -314,7 +316,7 @@ def _difference(
         paired, (levels, _) = runs > 0, levels_of(first.records[known], first.im[known])
         low, high = share_limits(sums[paired], runs[paired], levels, np.clip(drawn, -1.0, 1.0), confidence)
     ratio = (math.nan, math.nan, math.nan)
-    if first_curve is not None and other_curve is not None:
+    if first_curve is not None and other_curve is not None and not (first_curve.unsupported or other_curve.unsupported):
         ratio = _ratio((first, other), (first_curve, other_curve), samples, seed)
     return Difference(
         other.name, first.name, int(known.sum()), int((was & ~now).sum()), int((now & ~was).sum()), share, low,

@@ -20,7 +20,8 @@ def limit(
     column: o.StructureName,
     flow: str = o.option("RULE", "Friction in the mechanism: non-associated or associated.", "non-associated"),
     directions: str | None = o.option(
-        "A:A:N", "In space: where the forces push to, such as 0:345:24, from x towards y."
+        "A:A:N",
+        "In space: where the forces push to, such as 0:345:24, from x towards y; all round, the weakest between them, too.",
     ),
     *,
     pushing: Loads,
@@ -79,6 +80,9 @@ def limit(
     if all_round is not None:
         weak = all_round.weakest
         sentence += f", pushed towards {weak.azimuth:g} degrees"
+        given = len(all_round.limits)
+        if not plane and not all_round.all_round and given > 1:
+            sentence += f", the weakest of the {given} directions given"
         where = f" (between {weak.between[0]} and {weak.between[1]})" if weak.between else ""
         facts["weakest direction"] = f"{weak.azimuth:g} degrees from x towards y: joint {weak.joint}{where} {weak.mode}"
         if weak.moving:

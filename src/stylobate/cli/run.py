@@ -85,26 +85,27 @@ def run(
         summaries = [conclude(follow, stone, found.motions[0], how, out, execution.as_json, drawn)]
     several: dict[str, Any] = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
     if len(asked.azimuths) > 1 or asked.signs == "both":
-        several["sentence"] = directions(summaries, stone.name, how.name, out)
+        several["sentence"] = directions(summaries, stone, how, out, campaign.tail)
         if not execution.as_json and several["sentence"]:
             print(several["sentence"])
     if not execution.emits(several if asked.several else summaries[0]):
         console.print_refused(found.refused)
 
 
-def directions(summaries: Sequence[dict], name: str, model: str, out: Path | None) -> str:
+def directions(summaries: Sequence[dict], stone: Structure, model: Model, out: Path | None, tail: float) -> str:
     """Which direction does most harm: in words, empty where all failed; and where a folder is given on a compass."""
     from ..analysis.directions import compass_of_chances, harm_words, worst
+    from ..response.words import to_decide
     from . import console
 
-    chances = compass_of_chances(summaries)
+    chances = compass_of_chances(summaries, to_decide(stone, model.parameters(), tail))
     found = worst(summaries, chances)
     if out is not None and len(chances.bearings) > 1:
         from .. import plots
 
         with console.folder(out, "directions") as folder:
             assert folder is not None
-            plots.save(plots.draw_directions(chances, f"{name}, {model}"), folder / "directions")
+            plots.save(plots.draw_directions(chances, f"{stone.name}, {model.name}"), folder / "directions")
     return "" if found is None else harm_words(found, chances)
 
 
@@ -118,7 +119,8 @@ def run_one(
 
     options["quiet"] = share_of([motion], campaign.whole)
     if not campaign.replicates:
-        return simulate(stone, motion, model, tail=campaign.tail, progress=progress, **options), None
+        follow: dict[str, Any] = {"tail": campaign.tail, "until_decided": True, "progress": progress}
+        return simulate(stone, motion, model, **follow, **options), None
     made = dataclasses.replace(campaign, whole=False, progress=progress)
     kept = None if campaign.ledger is None else Path(campaign.ledger).with_name("response.nc")
     found = certainty(stone.stack or stone, motion, model, kept=kept, campaign=made, **options)
@@ -149,7 +151,7 @@ def each_record(
         places.append(None if out is None else out / safe_name(motion.name, places))
     campaign = follow.keywords["campaign"]
     following = {name: one for name, one in follow.keywords.items() if name not in ("model", "campaign")}
-    options = run_options(campaign.tail, **following)
+    options = run_options(campaign.tail, until_decided=True, **following)
     hasher = Hasher(model, options)
     made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **following}
     each = [
@@ -222,7 +224,11 @@ def conclude(
         if population is not None and not population.drawn.groups and not _followed(follow):
             laws = other_laws(response, motion, model, campaign)
         if laws is not None:
-            summary |= {"other_laws": laws.verdicts, "law_changes_verdict": laws.changes}
+            summary |= {
+                "other_laws": laws.verdicts,
+                "under_other_laws": laws.words,
+                "law_changes_verdict": laws.changes,
+            }
             summary |= {"doubt": laws.sentence} if laws.changes else {}
         if files.folder is not None:
             files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
@@ -255,6 +261,7 @@ def write_population(
         return
     options: dict[str, Any] = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
     options["quiet"] = response.provenance["quiet_share"]
+    options["until_decided"] = response.provenance.get("until_decided", False)
     options["until_rest"] = response.provenance.get("until_rest", False) and not model.carried(response.structure)
     middle = simulate(population.drawn.columns[population.median], motion, model.paced(response.structure), **options)
     files.picture(plots.draw_filmstrip(middle), "median")

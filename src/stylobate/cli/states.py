@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -143,6 +144,9 @@ def states(
             found = compare_states(
                 columns, suite.motions, how, sizes, measure, state=state, out=files.folder, campaign=asked
             )
+        if not execution.as_json:
+            describe(found)  # first: for design values the runs that govern are computed once more
+            sys.stdout.flush()
         designed = design_values(found, level=level)
         summary = found.summary() | {
             "design_values": designed.to_dict("records"),
@@ -166,7 +170,6 @@ def states(
             files.summary(summary, "states.json")
     if execution.emits(summary):
         return
-    describe(found)
     describe_design(designed)
     if best is not None:
         console.print_table(best.table.dropna(axis=1, how="all"), digits=3)

@@ -54,6 +54,7 @@ def suite(
     from ..analysis.suite import check_measure, suite_shares, suite_table
     from ..errors import InputError
     from ..models.shared.quiet import share_of
+    from ..response.words import to_decide
     from . import console
 
     campaign = execution.campaign(following, population)
@@ -85,8 +86,10 @@ def suite(
         designed = pandas.DataFrame(table.attrs["design_values"])
         if twins := table.attrs["twins"]:
             result |= {"replicates": campaign.replicates, "twins": twins}
-        compass = compass_of_shares(result["runs"])
+        compass = compass_of_shares(result["runs"], to_decide(stones[0], how.parameters(), campaign.tail))
         result["worst"] = worst(result["runs"], compass if swept else None)
+        if swept and result["worst"] is not None:
+            result |= {"sentence": harm_words(result["worst"], compass), "undecided_directions_deg": compass.undecided}
         found = suite_shares(result["runs"])
         result["shares"] = [{"column": one.label, **one.counts} for one in found]
         if files.wanted:
@@ -113,8 +116,8 @@ def suite(
     describe_design(designed)
     for name, drawn in twins.items():
         print(f"{drawn['like']} like {name}: {drawn['words']}")
-    if swept and result["worst"] is not None:
-        print(harm_words(result["worst"], compass))
+    if "sentence" in result:
+        print(result["sentence"])
     console.print_left_out(result["inputs"])
     if "stepped_s" in table:
         share: Any = table["stepped_s"].sum() / table["duration_s"].sum()

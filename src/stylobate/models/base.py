@@ -57,9 +57,6 @@ class Cases(Sequence[Any]):
 #: Share of the closing speed that bodies which no joint holds give back, where the model says nothing else [-].
 RESTITUTION = 0.3
 
-#: Time after motion and tail at which a run that waits, for rest or for its verdict, is given up [s].
-LONGEST_WAIT = 60.0
-
 
 @dataclass(frozen=True)
 class RunOptions:
@@ -76,8 +73,8 @@ class RunOptions:
     until_rest : bool
         Go on after the motion until everything lies still (models that follow a collapse to the ground).
     until_decided : bool
-        Go on after motion and tail, a minute at most, as long as nothing has fallen and not all lies still (assemblies; the
-        verdicts of columns rest on barriers).
+        Go on after motion and tail, a minute at most: columns of models that step drums as long as they move and their
+        verdict could change, assemblies as long as nothing has fallen and not all lies still.
     start : Start or Toss, optional
         Pose and velocity at the start, instead of rest (models with ``takes_start``).
     quiet : float

@@ -12,6 +12,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..analysis.fragility_curve import Fragility
 from ..analysis.lognormal import curve
+from ..analysis.side_by_side import median_words
 from ..motion.intensity_specs import parse_measure
 from .style import BLACK, BLUE, GREY, RED, legend_below, panel, styled
 
@@ -33,7 +34,7 @@ _LOOKS: tuple[dict[str, Any], ...] = (
 def draw_fragility(
     curves: Fragility | Sequence[Fragility], title: str | None = None, *, ax: Axes | None = None
 ) -> Figure:
-    """Probability of a state over the intensity.
+    """Probability of a state over the intensity, each curve between the intensities that were run.
 
     Parameters
     ----------
@@ -46,10 +47,10 @@ def draw_fragility(
     """
     found = [curves] if isinstance(curves, Fragility) else list(curves)
     figure, axes = panel(ax, NARROW)
-    x = np.geomspace(min(one.span[0] for one in found), max(one.span[1] for one in found), 300)
+    ends = min(one.span[0] for one in found), max(one.span[1] for one in found)
     fine = {"linewidth": 0.7, "linestyle": (0, (1, 1.5))}
     for one, look in zip(found, _LOOKS * len(found)):
-        colour = look["color"]
+        colour, x = look["color"], np.geomspace(*one.span, 300)
         below, above = one.interval(x)
         axes.fill_between(x, below, above, color=colour, alpha=0.18, linewidth=0.0)
         if one.evidence.count(-1) + one.evidence.count(-2):
@@ -58,7 +59,7 @@ def draw_fragility(
         name = one.evidence.name if len(found) > 1 else "lognormal"
         badly = ", fits badly" if one.p_value < BADLY else ""
         spread = f"β {one.beta:.2f}" if one.bracket is None else "β not seen"
-        label = f"{name}: {one.median:.3g} {one.evidence.unit}, {spread}, {one.records} {one.counted}{badly}"
+        label = f"{name}: {median_words(one.summary())}, {spread}, {one.records} {one.counted}{badly}"
         axes.plot(x, one.probability(x), color=colour, linestyle=look["linestyle"], linewidth=1.6, label=label)
         p = one.points
         bars = np.clip(np.stack((p.share - p.low, p.high - p.share)), 0.0, None)
@@ -68,7 +69,7 @@ def draw_fragility(
         )  # fmt: skip
     if any(one.evidence.count(-1) + one.evidence.count(-2) for one in found):
         axes.plot([], [], color=GREY if len(found) > 1 else RED, label="if all that is undecided did, or none", **fine)
-    axes.set(ylim=(-0.03, 1.03), xlim=(x[0], x[-1]))
+    axes.set(ylim=(-0.03, 1.03), xlim=(ends[0] / 1.1, 1.1 * ends[1]))
     logarithmic(axes)
     measure, state = found[0].evidence.measure, found[0].evidence.state
     axes.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)

@@ -105,10 +105,10 @@ def _draw_difference(axes: Axes, difference: Difference, place: float) -> None:
 
 def _draw_curves(axes: Axes, known: list[Fragility], state: str) -> None:
     values = np.concatenate([one.evidence.im for one in known])
-    x = np.geomspace(values.min() / 1.1, values.max() * 1.1, 300)
-    low, high = known[0].interval(x)
-    axes.fill_between(x, low, high, color=GREY, alpha=0.18, linewidth=0.0)
     for k, one in enumerate(known):
+        x = np.geomspace(*one.levels, 300)
+        if k == 0:
+            axes.fill_between(x, *one.interval(x), color=GREY, alpha=0.18, linewidth=0.0)
         marker, look = _MARKERS[k // len(CYCLE) % len(_MARKERS)], CYCLE[k % len(CYCLE)]
         summary = one.summary()
         name = median_name(summary).replace(" (", "\n(")
@@ -121,7 +121,7 @@ def _draw_curves(axes: Axes, known: list[Fragility], state: str) -> None:
         axes.fill_between(x, ends[0], ends[1], color=look["color"], alpha=0.1, linewidth=0.0)
         for end, name in zip(ends, (label, None)):
             axes.plot(x, end, **common, linewidth=0.9, label=name)
-    axes.set(ylim=(-0.03, 1.03), xlim=(x[0], x[-1]), ylabel=f"probability of {state}")
+    axes.set(ylim=(-0.03, 1.03), xlim=(values.min() / 1.1, values.max() * 1.1), ylabel=f"probability of {state}")
     logarithmic(axes)
     measure = known[0].evidence.measure
     axes.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)

@@ -114,6 +114,8 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
         )
     if alone := known.get("interval_of_columns"):
         pairs.append((f"the same if the law of its joints were known; {known['laws']} laws", percents(*alone)))
+    if laws := summary.get("under_other_laws"):
+        pairs.append(("under other laws", str(laws)))
     for key, words in (
         ("peak_top_displacement_m", f"peak displacement of the top, {PERCENTILES}"),
         ("residual_top_displacement_m", f"residual displacement of the top, {PERCENTILES}"),

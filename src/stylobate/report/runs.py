@@ -137,7 +137,8 @@ def _scope(run: RunResult) -> str:
 def _doubts(run: RunResult) -> list[str]:
     r, doubts = run.response, []
     if not r.decided and r.outcome is not Outcome.FAILED:
-        cure = to_decide(r.structure, r.provenance.get("parameters", {}), float(r.provenance.get("tail_s", 0.0)))
+        known, waited = r.provenance, bool(r.provenance.get("until_decided"))
+        cure = to_decide(r.structure, known.get("parameters", {}), float(known.get("tail_s", 0.0)), waited)
         doubts.append(f"the run ended before the verdict was certain; {cure}: do not rely on it before.")
     if abs(r.energy_imbalance) > IMBALANCE:
         doubts.append(

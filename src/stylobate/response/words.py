@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..constants import g
+from ..constants import LONGEST_WAIT, g
 from ..outcome import Outcome
 from .block_words import sentence_of_blocks
 from .links import sentence_of as sentence_of_links
@@ -170,7 +170,7 @@ def longer_tail(given: float) -> str:
 SHORTEST_TAIL = 5.0
 
 
-def to_decide(structure: Structure, parameters: Mapping[str, Any], given: float) -> str:
+def to_decide(structure: Structure, parameters: Mapping[str, Any], tail: float, waited: bool = True) -> str:
     """What decides a run that ended before its verdict was certain, in a clause.
 
     Parameters
@@ -178,8 +178,10 @@ def to_decide(structure: Structure, parameters: Mapping[str, Any], given: float)
     structure : Structure
     parameters : mapping
         Of the model.
-    given : float
-        How long it went on after the motion [s].
+    tail : float
+        That was given [s].
+    waited : bool
+        Whether it went on after it for its verdict, as runs of campaigns do (``until_decided``).
     """
     if structure.stack is None and structure.slenderness is None:
         return "follow it with `until_rest`, or damp it (stiffness_damping)"
@@ -187,7 +189,8 @@ def to_decide(structure: Structure, parameters: Mapping[str, Any], given: float)
     moved = any(drum.offset or drum.tilt or drum.chipped for drum in structure.as_found.drums)
     if free and moved and structure.section == "circular":
         return "no tail decides it, as drums that pivot freely turn with their offsets, slopes and chips at no cost"
-    return f"go on with {longer_tail(given)}"
+    steps = "stiffness_damping" in parameters  # only what steps drums waits
+    return f"go on with {longer_tail(tail + LONGEST_WAIT * (waited and steps))}"
 
 
 def _undecided(response: Recorded) -> str:
@@ -196,7 +199,8 @@ def _undecided(response: Recorded) -> str:
     Of a column whose links pulled from the start, what they and the joints that they press hold counts against it.
     """
     known = response.provenance
-    cure = to_decide(response.structure, known.get("parameters", {}), float(known.get("tail_s", 0.0)))
+    waited = bool(known.get("until_decided"))
+    cure = to_decide(response.structure, known.get("parameters", {}), float(known.get("tail_s", 0.0)), waited)
     if response.structure.pretensioned:
         return (
             f"The verdict may still change: at the end it is not at rest ({cure}), or it is, and what its pretension "

@@ -159,7 +159,8 @@ function verdict(r, words) {
     const piece = el("i", { class: name }); piece.style.width = `${100 * count / total}%`; return piece;
   }));
   return [el("p", { class: `verdict ${look}` }, words || r.outcome.replace("_", " "), sure && el("small", {}, sure.sentence)), bar, beside && el("p", { class: "warning" }, beside),
-    r.doubt && el("p", { class: "warning" }, r.doubt)];
+    r.doubt && el("p", { class: "warning" }, r.doubt),
+    r.under_other_laws && el("p", {}, `Under other laws: ${r.under_other_laws}.`)];
 }
 
 function measures(r) {

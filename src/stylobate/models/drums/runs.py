@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
+from ...constants import LONGEST_WAIT
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
 from ...outcome import Outcome, classify
@@ -28,6 +29,9 @@ from .started import Started
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
+
+#: Time after which a run that waits for its verdict is looked at again [s].
+WAIT = 0.5
 
 
 class LaneRuns(LaneEngine):
@@ -184,7 +188,23 @@ class LaneRuns(LaneEngine):
                 feed["step"][lane], feed["end"][lane] = first, end
                 watch["status"][lane] = RUNNING
                 self.lane["dt"][0, lane] = self.dt[lane]
+        if watch["status"][lane] not in others and self._waits(lane):
+            self._forget(lane)
+            feed["end"][lane] = feed["step"][lane] + self.chunk * math.ceil(WAIT / (self.chunk * self.dt[lane]))
+            watch["status"][lane] = RUNNING
+            self.lane["dt"][0, lane] = self.dt[lane]
         return watch["status"][lane] != RUNNING
+
+    def _waits(self, lane: int) -> bool:
+        """Whether a run goes on after motion and tail, because it moves and its verdict could still change."""
+        longest = self.steps[lane] + LONGEST_WAIT / self.dt[lane]
+        if not self.options.until_decided or self.feed["step"][0, lane] >= longest or self.at_rest(lane):
+            return False
+        try:
+            self._measure(lane)
+        except NOT_COMPUTED:  # of which its collection says so
+            return False
+        return not self.ended[lane].decided and self.ended[lane].outcome is not Outcome.FAILED
 
     def _forget(self, lane: int) -> None:
         """Of a lane that goes on, or begins anew."""
@@ -279,16 +299,21 @@ class LaneRuns(LaneEngine):
         return np.where(watch["when"][lanes] >= 0, watch["k" + name][lanes], watch[name][lanes])
 
     def collect(self, lane: int) -> Measures:
-        """Measures of a lane whose run is over; those of all that are over are made together, which takes less for each."""
-        if lane not in self.ended:
-            lanes = [one for one in self._stopped() if one not in self.ended]
-            lanes += [lane] * (lane not in lanes)
-            try:
-                self.ended.update(zip(lanes, self.measures(lanes, self.left(lanes)), strict=True))
-            except NOT_COMPUTED:  # of one of them, whose own turn it is to say so
-                (self.ended[lane],) = self.measures([lane], self.left([lane]))
+        """Measures of a lane whose run is over."""
+        self._measure(lane)
         self.watch["status"][0, lane] = FREE
         return self.ended.pop(lane)
+
+    def _measure(self, lane: int) -> None:
+        """Make the measures of a lane that has stopped; those of all are made together, which takes less for each."""
+        if lane in self.ended:
+            return
+        lanes = [one for one in self._stopped() if one not in self.ended]
+        lanes += [lane] * (lane not in lanes)
+        try:
+            self.ended.update(zip(lanes, self.measures(lanes, self.left(lanes)), strict=True))
+        except NOT_COMPUTED:  # of one of them, whose own turn it is to say so
+            (self.ended[lane],) = self.measures([lane], self.left([lane]))
 
     def measures(self, lanes: list[int], left: Left, since: np.ndarray | None = None) -> list[Measures]:
         """Measures of lanes whose runs are over.

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 
 from ...column.assembly import Assembly
+from ...constants import LONGEST_WAIT
 from ...errors import InputError, warn
 from ...kernels.plane.records import BETA
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ...response import Measures, Response
 from ...response.assembly_measures import first_touch, have_fallen, lowest_standing, recorded_blocks
-from ..base import LONGEST_WAIT, Case, RunOptions, refuse_endless, refuse_long_histories
+from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
 from ..drums.links import acting, link_histories, link_measures, with_links
 from ..shared import ledger
 from ..shared.ground import ground_histories

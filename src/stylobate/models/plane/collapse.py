@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
+from ...constants import LONGEST_WAIT
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, RUNNING
 from ...motion import Motion
 from ...response import Collapse, Histories, Measures, Response
 from ...response.assembly_measures import first_touch
 from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
-from ..base import LONGEST_WAIT, Case, RunOptions
+from ..base import Case, RunOptions
 from ..drums.histories import histories
 from ..drums.lane_engine import Left
 from .columns import ColumnLanes, residuals_in

@@ -11,12 +11,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...column.structure import Structure
+from ...constants import LONGEST_WAIT
 from ...errors import OutOfRangeWarning
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ...response import LinkHistories, Response
 from ...response.space_measures import fallen, recorded_in_space
-from ..base import LONGEST_WAIT, RESTITUTION, RunOptions, refuse_endless, refuse_long_histories
+from ..base import RESTITUTION, RunOptions, refuse_endless, refuse_long_histories
 from ..drums.links import acting, link_histories, link_measures, link_snapshot
 from ..shared import ledger
 from ..shared.ground import BEFORE, ground_histories, value_at
