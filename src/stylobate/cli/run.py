@@ -113,10 +113,9 @@ def run_one(
 ) -> tuple[Response, Population | None]:
     """One run, and what became of columns like it."""
     from ..analysis.certainty import certainty
-    from ..models.shared.quiet import share_of
     from ..simulate import simulate
 
-    options["quiet"] = share_of([motion], campaign.whole)
+    options["quiet"] = campaign.quiet
     if not campaign.replicates:
         return simulate(stone, motion, model, tail=campaign.tail, progress=progress, **options), None
     made = dataclasses.replace(campaign, whole=False, progress=progress)
