@@ -159,6 +159,18 @@ def test_the_velocity_tells_more_than_the_acceleration_of_pulses(found):
     assert math.isnan(table.loc["pga", "p_magnitude"])  # of one record it is known
 
 
+def test_runs_that_stand_at_one_level_show_no_dispersion_over_it(found):
+    """A straight line through one intensity has no slope; of 1 g the logarithm is nothing, on which the fit broke down."""
+    for level in (1.0, 2.0):
+        runs, stand = found.runs.copy(), found.runs["verdict"] == v.STANDS
+        lowest = runs.loc[stand, "pga_g"].min()
+        runs.loc[stand, "pga_g"] = lowest
+        runs["pga_g"] *= level / lowest
+        table = which_tells_most(runs).set_index("measure")
+        assert math.isnan(table.loc["pga", "sigma_ln_edp"])
+        assert table.loc["pgv", "sigma_ln_edp"] > 0.0
+
+
 def test_an_ida_is_evidence_in_any_of_its_measures(found):
     told = evidence(found.runs, "pgv")
     assert told.brackets

@@ -160,6 +160,7 @@ def each_record(
 
     cases = [Case(stone, motion) for motion in motions]
     request = Request(cases, Digests.of(each), [(np.arange(len(cases)), model, options)])
+    request.check()  # before anything is forecast
 
     def make(number: int) -> dict[str, Any]:
         if len(motions) > 1 and wait > console.FIRST_LINE:
