@@ -73,9 +73,9 @@ def simulate(
         Columns to be computed beside this one, as many as the model carries along; what they come down to is in
         ``Response.twins``. :func:`stylobate.certainty` draws them and says what they mean.
     quiet : float, optional
-        Share of what opens a joint below which the lead-in, the pauses and the end of a motion are not stepped [-], by models
-        that step drums; 0 steps all of it. By default 0.1 of records and 0 of computed motions, as of every command. The
-        histories hold the state in which the column lies at rest while the quiet is left out.
+        Share of what opens a joint below which the lead-in, the pauses and the end of a motion are not stepped [-], by
+        models that step drums; 0 steps all of it. By default 0.1 of records and 0 of computed motions, as of every command.
+        The histories hold the state in which the column lies at rest while the quiet is left out.
     progress : callable, optional
         Called with (time so far, time of the whole run) [s], by models that step drums.
 

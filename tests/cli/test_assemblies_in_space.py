@@ -238,9 +238,8 @@ def test_measures_that_need_a_column_are_refused(refused, tmp_path):
 
 
 @pytest.mark.parametrize("model", ["housner", "rigid-beam", "rigid-block", "dem2d"])
-@pytest.mark.parametrize("more", [(), ("--signs=both",), ("--azimuths=0:90:2",), ("--scale=2", "--signs=both")])
+@pytest.mark.parametrize("more", [(), ("--signs=both",), ("--scale=2", "--signs=both")])
 def test_a_model_of_the_plane_is_refused_before_anything_is_forecast(refused, model, more):
     """Of one run and of several alike: their number is nothing that decides who can shake what."""
-    motion = ("--motion=sample:ridgecrest-2019",) if "--azimuths=0:90:2" in more else ("--harmonic=1Hz,0.1g,1s",)
-    said = refused("run", STATUE, "--model", model, *motion, *more)
+    said = refused("run", STATUE, "--model", model, "--harmonic=1Hz,0.1g,1s", *more)
     assert f"{model} cannot shake 'statue', which is an assembly in space; dem3d can" in said

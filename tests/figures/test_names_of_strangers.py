@@ -13,7 +13,13 @@ from stylobate.plots.style import plain
 
 NAMES = ["$", "$x^$", r"a\$b$\frac{1$", "a\x00b\x1bc\x7f", "line\nline", "\u202eabc", "x" * 3000, "列柱", "%s{0}"]
 COLUMN = st.Column.tapered(
-    height=5.0, bottom_width=0.96, top_width=0.66, drums=2, density=1600.0, joint=st.Joint(5e9, 2.5e9), name="column"
+    height=5.0,
+    bottom_width=0.96,
+    top_width=0.66,
+    drums=2,
+    density=1600.0,
+    joint=st.Joint(5e9, 2.5e9, 35.0),
+    name="column",
 )
 
 

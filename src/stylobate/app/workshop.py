@@ -291,7 +291,9 @@ class Workshop:
             return
         code = process.end()
         with self._lock:
-            if job.state == RUNNING and not begun and self._retried != job.id:  # the process had ended before it took the job
+            if (
+                job.state == RUNNING and not begun and self._retried != job.id
+            ):  # the process had ended before it took the job
                 self._retried = job.id
                 self._put_back(job, 0)
                 return

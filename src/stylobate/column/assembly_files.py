@@ -157,7 +157,13 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
     for doubt in piece_doubts(pieces, laws, table.gravity):
         warn(doubt)
     return Assembly(
-        tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides), tuple(links)
+        tuple(blocks),
+        joint,
+        default_name if table.name is None else table.name,
+        table.gravity,
+        ground,
+        tuple(overrides),
+        tuple(links),
     )
 
 
