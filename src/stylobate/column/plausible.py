@@ -184,7 +184,7 @@ def field_in_doubt(column: Stack) -> str | None:
     for key, measure in (("height", DRUM), ("bottom_width", WIDTH), ("top_width", WIDTH), ("density", DENSITY)):
         values = [getattr(drum, key) for drum in column.drums]
         usual = statistics.median(values)
-        most = max(range(len(values)), key=lambda i: abs(math.log(values[i] / usual)))  # noqa: B023  used at once
+        most = max(range(len(values)), key=lambda i: abs(math.log(values[i] / usual)))
         beyond = [i for i, value in enumerate(values) if not measure.holds(value)]
         if beyond or decimal_doubts(key, values):
             return f"drum.{(beyond or [most])[0] + 1}.{key}"
