@@ -328,7 +328,7 @@ def test_python_has_its_names(place):
     assert {st.DistinctElement3D(losses=one).losses for one in ("stone", "none")} == {"stone", "none"}
     assert st.Start(tilt=0.1, azimuth=0.0, angular_velocity=(0.0, 0.0, 0.0)).tilt == 0.1
     assert st.Specimen(
-        mass=1.0, inertia=[1.0, 1.0, 1.0], vertices=[[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        mass=1.0, inertia=[1.0, 1.0, 1.0], vertices=[[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
     )
 
 
