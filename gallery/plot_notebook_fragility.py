@@ -27,7 +27,7 @@ motions = [st.read_motion(path) for path in sorted(folder.glob("*.csv"))]
 # Every record scaled until the column collapses: the levels are hunted. The runs are a pandas table.
 
 drum = st.Drum(2.4, 0.42, 0.36, density=2600.0, section="circular")
-column = st.Column.of_drums([drum], st.Joint(5e10, 2.5e10), name="stele")
+column = st.Column.of_drums([drum], st.Joint(5e10, 2.5e10, 35.0), name="stele")
 found = st.ida(column, motions, st.HousnerBlock(), "pgv", runs=12, tail=5.0)
 found.runs[["record", "pgv_m_s", "verdict", "peak_top_displacement_m"]].head()
 

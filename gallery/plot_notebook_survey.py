@@ -20,7 +20,7 @@ survey = pandas.DataFrame(
 )
 drums = [st.Drum(**sizes, density=2650.0, section="circular") for sizes in survey.to_dict("records")]
 found = st.AsFound((st.FoundDrum(3, offset=0.05),))
-column = st.Column.of_drums(drums, st.Joint(5e10, 2.5e10), name="north side, column 5").replace(as_found=found)
+column = st.Column.of_drums(drums, st.Joint(5e10, 2.5e10, 35.0), name="north side, column 5").replace(as_found=found)
 survey
 
 # %%

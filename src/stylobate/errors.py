@@ -3,10 +3,14 @@
 import math
 import re
 import sys
+import unicodedata
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
+
+#: Categories of characters that no name holds: control characters and ends of lines and paragraphs.
+NOT_IN_NAMES = ("Cc", "Zl", "Zp")
 
 #: A longer word is cut in messages.
 _ENDLESS = re.compile(r"\S{400,}")
@@ -244,6 +248,16 @@ def check_kind(name: str, value: Any, kind: Any, *, allowed: str = "", optional:
     is_class = isinstance(value, type) and issubclass(value, kind)
     remedy = f"write {value.__name__}() with brackets" if is_class else ""
     raise _wrong(name, value, _shown(value), f"is {_wanted(kind, allowed)}", remedy, "", None)
+
+
+def check_name(what: str, value: Any) -> str:
+    """Return a name that is one line of text, else raise :class:`InputError`; ``what`` is what the message calls it."""
+    if not check_kind(what, value, str).strip() or any(unicodedata.category(one) in NOT_IN_NAMES for one in value):
+        raise InputError(
+            f"{what} is {value!a}; write one line of text, without tabs and control characters.",
+            "name",
+        )
+    return value
 
 
 def check_all(name: str, values: Any, kind: Any, *, allowed: str = "") -> Sequence[Any]:

@@ -65,6 +65,8 @@ def shown(path: str | Path) -> str:
 
 def _unreadable(path: str | Path, error: OSError | ValueError) -> InputError:
     if isinstance(error, FileNotFoundError):
-        return InputError(f"there is no file {shown(path)}.")
+        slashed = str(path).replace("\\", "/")
+        remedy = f"; write {slashed}" if slashed != str(path) and Path(slashed).exists() else ""
+        return InputError(f"there is no file {shown(path)}{remedy}.")
     reason = getattr(error, "strerror", None) or str(error)
     return InputError(f"{shown(path)} cannot be read: {reason}; check the path.")

@@ -195,7 +195,7 @@ def test_a_beam_on_joints_that_do_not_hold_it_is_failed_and_aborts_no_batch():
 
 def test_absurd_numbers_of_steps_are_refused_with_the_estimate():
     endless = [
-        (column(200, st.Joint(1e15, 5e14)), st.harmonic(1.0, 1.0, 10.0), st.DistinctElement2D()),
+        (column(200, st.Joint(1e15, 5e14, 35.0)), st.harmonic(1.0, 1.0, 10.0), st.DistinctElement2D()),
         (column(1), st.harmonic(1.0, 1.0, 1e-12), st.DistinctElement2D()),
         (column(1), st.harmonic(1.0, 1.0, 1e-12), st.RigidBlock()),
         (column(1), st.harmonic(1.0, 1.0, 1e-12), st.RigidBeam()),
@@ -210,7 +210,7 @@ def test_absurd_numbers_of_steps_are_refused_with_the_estimate():
     with pytest.raises(st.InputError, match="longer output interval"):
         st.simulate(column(1), st.harmonic(1.0, 1.0, 10.0), st.HousnerBlock(), output_interval=1e-12)
     for drums in (1, 12):  # what is usual is far below
-        stone, motion = column(drums, st.Joint(1e12, 1e12)), st.harmonic(1.0, 1.0, 120.0)
+        stone, motion = column(drums, st.Joint(1e12, 1e12, 35.0)), st.harmonic(1.0, 1.0, 120.0)
         step, cost = st.DistinctElement2D().expected_step(stone, motion)
         assert motion.duration / step * cost < 200.0
 
@@ -222,7 +222,7 @@ def test_compiled_calls_are_short_however_long_the_run(model):
     from stylobate.models.rigid_beam.lanes import BeamLanes, loop_for
     from stylobate.simulate import RunOptions
 
-    stone, motion = column(60, st.Joint(1e12, 1e12)), st.harmonic(1.0, 1.0, 100.0)
+    stone, motion = column(60, st.Joint(1e12, 1e12, 35.0)), st.harmonic(1.0, 1.0, 100.0)
     case = Case(stone, motion)
     if isinstance(model, st.RigidBeam):
         block = BeamLanes(model.pack, loop_for(model.pack(stone), motion), RunOptions())

@@ -15,6 +15,7 @@ from stylobate.models.base import Case
 from stylobate.models.drums.runs import LaneRuns
 from stylobate.models.shared.quiet import BEFORE, LOOK, QUIET, level, shaking, share_of
 from stylobate.motion import harmonic
+from stylobate.motion.writing import write_csv
 from stylobate.simulate import simulate_iter
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement2D(stiffness_damping=1e-4), st.DistinctElement3D()]
@@ -100,11 +101,24 @@ def test_stretches_of_a_record():
     assert 10.0 < faint[0][0] < faint[0][1] < 11.0
 
 
-def test_only_records_are_cut():
-    record = shocks(0.3)
-    assert share_of([record], False) == QUIET
-    assert share_of([record], True) == 0.0
-    assert share_of([record, harmonic(1.0, 0.3 * g, 10.0)], False) == 0.0
+def test_only_records_are_cut(tmp_path):
+    record, computed = shocks(0.3), harmonic(1.0, 0.3 * g, 10.0)
+    assert share_of(record) == QUIET
+    assert share_of(record, whole=True) == share_of(computed) == 0.0
+    for motion in (record, computed):  # a file tells which it was
+        assert share_of(st.read_motion(write_csv(motion, tmp_path / "motion.csv"))) == share_of(motion)
+
+
+def test_python_and_batches_of_records_and_computed_motions_cut_each_as_a_run_of_it_alone():
+    """The share was one for all motions of a call, and none in Python, where a command cut a record."""
+    motions, model = [shocks(0.25), shocks(0.25).replace(metadata={})], st.DistinctElement2D()
+    alone = [st.simulate(COLUMN, motion, model) for motion in motions]
+    assert [one.measures.stepped is None for one in alone] == [False, True]
+    tables = st.simulate_many(COLUMN, motions, model), suite_table(COLUMN, motions, model)
+    for number, one in enumerate(alone):
+        for table in tables:
+            assert table["steps"][number] == one.measures.steps
+            assert table["peak_top_displacement_m"][number] == one.measures.peak_top_displacement
 
 
 @needs_folder
@@ -141,7 +155,7 @@ def test_a_single_run_has_the_bits_of_the_batch_and_all_its_times(model, size, t
     assert row == batch == single.twins[0].row()
     assert row["collapsed"] == (size == 4.0)
     assert row["stepped_s"] < 0.75 * single.time[-1]
-    whole = st.simulate(COLUMN, motion, model)
+    whole = st.simulate(COLUMN, motion, model, quiet=0.0)
     common = min(len(single.time), len(whole.time)) - 1  # a collapse ends a run between two recorded times
     assert (single.time[:common] == whole.time[:common]).all()
     if not single.collapsed:

@@ -159,7 +159,7 @@ def test_at_rest_below_the_opening_of_the_bed():
     for drums in (1, 4):
         column = Column.tapered(
             height=5.0, bottom_width=0.96, top_width=0.66, drums=drums, density=1600.0,
-            joint=Joint(normal_stiffness=5e10, shear_stiffness=2.5e10),
+            joint=Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0),
         )  # fmt: skip
         response = simulate(column, motion, RigidBeam())
         assert response.outcome is Outcome.AT_REST

@@ -217,7 +217,7 @@ def test_the_barrier_as_found_is_that_of_the_statics():
 
 def test_pretension_raises_no_barrier():
     """A tie may break: what presses beside the centroid then is the weight alone."""
-    leaning = st.Column.of_drums([st.Drum(4.0, 1.0, 1.0, 2500.0)], st.Joint(5e10, 2.5e10)).replace(
+    leaning = st.Column.of_drums([st.Drum(4.0, 1.0, 1.0, 2500.0)], st.Joint(5e10, 2.5e10, 35.0)).replace(
         as_found=st.AsFound((st.FoundDrum(1, tilt=-12.0),))
     )
     core = st.Core(at=(-0.3, 0.0), axial_stiffness=1e8, axial_capacity=4e5, pretension=2e5)
@@ -227,7 +227,7 @@ def test_pretension_raises_no_barrier():
 @pytest.mark.parametrize("psi", [10.0, 40.0, 60.0])
 def test_a_drum_that_has_turned_takes_its_slope_with_it(psi):
     """The barrier is that of the column found so: of a wedge, and of what stands off the axis of a drum that has turned."""
-    joint, turn = st.Joint(5e10, 2.5e10), math.radians(psi)
+    joint, turn = st.Joint(5e10, 2.5e10, 35.0), math.radians(psi)
     drums = [st.Drum(2.0, 1.0, 1.0, 2500.0, "circular")] * 2
     wedge = st.Column.of_drums(drums, joint)
     before = wedge.replace(as_found=st.AsFound((st.FoundDrum(1, tilt=-4.0),), 4.0))
@@ -248,7 +248,7 @@ def test_turned_faces_carry_on_the_corners_that_the_engine_has(psi):
     from stylobate.kernels.dem3d.standing import lowest_barrier
     from stylobate.models.dem3d.verdict import numbers_for
 
-    flat = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0, depth=0.3)] * 2, st.Joint(5e10, 2.5e10))
+    flat = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0, depth=0.3)] * 2, st.Joint(5e10, 2.5e10, 35.0))
     column, turns = flat.replace(as_found=st.AsFound((st.FoundDrum(2, offset=1e-12),))), np.radians([0.0, psi])
     built = lowest_barrier(
         numbers_for(flat, np.zeros(2)), np.zeros((2, 2)), np.append(0.0, turns), True, flat.gravity, False

@@ -143,7 +143,7 @@ def test_twins_are_not_warned_of_again():
         (lambda: st.Drum(-1.0, 1.0, 1.0, 2000.0), ["height", "-1 m", "[0.0001, 1000] m"]),
         (lambda: st.Drum(1.0, 1.0, 1.0, math.nan), ["density", "nan"]),
         (lambda: st.Drum(1.0, 1.0, 1.0, 2000.0, section="round"), ["'round'", "circular, rectangular"]),
-        (lambda: st.Joint(0.0, 1e10), ["normal_stiffness", "0 N/m³", "rigid joint"]),
+        (lambda: st.Joint(0.0, 1e10, 35.0), ["normal_stiffness", "0 N/m³", "rigid joint"]),
         (lambda: st.Joint(1e10, 1e10, friction_angle=90.0), ["friction_angle", "90", "[0, 90) degrees"]),
         (lambda: st.Joint(1e10, 1e10, friction_angle=30.0, friction_coefficient=0.5), ["both given"]),
         (lambda: paper_column(0), ["drums is 0", "1 to 200"]),

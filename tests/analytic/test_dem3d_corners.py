@@ -178,7 +178,7 @@ def free(column, omega, duration, step):
 
 def test_free_rotation_of_a_square_prism_is_exact():
     """Precession of a body with two equal moments: exact at any step."""
-    column = Column.of_drums([Drum(1.0, 0.5, 0.5, 2000.0, depth=0.5)], Joint(1e8, 1e8))
+    column = Column.of_drums([Drum(1.0, 0.5, 0.5, 2000.0, depth=0.5)], Joint(1e8, 1e8, 35.0))
     omega = np.array([0.3, 0.0, 2.0])
     times, axes, kinetic, moments = free(column, omega, 2.0, 1e-3)
     a, c = moments[0], moments[2]
@@ -193,7 +193,7 @@ def test_free_rotation_of_a_square_prism_is_exact():
 
 def test_free_rotation_of_a_slab_about_its_middle_axis():
     """The slab turns over at the exact times; energy stays bounded and falls with the square of the step."""
-    column = Column.of_drums([Drum(0.4, 0.6, 0.6, 384.0 / 0.24, depth=1.0)], Joint(1e8, 1e8))
+    column = Column.of_drums([Drum(0.4, 0.6, 0.6, 384.0 / 0.24, depth=1.0)], Joint(1e8, 1e8, 35.0))
     moments = [column.drums[0].cross_inertia, column.drums[0].inertia, column.drums[0].axial_inertia]
     assert sorted(moments) == pytest.approx([16.64, 37.12, 43.52], rel=1e-12)
     order = np.argsort(moments)  # small, middle, large in the exact solution
@@ -353,7 +353,7 @@ def test_a_square_column_that_tapers_both_ways_moves_alike_along_x_and_along_y()
     Impacts multiply the rounding: 1e-16 m has become 1e-9 m after 0.35 s, 1e-8 m after 0.6 s.
     """
     column = Column.tapered(
-        height=5.95, bottom_width=1.11, top_width=0.9, drums=8, density=2620.0, joint=Joint(1e10, 1e10), depth=1.11,
+        height=5.95, bottom_width=1.11, top_width=0.9, drums=8, density=2620.0, joint=Joint(1e10, 1e10, 35.0), depth=1.11,
         top_depth=0.9,
     )  # fmt: skip
     t = np.arange(351) * 1e-3

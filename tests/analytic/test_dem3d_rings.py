@@ -150,7 +150,7 @@ def test_rings_that_nothing_carries_are_refused():
     with pytest.raises(InputError, match="is for round drums"):
         DistinctElement3D(rolling_resistance=0.01).check(
             Column.tapered(
-                height=5.0, bottom_width=1.0, top_width=1.0, drums=1, density=1600.0, joint=Joint(5e10, 2.5e10)
+                height=5.0, bottom_width=1.0, top_width=1.0, drums=1, density=1600.0, joint=Joint(5e10, 2.5e10, 35.0)
             ),
             motion,
         )

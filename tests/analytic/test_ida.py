@@ -159,6 +159,18 @@ def test_the_velocity_tells_more_than_the_acceleration_of_pulses(found):
     assert math.isnan(table.loc["pga", "p_magnitude"])  # of one record it is known
 
 
+def test_runs_that_stand_at_one_level_show_no_dispersion_over_it(found):
+    """A straight line through one intensity has no slope; of 1 g the logarithm is nothing, on which the fit broke down."""
+    for level in (1.0, 2.0):
+        runs, stand = found.runs.copy(), found.runs["verdict"] == v.STANDS
+        lowest = runs.loc[stand, "pga_g"].min()
+        runs.loc[stand, "pga_g"] = lowest
+        runs["pga_g"] *= level / lowest
+        table = which_tells_most(runs).set_index("measure")
+        assert math.isnan(table.loc["pga", "sigma_ln_edp"])
+        assert table.loc["pgv", "sigma_ln_edp"] > 0.0
+
+
 def test_an_ida_is_evidence_in_any_of_its_measures(found):
     told = evidence(found.runs, "pgv")
     assert told.brackets
@@ -268,7 +280,7 @@ def test_an_ida_is_evidence_and_makes_a_fragility_as_it_is(found):
 def test_what_a_plane_leaves_out_of_round_drums_goes_with_the_runs():
     """Under one component nothing said so but one entry of one summary."""
     drums = [st.Drum(1.0, 0.6, 0.6, 2500.0, section="circular")] * 2
-    column = st.Column.of_drums(drums, st.Joint(1e9, 5e8))
+    column = st.Column.of_drums(drums, st.Joint(1e9, 5e8, 35.0))
     motions = [st.ricker(1.0 + 0.1 * k, 2.0) for k in range(10)]
     words, model = round_in_the_plane(column), st.DistinctElement2D()
     some = ida(column, motions, model, "pga", levels=[0.1, 1.5], threads=1)
@@ -305,7 +317,7 @@ def test_facts_that_nobody_asks_for_are_refused(about, says):
 def test_what_nothing_damps_in_space_goes_with_the_runs():
     """A single run alone said so."""
     drums = [st.Drum(1.0, 0.6, 0.6, 2500.0, section="circular")] * 2
-    column = st.Column.of_drums(drums, st.Joint(1e9, 5e8))
+    column = st.Column.of_drums(drums, st.Joint(1e9, 5e8, 35.0))
     assert caveat([column], st.DistinctElement3D()) == UNDAMPED_WOBBLE
     assert doubt(["as built"], [column], st.DistinctElement3D()) == UNDAMPED_WOBBLE
     for model in (st.DistinctElement3D(stiffness_damping=1e-4), st.DistinctElement3D(planar=True)):

@@ -10,7 +10,7 @@ from stylobate.constants import g
 
 def block():
     return st.Column.tapered(
-        height=5.0, bottom_width=0.96, top_width=0.96, drums=1, density=1600.0, joint=st.Joint(5e10, 2.5e10)
+        height=5.0, bottom_width=0.96, top_width=0.96, drums=1, density=1600.0, joint=st.Joint(5e10, 2.5e10, 35.0)
     )
 
 

@@ -1,5 +1,6 @@
 """Bodies in space on the bed and on joints, against closed forms: rolling, skidding, spinning, leaning, falling, rocking."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -22,6 +23,8 @@ from bodies_in_space import (
 )
 from scipy.integrate import solve_ivp
 
+import stylobate as st
+
 
 def test_a_drum_rolls_down_a_slope():
     """2/3 g sin: 1e-4 (facets of a fixed 24-gon lose 15 %). It begins to press all at once: what rings then has to fade."""
@@ -41,6 +44,29 @@ def test_a_drum_coasts():
         lane.run(2.0)
         assert lane.velocity(1) == pytest.approx([1.0, 0.0, 0.0], abs=4e-3)  # it rings upright by 3 mm/s
         assert lane.velocity(1)[0] == pytest.approx(1.0, abs=2e-5)
+
+
+def test_what_rolls_on_has_no_residual_and_the_sentence_says_so():
+    """Nothing resists rolling here: 1 m/s is kept, and what it has come by the end says when the run was ended."""
+    lain = {"orientation": (math.sqrt(0.5), 0.0, math.sqrt(0.5), 0.0)}
+    stones = [
+        st.Stone.drum(1.0, 1.0, 0.8, (0.0, 0.0, 0.1), 2500.0, name="drum", velocity=(0.0, 1.0, 0.0), **lain),
+        st.Stone.box((1.0, 1.0, 1.0), (5.0, 0.0, 0.0), 2500.0, name="box"),
+    ]
+    scene = st.SpatialAssembly(stones, st.Joint(5e9, 2.5e9, 35.0), settle=False)
+    response = st.simulate(scene, st.Motion(0.1, np.zeros(4)), st.DistinctElement3D())
+    summary = response.summary()
+    assert list(summary["moving_at_end_m_s"]) == ["drum"]
+    assert summary["residual_displacement_m"] is None
+    rows = summary["bodies"]
+    assert rows["drum"]["residual_displacement_m"] is None
+    assert (
+        rows["drum"]["displacement_at_end_m"][1] > 0.15
+    )  # it slid and rolled for 0.3 s, from 1 m/s to 2/3 m/s at least
+    assert rows["box"]["residual_displacement_m"] < 1e-3
+    waited = dataclasses.replace(response, provenance=dict(response.provenance) | {"until_rest": True})
+    assert "Still moving at the end: drum (0." in waited.sentence
+    assert "Still moving" not in response.sentence
 
 
 def test_a_drum_skids_until_it_rolls():

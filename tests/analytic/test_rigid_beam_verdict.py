@@ -65,7 +65,12 @@ def test_lowest_barrier_of_rigid_drums():
 def test_no_way_over_two_joints_is_lower_than_the_barrier(law, stiffness):
     # While one joint of two is turned over its summit the other gives way: the lowest pass of the potential of both.
     column = Column.tapered(
-        height=5.0, bottom_width=0.96, top_width=0.66, drums=2, density=1600.0, joint=Joint(stiffness, 0.5 * stiffness)
+        height=5.0,
+        bottom_width=0.96,
+        top_width=0.66,
+        drums=2,
+        density=1600.0,
+        joint=Joint(stiffness, 0.5 * stiffness, 35.0),
     )
     passes = RigidBeam(moment_law=law).pack(column)
     weight = passes.gravity[0]

@@ -97,7 +97,7 @@ def test_directions_of_a_record_are_no_records_of_their_own():
         )
         for a in range(12)
     ]
-    block = st.Column.of_drums([st.Drum(2.0, 0.5, 0.5, 2500.0)], st.Joint(5e10, 2.5e10), name="block")
+    block = st.Column.of_drums([st.Drum(2.0, 0.5, 0.5, 2500.0)], st.Joint(5e10, 2.5e10, 35.0), name="block")
     table = suite_table(block, motions, st.HousnerBlock())
     assert set(table["record"]) == {"one"}
     assert table["motion"].nunique() == 12

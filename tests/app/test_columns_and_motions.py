@@ -372,3 +372,18 @@ def test_an_error_in_the_text_of_an_assembly_is_of_its_line(client, old, new, li
     wrong = "[[blok]]" if old == "[[block]]" else TEXT.replace(old, new, 1)
     told = client.post("/api/assembly", json={"assembly": wrong}).json()
     assert told["field"] == ("assembly" if line is None else f"assembly.{line}"), told["error"]
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "says"), [("height", 850.0, "was it meant in mm?"), ("bottom_width", 0.001, "is the unit right?")]
+)
+def test_a_size_that_no_drum_has_is_marked_and_not_the_slope_on_which_it_falls(client, table, key, value, says):
+    """A column of such a drum stands on no slope; what was typed last is what is wrong."""
+    wrong = copy.deepcopy(table) | {"as_found": {"base_tilt": 0.5}}
+    wrong["drum"][1][key] = value
+    found = client.post("/api/column", json=wrong).json()
+    assert found["field"] == f"drum.2.{key}", found
+    assert "is not in equilibrium" in found["error"]
+    assert says in found["error"]
+    sound = copy.deepcopy(table) | {"as_found": {"base_tilt": 44.0}}
+    assert client.post("/api/column", json=sound).json()["field"] == "base_tilt"

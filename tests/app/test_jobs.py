@@ -7,6 +7,7 @@ import time
 import zipfile
 from contextlib import suppress
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from page_server import ended, served
@@ -72,9 +73,25 @@ def test_a_killed_process_costs_one_sentence(fresh, asked, how, tmp_path):
             os.kill(process, signal.SIGKILL)
     found = ended(fresh, job)
     assert found["state"] == "failed"
-    assert found["sentence"].startswith("The process that computes was ended from outside")
+    assert found["sentence"].startswith("The process that computes ended before the job was done")
     assert found["files"] == ["column.toml", "result/made.txt"]  # what was finished is kept
     assert ended(fresh, fresh.post("/api/jobs", json=asked).json()["id"])["state"] == "done"
+
+
+@pytest.mark.parametrize(("times", "state"), [(1, "done"), (2, "failed")])
+def test_a_job_that_its_process_never_took_goes_to_the_next(fresh, asked, tmp_path, times, state):
+    """Once: what ends two processes would end the third."""
+    (tmp_path / "gone").write_text("." * times)
+    job = ended(fresh, fresh.post("/api/jobs", json=asked | {"model": "gone"}).json()["id"])
+    assert job["state"] == state, job["sentence"]
+
+
+def test_jobs_of_a_page_in_a_relative_folder_are_done_one_after_another(tmp_path, asked, monkeypatch):
+    """The process of jobs works in the folder of each, from which the next must be reached as well."""
+    monkeypatch.chdir(tmp_path)
+    with served(Path("store")) as page:
+        jobs = [ended(page, page.post("/api/jobs", json=asked).json()["id"]) for _ in range(3)]
+        assert [job["state"] for job in jobs] == ["done"] * 3
 
 
 def workers_of(folder):

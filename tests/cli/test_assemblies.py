@@ -41,7 +41,7 @@ KEYS = {
     "peak_displacement_m", "residual_displacement_m", "peak_rotation_rad", "peak_joint_opening_m",
     "residual_joint_slip_m", "energy_imbalance", "time_step_s", "steps", "wall_s", "model", "version", "motion",
     "residual_slip_x_m", "residual_displacement_x_m", "residual_displacement_z_m", "residual_tilt_x_rad", "vertical",
-    "left_out", "processing", "azimuth_deg", "reversed", "factor", "losses", "losses_acting",
+    "left_out", "processing", "azimuth_deg", "reversed", "factor", "losses", "losses_acting", "moving_at_end_m_s",
 }  # fmt: skip
 RIGHT = "[[0.9, 0.0], [1.5, 0.0], [1.5, 3.0], [0.9, 3.0]]"
 

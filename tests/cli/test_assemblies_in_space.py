@@ -235,3 +235,11 @@ def test_measures_that_need_a_column_are_refused(refused, tmp_path):
     record.write_text("time_s,ax_g\n" + "\n".join(f"{0.01 * k:.2f},{0.02 * (-1) ** k:g}" for k in range(20)))
     said = refused("ida", STATUE, record, "--model", "dem3d", "--im", "pga", "--edp", "peak_top_displacement_m")
     assert "the runs have no measure 'peak_top_displacement_m'" in said
+
+
+@pytest.mark.parametrize("model", ["housner", "rigid-beam", "rigid-block", "dem2d"])
+@pytest.mark.parametrize("more", [(), ("--signs=both",), ("--scale=2", "--signs=both")])
+def test_a_model_of_the_plane_is_refused_before_anything_is_forecast(refused, model, more):
+    """Of one run and of several alike: their number is nothing that decides who can shake what."""
+    said = refused("run", STATUE, "--model", model, "--harmonic=1Hz,0.1g,1s", *more)
+    assert f"{model} cannot shake 'statue', which is an assembly in space; dem3d can" in said

@@ -322,7 +322,7 @@ def test_states_are_refused_before_anything_is_written(tmp_path, monkeypatch, re
     monkeypatch.chdir(tmp_path)
     (tmp_path / "drums.toml").write_text(COLUMN)
     for name, width in (("thin", 0.5), ("wide", 0.6)):
-        column = st.Column.of_drums([st.Drum(2.0, width, width, 2500.0)], st.Joint(5e10, 2.5e10), name=name)
+        column = st.Column.of_drums([st.Drum(2.0, width, width, 2500.0)], st.Joint(5e10, 2.5e10, 35.0), name=name)
         write_column(column, tmp_path / f"{name}.toml")
     write_csv(st.harmonic(2.0, 0.3 * st.g, 3.0), tmp_path / "sine.csv")
     states = ("states", "--as-built", "thin.toml", "--with", "wide.toml", "--model", "housner", "--motion", "sine.csv")

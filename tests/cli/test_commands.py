@@ -291,7 +291,7 @@ def test_a_warning_is_one_line_on_standard_error(capsys, tmp_path):
     path = tmp_path / "wide.toml"
     path.write_text(
         "density = 2000.0\n[tapered]\nheight = 1.0\nbottom_width = 0.5\ntop_width = 0.6\ndrums = 1\n"
-        "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\n"
+        "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\nfriction_angle = 35.0\n"
     )
     before = warnings.showwarning
     assert call(["columns", str(path), str(path), "--json"]) == 0

@@ -157,7 +157,7 @@ def test_a_suite_of_two_columns_scaled_and_turned(command, folder, tmp_path):
     stone = tmp_path / "stone.toml"
     stone.write_text(
         'name = "stone"\ndensity = 2000.0\n[tapered]\nheight = 2.0\nbottom_width = 0.6\ntop_width = 0.6\ndrums = 1\n'
-        "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\n"
+        "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\nfriction_angle = 35.0\n"
     )
     result = command("suite", "paper-monolithic", folder / "weak.csv", folder, "--also", stone, "--model", "housner",
                      "--azimuth", "75deg", "--pga", "0.25g", "--vertical", "off", "--json")  # fmt: skip

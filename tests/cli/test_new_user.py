@@ -25,6 +25,7 @@ drums = 3
 [joint]
 normal_stiffness = 5.0e10
 shear_stiffness = 2.5e10
+friction_angle = 35.0
 [as_found]
 base_tilt = 0.5
 [[as_found.drum]]

@@ -55,7 +55,7 @@ def coarse():
 def place(tmp_path_factory):
     """A folder of results of every kind, of a column and records with names that would be script."""
     place = tmp_path_factory.mktemp("report")
-    joint = st.Joint(5e10, 2.5e10)
+    joint = st.Joint(5e10, 2.5e10, 35.0)
     column = st.Column.tapered(
         height=2.0, bottom_width=0.5, top_width=0.4, drums=2, density=2500.0, joint=joint, section="circular", name=EVIL
     )
@@ -82,7 +82,7 @@ def place(tmp_path_factory):
     (place / "hazard.csv").write_text("\n".join(hazard) + "\n")
     portal = (
         '[[block]]\nname = "a <b>"\nvertices = [[0, 0], [1, 0], [1, 1], [0, 1]]\n'
-        "[joint]\nnormal_stiffness = 1e9\nshear_stiffness = 5e8\n"
+        "[joint]\nnormal_stiffness = 1e9\nshear_stiffness = 5e8\nfriction_angle = 35.0\n"
     )
     (place / "blocks.toml").write_text(f"name = 'blocks {EVIL}'\ndensity = 2500.0\n{portal}")
     grid = ("--from", "0.2g", "--to", "0.6g", "--step", "0.2g")
@@ -292,7 +292,7 @@ def test_a_state_of_other_stones_is_listed_in_full():
     from stylobate.report.page import Rows
     from stylobate.report.structure import state_section
 
-    joint = st.Joint(5e10, 2.5e10)
+    joint = st.Joint(5e10, 2.5e10, 35.0)
     first = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0)] * 2, joint, name="one")
     lean = first.replace(name="two", as_found=st.AsFound([st.FoundDrum(2, offset=0.05)]))
     text, _, table = state_section(lean, "as found", first, "as built").items
@@ -446,14 +446,14 @@ def test_what_opens_first_is_told_with_its_direction():
     """A slab opens across its thin side, however it is shaken; its acceleration is that of the thin block, g d / 2 z."""
     from stylobate.report.structure import what_opens
 
-    slab = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0, depth=0.5)], st.Joint(5e10, 2.5e10))
+    slab = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0, depth=0.5)], st.Joint(5e10, 2.5e10, 35.0))
     along_x, words = what_opens(slab)
     assert along_x == pytest.approx(0.5 * slab.gravity)
     assert words == "0.5 g (joint 1)"
     least, words = what_opens(slab, in_space=True)
     assert least == pytest.approx(0.25 * slab.gravity, rel=1e-6)
     assert re.fullmatch(r"0\.25 g \(joint 1; pushed towards (90|270)°, the weakest of all directions\)", words)
-    round_ = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0, section="circular")], st.Joint(5e10, 2.5e10))
+    round_ = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0, section="circular")], st.Joint(5e10, 2.5e10, 35.0))
     assert what_opens(round_, in_space=True)[1].endswith("; in every direction)")
     found = st.AsFound([st.FoundDrum(1, offset=0.1)])
     assert what_opens(slab.replace(as_found=found))[1].endswith("; the weaker side along x)")

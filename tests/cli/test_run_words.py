@@ -84,7 +84,7 @@ def test_several_directions_are_a_table(capsys, tmp_path):
 def test_an_assembly_is_no_column(capsys, tmp_path):
     (tmp_path / "blocks.toml").write_text(
         'name = "two"\ndensity = 2500.0\n[[block]]\nname = "a"\nvertices = [[0, 0], [1, 0], [1, 1], [0, 1]]\n'
-        "[joint]\nnormal_stiffness = 1e8\nshear_stiffness = 5e7\n"
+        "[joint]\nnormal_stiffness = 1e8\nshear_stiffness = 5e7\nfriction_angle = 35.0\n"
     )
     grid = ("--from", "0.05g", "--to", "0.1g", "--step", "0.05g")
     text = said(capsys, "critical", tmp_path / "blocks.toml", "--harmonic", "2Hz,?g,0.3s", *grid)

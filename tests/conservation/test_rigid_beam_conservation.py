@@ -111,7 +111,7 @@ def test_residual_slip_is_part_of_the_response():
 
 def test_energy_that_the_steps_make_overturns_nothing():
     # Let go at rest below its balance point, a block has not the energy to go over, whatever the steps make of it.
-    column = stack(1, Joint(normal_stiffness=5e9, shear_stiffness=2.5e9))
+    column = stack(1, Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_angle=35.0))
     quiet = Motion(0.1, np.zeros(11))
     ends = set()
     for share in (0.5, 0.8, 0.9, 0.95):

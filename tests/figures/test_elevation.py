@@ -17,7 +17,7 @@ from stylobate.plots.style import BLUE, RED
 DRUMS = [
     st.Drum(h, b, t, 2600.0, section="circular") for h, b, t in ((0.9, 1.1, 1.0), (0.8, 1.0, 0.92), (0.5, 1.2, 1.2))
 ]
-JOINT = st.Joint(5e10, 2.5e10)
+JOINT = st.Joint(5e10, 2.5e10, 35.0)
 COLUMN = st.Column.of_drums(
     DRUMS, JOINT, overrides={2: st.Joint(5e10, 2.5e10, friction_coefficient=0.4)}, name="north 5"
 )

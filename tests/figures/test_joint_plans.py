@@ -33,7 +33,7 @@ def found():
         base_tilt=0.5,
         base_azimuth=37.0,
     )
-    column = st.Column.of_drums(drums, st.Joint(1e9, 1e9), name="north column")
+    column = st.Column.of_drums(drums, st.Joint(1e9, 1e9, 35.0), name="north column")
     return column.replace(
         as_found=state, links=(Dowel(joint=3, at=(0.3, 0.0), shear_stiffness=1e8, shear_capacity=1e4),)
     )
@@ -94,7 +94,7 @@ def test_round_drums_of_an_assembly_are_told_with_diameters_offsets_and_chips(tm
     """As the column's own sheet tells them: an assembly keeps where its drums lie, not what a survey said."""
     drums = [st.Drum(1.0, 1.0, 0.9, 2500.0, "circular"), st.Drum(1.0, 0.9, 0.8, 2500.0, "circular")]
     found = st.AsFound((st.FoundDrum(2, offset=0.04, offset_azimuth=120.0, chip_right=0.06, chip_azimuth=30.0),))
-    column = st.Column.of_drums(drums, st.Joint(5e9, 2.5e9)).replace(as_found=found)
+    column = st.Column.of_drums(drums, st.Joint(5e9, 2.5e9, 35.0)).replace(as_found=found)
     write_column(column, tmp_path / "c.toml")
     (tmp_path / "a.toml").write_text('name = "pair"\n[[column]]\nfile = "c.toml"\nat = [[0.0, 0.0], [3.0, 0.0]]\n')
     pair = st.read_assembly(tmp_path / "a.toml")

@@ -31,6 +31,7 @@ def file(rng: random.Random) -> str:
     if rng.random() < 0.1:
         lines.append("gravity = " + value(0.0, 20.0))
     lines += ["[joint]", f"normal_stiffness = {value(1e7, 1e12)}", f"shear_stiffness = {value(1e7, 1e12)}"]
+    lines += [f"friction_angle = {value(3.0, 60.0)}"]
     level = 0.0
     for number in range(rng.randint(0 if strange else 1, 4)):
         lines += ["[[block]]", "name = " + odd.some(rng, [f'"b{number}"'], strange, odd.NAMES)]

@@ -49,7 +49,7 @@ def assemblies(draw):
     return st.Assembly(
         tuple(blocks),
         draw(joints()),
-        draw(some.text(max_size=8)),
+        draw(some.text("abcδ №1", min_size=1, max_size=8).filter(str.strip)),
         draw(some.just(0.0) | some.floats(0.01, 20.0)),
         0.0,
         tuple(overrides),
@@ -125,7 +125,7 @@ def test_four_hundred_blocks_fit_in_a_file(tmp_path):
     blocks = tuple(
         st.Block(((x, z), (x + 1, z), (x + 1, z + 1), (x, z + 1)), 2e3, f"b{i}") for i, (x, z) in enumerate(corners)
     )
-    assembly = st.Assembly(blocks, st.Joint(1e9, 5e8))
+    assembly = st.Assembly(blocks, st.Joint(1e9, 5e8, 35.0))
     n, one = len(assembly.bodies), np.zeros(1)
     x, z, rotation = np.zeros((3, 1, n))
     still = Response.of(recorded_blocks(

@@ -92,7 +92,9 @@ def test_a_column_has_no_clamp(tmp_path) -> None:
     path = tmp_path / "column.toml"
     text = "density = 2000.0\n[tapered]\nheight = 2.0\nbottom_width = 0.5\ntop_width = 0.5\ndrums = 2\n"
     path.write_text(
-        text + '[joint]\nnormal_stiffness = 1e9\nshear_stiffness = 5e8\n[[link]]\nkind = "clamp"\njoint = 1\n'
+        text
+        + "[joint]\nnormal_stiffness = 1e9\nshear_stiffness = 5e8\nfriction_angle = 35.0\n"
+        + '[[link]]\nkind = "clamp"\njoint = 1\n'
     )
     with pytest.raises(st.InputError, match="kind of a link is 'clamp'"):
         st.read_column(path)

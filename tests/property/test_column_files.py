@@ -15,7 +15,7 @@ from stylobate.column.files import column_from_dict, load_column, read_column, w
 from stylobate.column.plausible import length_doubts, unit_doubts
 from stylobate.column.presets import PRESETS, preset
 from stylobate.column.scatter import Scatter
-from stylobate.column.toml import toml_text
+from stylobate.column.toml import parse_toml, toml_text
 from stylobate.column.twins import twins_of
 from stylobate.errors import InputError
 
@@ -55,7 +55,8 @@ def columns(draw):
         )
         for _ in range(n)
     ]
-    name = draw(some.text(some.characters(exclude_categories=["Cs"]), max_size=20))
+    signs = some.characters(exclude_categories=["Cs", "Cc", "Zl", "Zp"])
+    name = draw(some.text(signs, min_size=1, max_size=20).filter(str.strip))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", st.OutOfRangeWarning)
         column = st.Column(tuple(drums), tuple(draw(joints()) for _ in range(n)), name, draw(some.floats(0.1, 100.0)))
@@ -178,7 +179,7 @@ def test_one_number_among_others_alike_is_doubted(drum, found, says, tmp_path):
 
 def drums_of(height, width, number):
     """Equal round drums."""
-    joint = st.Joint(5e10, 2.5e10)
+    joint = st.Joint(5e10, 2.5e10, 35.0)
     return st.Column.tapered(
         height=height,
         bottom_width=width,
@@ -215,7 +216,7 @@ def test_a_radius_given_for_a_diameter_is_told_by_the_slenderness(size, says):
 
 def test_a_column_made_in_python_is_doubted_as_one_of_a_file_and_not_again():
     drums = [st.Drum(900.0, 800.0, 800.0, 2500.0, section="circular")] * 3
-    joint = st.Joint(5e10, 2.5e10)
+    joint = st.Joint(5e10, 2.5e10, 35.0)
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         column = st.Column.of_drums(drums, joint)
@@ -332,7 +333,10 @@ def test_a_misspelt_key_is_named_with_the_right_one(data, tmp_path_factory):
         (DRUMS.replace("top_width = 1.0\n", ""), ["'top_width'", "missing", "[[drum]] number 2"]),
         (DRUMS.replace("density = 2620.0\n", ""), ["[[drum]] number 1", "no density"]),
         (DRUMS.replace("0.82", "-0.82"), ["[[drum]] number 1", "-0.82 m"]),
-        ("[joint]\nnormal_stiffness = 1e10\nshear_stiffness = 1e10\n", ["neither [tapered] nor [[drum]]"]),
+        (
+            "[joint]\nnormal_stiffness = 1e10\nshear_stiffness = 1e10\nfriction_angle = 35.0\n",
+            ["neither [tapered] nor [[drum]]"],
+        ),
         ("height = [1,", ["not valid TOML"]),
         ("", ["no [joint] table"]),
     ],
@@ -387,7 +391,7 @@ def test_a_taper_in_depth_goes_through_a_file(tmp_path):
     """In both ways of stating drums; a column that has none keeps its digest."""
     (tmp_path / "a.toml").write_text(
         "depth = 1.11\ndensity = 2620.0\n[tapered]\nheight = 5.95\nbottom_width = 1.11\ntop_width = 0.9\ndrums = 8\n"
-        "top_depth = 0.9\n[joint]\nnormal_stiffness = 1e10\nshear_stiffness = 1e10\n"
+        "top_depth = 0.9\n[joint]\nnormal_stiffness = 1e10\nshear_stiffness = 1e10\nfriction_angle = 35.0\n"
     )
     column = st.Column.from_toml(tmp_path / "a.toml")
     assert column.drums[0].depth == 1.11
@@ -402,7 +406,7 @@ def test_a_taper_in_depth_goes_through_a_file(tmp_path):
 
 def test_one_drum_too_high_is_told_apart_from_a_column_too_high(tmp_path):
     drums = "".join(f"[[drum]]\nheight = {h}\nbottom_width = 1.0\ntop_width = 1.0\n" for h in (0.86, 86.0, 0.86))
-    law = "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\n"
+    law = "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\nfriction_angle = 35.0\n"
     path = tmp_path / "column.toml"
     path.write_text(f"density = 2500.0\n{drums}{law}")
     with pytest.warns(st.OutOfRangeWarning) as seen:
@@ -451,7 +455,7 @@ def test_blocks_of_an_assembly_are_doubted_as_drums_are(line, said, tmp_path):
     path = tmp_path / "block.toml"
     path.write_text(
         f"density = {values['density']}\ndepth = {values['depth']}\n"
-        f"[joint]\nnormal_stiffness = {values['normal_stiffness']}\nshear_stiffness = 2e10\n"
+        f"[joint]\nnormal_stiffness = {values['normal_stiffness']}\nshear_stiffness = 2e10\nfriction_angle = 35.0\n"
         f"[[block]]\nname = 'a'\nvertices = [[0.0, 0.0], [0.8, 0.0], [0.8, {h}], [0.0, {h}]]\n"
     )
     with pytest.warns(st.OutOfRangeWarning, match=said) as seen:
@@ -467,3 +471,62 @@ VALUES = some.recursive(SCALARS, lambda one: some.lists(one, max_size=3) | some.
 @given(some.dictionaries(KEYS, VALUES, max_size=5), some.lists(some.text("ab #", max_size=4), max_size=2))
 def test_a_file_under_headings_holds_the_same_tables(tables, comments):
     assert tomllib.loads(toml_text(tables, comments)) == tables
+
+
+MISTAKES = {
+    "height = .8": 0.8,
+    "height = 1.": 1.0,
+    "height = 5.e9": 5e9,
+    "height = 0,85": 0.85,
+    "height = 08": 8,
+    "height = .8 m": 0.8,
+    "height = 35° # of the joint": 35,
+    "height = 5e9 N/m³": 5e9,
+    "height = \N{MINUS SIGN}0.8": -0.8,
+    "height = 0.8\N{NO-BREAK SPACE}": 0.8,
+    "height = 0.8;": 0.8,
+    "height: 0.8": 0.8,
+    "height = True": True,
+    "height = no": False,
+    "height = [.5, 1.]": [0.5, 1.0],
+    "height = [0.5 m, .3 m],": [0.5, 0.3],
+    "height = “Ναός”": "Ναός",
+    "height = «Ναός»": "Ναός",
+    "height = ‘test’": "test",
+    "height = temple of Zeus # as known": "temple of Zeus",
+    'height = "sub\\ok.toml"': "sub/ok.toml",
+}
+
+
+@pytest.mark.parametrize("line", MISTAKES)
+def test_the_advice_on_a_slip_of_the_hand_works(tmp_path, line):
+    """What stands behind "write" is put in the place of the value, and the file is read as it was meant."""
+    (tmp_path / "a.toml").write_text(f'name = "a"\n{line}\n', encoding="utf-8")
+    with pytest.raises(InputError, match=r": write .*\.$") as refused:
+        parse_toml(tmp_path / "a.toml")
+    advice = str(refused.value).partition(": write ")[2].removesuffix(".")
+    (tmp_path / "a.toml").write_text(f'name = "a"\nheight = {advice}\n', encoding="utf-8")
+    assert parse_toml(tmp_path / "a.toml") == {"name": "a", "height": MISTAKES[line]}
+
+
+def test_no_value_is_advised_that_would_be_a_guess(tmp_path):
+    """80 cm are not 80 m; a table that stands there twice may be two of a list, or one too many."""
+    for text, said in {
+        "height = 80 cm": "give the number alone, in SI units",
+        "height = 3/4": "column 11).",
+        "height = None": "column 10).",
+        "height = 1.0\nheight = 2.0": "leave one out",
+        "[drum]\nheight = 1.0\n[drum]\nheight = 2.0": "write [[drum]] each time if there may be several, as of drums",
+    }.items():
+        (tmp_path / "a.toml").write_text(text, encoding="utf-8")
+        with pytest.raises(InputError, match=re.escape(said)) as refused:
+            parse_toml(tmp_path / "a.toml")
+        assert not re.search(r"write [\d\"]", str(refused.value))
+    (tmp_path / "a.toml").write_text("[drum]\nheight = 1.0\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"it must be a list: write \[\[drum\]\], with two brackets"):
+        load_column(tmp_path / "a.toml")
+    (tmp_path / "sub").mkdir()
+    write_column(preset("paper-monolithic"), tmp_path / "sub" / "ok.toml")
+    (tmp_path / "b.toml").write_text("[[column]]\nfile = 'sub\\ok.toml'\nat = [0.0]\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"; write .*sub/ok\.toml"):
+        read_assembly(tmp_path / "b.toml")

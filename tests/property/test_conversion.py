@@ -142,7 +142,7 @@ def test_a_column_as_found_comes_back_from_its_mesh(tmp_path):
     """Offsets and leans with their azimuths; drums of 48 corners whose feet are off by less than a micrometre."""
     found = AsFound((FoundDrum(2, offset=0.03, offset_azimuth=120.0), FoundDrum(3, tilt=-1.2, tilt_azimuth=60.0)))
     drums = [st.Drum(0.8, 1.0 - 0.05 * i, 0.95 - 0.05 * i, 2700.0, "circular") for i in range(4)]
-    column = st.Column.of_drums(drums, st.Joint(1e9, 1e9), name="found").replace(as_found=found)
+    column = st.Column.of_drums(drums, st.Joint(1e9, 1e9, 35.0), name="found").replace(as_found=found)
     write_column(column, tmp_path / "a.toml")
     convert(str(tmp_path / "a.toml"), tmp_path / "a.obj", Reading())
     again, _, words = read_model(tmp_path / "a.obj", Reading("marble", becomes="column"))

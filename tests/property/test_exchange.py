@@ -26,13 +26,14 @@ from stylobate.response import Histories, Measures, Response
 from stylobate.response.links import LinkHistories, LinkMeasures
 
 TIME = np.array([0.0, 0.5, 1.0, 1.5, 2.0])
-LAW = st.Joint(1e9, 1e9)
+LAW = st.Joint(1e9, 1e9, 35.0)
 
 TWO = """
 name = "two"
 [joint]
 normal_stiffness = 1e9
 shear_stiffness = 1e9
+friction_angle = 35.0
 [[block]]
 name = "plinth"
 box = [1.0, 1.0, 0.4]

@@ -8,6 +8,7 @@ import json
 import pytest
 
 import stylobate as st
+from stylobate.column.assembly_files import load_structure
 from stylobate.column.files import column_from_dict, write_column
 from stylobate.column.materials import material
 from stylobate.column.scatter import LARGEST, Scatter
@@ -24,6 +25,30 @@ DIGEST = "cf5328c3705b61ff5499fe2b97e3c4294dcb7b439120614cd95b9de4590d2992"
 #: Of every field whose default is None a value; a new field needs one here.
 VALUES = {"friction_angle": 20.0, "friction_coefficient": 0.5, "ring_width": 0.1}
 OPTIONAL = [one.name for one in dataclasses.fields(st.Joint) if one.default is None]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[joint]\n{law}[tapered]\nheight = 2.0\nbottom_width = 0.5\ntop_width = 0.4\ndrums = 2\n",
+        "[joint]\n{law}[[block]]\nvertices = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]\n",
+        "[joint]\n{law}[[block]]\nname = 'a'\nbox = [1.0, 1.0, 1.0]\nat = [0.0, 0.0, 0.0]\n",
+        "[joint]\n{law}friction_angle = 20.0\n[[block]]\nname = 'a'\nbox = [1.0, 1.0, 1.0]\nat = [0.0, 0.0, 0.0]\n"
+        "[[joint_override]]\nbetween = ['ground', 'a']\n{law}",
+    ],
+    ids=["column", "plane", "space", "override"],
+)
+def test_a_friction_that_nobody_gives_is_none(tmp_path, text) -> None:
+    """It was 35 degrees, also between two stones of a structure whose others had 20."""
+    with pytest.raises(st.InputError, match="neither friction_angle"):
+        st.Joint(5e10, 2.5e10)
+    law = "normal_stiffness = 5.0e9\nshear_stiffness = 2.5e9\n"
+    (tmp_path / "a.toml").write_text("density = 2500.0\n" + text.format(law=law))
+    with pytest.raises(st.InputError, match=r"neither friction_angle .*; give one of the two, such as"):
+        load_structure(tmp_path / "a.toml")
+    if "override" not in text:
+        (tmp_path / "a.toml").write_text("density = 2500.0\n" + text.format(law=law + "friction_coefficient = 0.6\n"))
+        assert load_structure(tmp_path / "a.toml").n == text.count("drums = 2") + 1
 
 
 def test_files_say_all_of_a_joint() -> None:

@@ -108,7 +108,7 @@ def test_the_data_set_is_labelled_and_has_units():
 
 
 def test_two_hundred_drums_fit_in_a_file(tmp_path):
-    joint = st.Joint(5e10, 2.5e10)
+    joint = st.Joint(5e10, 2.5e10, 35.0)
     column = st.Column.tapered(height=20.0, bottom_width=3.0, top_width=1.0, drums=200, density=2000.0, joint=joint)
     response = dataclasses.replace(one_response(column), provenance={"column": column.to_dict()})
     assert st.Response.load(response.save(tmp_path / "tall.nc")).column == column

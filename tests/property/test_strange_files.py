@@ -21,6 +21,7 @@ drums = 2
 [joint]
 normal_stiffness = 5.0e10
 shear_stiffness = 2.5e10
+friction_angle = 35.0
 """
 READERS = [load_column, load_structure, is_assembly, st.read_motion]
 

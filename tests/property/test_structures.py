@@ -1,6 +1,7 @@
 """What stands is a structure, asked for what it is made of; nobody tells columns, assemblies and specimens apart."""
 
 import ast
+import dataclasses
 import math
 from pathlib import Path
 
@@ -166,6 +167,22 @@ def test_what_a_model_does_not_know_is_refused():
         st.simulate(STANDING["blocks"], still, st.DistinctElement2D(), start=st.Start(tilt=0.01))
     with pytest.raises(st.InputError, match="dem2d carries up to 0"):
         st.simulate(STANDING["blocks"], still, st.DistinctElement2D(), twins=(STANDING["column"],))
+
+
+@pytest.mark.parametrize("name", ["", "  ", "a\nb", "a\tb", "a\x00", "a\x7f", "a\u2028b"], ids=ascii)
+def test_a_name_is_one_line_of_text(name):
+    """Of whatever stands, and of its parts: reports and files of other programs have a line for each."""
+    for one in STANDING.values():
+        with pytest.raises(st.InputError, match=r"the name of an? \w+ is '.*'; write one line of text"):
+            dataclasses.replace(one, name=name)
+    for make in (
+        lambda: st.Stone.box((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), 2500.0, name=name),
+        lambda: dataclasses.replace(STANDING["blocks"].blocks[0], name=name),
+        lambda: st.Dowel(joint=1, diameter=0.02, embedment=0.1, material="titanium", name=name or "\n"),
+    ):
+        with pytest.raises(st.InputError, match="write one line of text"):
+            make()
+    assert STANDING["column"].replace(name="στήλη №\xa04 «Α» 列").name.endswith("列")
 
 
 def asked_of_the_package(path, tree):

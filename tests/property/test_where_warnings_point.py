@@ -12,7 +12,7 @@ SHAKEN_ACROSS = st.Motion(0.01, np.full(20, 0.1), np.full(20, 0.1))
 WEAK = st.harmonic(1.0, 0.01, 0.5)
 
 WARNING = {
-    "constructor": lambda: st.Column.of_drums([st.Drum(1.0, 0.5, 0.8, 2500.0)], st.Joint(5e9, 5e9)),
+    "constructor": lambda: st.Column.of_drums([st.Drum(1.0, 0.5, 0.8, 2500.0)], st.Joint(5e9, 5e9, 35.0)),
     "request": lambda: st.MotionRequest(synthetic="greece,6Mw,10km", azimuths=(0.0, 180.0), signs="both"),
     "run": lambda: st.simulate(BLOCK, SHAKEN_ACROSS, st.HousnerBlock()),
     "many runs": lambda: st.simulate_many(BLOCK, [SHAKEN_ACROSS], st.HousnerBlock()),

@@ -134,7 +134,7 @@ RATIOS = (0.3, 0.9, 1.5, 3.0, 8.0, 25.0)
 
 def bed_column(section: str) -> Column:
     """The paper's monolith on a soft joint."""
-    joint = Joint(normal_stiffness=1e8, shear_stiffness=5e7)
+    joint = Joint(normal_stiffness=1e8, shear_stiffness=5e7, friction_angle=35.0)
     return Column.tapered(
         height=5.0, bottom_width=0.96, top_width=0.66, drums=1, density=1600.0, joint=joint, section=section
     )

@@ -17,6 +17,7 @@ from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import Twins, the_twins
 from ..column.structure import Structure
 from ..models.base import Case, Model, RunOptions
+from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..notebook import Shown
 from ..response import Response
@@ -67,7 +68,7 @@ def certainty(
     output_interval: float = 0.01,
     until_end: bool = False,
     until_rest: bool = False,
-    quiet: float = 0.0,
+    quiet: float | None = None,
     kept: Path | None = None,
     campaign: Campaign = USUAL,
     **fields: Unpack[Fields],
@@ -98,6 +99,7 @@ def certainty(
     drawn = the_twins(column, model, campaign)
     twins, tail = drawn.columns, campaign.tail
     riding = _riding(drawn, column, model, until_end or until_rest)
+    quiet = share_of(motion) if quiet is None else quiet
     following = {"output_interval": output_interval, "until_end": until_end, "until_rest": until_rest, "quiet": quiet}
     following["until_decided"] = True
 

@@ -132,7 +132,7 @@ def compare_models(
     models = check_all("models", models, Model)
     names = _labels(models, labels)
     what: dict[str, Any] = {"response": [column.digest, motion.name, motion.digest, output_interval]}
-    quiet = share_of([motion], campaign.whole)
+    quiet = share_of(motion, campaign.whole)
     what |= {"quiet": quiet} if quiet else {}
     options = run_options(campaign.tail, output_interval, quiet=quiet)
     hashers = [Hasher(model, options) for model in models]

@@ -25,7 +25,6 @@ from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError, check_kind, check_range
 from ..models.base import Case, Cases, Model
-from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..notebook import Shown
 from ..response.rows import Rows
@@ -337,9 +336,7 @@ def sweep(
     if drawn is not None:
         model = model.paced(column)
     started = time.perf_counter()
-    request = Request.of(
-        cases, Hasher(model, campaign.options), share_of([one.motion for one in shaken], campaign.whole)
-    )
+    request = Request.of(cases, Hasher(model, campaign.options), campaign.quiet)
     finished = run_all(request, campaign)
     results, doubt, cure = [], caveat([column], model), to_decide(column, model.parameters(), campaign.tail)
     for one, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):

@@ -24,6 +24,9 @@ OTHERS = {"magnitude": False, "distance_km": True, "pgv_over_pga_s": True, "d5_9
 #: Fewest records from which a straight line says something.
 FEWEST = 5
 
+#: Logarithms that lie this close together are of one value, through which no line goes [-].
+SAME = 1e-9
+
 #: Responses below this share of the largest that stands are no rocking [-].
 ROCKS = 0.01
 
@@ -116,10 +119,10 @@ def _given(runs: pandas.DataFrame, measure: IntensityMeasure, edp: str) -> float
     stands &= np.isfinite(y) & (y > ROCKS * np.max(y[stands], initial=0.0))
     x = runs[measure.key].to_numpy(dtype=float)
     stands &= x > 0.0
-    if np.count_nonzero(stands) < FEWEST:
+    ln_x, ln_y = np.log(x[stands]), np.log(y[stands])
+    if len(ln_x) < FEWEST or np.ptp(ln_x) < SAME:
         return math.nan
-    line = np.polyfit(np.log(x[stands]), np.log(y[stands]), 1)
-    rest = np.log(y[stands]) - np.polyval(line, np.log(x[stands]))
+    rest = ln_y - np.polyval(np.polyfit(ln_x, ln_y, 1), ln_x)
     return float(np.sqrt((rest**2).sum() / max(1, len(rest) - 2)))
 
 
@@ -133,7 +136,7 @@ def _p_value(runs: pandas.DataFrame, other: str, logarithm: bool, names: np.ndar
     x = np.array([of_record.get(str(name), math.nan) for name in names])
     x = np.log(np.where(x > 0.0, x, math.nan)) if logarithm else x
     known = np.isfinite(x)
-    if np.count_nonzero(known) < FEWEST or np.ptp(x[known]) == 0.0:
+    if np.count_nonzero(known) < FEWEST or np.ptp(x[known]) < SAME:
         return math.nan
     line: Any = linregress(x[known], capacity[known])
     return float(line.pvalue)

@@ -22,7 +22,7 @@ from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, suggest, warn
 from ..models.base import Case, Model
-from ..models.shared.quiet import level, share_of
+from ..models.shared.quiet import level
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
@@ -177,13 +177,13 @@ def ida(
                 grown[id(one)].rows.append(row)
         return made([*grown.values()])
 
-    quiet, hasher = share_of(motions, campaign.whole), Hasher(model, campaign.options)
+    hasher = Hasher(model, campaign.options)
     try:
         with closing(Runs(campaign)) as kept:
             while asked := [(trace, new) for trace in traces for new in wanted(trace)]:
                 cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
                 rows: list[dict] = [{}] * len(cases)
-                with closing(kept.run(Request.of(cases, hasher, quiet))) as finished:
+                with closing(kept.run(Request.of(cases, hasher, campaign.quiet))) as finished:
                     for number, row in finished:
                         rows[number] = row
                         done += 1

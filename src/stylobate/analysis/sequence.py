@@ -272,7 +272,7 @@ def sequence(
         )
     whole = in_sequence(_alike(check_all("motions", motions, Motion), model), rest, repeat)
     options: dict[str, Any] = {"output_interval": output_interval, "until_end": until_end}
-    options["quiet"] = share_of([whole], campaign.whole)
+    options["quiet"] = campaign.quiet
     if not campaign.replicates:
         response = simulate(structure, whole, model, progress=campaign.progress, **options)
         return SequenceResult(response, whole, None, time.perf_counter() - began)
@@ -373,7 +373,7 @@ def earthquakes_until_fall(
     rows: list[dict] = []
     for motion in long:
         cases = [Case(one, motion) for one in stands]
-        options = replace(campaign.options, quiet=share_of([motion], campaign.whole))
+        options = replace(campaign.options, quiet=share_of(motion, campaign.whole))
         rows += batch(cases, structure, model, campaign, options)
     each = [Count.of_rows(rows[k * len(stands) : (k + 1) * len(stands)], spans_of(one)) for k, one in enumerate(long)]
     return UntilFall(tuple(one.name for one in kinds), tuple(each), time.perf_counter() - began)

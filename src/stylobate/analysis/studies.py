@@ -18,7 +18,6 @@ from ..campaign.ledger import RUNS_FILE, finished_runs_in
 from ..campaign.plan import Plan
 from ..campaign.runs import Runs, Stopped, its_turn
 from ..errors import InputError, check_kind
-from ..models.shared.quiet import share_of
 from ..notebook import Shown
 from ..response import Response
 from ..response.rows import Rows
@@ -176,7 +175,7 @@ def run_study(
 def histories_of(study: Study, number: int, **options: Any) -> Response:
     """A case of a study once more, with its histories; further options are those of ``simulate``."""
     column, motion = study.case(number)
-    tail, quiet = study.campaign.tail, share_of([motion], study.campaign.whole)
+    tail, quiet = study.campaign.tail, study.campaign.quiet
     return simulate(column, motion, study.model_of(number), tail=tail, quiet=quiet, until_decided=True, **options)
 
 

@@ -16,7 +16,6 @@ from ..campaign.twins import the_twins
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_choice, check_kind
 from ..models.base import Case, Model
-from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
 from ..motion.orientation import record_of
@@ -128,7 +127,7 @@ def suite_table(
     number = campaign.replicates
     drawn = [the_twins(column, model, campaign) for column in stands] if number else []
     cases += [Case(twin, motion) for some in drawn for motion in motions for twin in some.columns]
-    request = Request.of(cases, Hasher(model, campaign.options), share_of(motions, campaign.whole))
+    request = Request.of(cases, Hasher(model, campaign.options), campaign.quiet)
     found = run_all(request, campaign)
     linked: list[dict[str, Any]] = []
     of_linked: list[Case] = []
@@ -152,8 +151,8 @@ def suite_table(
     table = pandas.DataFrame(rows)
 
     def again(row: int) -> Response:
-        case, quiet = of_linked[row], share_of([of_linked[row].motion], campaign.whole)
-        fine: Any = {"output_interval": FINE, "until_decided": True, "tail": campaign.tail, "quiet": quiet}
+        case = of_linked[row]
+        fine: Any = {"output_interval": FINE, "until_decided": True, "tail": campaign.tail, "quiet": campaign.quiet}
         return simulate(case.column, case.motion, model, **fine)
 
     values = values_of_runs({one.name: one for one in stands}, pandas.DataFrame(linked), again=again)

@@ -61,6 +61,7 @@ class Site:
     """
 
     def __init__(self, folder: Path, worker: Sequence[str]) -> None:
+        folder = folder.absolute()  # the process of jobs is in the folder of the last one
         self.records = Records(folder / RECORDS)
         self.workshop = Workshop(folder / JOBS, worker)
         self.jobs = JobAnswers(self.records, self.workshop)

@@ -63,6 +63,7 @@ class Workshop:
         self._spare: Process | None = None
         self._leaving: list[threading.Thread] = []
         self._current: str | None = None
+        self._retried: str | None = None
         self._closing = False
         self._thread = threading.Thread(target=self._work, name="jobs", daemon=True)
 
@@ -197,12 +198,15 @@ class Workshop:
                 return
             if current.kind not in LONG or first.kind in LONG:
                 return
-            current.state = WAITING
-            self._queue.insert(self._before_long(), current.id)
-            self._changed(current)
+            self._put_back(current, self._before_long())
             process = self._process
             if process is not None:
                 process.tell()  # with the lock: it must not be given another job
+
+    def _put_back(self, job: Job, place: int) -> None:
+        job.state = WAITING
+        self._queue.insert(place, job.id)
+        self._changed(job)
 
     def _work(self) -> None:
         while not self._closing:
@@ -277,12 +281,22 @@ class Workshop:
         process.give({"id": job.id, "folder": str(job.folder), "commands": job.commands})
         if job.kind in LONG:
             self._stand_by(process)
+        begun = False
         for what in process.says():
-            if what.get("id") == job.id and self._hear(job, what):
-                return
+            if what.get("id") == job.id:
+                begun = True
+                if self._hear(job, what):
+                    return
         if job.state == WAITING:  # it makes room for another one
             return
         code = process.end()
+        with self._lock:
+            if (
+                job.state == RUNNING and not begun and self._retried != job.id
+            ):  # the process had ended before it took the job
+                self._retried = job.id
+                self._put_back(job, 0)
+                return
         if job.state == CANCELLED:
             self._end(job, CANCELLED, "Cancelled; what is finished is kept, and it can go on from there.")
         else:
@@ -290,7 +304,7 @@ class Workshop:
             self._end(
                 job,
                 FAILED,
-                f"The process that computes was ended from outside ({why}); what is finished is kept: go on with it.",
+                f"The process that computes ended before the job was done ({why}); what is finished is kept: go on with it.",
             )
 
     def _hear(self, job: Job, what: dict[str, Any]) -> bool:
@@ -300,13 +314,13 @@ class Workshop:
             job.what = what["what"]
             self._changed(job)
             return False
-        if "film" in what or "grown" in what:
+        if "done" in what:
+            self._end(job, DONE, "")
+            return True
+        if "code" not in what:  # it has begun, or there is more of it to see
             job.filmed, job.grown = job.filmed or "film" in what, job.grown + ("grown" in what)
             self._changed(job)
             return False
-        if "code" not in what:
-            self._end(job, DONE, "")
-            return True
         complaints = [str(one) for one in what["complained"]]
         job.warnings += [
             complaint.removeprefix("warning: ") for complaint in complaints if complaint.startswith("warning: ")

@@ -132,6 +132,11 @@ class Campaign:
         return replace(DECIDED, tail=float(self.tail))
 
     @property
+    def quiet(self) -> float | None:
+        """Share of quiet of its motions [-]: 0 where all of them is stepped, None for that of each."""
+        return 0.0 if self.whole else None
+
+    @property
     def of_runs(self) -> Campaign:
         """What it says of the runs themselves."""
         return replace(self, **{name: getattr(USUAL, name) for name in COMPUTING})

@@ -165,7 +165,7 @@ class Study:
     @cached_property
     def quiet(self) -> np.ndarray:
         """Share below which each motion counts as quiet [-], shape (motions,)."""
-        return np.array([share_of([motion], self.campaign.whole) for motion in self.motions])
+        return np.array([share_of(motion, self.campaign.whole) for motion in self.motions])
 
     def plan(self) -> Plan:
         """Runs, as plain data with the digest of every case."""

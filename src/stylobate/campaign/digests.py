@@ -79,11 +79,11 @@ class Hasher:
         found.update(motion)
         return found.digest()[:LENGTH]
 
-    def of_cases(self, cases: Sequence[Case], quiet: float = 0.0) -> np.ndarray:
-        """Digests of cases one by one, shape (cases, 16)."""
+    def of_cases(self, cases: Sequence[Case], quiet: Sequence[float]) -> np.ndarray:
+        """Digests of cases one by one, each with its share of quiet, shape (cases, 16)."""
         found = np.empty((len(cases), LENGTH), dtype=np.uint8)
-        for number, (column, motion) in enumerate(cases):
-            end = self.of_motion(motion, motion.factor, quiet)
+        for number, ((column, motion), share) in enumerate(zip(cases, quiet, strict=True)):
+            end = self.of_motion(motion, motion.factor, share)
             found[number] = np.frombuffer(self.ended(self.of_column(column), end), np.uint8)
         return found
 

@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import InputError
 from ..kernels.gpu import driver
 from ..models.base import Case, Cases, Model, RunOptions
+from ..models.shared.quiet import share_of
 from ..own_files import digest as digest_of_file
 from ..response.measures import CPU, GPU
 from ..response.rows import Rows
@@ -58,10 +59,14 @@ class Request:
     _sound: bool = field(init=False, default=False)
 
     @classmethod
-    def of(cls, cases: Sequence[Case], hasher: Hasher, quiet: float = 0.0) -> Request:
-        """Cases of the model and the end of a hasher, of one share of quiet."""
-        groups = [(np.arange(len(cases)), hasher.model, replace(hasher.options, quiet=quiet))]
-        return cls(cases, Digests(hasher.of_cases(cases, quiet)), groups)
+    def of(cls, cases: Sequence[Case], hasher: Hasher, quiet: float | None = 0.0) -> Request:
+        """Cases of the model and the end of a hasher, of one share of quiet; None for the one that each has alone."""
+        shares = np.array([share_of(case.motion) if quiet is None else quiet for case in cases])
+        groups = [
+            (np.flatnonzero(shares == share), hasher.model, replace(hasher.options, quiet=share))
+            for share in np.unique(shares).tolist()
+        ]
+        return cls(cases, Digests(hasher.of_cases(cases, shares.tolist())), groups)
 
     def __len__(self) -> int:
         return len(self.cases)

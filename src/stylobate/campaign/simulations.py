@@ -240,7 +240,7 @@ class _Table:
             for first in range(0, len(numbers), TOGETHER):  # a hasher keeps the samples that it has read
                 some = numbers[first : first + TOGETHER].tolist()
                 cases = Cases(len(some), lambda j, some=some: self.case(some[j]))
-                digests[some] = Hasher(model, self.options).of_cases(cases, self.options.quiet)
+                digests[some] = Hasher(model, self.options).of_cases(cases, [self.options.quiet] * len(some))
         return Request(Cases(count, self.case), Digests(digests), groups)
 
     def of(self, rows: Rows) -> Simulations:

@@ -114,10 +114,9 @@ def run_one(
 ) -> tuple[Response, Population | None]:
     """One run, and what became of columns like it."""
     from ..analysis.certainty import certainty
-    from ..models.shared.quiet import share_of
     from ..simulate import simulate
 
-    options["quiet"] = share_of([motion], campaign.whole)
+    options["quiet"] = campaign.quiet
     if not campaign.replicates:
         follow: dict[str, Any] = {"tail": campaign.tail, "until_decided": True, "progress": progress}
         return simulate(stone, motion, model, **follow, **options), None
@@ -163,6 +162,7 @@ def each_record(
 
     cases = [Case(stone, motion) for motion in motions]
     request = Request(cases, Digests.of(each), [(np.arange(len(cases)), model, options)])
+    request.check()  # before anything is forecast
 
     def make(number: int) -> dict[str, Any]:
         if len(motions) > 1 and wait > console.FIRST_LINE:

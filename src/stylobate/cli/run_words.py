@@ -125,6 +125,7 @@ def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str
 
 def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str]]:
     """Verdict on an assembly, what it is, and its measures."""
+    from ..response.block_words import moving_at_end
     from . import console
 
     structure: Any = response.structure
@@ -137,8 +138,9 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
         change = "" if response.decided else " and the verdict may change"
         waited = response.provenance.get("until_rest", False)
         damping = "mass_damping=0.5" if structure.space_joints is None else "stiffness_damping=1e-4"
-        remedy = f"damp it with --set {damping}" if waited else "go on with --until-rest"
-        sentence += f" Not everything lies still{change}; {remedy}."
+        remedy = f"; damp it with --set {damping}" if waited else "; go on with --until-rest"
+        rolls = waited and structure.space_joints is not None and moving_at_end(response)  # which no damping stops
+        sentence += f" Not everything lies still{change}{'' if rolls else remedy}."
     fixed = sum(block.fixed for block in structure.bodies[-structure.n :])
     supports = f", {fixed} of them fixed" if fixed else ""
     until, whose = (", until the first block fell", ", at the end") if response.collapsed else ("", "")

@@ -77,7 +77,7 @@ def suite(
             "runs": table.astype(object).where(table.notna(), None).to_dict("records"),
             "verdicts": counts,
             "inputs": [o.input_facts(how.taken(motion)) for motion in records.motions],
-            "quiet_share": share_of(records.motions, following.whole),
+            "quiet_share": max(share_of(motion, following.whole) for motion in records.motions),
             "refused": records.refused,
             "model": how.name,
             "doubt": table.attrs["doubt"],

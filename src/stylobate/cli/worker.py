@@ -116,6 +116,7 @@ def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
     from . import console
     from .main import call
 
+    tell(id=job["id"], begun=True)
     os.chdir(job["folder"])
     for number, command in enumerate(job["commands"]):
         said, complained = io.StringIO(), io.StringIO()

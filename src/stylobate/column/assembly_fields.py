@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..errors import InputError, as_typed, check_all, check_kind
+from ..errors import InputError, as_typed, check_all, check_kind, check_name
 from .joint import Joint
 from .links.link import Link
 
@@ -32,4 +32,4 @@ def check_fields(assembly: Any, bodies: str, kind: type) -> None:
         if not isinstance(one, (tuple, list)) or len(one) != 3 or not all(map(isinstance, one, kinds)):
             raise InputError(f"an override is {as_typed(one)}; allowed is (name, name, Joint), of two blocks.")
     check_kind("joint", assembly.joint, Joint)
-    check_kind("name", assembly.name, str)
+    check_name("the name of an assembly", assembly.name)

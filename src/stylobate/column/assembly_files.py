@@ -160,7 +160,7 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
     return Assembly(
         tuple(blocks),
         joint,
-        table.name or default_name,
+        default_name if table.name is None else table.name,
         table.gravity,
         ground,
         tuple(overrides),

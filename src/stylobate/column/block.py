@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, check_range, warn
+from ..errors import InputError, check_name, check_range, warn
 from .drum import DENSITIES, LENGTHS
 from .joint import Joint
 from .shapes import Outlined, Placed, Prism
@@ -60,7 +60,7 @@ class Block(Outlined):
     solid: tuple[float, float, float, float] | None = None
 
     def __post_init__(self) -> None:
-        who = f"block {self.name!r}"
+        who = f"block {check_name('the name of a block', self.name)!r}"
         try:
             corners = np.array(self.vertices, dtype=float)
         except (TypeError, ValueError):

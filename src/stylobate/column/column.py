@@ -14,7 +14,7 @@ import numpy as np
 
 from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, check_all, check_kind, check_range, check_whole, no_field, warn
+from ..errors import InputError, check_all, check_kind, check_name, check_range, check_whole, no_field, warn
 from .as_found import AS_BUILT, AsFound
 from .block import FAR_AWAY, ground_block
 from .drum import Drum
@@ -116,7 +116,7 @@ class Column(DrumStack):
             object.__setattr__(self, name, tuple(check_all(name, getattr(self, name), kind)))
         check_kind("as_found", self.as_found, AsFound)
         check_kind("losses", self.losses, Losses, optional=True)
-        check_kind("name", self.name, str)
+        check_name("the name of a column", self.name)
         if not 1 <= len(self.drums) <= MAX_DRUMS:
             raise InputError(f"the column has {len(self.drums)} drums; allowed is 1 to {MAX_DRUMS}.")
         if len(self.joints) != len(self.drums):

@@ -16,6 +16,7 @@ from .drum import Drum
 from .drum_stack import DrumStack
 from .found_in_space import inside_overlap, space_geometry, space_load
 from .links.loads import pull_on_part
+from .plausible import field_in_doubt, size_doubts
 from .shapes import CHIP_SLOPE
 from .structure import Standing, Structure
 
@@ -220,10 +221,13 @@ def _check_joint(column: DrumStack, j: int, normal: float, shear: float, beyond:
             "base_tilt" if column.as_found.base_tilt else f"found.{j + 1}.tilt",
         )
     if beyond > 0.0:
+        doubt = next(iter(size_doubts(column)), None)  # a column of a wrong size stands on no slope
+        leans = "base_tilt" if column.as_found.base_tilt else f"found.{j + 1}.offset"
         raise InputError(
             f"{name} is not in equilibrium: at joint {j + 1} the weight above passes {1000.0 * beyond:.3g} mm beyond "
-            f"the contact, {normal * beyond:.4g} N m are missing; make offsets, chips, tilts or base_tilt smaller.",
-            "base_tilt" if column.as_found.base_tilt else f"found.{j + 1}.offset",
+            f"the contact, {normal * beyond:.4g} N m are missing; "
+            f"{doubt or 'make offsets, chips, tilts or base_tilt smaller.'}",
+            field_in_doubt(column) if doubt else leans,
         )
 
 

@@ -11,8 +11,6 @@ from ..constants import DEGREE
 from ..errors import InputError, as_typed, check_range, no_field, warn
 from .drum import LENGTHS
 
-DEFAULT_FRICTION_ANGLE = 35.0
-
 #: A friction angle below this looks like a coefficient [degrees]; without friction both are 0.
 SLIPPERIEST = 3.0
 
@@ -29,9 +27,9 @@ class Joint:
     normal_stiffness, shear_stiffness : float
         k_n and k_s [N/m³].
     friction_angle : float, optional
-        φ [degrees]; 35 if neither angle nor coefficient is given.
+        φ [degrees].
     friction_coefficient : float, optional
-        tan φ [-], instead of the angle; both are known afterwards.
+        tan φ [-], instead of the angle; one of the two is needed, both are known afterwards.
     cohesion : float
         c [Pa], acts while the joint is in contact.
     ring_width : float, optional
@@ -41,7 +39,7 @@ class Joint:
     Raises
     ------
     InputError
-        A value is not finite or outside its range, or angle and coefficient are not of the same friction.
+        A value is not finite or outside its range, or there is no friction, or angle and coefficient are not of the same.
 
     Warns
     -----
@@ -69,7 +67,13 @@ class Joint:
         if mu is not None:
             mu = check_range("friction_coefficient", mu, 0.0, 1e6 if angle is None else math.inf, of="a joint")
         if angle is None:
-            angle = DEFAULT_FRICTION_ANGLE if mu is None else math.atan(mu) / DEGREE
+            if mu is None:
+                raise InputError(
+                    "a joint has neither friction_angle [degrees] nor friction_coefficient [-]; give one of the two, such "
+                    "as friction_angle = 35.0 of dry marble, or in a file the name of a material.",
+                    "friction_angle",
+                )
+            angle = math.atan(mu) / DEGREE
         angle = check_range("friction_angle", angle, 0.0, 90.0, unit="degrees", open_high=True, of="a joint")
         if mu is None and 0.0 < angle < SLIPPERIEST:
             warn(f"friction_angle is {angle:g} degrees, and a coefficient is friction_coefficient: is the unit right?")

@@ -179,6 +179,18 @@ def decimal_doubts(name: str, values: Sequence[float]) -> list[str]:
     return []
 
 
+def field_in_doubt(column: Stack) -> str | None:
+    """Path of the first size or density of a drum that no drum has, or of the one that is unlike the others; else None."""
+    for key, measure in (("height", DRUM), ("bottom_width", WIDTH), ("top_width", WIDTH), ("density", DENSITY)):
+        values = [getattr(drum, key) for drum in column.drums]
+        usual = statistics.median(values)
+        most = max(range(len(values)), key=lambda i: abs(math.log(values[i] / usual)))
+        beyond = [i for i, value in enumerate(values) if not measure.holds(value)]
+        if beyond or decimal_doubts(key, values):
+            return f"drum.{(beyond or [most])[0] + 1}.{key}"
+    return None
+
+
 class Piece(NamedTuple):
     """A stone of an assembly that can move.
 

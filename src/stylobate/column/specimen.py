@@ -11,7 +11,7 @@ import numpy as np
 
 from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, check_range
+from ..errors import InputError, check_name, check_range
 from .block import ground_block
 from .faces import Bed
 from .joint import Joint, given
@@ -72,6 +72,7 @@ class Specimen(Structure):
     gravity: float = STANDARD_GRAVITY
 
     def __post_init__(self) -> None:
+        check_name("the name of a specimen", self.name)
         object.__setattr__(
             self, "mass", check_range("mass of a specimen", self.mass, 0.0, 1e9, unit="kg", open_low=True)
         )

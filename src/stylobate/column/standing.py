@@ -69,7 +69,7 @@ def standing_column(file: str, folder: Path) -> Column:
         There is no such column, or its base is out of level.
     """
     beside = folder / file
-    column = load_column(beside if beside.is_file() else file)
+    column = load_column(beside if beside.is_file() or file.endswith(".toml") else file)
     if column.as_found.base_tilt:
         raise InputError(f"{column.name!r} stands on a base out of level, and the ground of an assembly is level.")
     return column

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 import typing
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -74,7 +74,7 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
             raise InputError(
                 f"{name} is a survey, drum by drum; {called}turn it into a column file first, by `stylobate convert`."
             ) from None
-        other = _point_meant(text, str(error)) or other
+        other = _meant(text, str(error)) or other
         raise InputError(f"{name} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}{other}.") from None
     except RecursionError:
         raise InputError(f"{name} is nested too deeply; {_NESTING}.") from None
@@ -93,12 +93,51 @@ _SURVEY = re.compile(
 _WORKBOOKS = (".xls", ".xlsx", ".xlsm", ".ods", ".numbers")
 
 
-def _point_meant(text: str, error: str) -> str:
-    """What to write for a number with a decimal comma in the line that an error names; empty where it has none."""
+#: What people write in a line and TOML does not take, what stands for it there, and why.
+_MISTAKES: tuple[tuple[str, str | Callable[[re.Match[str]], str], str], ...] = (
+    (r"[“”„‟«»″]([^“”„‟«»″\"]*)[“”„‟«»″\"]", r'"\1"', "quotation marks are straight"),
+    (r"[‘’‚‛′]([^‘’‚‛′']*)[‘’‚‛′']", r"'\1'", "quotation marks are straight"),
+    (r'"[^"]*"', lambda text: text[0].replace("\\", "/"), "folders are divided by /"),
+    (r"[\u00a0\u2000-\u200b\u202f\u3000]", " ", "spaces are plain"),
+    (r"(?<=[\s=\[,])[−–](?=\s*[\d.])", "-", "the minus sign is a hyphen"),
+    (r"^(\s*[\w.\"-]+)\s*:(?!=)", r"\1 =", "a key and its value are divided by ="),
+    (r"(?<=[=\[,])(\s*)(True|TRUE|yes|Yes|YES)\b", r"\1true", "it is true or false, in small letters"),
+    (r"(?<=[=\[,])(\s*)(False|FALSE|no|No|NO)\b", r"\1false", "it is true or false, in small letters"),
+    (r"(=\s*[+-]?\d+),(\d+)(?=\s*(?:#.*)?$)", r"\1.\2", "numbers have a decimal point"),
+    (r"(?<![\w.\"'/])\.(?=\d)", "0.", "a digit stands before a decimal point"),
+    (r"(?<=\d)\.(?![\w\"'./])", ".0", "a digit stands behind a decimal point"),
+    (r"(?<=\d)\.(?=[eE][+-]?\d)", ".0", "a digit stands behind a decimal point"),
+    (r"(?<=[=\[,])(\s*[+-]?)0+(?=\d)", r"\1", "numbers begin with no needless 0"),
+    (r"(?<=\d)\s*(?:m|s|kg/m[³3]|N/m[³3]?|Pa|°|deg|degrees)(?=\s*(?:[\],#]|$))", "", "units are not written"),
+    (r"\s*[;,]\s*(?=#|$)", "", "nothing stands behind a value"),
+    (r"=\s*(?!None|null|NaN)([^\W\d][^\"'#=\[\]{}]*?)(?=\s*(?:#.*)?$)", r'= "\1"', "a text stands in quotes"),
+)
+
+
+def _meant(text: str, error: str) -> str:
+    """What to write instead of the line that an error names, where that would be TOML; empty where nobody knows."""
     place = re.search(r"at line (\d+)", error)
-    line = text.splitlines()[int(place[1]) - 1 :][:1] if place else []
-    number = re.search(r"=\s*([+-]?\d+),(\d+)\s*(?:#.*)?$", line[0]) if line else None
-    return "" if number is None else f"; numbers have a decimal point: write {number[1]}.{number[2]}"
+    line = mended = text.splitlines()[int(place[1]) - 1] if place else ""
+    if "declare" in error or "overwrite" in error or "mutate" in error:  # it has been there before
+        table = re.match(r"\s*\[+\s*([\w.-]+)\s*\]", line)
+        several = (
+            f"write [[{table[1]}]] each time if there may be several, as of drums and blocks, or " if table else ""
+        )
+        return f"; it stands there a second time: {several}leave one out"
+    for pattern, put, why in _MISTAKES:
+        before, mended = mended, re.sub(pattern, put, mended)
+        if mended != before and any(map(_is_toml, (mended, f"x = [{mended}]"))):
+            value = mended.partition("=")[2].partition(" #")[0].strip()
+            return f"; {why}: write {value.rstrip(',') or mended.strip()}"
+    number = re.search(r"=\s*[+-]?[\d.]+(?:[eE][+-]?\d+)?\s*(?:[^\W\d]|[°%])", mended)
+    return "; units are not written: give the number alone, in SI units, angles in degrees" if number else ""
+
+
+def _is_toml(line: str) -> bool:
+    try:
+        return bool(tomllib.loads(line))
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError):
+        return False
 
 
 _NESTING = f"allowed are {DEEPEST} levels of tables and lists"
@@ -177,6 +216,8 @@ def _sentence(item: Any, schema: type[Table], others: list[Any]) -> str:
         expected = " or ".join(dict.fromkeys(alternative for alternative in alternatives if alternative)) or None
     if expected is None:
         return f"{position}{key!r}{place} is {value!r}: {item['msg'].lower()}."
+    if isinstance(value, dict) and expected == "a list":
+        expected = f"a list: write [[{key}]], with two brackets"
     return f"{position}{key!r}{place} is {_short(value)}; it must be {expected}."
 
 

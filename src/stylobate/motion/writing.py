@@ -32,8 +32,9 @@ def write_csv(motion: Motion, path: str | Path) -> Path:
     notes = [f"# dt_s: {as_typed(motion.dt)}", f"# name: {_one_line(motion.name)}"]
     notes += [f"# azimuth_{axis}_deg: {as_typed(angle)}" for axis, angle in azimuths.items() if angle is not None]
     for key in ("station", "network", "event", "event_id", "start_time", "stage", "terms"):
-        if motion.metadata.get(key):
-            notes.append(f"# {key}: {_one_line(str(motion.metadata[key]))}")
+        value = motion.metadata.get(key) or ("computed" if key == "stage" and "format" not in motion.metadata else None)
+        if value:
+            notes.append(f"# {key}: {_one_line(str(value))}")
     as_written = Motion(motion.dt, *(motion.acceleration, motion.lateral, motion.vertical))
     notes.append(f"# sha256: {as_written.digest}")
     notes += [f"# processing {i}: {_one_line(step)}" for i, step in enumerate(motion.processing, 1)]

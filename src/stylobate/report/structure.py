@@ -33,7 +33,7 @@ def structure_section(structure: Structure) -> Section:
 
 def state_section(column: Column, label: str, first: Column, against: str) -> Section:
     """The section on a state of a column: what it differs by from the first one, and all of it where its stones differ."""
-    same = column.replace(name="", links=first.links, as_found=first.as_found) == first.replace(name="")
+    same = column.replace(name=first.name, links=first.links, as_found=first.as_found) == first
     if not same:
         text = f"Its drums or joints are not those of “{against}”: all of it is listed."
         return Section(f"The state “{label}”", [text, *_column(column)])

@@ -12,6 +12,9 @@ from ..outcome import Outcome
 if TYPE_CHECKING:
     from .recorded import Recorded
 
+#: A body slower than this lies, or rocks where it is [m/s].
+SLOW = 0.05
+
 #: Most names that a sentence tells.
 MOST_NAMES = 6
 
@@ -32,7 +35,7 @@ def sentence_of_blocks(response: Recorded) -> str:
             words.append(f"Shifted, but standing: {_names(blocks.displaced)}.")
         if len(order) < len(moving) and not blocks.at_rest:
             words.append("Not all is at rest at the end: what has not fallen by then may yet fall.")
-        return " ".join(words)
+        return " ".join(words) + _moving(response)
     all_of_them = {1: "The block is", 2: "Both blocks are"}.get(len(moving), f"All {len(moving)} blocks are")
     in_place = f"{all_of_them} in place" if response.decided else "Nothing has fallen so far"
     if response.outcome is Outcome.AT_REST:
@@ -43,7 +46,24 @@ def sentence_of_blocks(response: Recorded) -> str:
     far = max(moving, key=lambda i: gone[i])
     others = ", the others by less" if len(moving) > 1 else ""
     shifted = f"{response.bodies.names[far]} by {_length(float(gone[far]))}{others}"
-    return f"{in_place}{', but shifted' if response.decided else '; out of place at the end'}: {shifted}{_widest(response)}."
+    where = ", but shifted" if response.decided else "; out of place at the end"
+    return f"{in_place}{where}: {shifted}{_widest(response)}.{_moving(response)}"
+
+
+def _moving(response: Recorded) -> str:
+    """What rolls on after a wait for rest, in a sentence; empty where nothing does."""
+    moving = moving_at_end(response) if response.provenance.get("until_rest") else {}
+    fast = _names(f"{name} ({speed:.2g} m/s)" for name, speed in moving.items())
+    words = f" Still moving at the end: {fast}. How far they come is not computed: nothing here resists rolling."
+    return words if moving else ""
+
+
+def moving_at_end(response: Recorded) -> dict[str, float]:
+    """Speed of what moves on where the run ends, by name [m/s]: what it has moved by then is no residual."""
+    if response.histories.velocity is None or response.outcome is Outcome.FAILED:
+        return {}
+    speeds = np.linalg.norm(response.histories.velocity[-1], axis=-1).tolist()
+    return {name: speed for name, speed in zip(response.bodies.names, speeds, strict=True) if speed > SLOW}
 
 
 def mechanism_of(response: Recorded) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..constants import g
-from .block_words import mechanism_of
+from .block_words import mechanism_of, moving_at_end
 from .links import row_of
 from .words import doubt_of
 
@@ -86,12 +86,12 @@ def _of_column(response: Recorded) -> dict:
 def _of_blocks(response: Recorded) -> dict:
     m, blocks = response.measures, response.measures.blocks
     assert blocks is not None
-    gone = m.collapsed
+    gone, moving = m.collapsed, moving_at_end(response)
     h = response.histories
     before = h.time <= m.collapse_time if gone else np.ones(len(h.time), dtype=bool)
     joints = {"peak_opening_per_joint_m": _finite(h.opening[before].max(axis=0))}
     if m.residuals is not None:
-        fell = [body.fell_at is not None for body in blocks.bodies]
+        fell = [body.fell_at is not None or body.name in moving for body in blocks.bodies]
         joints |= {name: [None] * len(each) if gone else each for name, each in m.residuals.of_joints().items()}
         for name, each in m.residuals.of_bodies().items():
             joints[name] = [None if down else one for one, down in zip(each, fell, strict=True)]
@@ -105,7 +105,7 @@ def _of_blocks(response: Recorded) -> dict:
         "at_rest": blocks.at_rest,
         "in_equilibrium_as_drawn": blocks.in_equilibrium,
         "peak_displacement_m": blocks.peak_displacement,
-        "residual_displacement_m": None if gone else blocks.residual_displacement,
+        "residual_displacement_m": None if gone or moving else blocks.residual_displacement,
         "peak_rotation_rad": m.peak_rotation,
         "peak_joint_opening_m": m.peak_joint_opening,
         "residual_joint_slip_m": None if gone else m.residual_joint_slip,
@@ -113,7 +113,11 @@ def _of_blocks(response: Recorded) -> dict:
         "energy_imbalance": m.energy_imbalance,
         "time_step_s": m.time_step,
         "steps": m.steps,
-        "bodies": {body.name: body.row() for body in blocks.bodies},
+        "bodies": {
+            body.name: body.row() | ({"residual_displacement_m": None} if body.name in moving else {})
+            for body in blocks.bodies
+        },
+        "moving_at_end_m_s": moving,
         "struck_at_s": blocks.struck_at,
         "mechanism": mechanism_of(response),
         "doubt": doubt_of(response),

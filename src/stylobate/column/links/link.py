@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, NamedTuple, Self
 
-from ...errors import InputError, as_typed, check_choice, check_range, check_whole
+from ...errors import InputError, as_typed, check_choice, check_name, check_range, check_whole
 from ..joint import Joint
 from .materials import MATERIALS
 
@@ -157,6 +157,8 @@ class Link:
             raise TypeError(f"{cls.__name__} acts as a {cls.law}, which lies in a {usual}, and lies in a {cls.lies}.")
 
     def __post_init__(self) -> None:
+        if self.name != "":
+            check_name("the name of a link", self.name)
         if self.between is None:
             if self.at is None:
                 object.__setattr__(self, "at", (0.0, 0.0))

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, as_typed, check_all, check_kind, check_range
+from ...errors import InputError, as_typed, check_all, check_kind, check_name, check_range
 from ..drum import DENSITIES, LENGTHS
 from ..joint import Joint
 from ..shapes import (
@@ -79,7 +79,7 @@ class Stone(Outlined):
     surface: Joint | None = None
 
     def __post_init__(self) -> None:
-        who = f"block {check_kind('name of a block', self.name, str)!r}"
+        who = f"block {check_name('the name of a block', self.name)!r}"
         object.__setattr__(self, "parts", tuple(check_all(f"parts of {who}", self.parts, Placed)))
         fixed = check_kind(f"fixed of {who}", self.fixed, (bool, np.bool_), allowed="True or False")
         object.__setattr__(self, "fixed", bool(fixed))

@@ -11,7 +11,6 @@ below 1 nothing moves but the springs of the joints. What stays below a small sh
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 
@@ -67,9 +66,10 @@ def shaking(motion: Motion, column: Column, share: float) -> np.ndarray:
     return np.stack((np.maximum(first - 1, 0), np.minimum(last + 1, motion.steps - 1)), axis=1) * motion.dt
 
 
-def share_of(motions: Sequence[Motion], whole: bool) -> float:
-    """The share below which motions are quiet [-]: of records; 0 for computed motions, which have no quiet to speak of."""
-    return 0.0 if whole or not all("format" in motion.metadata for motion in motions) else QUIET
+def share_of(motion: Motion, whole: bool = False) -> float:
+    """The share below which a motion is quiet [-]: of a record; 0 for a computed motion, which has no quiet to speak of."""
+    recorded = "format" in motion.metadata and motion.metadata.get("stage") != "computed"
+    return QUIET if recorded and not whole else 0.0
 
 
 def is_cut(case: Case, options: RunOptions) -> bool:

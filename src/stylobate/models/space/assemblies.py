@@ -103,7 +103,7 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
     chunks_of(structure, motion, engine, options)
     made = settled(structure, engine)
     if made.balanced is False:
-        said = f"{structure.name!r} is not in equilibrium as drawn; it moves from the start."
+        said = f"{structure.name!r} is not in equilibrium as drawn, as far as settling shows; it moves from the start."
         warnings.warn(said, OutOfRangeWarning, stacklevel=4)
     return go_on(structure, motion, numbers, options, made, [])
 
