@@ -48,7 +48,7 @@ ROOT = Path(__file__).parents[1]
 
 #: Parts, the most important first, and the longest that each may take [s].
 PARTS = {
-    "machine": 30.0, "kinds": 150.0, "plane": 60.0, "space": 80.0, "kernels": 60.0, "cores": 60.0, "tests": 150.0, "processes": 60.0,
+    "machine": 30.0, "kinds": 150.0, "plane": 80.0, "space": 80.0, "kernels": 60.0, "cores": 60.0, "tests": 150.0, "processes": 60.0,
     "million": 900.0,
 }  # fmt: skip
 
