@@ -118,7 +118,9 @@ def _check(name: str) -> dict[str, Any]:
     """What came of a kernel, and the time of compiling it for this machine and of its runs [s]."""
     started = time.perf_counter()
     try:
-        card_check.check(driver.the_card(), name, st.DistinctElement2D if name.startswith("plane") else st.DistinctElement3D)
+        card_check.check(
+            driver.the_card(), name, st.DistinctElement2D if name.startswith("plane") else st.DistinctElement3D
+        )
         verdict = "as the processor"
     except st.StylobateError as error:
         verdict = str(error)
@@ -279,7 +281,19 @@ def measure_million(histories: int, seconds: float, folder: Path, keep: Keep) ->
         'columns = ["column.toml"]\nmodels = ["dem2d"]\n[motions]\nfiles = ["pulses/*.csv"]\n[scale]\nim = "pgv"\n'
         f'levels = "0.1m/s:2.5m/s:50"\n[scatter]\nrealisations = {max(1, histories // 1000)}\n'
     )
-    run = [sys.executable, "-m", "stylobate", "study", "run", "study.toml", "--out", "study", "--device", "gpu", "--json"]
+    run = [
+        sys.executable,
+        "-m",
+        "stylobate",
+        "study",
+        "run",
+        "study.toml",
+        "--out",
+        "study",
+        "--device",
+        "gpu",
+        "--json",
+    ]
     keep({"histories": max(1, histories // 1000) * 1000})
     began = time.monotonic()
     for name, last in (("killed", False), ("gone on with", True)):
