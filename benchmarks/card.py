@@ -48,8 +48,8 @@ ROOT = Path(__file__).parents[1]
 
 #: Parts, the most important first, and the longest that each may take [s].
 PARTS = {
-    "machine": 30.0, "kinds": 150.0, "plane": 80.0, "space": 80.0, "kernels": 60.0, "cores": 60.0, "tests": 150.0, "processes": 60.0,
-    "million": 900.0,
+    "machine": 30.0, "kinds": 150.0, "plane": 80.0, "space": 80.0, "kernels": 60.0, "cores": 60.0, "tests": 150.0,
+    "processes": 60.0, "million": 900.0,
 }  # fmt: skip
 
 #: Runs end to end, in the plane and in space; runs by the processor's threads alone, for each thread.
@@ -154,7 +154,7 @@ def measure_end_to_end(where: str, turns: list[int], keep: Keep) -> None:
 
 @contextmanager
 def _watched() -> Iterator[dict[str, float]]:
-    """Times of beginning and ending runs, of the clock and of the processor, and of launches, of all threads together [s]."""
+    """Times of beginning and ending runs and of launches, by the clock and of the processor, of all threads together [s]."""
     spent: dict[str, float] = {}
     kept = []
 
@@ -238,7 +238,7 @@ def measure_cores(each: dict[str, int], keep: Keep) -> None:
 
 def measure_tests(keep: Keep) -> None:
     """The tests that need a card."""
-    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-m", "gpu", "-v", "-rs", "--durations=0", "tests/agreement/test_on_card.py"]  # fmt: skip
+    command = [sys.executable, "-m", "pytest", "-n", "0", "-m", "gpu", "-v", "-rs", "tests/agreement/test_on_card.py"]
     with subprocess.Popen(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as running:
         told: list[str] = []
         for line in running.stdout or ():
@@ -417,7 +417,8 @@ def main() -> None:
             print(f"{part}: no time is left", flush=True)
             continue
         started = time.monotonic()
-        command = [sys.executable, __file__, part, "--alone", "--out", str(asked.out), "--seconds", str(left), "--histories", str(asked.histories)]  # fmt: skip
+        command = [sys.executable, __file__, part, "--alone", "--out", str(asked.out)]
+        command += ["--seconds", str(left), "--histories", str(asked.histories)]
         with (asked.out / f"{part}.txt").open("w") as told:
             running = subprocess.Popen(
                 command + ["--small"] * asked.small, stdout=told, stderr=subprocess.STDOUT, start_new_session=True

@@ -16,7 +16,7 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
                rb rt          radii of the lower and the upper face [m]; to the farthest corner, if they have corners
                px py pz [4]   corners of the lower face from its middle, in the axes of the body, in order round it [m]
                tx ty          half widths of the upper face along i and j [m] (round drums: unused)
-               f[3] mo[3]     force and moment of all its contacts at t_n, where the ledger is asked for [N], [N m]; not on cards
+               f[3] mo[3]     force and moment of all its contacts at t_n, where the ledger is asked for [N], [N m]
     joint[j]   kn ks co       stiffness and cohesion per area [N/m³], [N/m³], [Pa]
                mu             tan φ
                s[3] t         shear force on the drum above in the axes of the drum below [N], torsion moment [N m];
