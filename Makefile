@@ -1,4 +1,4 @@
-# make install | demo | test | test-cpus | test-pythons | test-gpu | test-wheel | wheel | ptx | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
+# make install | demo | test | test-cpus | test-pythons | test-gpu | bench-gpu | test-wheel | wheel | ptx | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
@@ -20,7 +20,7 @@ endif
 # What is imported is compiled when it is first imported, and kept: a tenth of what is installed.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: install demo test test-cpus test-pythons test-gpu ptx wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
+.PHONY: install demo test test-cpus test-pythons test-gpu bench-gpu ptx wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
 
 install: $(STAMP)
 	@:
@@ -57,6 +57,10 @@ $(GPU_STAMP): requirements/gpu.lock $(STAMP)
 # The tests that need a graphics card, which the others go without.
 test-gpu: $(GPU_STAMP)
 	@$(BIN)/python -m pytest -n 0 -m gpu -rs $(ARGS)
+
+# What a graphics card makes of many histories, in a quarter of an hour: figures in figures-gpu/; ARGS="plane space" for some.
+bench-gpu: $(GPU_STAMP) ptx
+	@$(BIN)/python benchmarks/card.py $(ARGS)
 
 $(PTX_STAMP): requirements/ptx.lock
 	@echo "Installing the compiler for graphics cards into .venv-ptx"

@@ -21,6 +21,7 @@ from numba.np.numpy_support import as_dtype
 import stylobate as st
 from stylobate.column.twins import twins_of
 from stylobate.kernels.gpu import column, kinds, laws
+from stylobate.kernels.run_codes import LANES
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.drums import card as lanes
 from stylobate.models.drums import card_check
@@ -39,6 +40,7 @@ def memory_of_a_block(self: Any, shape: Any, dtype: Any) -> np.ndarray:
 
 kernelapi.FakeCUDAShared.array = memory_of_a_block
 lanes.THREADS = 1  # the simulator has one card, which does one thing at a time
+lanes.WIDE = LANES  # spares the compiler the wide blocks
 sys.setswitchinterval(1e-5)  # its threads wait for one another in loops
 kinds.BLOCK_LANES = 2  # so that a block is half empty, and others are all
 for module in (column, laws):

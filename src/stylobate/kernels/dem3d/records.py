@@ -9,7 +9,6 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
                m im           mass and its inverse [kg]
                ia ic          1/A, and 1/C − 1/A, with the inertia A about j and C about k           [1/(kg m²)]
                ib             1/B − 1/A, with the inertia B about i (0 for round drums)                    [1/(kg m²)]
-               f[3] mo[3]     force and moment of all its contacts at t_n, where the ledger is asked for [N], [N m]
                fx fy fz       middle of the lower face from the centroid, in the axes of the body [m]
                nx ny nz       normal of the lower face (up), in the axes of the body [-]
                ht             centroid to the middle of the upper face, along k [m]
@@ -17,6 +16,7 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
                rb rt          radii of the lower and the upper face [m]; to the farthest corner, if they have corners
                px py pz [4]   corners of the lower face from its middle, in the axes of the body, in order round it [m]
                tx ty          half widths of the upper face along i and j [m] (round drums: unused)
+               f[3] mo[3]     force and moment of all its contacts at t_n, where the ledger is asked for [N], [N m]
     joint[j]   kn ks co       stiffness and cohesion per area [N/m³], [N/m³], [Pa]
                mu             tan φ
                s[3] t kf kt   core of the shear, see shared/friction.py: force on the drum above in the axes of that below
@@ -120,8 +120,8 @@ def types(
     return {
         "body": np.dtype(
             some(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ax ay az ht rb rt tx ty")
-            + some("f mo", 3)
             + some("px py pz", corners)
+            + some("f mo", 3)
         ),
         "joint": vertex_type(some) if face == "vertex" else joint_type(face, damped, some),
         "load": np.dtype(some("f up lo", 3)),

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cache
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -44,8 +45,8 @@ REGISTERS = {"plane": 128, "plane-damped": 168, "rim": 168}
 #: Steps for which a block holds the motion of its base at a time, of a chunk: its memory is short.
 AHEAD = CHUNK // 2
 
-#: Last fields of a body in the plane, which the loads under and over it tell.
-IN_LOADS = ("fx", "fz", "mo")
+#: Last fields of a body in the plane and in space, which the loads under and over it tell.
+IN_LOADS, IN_LOADS_IN_SPACE = ("fx", "fz", "mo"), ("f", "mo")
 
 #: Folder of the files.
 FOLDER = Path(__file__).parent / "built"
@@ -72,9 +73,9 @@ def kinds() -> dict[str, Types]:
         joint = in_plane.point_joint(POINTS, damped, BLOCK_LANES)
         own = in_plane.types(joint, damped, POINTS, BLOCK_LANES, False)
         found[plane_kernel(damped)] = own | {"body": _without(own["body"], IN_LOADS)}
-        for face in FACES:
-            found[space_kernel(face, damped, False)] = in_space.types(face, damped, lanes=BLOCK_LANES)
-    found[space_kernel("rim", True, True)] = in_space.types("rim", True, True, lanes=BLOCK_LANES)
+    for face, damped, rolling in (*product(FACES, (False, True), (False,)), ("rim", True, True)):
+        own = in_space.types(face, damped, rolling, lanes=BLOCK_LANES)
+        found[space_kernel(face, damped, rolling)] = own | {"body": _without(own["body"], IN_LOADS_IN_SPACE)}
     return found
 
 

@@ -120,13 +120,13 @@ class DistinctElement2D(LossyDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def record_types(self, linked: bool) -> Types:
+    def record_types(self, linked: bool, lanes: int = LANES) -> Types:
         """Types of the records by the law of the joints, for columns with links or without."""
-        return point_law(self.points, self.damped, LANES, linked)
+        return point_law(self.points, self.damped, lanes, linked)
 
-    def block_for(self, kind: Topology, options: RunOptions) -> ColumnLanes:
+    def block_for(self, kind: Topology, options: RunOptions, lanes: int = LANES) -> ColumnLanes:
         """A block of lanes for columns of a kind."""
-        return ColumnLanes(self.record_types(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
+        return ColumnLanes(self.record_types(bool(kind.links), lanes), self.pack, kind, options, self.cost(kind.stack))
 
     def card_kernel(self, kind: Topology) -> str | None:
         """Of columns without links on two contact points a joint."""

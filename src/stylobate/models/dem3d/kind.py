@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...kernels.dem3d.records import types
+from ...kernels.run_codes import LANES
 from ..drums.bodies import Topology
 
 #: In place of a section: one body that stands on its vertices; round drums on rings, or with chips.
@@ -46,9 +47,9 @@ class Kind(NamedTuple):
         """On what the bodies stand, as the kernels' records are told."""
         return FACES.get(self.section, self.law)
 
-    def record_types(self, linked: bool) -> dict[str, np.dtype]:
+    def record_types(self, linked: bool, lanes: int = LANES) -> dict[str, np.dtype]:
         """Types of the kernel's records, with links or without."""
-        return types(self.face, self.damped, self.rolls, linked)
+        return types(self.face, self.damped, self.rolls, linked, lanes)
 
     @property
     def card_kernel(self) -> str | None:

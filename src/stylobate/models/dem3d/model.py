@@ -14,6 +14,7 @@ from ...column.shapes import DRUMS, ConvexSolid, Glued
 from ...column.specimen import Specimen
 from ...column.structure import Structure
 from ...errors import InputError, check_choice, check_range
+from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, RunOptions
@@ -305,9 +306,9 @@ class DistinctElement3D(LossyDrums):
         """A column or a specimen as the kernel wants it."""
         return (_pack_specimen if column.stack is None else _pack)(column, self.acting(column))
 
-    def records(self, kind: Kind) -> Records:
+    def records(self, kind: Kind, lanes: int = LANES) -> Records:
         """Empty records of the kernel for what is of a kind."""
-        return Records(self.kernel(), kind.record_types(bool(kind.topology.links)), kind.topology, kind.rows)
+        return Records(self.kernel(), kind.record_types(bool(kind.topology.links), lanes), kind.topology, kind.rows)
 
     def stable_step(self, column: Any) -> float:
         """Largest stable time step of the closed column [s]."""
@@ -315,12 +316,12 @@ class DistinctElement3D(LossyDrums):
             return stable_step(top_frequency(column), self.acting(column).stiffness_damping)
         return _stable_step(column, self.acting(column))
 
-    def block_for(self, kind: Kind, options: RunOptions) -> SpaceBlock:
+    def block_for(self, kind: Kind, options: RunOptions, lanes: int = LANES) -> SpaceBlock:
         """A block of lanes for what is of a kind."""
         if kind.section == SPECIMEN:
             return SpaceBlock(self.records(kind), FreeBody(), self.pack, options, self.cost(kind.rows // 32))
         bodies, cost = Stack(planar=self.planar, pivots=self.pivot_friction < 1.0), self.cost(kind.rows)
-        return SpaceBlock(self.records(kind), bodies, self.pack, options, cost, planar=self.planar)
+        return SpaceBlock(self.records(kind, lanes), bodies, self.pack, options, cost, planar=self.planar)
 
     def card_kernel(self, kind: Kind) -> str | None:
         """Of columns without links on whole rims, or on corners."""

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 #: Chunks of steps of a launch: some tens of milliseconds, for which Ctrl-C and runs that have ended wait.
 CHUNKS_PER_LAUNCH = 500
 
+#: Lanes of a block here: what runs come to is made for all of a block that end together, one launch in twenty of each.
+WIDE = 512
+
 #: Threads that work for a card, each with as many lanes as the card advances at a time: while one begins and ends runs, the
 #: lanes of the other go on.
 THREADS = 2
@@ -38,26 +41,24 @@ class CardLanes:
     name : str
         Of the kernel.
     make : callable
-        A block here, of columns that the kernel is for.
+        A block here, of columns that the kernel is for; of so many lanes as it is given.
     runs : int
         How many runs there are for these lanes, at most.
     turn : Lock
         Of all threads that work for the card.
     """
 
-    def __init__(self, device: Device, name: str, make: Callable[[], LaneRuns], runs: int, turn: Lock) -> None:
+    def __init__(self, device: Device, name: str, make: Callable[..., LaneRuns], runs: int, turn: Lock) -> None:
         from ...kernels.gpu.card import CardRecords, lanes_at_once
         from ...kernels.gpu.kinds import lanes_of
 
-        first = make()
+        first, starter, of_card = make(WIDE), make(), lanes_of(name)
         self.each, drums = first.lanes, first.arrays.topology.stack
-        most = max(1, lanes_at_once(device, name, drums) // self.each)
-        count = min(max(1, -(-runs // self.each)), most)
-        self.blocks = [first, *(make() for _ in range(count - 1))]
+        self.lanes = min(max(1, -(-runs // of_card)) * of_card, lanes_at_once(device, name, drums))
+        self.blocks = [first, *(make(WIDE) for _ in range(-(-self.lanes // self.each) - 1))]
         for block in self.blocks:
-            block.computed_by = f"gpu ({device.name})"
-        self.lanes = count * self.each
-        self.card = CardRecords(device, name, drums, self.lanes // lanes_of(name))
+            block.computed_by, block.starter = f"gpu ({device.name})", starter
+        self.card = CardRecords(device, name, drums, self.lanes // of_card)
         self.views = self.card.views()
         self.turn = turn
         self.running = np.zeros(self.lanes, dtype=bool)
@@ -71,8 +72,9 @@ class CardLanes:
 
     def advance(self) -> None:
         """Advance all lanes by a launch; those whose runs end stand still from there."""
-        with self.turn:
-            self._begin()
+        if self.cases or self.waiting:
+            with self.turn:
+                self._begin()
         if not self.running.any():
             return
         self.card.advance(CHUNKS_PER_LAUNCH)

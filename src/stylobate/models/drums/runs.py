@@ -11,7 +11,7 @@ import numpy as np
 from ...column import Column
 from ...constants import LONGEST_WAIT
 from ...errors import InputError
-from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
+from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, RUNNING
 from ...outcome import Outcome, classify
 from ...response import LinkMeasures, Measures
 from ...response.measures import CPU
@@ -51,7 +51,7 @@ class LaneRuns(LaneEngine):
         self.pack, self.arrays, self.options = pack, records, options
         self.lane, self.feed, self.watch, self.link = records.lane, records.feed, records.watch, records.link
         self.packed: dict[int, Packed] = {}
-        self.lanes, self.chunk, self.tied = LANES, CHUNK, len(self.link) > 0
+        self.lanes, self.chunk, self.tied = records.lanes, CHUNK, len(self.link) > 0
         self.watch["status"] = FREE
         self.dt = np.zeros(self.lanes)
         self.steps = np.zeros(self.lanes, dtype=np.int64)
@@ -63,6 +63,7 @@ class LaneRuns(LaneEngine):
         self.ledgers: dict[int, np.ndarray] = {}  # of lanes that stand still
         self.ended: dict[int, Measures] = {}  # of lanes whose runs have ended
         self.started: Started | None = None
+        self.starter: LaneRuns | None = None  # a block of few lanes, in which runs begin at less cost than in this one
         self.spans = quiet.Spans(self.lanes, options, self.chunk)
         self.chunks_per_call = 1
         self.piece = longest_piece(cost, self.chunk)
@@ -89,10 +90,18 @@ class LaneRuns(LaneEngine):
         self.shake(lane, case.motion)
         ground = self.ground_at_start(lane)
         if self.started is None or not self.started.serves(packed, dt, ground):
-            self.stand(lane)
-            self.begin(lane)
-            self.started = Started.of(self, lane, ground)
+            self.started = self._started(lane, case, ground)
         self.started.put(self, lane)
+
+    def _started(self, lane: int, case: Case, ground: tuple[float, ...]) -> Started:
+        """How a run begins that is in a lane."""
+        if self.starter is not None:
+            self.starter.load(0, case)
+            assert self.starter.started is not None
+            return self.starter.started
+        self.stand(lane)
+        self.begin(lane)
+        return Started.of(self, lane, ground)
 
     def ground_at_start(self, lane: int) -> tuple[float, ...]:
         """What the acceleration of the base at the start of a run hangs on, but for the column [m/s²].

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...column import Column
 from ...errors import check_range
+from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ...outcome import Outcome
 from ...response import Measures, Response
@@ -80,7 +81,7 @@ class SteppedDrums(Model):
         """Largest stable time step of the closed column [s]."""
         raise NotImplementedError
 
-    def block_for(self, kind: Any, options: RunOptions) -> Any:
+    def block_for(self, kind: Any, options: RunOptions, lanes: int = LANES) -> Any:
         """A block of lanes for columns of a kind."""
         raise NotImplementedError
 

@@ -106,13 +106,13 @@ class RigidBlock(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def record_types(self, linked: bool) -> Types:
+    def record_types(self, linked: bool, lanes: int = LANES) -> Types:
         """Types of the records by the law of the joints, for columns with links or without."""
-        return interface_law(self.compressive_strength is not None, self.damped, LANES, linked)
+        return interface_law(self.compressive_strength is not None, self.damped, lanes, linked)
 
-    def block_for(self, kind: Topology, options: RunOptions) -> ColumnLanes:
+    def block_for(self, kind: Topology, options: RunOptions, lanes: int = LANES) -> ColumnLanes:
         """A block of lanes for columns of a kind."""
-        return ColumnLanes(self.record_types(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
+        return ColumnLanes(self.record_types(bool(kind.links), lanes), self.pack, kind, options, self.cost(kind.stack))
 
     def pack(self, column: Column) -> Packed:
         """A column as the engine wants it."""
