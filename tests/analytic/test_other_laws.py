@@ -28,10 +28,10 @@ def test_verdicts_are_those_of_the_models_with_these_laws(found):
     }
     assert set(found.verdicts) == {*same, "stiffer joints", "softer joints"}
     for words, model in same.items():
-        alone = st.simulate(ROUND, MOTION, model).measures.row()
+        alone = st.simulate(ROUND, MOTION, model, until_decided=True).measures.row()
         assert found.verdicts[words] == v.verdict(alone)
     soft = st.Joint(JOINT.normal_stiffness / FACTOR, JOINT.shear_stiffness / FACTOR, friction_coefficient=0.7)
-    alone = st.simulate(ROUND.replace(joints=soft), MOTION, SPACE).measures.row()
+    alone = st.simulate(ROUND.replace(joints=soft), MOTION, SPACE, until_decided=True).measures.row()
     assert found.verdicts["softer joints"] == v.verdict(alone)
 
 
