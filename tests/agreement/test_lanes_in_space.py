@@ -175,7 +175,7 @@ def test_a_lane_does_not_hang_on_its_neighbours(monkeypatch):
 
     What begins as drawn is run alone.
     """
-    motions = [shaking(size, duration=duration) for size, duration in ((3.0, 0.3), (0.1, 0.15), (0.2, 0.1))]
+    motions = [shaking(size, duration=duration) for size, duration in ((4.0, 0.3), (0.1, 0.15), (0.2, 0.1))]
     cases = [Case(portal(width), motion) for width in (0.8, 0.75) for motion in motions]
     drawn = st.SpatialAssembly(portal().stones, JOINT, name="as drawn", settle=False)
     together, alone = batch([*cases, Case(drawn, motions[2])], monkeypatch)

@@ -79,7 +79,8 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     # the tangent plane of friction
     n = along((fx, fy, fz), NOTHING, z)
     n = scaled(1.0 / length(n), n)
-    # slip and spin of the upper drum over the lower one at the centroid of what touches
+    # slip and spin of the upper drum over the lower one at the centroid of what touches, beside the middle of pressure
+    centre = along(centre, dot(minus(middle, centre), n), n)
     at = along(velocity, 1.0, vector(spin, minus(centre, c)))
     slip, turning = along(at, -dot(at, n), n), dot(spin, n)
     # friction with one limit for both  # Eq. (E6)
@@ -88,9 +89,15 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle
     turning = turning if pivot > 0.0 else 0.0
     core, fresh = layers(e, v, l)
-    core, fresh, q, twist, power, spun = friction(core, fresh, own, n, slip, turning, dt, limits)
+    before = along(core[0], 1.0, fresh[0])
+    core, fresh, q, twist = friction(core, fresh, own, n, slip, turning, dt, limits)
     remember(e, v, l, core, fresh)
-    sums.shear[l] -= 0.5 * dt * (power + pivot * spun)
+    # work of the forces a step ago and now, with their moments about the middle of the face below
+    about = along(vector(centre, q), pivot * twist, n)
+    work = dot(along(before, 1.0, q), minus(velocity, vector(spin, c)))
+    work += dot(along(in_space(v, l, e.tm[0, l], e.tm[1, l], e.tm[2, l]), 1.0, about), spin)
+    sums.shear[l] -= 0.5 * dt * work
+    e.tm[0, l], e.tm[1, l], e.tm[2, l] = in_body(v, l, about[0], about[1], about[2])
     if e.d.shape[0] > 1:
         # dashpots parallel to the springs; friction in sum stays within Coulomb's
         g, turn = dragged(q, twist, own, n, slip, turning, o.damp[BETA, l], limits)

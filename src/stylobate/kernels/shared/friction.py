@@ -105,13 +105,10 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
         As given, now.
     force, torsion : vector, float
         Of both layers, at C and about it.
-    power, turning : float
-        Of the force and of the torsion, a step ago and now, together, on the upper body [W].
     """
     before, turn_before, k_before, j_before = core
     f, t, kf_before, jf_before = fresh
     k, j, centre, middle = face
-    power, turning = dot(along(before, 1.0, f), slip), (turn_before + t) * spin
     new = k_before == 0.0  # what begins to touch is core
     kc, jc = (k, j) if new else (min(k, k_before), min(j, j_before))
     kf, jf = k - kc, j - jc
@@ -129,7 +126,7 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
     keep = max(1.0 - SLIPPED * beyond, 0.0)
     f, t, kf, jf = scaled(keep, f), keep * t, keep * kf, keep * jf
     core = minus(total, f), twist - t, k - kf, j - jf
-    return core, (f, t, kf, jf), total, twist, power + dot(total, slip), turning + twist * spin
+    return core, (f, t, kf, jf), total, twist
 
 
 @long_law

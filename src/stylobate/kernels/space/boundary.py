@@ -16,7 +16,7 @@ All in the frame of the lower face: origin in its middle, x and y along it, z ou
                    and half in PRESS and FIRST: PRESS, integral of depth [m²];
                    FIRST 3, of depth times place [m³]; SECOND, of depth times place squared [m⁴]; SQUARE, of depth squared
                    [m³]; then of both: AREA twice that of the overlap [m²], EDGE, its length [m]; LENGTH of what touches
-                   [m], MOMENT 2, its moments along x and y [m²], and POLAR, of its place squared [m³]
+                   [m], MOMENT 3, of its place [m²], and POLAR, of its place squared [m³]
 """
 
 import math
@@ -26,7 +26,7 @@ from ..jit import kernel, law, long_law
 from ..shared.vectors import along, cross, dot, minus, of
 
 #: Places in ``sums``, those of the lower edge behind those of the upper one.
-PRESS, FIRST, SECOND, SQUARE, LOWER, AREA, EDGE, LENGTH, MOMENT, POLAR = 0, 1, 4, 5, 6, 12, 13, 14, 15, 17
+PRESS, FIRST, SECOND, SQUARE, LOWER, AREA, EDGE, LENGTH, MOMENT, POLAR = 0, 1, 4, 5, 6, 12, 13, 14, 15, 18
 
 #: Sines below this are none: faces that are parallel to rounding.
 PARALLEL = 1e-15
@@ -118,9 +118,9 @@ def add_segment(sums, at, p, q, d0, d1, shared):
     sums[at + SQUARE] += size * (d0 * d0 + d0 * d1 + d1 * d1) / 3.0
     reach = share * flat
     sums[LENGTH] += reach
-    sums[MOMENT] += 0.5 * reach * (p[0] + q[0])
-    sums[MOMENT + 1] += 0.5 * reach * (p[1] + q[1])
-    sums[POLAR] += reach * (p[0] * (p[0] + q[0]) + q[0] * q[0] + p[1] * (p[1] + q[1]) + q[1] * q[1]) / 3.0
+    for c in range(3):
+        sums[MOMENT + c] += 0.5 * reach * (p[c] + q[c])
+    sums[POLAR] += reach * (dot(p, p) + dot(p, q) + dot(q, q)) / 3.0
 
 
 @kernel
@@ -141,9 +141,9 @@ def add_arc(sums, at, c, e, t, radius, flat, depth, slope, side, x, y, psi, cos_
     sums[at + SQUARE] += radius * (depth * n + slope * along_e + side * along_t)
     m = along(along((0.0, 0.0, 0.0), radius * reach_e, e), radius * reach_t, t)
     sums[LENGTH] += flat * length
-    sums[MOMENT] += flat * (length * c[0] + m[0])
-    sums[MOMENT + 1] += flat * (length * c[1] + m[1])
-    sums[POLAR] += flat * (length * (c[0] * c[0] + c[1] * c[1] + radius * radius) + 2.0 * (c[0] * m[0] + c[1] * m[1]))
+    for k in range(3):
+        sums[MOMENT + k] += flat * (length * c[k] + m[k])
+    sums[POLAR] += flat * (length * (dot(c, c) + radius * radius) + 2.0 * dot(c, m))
 
 
 @kernel

@@ -111,7 +111,9 @@ def add_piece(s, at, l, live, px, py, pz, qx, qy, qz, d, e):
     s.sums[LENGTH, l] += reach
     s.sums[MOMENT, l] += 0.5 * reach * (px + qx)
     s.sums[MOMENT + 1, l] += 0.5 * reach * (py + qy)
-    s.sums[POLAR, l] += reach * (px * (px + qx) + qx * qx + py * (py + qy) + qy * qy) * (1.0 / 3.0)
+    s.sums[MOMENT + 2, l] += 0.5 * reach * (pz + qz)
+    square = px * (px + qx) + qx * qx + py * (py + qy) + qy * qy + pz * (pz + qz) + qz * qz
+    s.sums[POLAR, l] += reach * square * (1.0 / 3.0)
 
 
 @law
@@ -216,10 +218,13 @@ def add_rim(s, at, l, upper, radius, flat, length, n, along, across, reach, besi
     s.sums[at + SECOND, l] += radius * square
     mx = radius * (reach * slant * hx - beside * hy)
     my = radius * (reach * slant * hy + beside * hx)
+    mz = radius * reach * fall
     s.sums[LENGTH, l] += flat * length
     s.sums[MOMENT, l] += flat * (length * cx + mx)
     s.sums[MOMENT + 1, l] += flat * (length * cy + my)
-    s.sums[POLAR, l] += flat * (length * (cx * cx + cy * cy + radius * radius) + 2.0 * (cx * mx + cy * my))
+    s.sums[MOMENT + 2, l] += flat * (length * cz + mz)
+    square = length * (cx * cx + cy * cy + cz * cz + radius * radius) + 2.0 * (cx * mx + cy * my + cz * mz)
+    s.sums[POLAR, l] += flat * square
 
 
 @apart

@@ -66,7 +66,7 @@ def rub(q, n, slip, rolling, spin, past, past_spin, face, limits, push, velocity
     core = turned(of(q.s), n, rolling * dt), q.st, q.kf, q.kt
     fresh = turned(of(q.fs), n, rolling * dt), q.ft, q.ff, q.fj
     at = at_centroid(face, n, slip, spin)
-    core, fresh, f, torsion, _, _ = friction(core, fresh, face, n, at, spin, dt, limits)
+    core, fresh, f, torsion = friction(core, fresh, face, n, at, spin, dt, limits)
     g, more = (0.0, 0.0, 0.0), 0.0
     if now.beta > 0.0:
         g, more = dragged(f, torsion, face, n, at, spin, now.beta, limits)

@@ -59,21 +59,19 @@ def face_pressure(e, u, v, beta, edge, up, arcs, sums):
     middle = scaled(1.0 / max(pressing, NOTHING), along(first, 1.0, other))
     spread = k * (sums[SECOND] + sums[LOWER + SECOND]) / max(pressing, NOTHING) - dot(middle, middle)
     stored = 0.5 * k * (sums[SQUARE] + sums[LOWER + SQUARE])
-    touches, polar, at = touching(
-        area / max(sums[EDGE], NOTHING), sums[LENGTH], sums[MOMENT], sums[MOMENT + 1], sums[POLAR]
-    )
-    closed = touches, polar, along(scaled(at[0], i), at[1], j)
+    at = sums[MOMENT], sums[MOMENT + 1], sums[MOMENT + 2]
+    touches, polar, at = touching(area / max(sums[EDGE], NOTHING), sums[LENGTH], at, sums[POLAR])
+    closed = touches, polar, along(along(scaled(at[0], i), at[1], j), at[2], z)
     force = along(scaled(upper, z), lower, n)
     moment = along(cross(first, z), 1.0, cross(other, n))
     return force, moment, ml, pressing, middle, max(spread, 0.0), stored, closed, area, dot(z, n)
 
 
 @long_law
-def touching(rho, length, x, y, polar):
+def touching(rho, length, moment, polar):
     """Area of what touches, its polar moment about its centroid, and where that is, from sums over its edge."""
-    each = 1.0 / max(length, NOTHING)
-    x, y = x * each, y * each
-    return rho * length, rho * max(polar - length * (x * x + y * y), 0.0), (x, y)
+    at = scaled(1.0 / max(length, NOTHING), moment)
+    return rho * length, rho * max(polar - length * dot(at, at), 0.0), at
 
 
 @long_law

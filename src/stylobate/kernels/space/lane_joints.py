@@ -146,10 +146,9 @@ def act(damped, e, u, v, s, o, l):
     each = 1.0 / max(pressing, NOTHING)
     middle = in_axes(s, l, scaled(each, middle))
     spread = max(k * (s.sums[SECOND, l] + s.sums[LOWER + SECOND, l]) * each - dot(middle, middle), 0.0)
-    closed, polar, centre = touching(
-        area / max(s.sums[EDGE, l], NOTHING),
-        s.sums[LENGTH, l], s.sums[MOMENT, l], s.sums[MOMENT + 1, l], s.sums[POLAR, l],
-    )  # fmt: skip
+    centre = s.sums[MOMENT, l], s.sums[MOMENT + 1, l], s.sums[MOMENT + 2, l]
+    rho = area / max(s.sums[EDGE, l], NOTHING)
+    closed, polar, centre = touching(rho, s.sums[LENGTH, l], centre, s.sums[POLAR, l])
     n = along(force, NOTHING, row(s.z, l))
     n = scaled(1.0 / length(n), n)
     at = along(ml, 1.0, middle)
@@ -162,14 +161,14 @@ def act(damped, e, u, v, s, o, l):
     write(e.ra, l, at)
     write(e.rb, l, rv)
     slip, spin, before, turn = along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
-    centre = along(ml, 1.0, in_axes(s, l, (centre[0], centre[1], 0.0)))
+    centre = along(ml, 1.0, in_axes(s, l, centre))
     face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at
     limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
     rolling = 0.5 * (spin_u + spin_v) * last
     core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l]
     fresh = turned(row(e.fs, l), n, rolling), e.ft[l], e.ff[l], e.fj[l]
     there = at_centroid(face, n, slip, spin)
-    core, fresh, f, torsion, _, _ = friction(core, fresh, face, n, there, spin, last, limits)
+    core, fresh, f, torsion = friction(core, fresh, face, n, there, spin, last, limits)
     # nothing is remembered of a joint that is open
     keep = 1.0 if pressing > 0.0 else 0.0
     half = 0.5 * last

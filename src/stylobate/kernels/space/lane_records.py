@@ -18,7 +18,7 @@ Legend; names not listed are those of ``records.py``, numbers of bodies and coun
                disc[12]       of a round face: where it is, radius as seen from above, depth in its middle, and how the depth
                               changes along its rim, see ``edges.py``
                arc[9]         sums over the ends of its arcs
-               sums[18]       see ``boundary.py``;  force moment en  of the elastic pressure, where there is damping
+               sums[19]       see ``boundary.py``;  force moment en  of the elastic pressure, where there is damping
     feed ground watch         as in ``dem3d/records.py``
 """
 

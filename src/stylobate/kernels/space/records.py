@@ -83,7 +83,7 @@ LESS = 1.0 - 1.0e-10
 MOST_VERTICES, MOST_FACES, MOST_CORNERS = 256, 512, 1024
 
 #: Sums over the surface of an overlap, see ``overlap.py``, and over the edge of one, see ``boundary.py``.
-SUMS, OF_SUMS = 29, 18
+SUMS, OF_SUMS = 29, 19
 
 
 def types() -> dict[str, np.dtype]:
