@@ -21,7 +21,7 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
                mu             tan φ
                s[3] t kf kt   core of the shear, see shared/friction.py: force on the drum above in the axes of that below
                               [N], torsion [N m], its k [N/m] and j [N m];  fs[3] ft ff fj  the same of the fresh layer;
-                              tm[3]  moment of both about the middle of the face below, in the axes of that drum [N m];
+                              tm[3]  moment of both about the middle of the face below, in space [N m];
                               with corners ``s`` is one shear force for each of them, x, y, z, and all else but kf is 0
                en             elastic energy of the normal pressure [J]
                ox oy ot       slip in the axes of the drum below [m] and twist [rad] at the start

@@ -95,9 +95,9 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     # work of the forces a step ago and now, with their moments about the middle of the face below
     about = along(vector(centre, q), pivot * twist, n)
     work = dot(along(before, 1.0, q), minus(velocity, vector(spin, c)))
-    work += dot(along(in_space(v, l, e.tm[0, l], e.tm[1, l], e.tm[2, l]), 1.0, about), spin)
+    work += dot(along((e.tm[0, l], e.tm[1, l], e.tm[2, l]), 1.0, about), spin)
     sums.shear[l] -= 0.5 * dt * work
-    e.tm[0, l], e.tm[1, l], e.tm[2, l] = in_body(v, l, about[0], about[1], about[2])
+    e.tm[0, l], e.tm[1, l], e.tm[2, l] = about
     if e.d.shape[0] > 1:
         # dashpots parallel to the springs; friction in sum stays within Coulomb's
         g, turn = dragged(q, twist, own, n, slip, turning, o.damp[BETA, l], limits)

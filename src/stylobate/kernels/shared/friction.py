@@ -45,33 +45,44 @@ def limit_distance(x, y):
 
 
 @long_law
+def slipped(force, moment, k, j, arm, n, surface):
+    """A shear force and the moment about P after a step towards the limit surface, and how far they were beyond it.
+
+    ``surface``: one over the squares of both limits. The face slips along the surface's normal (associated flow), where the
+    forces are in the end: F' = F − λ K H F' with the stiffness K about P, in closed form, takes stored energy away however
+    large the step.
+    """
+    a, b = surface
+    x, y = dot(force, force) * a, moment * moment * b
+    distance = limit_distance(x, y)
+    each = 1.0 / max(x + y, NOTHING)
+    u, v = x * each, y * each
+    a, b = a * (1.0 + COUPLING * v * v), b * (1.0 + COUPLING * u * u)
+    w = cross(n, arm)
+    slip, spin = along(scaled(a, force), b * moment, w), b * moment
+    size = (distance - 1.0) * distance * distance / max(k * dot(slip, slip) + j * spin * spin, NOTHING)
+    each = 1.0 / (1.0 + size * k * a)
+    twist = dot(cross(arm, force), n)
+    moment = (moment - twist * (1.0 - each)) / (1.0 + size * b * (j + k * dot(arm, arm) * each))
+    return scaled(each, along(force, -size * k * b * moment, w)), moment, distance - 1.0
+
+
+@long_law
 def limited(force, torsion, k, j, arm, n, limits):
     """Shear force at the centroid and torsion about it, brought back to the limit surface if they are beyond it.
 
     ``limits`` as of :func:`friction`; that of torsion is about the middle of pressure P, from which ``arm`` goes to the
     centroid. Also how far they were beyond it, over its distance.
-
-    The face slips along the normal of the surface (associated flow) against its springs: slip and spin stand to each other
-    as for a disc under even pressure. The surface is convex and its distance of first degree: a step along the normal of
-    where the forces are ends on the surface or outside of it, and takes stored energy away; so does the rest of the way,
-    towards the origin.
     """
-    moment = torsion + dot(cross(arm, force), n)
     square = max(limits[0] * limits[0], NO_LIMIT)
     other = max(limits[0] * limits[0] * limits[1] * limits[1], NO_LIMIT)
     each = 1.0 / (square * other)
-    a, b = each * other, each * square
-    x, y = dot(force, force) * a, moment * moment * b
-    distance = limit_distance(x, y)
-    each = 1.0 / max(x + y, NOTHING)
-    u, v = x * each, y * each
-    spin = b * (1.0 + COUPLING * u * u) * moment
-    slip = along(scaled(a * (1.0 + COUPLING * v * v), force), spin, cross(n, arm))
-    size = (distance - 1.0) * distance / max(k * dot(slip, slip) + j * spin * spin, NOTHING)
-    force, torsion = along(force, -size * k, slip), torsion - size * j * spin
+    surface = each * other, each * square
     moment = torsion + dot(cross(arm, force), n)
-    less = 1.0 / limit_distance(dot(force, force) * a, moment * moment * b)
-    return scaled(less, force), less * torsion, distance - 1.0
+    force, moment, beyond = slipped(force, moment, k, j, arm, n, surface)
+    less = 1.0 / limit_distance(dot(force, force) * surface[0], moment * moment * surface[1])
+    force = scaled(less, force)
+    return force, less * moment - dot(cross(arm, force), n), beyond
 
 
 @law
