@@ -171,3 +171,14 @@ def test_a_single_run_has_the_bits_of_the_batch_and_all_its_times(model, size, t
     again = st.Response.load(tmp_path / "run.nc")
     assert again.measures == single.measures
     assert again.provenance["quiet_share"] == QUIET
+
+
+@pytest.mark.parametrize("model", [st.DistinctElement2D(), st.RigidBeam()], ids=["dem2d", "rigid-beam"])
+def test_the_file_of_a_motion_is_the_motion_that_was_run(model, tmp_path):
+    """To the last bit: the factor had been multiplied after the samples were interpolated, and columns are chaotic."""
+    motion = shocks(0.27).scaled(1.0 / 0.7)
+    again = st.read_motion(write_csv(motion, tmp_path / "motion.csv"))
+    assert (again.factor, motion.factor) == (1.0, 1.0 / 0.7)
+    one, other = (st.simulate(COLUMN, shaken, model) for shaken in (motion, again))
+    assert one.measures == other.measures
+    assert np.array_equal(one.body_position, other.body_position)

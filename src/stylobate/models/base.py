@@ -31,6 +31,11 @@ class Case(NamedTuple):
     column: Any
     motion: Motion
 
+    @property
+    def multiplied(self) -> Case:
+        """The case with the factor of its motion in the samples: what is stepped is what a file of the motion holds."""
+        return self._replace(motion=self.motion.multiplied)
+
 
 class Cases(Sequence[Any]):
     """Cases that are made when they are asked for, so that there may be millions of them.

@@ -217,6 +217,12 @@ class Motion:
         other = {"acceleration": "ax", "lateral": "ay", "vertical": "az"}
         return Motion(**fields | {other.get(key, key): value for key, value in changes.items()})
 
+    @property
+    def multiplied(self) -> Motion:
+        """The same motion with its factor in its samples, as it is stepped and as files hold it: equal to the last bit."""
+        parts = {"ax": self.acceleration, "ay": self.lateral, "az": self.vertical}
+        return self if self.factor == 1.0 else self.replace(**parts, factor=1.0)
+
     def scaled(self, factor: float) -> Motion:
         """A copy with every component multiplied by ``factor`` [-], which its name says; the samples are shared.
 

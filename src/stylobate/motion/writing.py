@@ -35,8 +35,7 @@ def write_csv(motion: Motion, path: str | Path) -> Path:
         value = motion.metadata.get(key) or ("computed" if key == "stage" and "format" not in motion.metadata else None)
         if value:
             notes.append(f"# {key}: {_one_line(str(value))}")
-    as_written = Motion(motion.dt, *(motion.acceleration, motion.lateral, motion.vertical))
-    notes.append(f"# sha256: {as_written.digest}")
+    notes.append(f"# sha256: {motion.multiplied.digest}")
     notes += [f"# processing {i}: {_one_line(step)}" for i, step in enumerate(motion.processing, 1)]
     components = motion.components
     header = ",".join(["time_s", *(f"a{axis}_m_s2" for axis in components)])

@@ -72,7 +72,7 @@ class LaneRuns(LaneEngine):
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
-        self.cases[lane] = case
+        case = self.cases[lane] = case.multiplied if self.computed_by == CPU else case  # a card shares samples
         self._forget(lane)
         packed = self.packed[lane] = self.pack(case.column)
         self.arrays.put(lane, packed.lane)

@@ -78,7 +78,7 @@ def run_assembly(
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
-    restitution = contacts.given_back
+    motion, restitution = motion.multiplied, contacts.given_back
     engine = Loose(assembly, contacts, motion, motion.duration + options.tail, restitution)
     step = step_for(engine, contacts)
     length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)

@@ -58,6 +58,7 @@ class _ColumnRun:
     def __init__(
         self, column: Column, motion: Motion, block: ColumnLanes, contacts: Contacts, options: RunOptions
     ) -> None:
+        motion = motion.multiplied
         self.column, self.motion, self.block, self.name, self.options = column, motion, block, contacts.name, options
         self.restitution = contacts.given_back
         block.load(0, Case(column, motion))

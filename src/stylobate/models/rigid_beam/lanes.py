@@ -79,7 +79,7 @@ class BeamLanes:
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane that is free."""
-        column, motion = case
+        column, motion = case = case.multiplied
         beam = self.pack(column)
         self.cases[lane] = (case, beam)
         self.values[..., lane] = 0.0  # clear all fields: a NaN of the last run would persist

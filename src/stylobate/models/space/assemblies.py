@@ -99,7 +99,7 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
-    engine = unsettled(structure, numbers)
+    motion, engine = motion.multiplied, unsettled(structure, numbers)
     chunks_of(structure, motion, engine, options)
     made = settled(structure, engine)
     if made.balanced is False:

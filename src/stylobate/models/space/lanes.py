@@ -195,6 +195,7 @@ class IntactLanes:
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane that is free."""
+        case = case.multiplied
         self.cases[lane], self.states[lane], self.status[lane] = case, None, FAILED
         if self.none:
             return
