@@ -67,7 +67,7 @@ def test_a_chipped_disc_has_its_area_and_stands_on_its_chord():
 def test_a_drum_that_wobbles_twists_by_the_force_that_it_rolls_with(softer):
     """Steady wobbling: per radian of precession a twist of 1 − cos θ + (T/N) (k_n/k_s) θ, whatever the length of the toe.
 
-    A rolling toe holds a force T across its way by turning on itself: shear of a stone at s is ω (a² − s²) / 2v, without a
+    A rolling toe bears a force T across its way by turning on itself: shear of a stone at s is ω (a² − s²) / 2v, and has no
     moment (strips, as of Kalker's simplified theory). 0.0137 and 0.0043; 0.0012 without the second term.
     """
     body, theta, a, b = nodes.drum(nodes.disc(0.55, 256), 0.55, 2.5), 0.05, 0.275, 1.25
