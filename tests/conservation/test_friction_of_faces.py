@@ -14,8 +14,9 @@ POSES = 4
 #: Shear at a finite angle turns with the joint: its share of a stiffness is T / K R, 2e-5 here at most.
 ASKEW = 1e-3
 
-#: Work round a loop of 1e-6 rad over the energy that shear stores; that part of the stiffness gives 1e-7.
-ROUND = 1e-6
+#: Work round a loop of φ = 1e-6 rad over the energy T² / 2 K that shear stores. A force that turns with the joint does the work
+#: T φ · φ R of it: 2 φ² K R / T, 1e-5 at most for the stiffest joints and least shears here. It was 1e-3 to 1e-2.
+ROUND = 1e-5
 
 #: What closes again comes to rest within two cycles; a corner that slips on its way adds 8e-5.
 CREEPS = 1e-3

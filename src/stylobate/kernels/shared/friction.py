@@ -45,18 +45,19 @@ def limit_distance(x, y):
 
 
 @long_law
-def slipped(force, moment, k, j, arm, n, surface):
+def slipped(force, moment, before, turning, k, j, arm, n, surface):
     """A shear force and the moment about P after a step towards the limit surface, and how far they were beyond it.
 
-    ``surface``: one over the squares of both limits. The face slips along the surface's normal (associated flow), where the
-    forces are in the end: F' = F − λ K H F' with the stiffness K about P, in closed form, takes stored energy away however
-    large the step.
+    ``surface``: one over the squares of both limits; ``before``, ``turning``: force and moment a step ago. The face slips
+    along the surface's normal (associated flow), where the forces are in the end: F' = F − λ K H F' with the stiffness K
+    about P, in closed form, takes stored energy away however large the step. H hangs on how the shares of both limits stand
+    to each other, which a face that slips on hardly changes in a step.
     """
     a, b = surface
-    x, y = dot(force, force) * a, moment * moment * b
-    distance = limit_distance(x, y)
+    x, y = dot(before, before) * a, turning * turning * b
     each = 1.0 / max(x + y, NOTHING)
     u, v = x * each, y * each
+    distance = limit_distance(dot(force, force) * a, moment * moment * b)
     a, b = a * (1.0 + COUPLING * v * v), b * (1.0 + COUPLING * u * u)
     w = cross(n, arm)
     slip, spin = along(scaled(a, force), b * moment, w), b * moment
@@ -68,18 +69,20 @@ def slipped(force, moment, k, j, arm, n, surface):
 
 
 @long_law
-def limited(force, torsion, k, j, arm, n, limits):
+def limited(force, torsion, before, turning, k, j, arm, n, limits):
     """Shear force at the centroid and torsion about it, brought back to the limit surface if they are beyond it.
 
     ``limits`` as of :func:`friction`; that of torsion is about the middle of pressure P, from which ``arm`` goes to the
-    centroid. Also how far they were beyond it, over its distance.
+    centroid. ``before`` and ``turning`` are force and torsion a step ago. Also how far they were beyond it, over its
+    distance.
     """
     square = max(limits[0] * limits[0], NO_LIMIT)
     other = max(limits[0] * limits[0] * limits[1] * limits[1], NO_LIMIT)
     each = 1.0 / (square * other)
     surface = each * other, each * square
     moment = torsion + dot(cross(arm, force), n)
-    force, moment, beyond = slipped(force, moment, k, j, arm, n, surface)
+    turning += dot(cross(arm, before), n)
+    force, moment, beyond = slipped(force, moment, before, turning, k, j, arm, n, surface)
     less = 1.0 / limit_distance(dot(force, force) * surface[0], moment * moment * surface[1])
     force = scaled(less, force)
     return force, less * moment - dot(cross(arm, force), n), beyond
@@ -120,6 +123,7 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
     before, turn_before, k_before, j_before = core
     f, t, kf_before, jf_before = fresh
     k, j, centre, middle = face
+    last, turning = along(before, 1.0, f), turn_before + t
     new = k_before == 0.0  # what begins to touch is core
     kc, jc = (k, j) if new else (min(k, k_before), min(j, j_before))
     kf, jf = k - kc, j - jc
@@ -132,7 +136,7 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
     total = along(along(force, -kc * dt, slip), 1.0, f)
     total = along(total, -dot(total, n), n)
     twist = torsion - jc * dt * spin + t
-    total, twist, beyond = limited(total, twist, k, j, minus(centre, middle), n, limits)
+    total, twist, beyond = limited(total, twist, last, turning, k, j, minus(centre, middle), n, limits)
     # where the face slips, all that touches becomes core
     keep = max(1.0 - SLIPPED * beyond, 0.0)
     f, t, kf, jf = scaled(keep, f), keep * t, keep * kf, keep * jf
@@ -146,7 +150,7 @@ def dragged(total, twist, face, n, slip, spin, beta, limits):
     Coulomb's limit. Parameters as of :func:`friction`, ``beta`` is dashpot over stiffness [s]."""
     k, j, centre, middle = face
     force, torsion = along(total, -beta * k, slip), twist - beta * j * spin
-    force, torsion, _ = limited(force, torsion, k, j, minus(centre, middle), n, limits)
+    force, torsion, _ = limited(force, torsion, total, twist, k, j, minus(centre, middle), n, limits)
     return minus(force, total), torsion - twist
 
 
