@@ -14,8 +14,8 @@ POSES = 4
 #: Shear at a finite angle turns with the joint: its share of a stiffness is T / K R, 2e-5 here at most.
 ASKEW = 1e-3
 
-#: Work round a loop of φ = 1e-6 rad over the energy T² / 2 K that shear stores. A force that turns with the joint does the work
-#: T φ · φ R of it: 2 φ² K R / T, 1e-5 at most for the stiffest joints and least shears here. It was 1e-3 to 1e-2.
+#: Work round a loop of φ = 1e-6 rad over the energy T² / 2 K that shear stores. A force that turns with the joint does the
+#: work T φ · φ R of it: 2 φ² K R / T, 1e-5 at most for the stiffest joints and least shears here. It was 1e-3 to 1e-2.
 ROUND = 1e-5
 
 #: What closes again comes to rest within two cycles; a corner that slips on its way adds 8e-5.
