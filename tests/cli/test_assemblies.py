@@ -140,7 +140,7 @@ def test_a_person_is_told(command, portal):
     for words in ("assembly", "portal, 3 blocks, 4 joints", "harmonic 1 Hz, 0.02 g", "dem2d", "peak displacement"):
         assert words in text
     still_moving, _ = command("run", portal, *MODEL, "--harmonic", "1Hz,0.4g,1s")
-    assert "Not everything lies still and the verdict may change; go on with --until-rest." in still_moving
+    assert "Not everything lies still; go on with --until-rest." in still_moving
     waited, _ = command("run", portal, *MODEL, "--harmonic", "1Hz,0.4g,1s", "--until-rest", "--set", "restitution=1")
     assert "Not everything lies still; damp it with --set mass_damping=0.5." in waited
 

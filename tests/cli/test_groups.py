@@ -100,6 +100,7 @@ def test_options_of_a_group_are_said_alike_wherever_they_are():
     own |= {
         ("calibrate", "unit"),
         ("calibrate", "dt"),
+        ("convert", "columns"),
         ("spectrum", "tail"),
         ("sequence", "motion"),
         ("compare", "settings"),

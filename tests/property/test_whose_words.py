@@ -93,7 +93,7 @@ def test_errors_of_columns_carry_their_fields_in_python_as_from_files():
     drum, joint = st.Drum(1.0, 0.5, 0.5, 2000.0), st.Joint(1e10, 1e10, friction_angle=35.0)
     column = st.Column.of_drums([drum, drum], joint)
     tables = {"drum": [{"height": 1.0, "bottom_width": 0.5, "top_width": 0.5}] * 2, "density": 2000.0} | {
-        "joint": {"normal_stiffness": 1e10, "shear_stiffness": 1e10}
+        "joint": {"normal_stiffness": 1e10, "shear_stiffness": 1e10, "friction_angle": 35.0}
     }
     dowel = {"kind": "dowel", "joint": 9, "diameter": 0.03, "embedment": 0.1, "material": "titanium"}
     for made, field in (

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from ...column import Column
 from ...constants import LONGEST_WAIT
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, RUNNING
@@ -143,7 +142,7 @@ class LaneRuns(LaneEngine):
         """Refuse a start that is not one for this column."""
         check_takes_pose(self.options.start, column)
 
-    def pressed_joints(self, lane: int, column: Column) -> float:
+    def pressed_joints(self, lane: int, column: Any) -> float:
         """Energy at the start of joints that pretension presses, above that of joints under their weight alone [J].
 
         Their elastic energy is larger by more than this, because what stands on them has sunk. Where only the pretension
@@ -348,7 +347,7 @@ class LaneRuns(LaneEngine):
         set_off = [
             most == 0.0
             and self.options.start is None
-            and isinstance(self.column(lane), Column)  # which is in equilibrium at the start
+            and self.column(lane).stack is not None  # which is in equilibrium at the start
             and ledger.released(row) > self.start[lane, 3]
             for row, most, lane in zip(change, work, lanes, strict=True)
         ]
