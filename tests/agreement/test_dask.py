@@ -57,7 +57,8 @@ def test_rows_are_those_of_threads_to_the_bit(cluster, tmp_path):
     columns = [st.preset("paper-monolithic"), st.preset("paper-12-drums")]
     cases = Cases(60, lambda n: Case(columns[n % 3 == 0], motions[n % len(motions)].scaled(0.3 + 0.05 * n)))
     on_workers = run_all(
-        Request.of(cases, Hasher(st.DistinctElement2D()), 0.1), st.Campaign(ledger=tmp_path / "runs.sqlite")
+        Request.of(cases, Hasher(st.DistinctElement2D(), RunOptions()), 0.1),
+        st.Campaign(ledger=tmp_path / "runs.sqlite"),
     )
     by_threads = {number: one.row() for number, one in simulate_iter(cases, st.DistinctElement2D(), quiet=0.1)}
     assert list(map(repr, on_workers)) == [repr(by_threads[number]) for number in range(60)]

@@ -76,7 +76,7 @@ def test_a_run_that_is_no_example_of_its_twins_says_so():
 def test_the_column_itself_does_not_change_to_the_bit(model, amplitude):
     # both a column that stands beside some that fall, and one that falls first
     motion = st.sine_pulse(frequency=0.9, amplitude=amplitude * st.g, duration=2.5)
-    alone = st.simulate(COLUMN, motion, model)
+    alone = st.simulate(COLUMN, motion, model, until_decided=True)
     beside = st.certainty(COLUMN, motion, model).response
     assert alone.measures == beside.measures
     for one, other in (
@@ -93,7 +93,8 @@ def test_twins_that_ride_along_are_those_of_a_batch_to_the_bit(model):
     motion = st.sine_pulse(frequency=0.9, amplitude=0.5 * st.g, duration=2.0)
     ridden = st.certainty(COLUMN, motion, model, replicates=18, seed=3, scatter=st.Scatter()).population  # of one law
     twins = the_twins(COLUMN, model, st.Campaign(replicates=18, seed=3), laws=False).columns
-    again = batch([Case(one, motion) for one in twins], COLUMN, model, st.Campaign(threads=2), RunOptions())
+    options = RunOptions(until_decided=True)
+    again = batch([Case(one, motion) for one in twins], COLUMN, model, st.Campaign(threads=2), options)
     assert [str(one) for one in ridden.rows] == [str(one) for one in again]
     assert len({one["peak_top_displacement_m"] for one in ridden.rows}) == 18
 

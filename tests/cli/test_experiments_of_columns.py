@@ -61,7 +61,7 @@ def folder(place, *, size=1.0, extra="", measure="peak_top_displacement_m", chan
     t = np.arange(120) * 0.01
     for k in range(NUMBER):
         samples = 9.81 * (0.2 + 0.012 * k) * np.where(t < 0.4, np.sin(2.0 * np.pi * t / 0.4), 0.0)
-        np.savetxt(place / f"m{k}.csv", np.column_stack((t, samples)), delimiter=",", header="time [s],ax [m/s2]")
+        np.savetxt(place / f"m{k}.csv", np.column_stack((t, samples)), delimiter=",", header="time_s,ax")
         response = st.simulate(column, st.Motion(0.01, samples), st.DistinctElement2D(), tail=1.0)
         peak = response.measures.peak_top_displacement * size * np.exp(0.05 * rng.standard_normal())
         row = {"test": f"t{k}", "motion": f"m{k}.csv", "collapsed": int(response.collapsed)}

@@ -182,7 +182,7 @@ def test_runs_in_several_directions_say_their_doubt_once(column, capsys, tmp_pat
     text = said(capsys, "run", column, *asked, "--out", tmp_path / "out")
     assert " ".join(text.split()).count(DOUBT) == 1
     (result,) = read_results([tmp_path / "out"])
-    (lead, *_) = several_sections(cast(Any, result), set())
+    (lead, *_) = several_sections(cast(Any, result))
     assert str(lead).count(DOUBT) == 1
 
 

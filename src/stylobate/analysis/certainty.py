@@ -76,8 +76,8 @@ def certainty(
     """Shake one column once, and its twins beside it.
 
     A single run of a model that steps drums fills one of sixteen lanes; fifteen twins in the others cost next to nothing
-    while the column stands as long as they do. More twins are computed as a batch after it. The run of the column itself is
-    the same to the last bit with and without them.
+    while the column stands as long as they do. More twins are computed as a batch after it. All of them go on until their
+    verdicts are certain (``until_decided``); the run of the column itself is the same to the last bit with and without them.
 
     Parameters
     ----------

@@ -299,20 +299,6 @@ def collapses_table() -> str:
     return "\n".join(lines) + "\n"
 
 
-def resting_table() -> str:
-    """What becomes of scenes under loads that last, by their kinds, in Markdown."""
-    lines = [
-        "| scene | below what it bears | crept more than 0.02 mm | fell | farthest | above it | neither fell nor moved |",
-        "| --- | --- | --- | --- | --- | --- | --- |",
-    ]
-    for kind, told in stored()["resting"].items():
-        far = f"{1000.0 * told['farthest']:.2g} mm"
-        lines.append(
-            f"| {kind} | {told['below']} | {told['crept']} | {told['fell']} | {far} | {told['above']} | {told['stood']} |"
-        )
-    return "\n".join(lines) + "\n"
-
-
 if __name__ == "__main__":
     warnings.simplefilter("ignore", st.OutOfRangeWarning)  # what is not in equilibrium as drawn begins as drawn
     renew(*sys.argv[1:])
