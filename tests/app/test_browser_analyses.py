@@ -63,7 +63,7 @@ def test_every_analysis_is_asked_and_answered(open_page, tmp_path):
     choose(page, "sequence")
     page.fill("[data-field=rest]", "1")
     compute.click()
-    expect(found.locator(".verdict:not(.sentence)")).to_contain_text("After 2 earthquakes", timeout=30_000)
+    expect(found.locator(".verdict:not(.sentence)")).to_contain_text("It falls in earthquake 2 of 2", timeout=30_000)
     fits(page)
     page.click("text=Watch it")
     expect(page.locator("#film")).to_be_visible()
