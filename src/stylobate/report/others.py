@@ -100,11 +100,7 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
         parts.append(sources_section(cite_run(result.data.provenance)))
     else:
         keys += [key for motion in (asked.motions if asked is not None else ()) for key in motion.get("references", ())]
-        keys += (
-            ["beaumont2002", "fearnhead2012", "wood2010", "mavroeidis2003", "anderson1999"]
-            if result.kind is Kind.INFER
-            else []
-        )
+        keys += ["beaumont2002", "fearnhead2012", "mavroeidis2003", "anderson1999"] if result.kind is Kind.INFER else []
         keys += ["baraldi"] if result.kind in (Kind.PUSHOVER, Kind.LIMIT) else []
         parts.append(sources_section(cite(keys)))
     return parts
