@@ -66,7 +66,9 @@ def test_many_runs_go_on_until_their_verdicts_are_certain(kind):
 def test_a_column_that_rocks_at_the_end_goes_on_until_its_verdict_is_certain():
     """In a critical amplitude and alone; to the end of the motion it is the run that does not go on, bit by bit."""
     column, model = st.preset("paper-12-drums"), st.DistinctElement2D()
-    motions = [st.harmonic(0.7, amplitude * st.g, 4.0 / 0.7) for amplitude in (0.3, 0.4)]
+    grid = 0.3 * st.g, 0.42 * st.g, 0.12 * st.g
+    weak = st.harmonic(0.7, grid[0], 4.0 / 0.7)
+    motions = [weak, weak.scaled((grid[0] + grid[2]) / grid[0])]
     alone = [st.simulate(column, motion, model) for motion in motions]
     assert [one.decided for one in alone] == [True, False]
     waits = [st.simulate(column, motion, model, until_decided=True) for motion in motions]
@@ -75,7 +77,6 @@ def test_a_column_that_rocks_at_the_end_goes_on_until_its_verdict_is_certain():
     same = len(alone[1].time) - 1  # the last row of a run may come early
     assert np.array_equal(waits[1].drum_x[:same], alone[1].drum_x[:same])
     assert alone[1].time[-1] < waits[1].time[-1] < alone[1].time[-1] + 10.0
-    grid = 0.3 * st.g, 0.4 * st.g, 0.1 * st.g
     found = st.critical_amplitude(column, motions[0], model, *grid, nominal=0.3 * st.g)
     assert found.counts["undecided"] == 0
     assert found.table["steps"].tolist() == [one.measures.steps for one in waits]

@@ -252,5 +252,6 @@ def test_a_lane_that_is_used_again_starts_as_a_new_one():
     block.load(0, Case(box(), motion))
     again = taken()
     assert (block.start[0] == started).all()
-    assert all((again[name] == first[name]).all() for name in ("joint", "feed", "watch"))
+    assert all((again[name] == first[name]).all() for name in ("joint", "watch"))
+    assert (again["feed"][3:] == first["feed"][3:]).all()  # but for where the samples of the motion are
     assert (block.start[0] == block.start[1]).all()
