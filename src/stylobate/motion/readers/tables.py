@@ -66,7 +66,8 @@ def read_table(lines: list[str], start: int, file: str, *, alone: bool = False) 
     columns = len(read_numbers(texts[:1], start, file, "the first row"))
     values = _parts(rows, texts, file)
     counts = [count_numbers(row) for row in texts]
-    if len(counts) > 1 and columns == 2 and counts[1:] == [1] * int(values[0]) and values[1] > 0.0:
+    lines_of_one = len(counts) > 1 and columns == 2 and set(counts[1:]) == {1}
+    if lines_of_one and values[0] == len(counts) - 1 and values[1] > 0.0:
         raise InputError(
             f"{file}, line {start + 1}: {lines[start].strip()!r} holds the number of samples and the step [s], and no row "
             "of them; take out this line and those above it, and state `columns='x [g]'`, with the unit of the numbers, "
