@@ -71,7 +71,8 @@ def status(directory: StudyFolder, *, execution: o.Plain) -> None:
     summary = result.summary() | {"wall_s": last, "files": [str(directory / name) for name in names]}
     summary.pop("computed")
     with execution.files("study status", "status.json") as files:
-        files.json(summary, "status.json")
+        if files.wanted:
+            files.json(summary, "status.json")
     if not execution.emits(summary):
         console.print_doubt(summary)
         print(sentence(result))
