@@ -94,7 +94,6 @@ from .response import Response as Response
 from .response import load_response as load_response
 from .results.site_files import read_sites as read_sites
 from .simulate import simulate as simulate
-from .simulate import simulate_assembly as simulate_assembly
 from .simulate import simulate_many as simulate_many
 
 __version__: str

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     import pandas
 
     from .column import Column
-    from .column.assembly import Assembly
 
 
 def simulate(
@@ -113,39 +112,7 @@ def simulate(
     return response.with_provenance(provenance, wall)
 
 
-def simulate_assembly(
-    assembly: Assembly,
-    motion: Motion,
-    model: Model | None = None,
-    *,
-    tail: float = 0.0,
-    output_interval: float = 0.01,
-    until_rest: bool = False,
-    progress: Callable[[float, float], None] | None = None,
-) -> Response:
-    """Shake any set of blocks once and record what happens.
-
-    Parameters
-    ----------
-    assembly : Assembly
-    motion : Motion
-    model : Model, optional
-        ``DistinctElement2D``, the only one for assemblies.
-    tail, output_interval, until_rest, progress
-        As in :func:`simulate`.
-
-    Raises
-    ------
-    InputError
-        The input cannot be used, or the model is for columns only.
-    """
-    from .models.dem2d.model import DistinctElement2D
-
-    options = {"tail": tail, "output_interval": output_interval, "until_rest": until_rest, "progress": progress}
-    return simulate(assembly, motion, DistinctElement2D() if model is None else model, **options)
-
-
-def simulate_iter(
+def run_cases(
     cases: Sequence[Case],
     model: Model,
     *,
@@ -198,7 +165,7 @@ def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> Non
 def run_checked(
     cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None = None
 ) -> Generator[tuple[int, Measures], None, None]:
-    """Run cases that :func:`check_cases` has let pass; yields as :func:`simulate_iter` does."""
+    """Run cases that :func:`check_cases` has let pass; yields as :func:`run_cases` does."""
     count = thread_count(threads)
     _tell_wait(cases, model, options, count)
     yield from model.run_many(cases, options, count)
@@ -253,7 +220,7 @@ def simulate_many(
     threads : int, optional
         All cores by default.
     device : {"cpu", "gpu"}
-        As in :func:`simulate_iter`; the column ``computed_by`` says what computed a run.
+        As in :func:`run_cases`; the column ``computed_by`` says what computed a run.
 
     Returns
     -------
@@ -275,7 +242,7 @@ def simulate_many(
     for share in sorted(set(shares)):
         numbers = [number for number, one in enumerate(shares) if one == share]
         cases = Cases(len(numbers), lambda k, numbers=numbers: Case(columns[numbers[k]], motions[numbers[k]]))
-        for index, measures in simulate_iter(cases, model, quiet=share, **options):
+        for index, measures in run_cases(cases, model, quiet=share, **options):
             rows[numbers[index]] = measures.row()
     wall = (time.perf_counter() - started) / len(columns)
     return rows.table().assign(wall_s=wall, model=model.name, version=__version__)

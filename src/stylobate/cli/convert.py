@@ -54,7 +54,9 @@ def convert(
     found = {"name": structure.name, "kind": structure.kind, "bodies": moving, "fitted": words}
     if execution.emits(found | {"files": [str(file) for file in files]}):
         return
-    console.say(f"{structure.name}, {structure.described} of {moving} {'body' if moving == 1 else 'bodies'}: {files[0]}", {})
+    console.say(
+        f"{structure.name}, {structure.described} of {moving} {'body' if moving == 1 else 'bodies'}: {files[0]}", {}
+    )
     for line in words:
         print(f"  {line}")
 

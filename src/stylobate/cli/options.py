@@ -225,7 +225,7 @@ class Execution(Group):
         return files(self.out, command, *writes)
 
     def place(self, file: Path) -> Path:
-        """The file in the folder for files, which is made where there is none; where no folder is named, the file as it is."""
+        """The file in the folder of ``--out``, which is made; where no folder is named, the file as it is."""
         if self.out is None:
             return file
         if self.out.exists() and not self.out.is_dir():
