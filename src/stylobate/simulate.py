@@ -61,8 +61,8 @@ def simulate(
     until_end : bool
         Go on after the collapse is certain.
     until_rest : bool
-        Go on until everything lies still, on the ground if need be (``DistinctElement2D``, and ``DistinctElement3D`` with
-        assemblies; others refuse).
+        Go on until everything lies still, on the ground if need be (``DistinctElement2D`` and ``DistinctElement3D``; others
+        refuse). In space a column is an assembly of its drums then, and so is the structure of the response.
     until_decided : bool
         Go on after motion and tail, a minute at most: columns of models that step drums as long as they move and their
         verdict could change, assemblies as long as nothing has fallen and not all lies still. Commands and campaigns do.
@@ -94,6 +94,8 @@ def simulate(
     check_kind("progress", progress, Callable, optional=True)
     check_kind("start", start, (Start, Toss), optional=True)
     twins = check_all("twins", twins, Structure)
+    if until_rest:
+        column = model.as_followed(column)
     share = share_of(motion) if quiet is None else quiet
     cut = share if column.moving_acceleration is not None else 0.0  # nobody knows what is quiet for anything else
     following = run_options(tail, output_interval, until_end, until_rest, cut, until_decided)
@@ -153,11 +155,8 @@ def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> Non
             f"{model.name} starts from rest; leave start out, or use dem2d or dem3d (DistinctElement2D, 3D)."
         )
     for column, motion in _to_check(cases):
-        if options.until_rest and not model.follows(column):
-            raise InputError(
-                f"`until_rest` is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or "
-                "leave it off: `tail` and `until_end` are for every model."
-            )
+        if options.until_rest:
+            model.as_followed(column)
         model.check(column, motion)
         model.check_length(column, motion, options)
 
