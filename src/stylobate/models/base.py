@@ -109,9 +109,9 @@ class Model:
 
     Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography;
     ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model takes, ``xz`` in a plane;
-    ``takes_as_found`` says whether it computes columns that are not as built, ``takes_start`` whether it can start from a
-    pose, ``computes`` the shapes of bodies that it knows; ``takes_rings`` whether joints may carry on rings;
-    ``takes_links`` by which laws links may act; ``carries`` how many columns alike it can take along in a single run at next to no cost;
+    ``computes`` the shapes of bodies that it knows, ``takes_as_found`` whether it computes columns that are not as built,
+    ``takes_start`` whether it can start from a pose, ``takes_rings`` whether joints may carry on rings, ``takes_links`` by
+    which laws links may act; ``carries`` how many columns alike it can take along in a single run at next to no cost;
     ``varies_law`` whether columns may have losses and laws of joints of their own.
     """
 
