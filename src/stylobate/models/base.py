@@ -107,16 +107,18 @@ class RunOptions:
 class Model:
     """Base of the models. A subclass is a frozen dataclass of parameters, checked where it is made.
 
-    Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography;
-    ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model takes, ``xz`` in a plane;
-    ``computes`` the shapes of bodies that it knows, ``takes_as_found`` whether it computes columns that are not as built,
-    ``takes_start`` whether it can start from a pose, ``takes_rings`` whether joints may carry on rings, ``takes_links`` by
-    which laws links may act; ``carries`` how many columns alike it can take along in a single run at next to no cost;
-    ``varies_law`` whether columns may have losses and laws of joints of their own.
+    Class attributes: ``name`` as on the command line; ``version`` of a model of somebody else, another whenever its
+    results change, because finished runs of an equal version are not computed again; ``title`` for people; ``references``
+    as keys of the bibliography; ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model
+    takes, ``xz`` in a plane; ``computes`` the shapes of bodies that it knows, ``takes_as_found`` whether it computes
+    columns that are not as built, ``takes_start`` whether it can start from a pose, ``takes_rings`` whether joints may
+    carry on rings, ``takes_links`` by which laws links may act; ``carries`` how many columns alike it can take along in a
+    single run at next to no cost; ``varies_law`` whether columns may have losses and laws of joints of their own.
     """
 
     wanted: ClassVar[str] = "a model, such as DistinctElement2D()"
     name: ClassVar[str] = ""
+    version: ClassVar[str] = ""
     title: ClassVar[str] = ""
     references: ClassVar[tuple[str, ...]] = ()
     assumptions: ClassVar[tuple[str, ...]] = ()
