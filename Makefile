@@ -7,10 +7,13 @@ DOCS_STAMP := .venv/.installed-docs
 PEERS_STAMP := .venv-peers/.installed
 PTX_STAMP := .venv-ptx/.installed
 GPU_STAMP := .venv/.installed-gpu
+# What stands beside the core in this repository, all of it installed with it.
+BESIDE := $(patsubst %/pyproject.toml,%,$(wildcard packages/*/pyproject.toml)) studies compas
 PIP := $(BIN)/python -m pip --disable-pip-version-check -qq
 UV_VERSION := 0.13.8
 LOCK := .venv-lock/bin/uv pip compile -q --universal --python-version 3.11 --generate-hashes \
         --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" $(UPGRADE)
+OF_PACKAGES := --no-emit-package stylobate $(wildcard packages/*/pyproject.toml)
 
 # An environment that was copied or moved here would run the code at its old place: build it anew.
 ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
@@ -25,14 +28,14 @@ unexport PYTHONDONTWRITEBYTECODE
 install: $(STAMP)
 	@:
 
-$(STAMP): pyproject.toml studies/pyproject.toml compas/pyproject.toml requirements/base.lock
+$(STAMP): pyproject.toml $(BESIDE:%=%/pyproject.toml) requirements/base.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	    { echo "stylobate needs Python 3.11 or newer: name one with  make install PYTHON=/path/to/python3.11" >&2; exit 1; }
 	@echo "Installing stylobate and its pinned requirements into .venv (about a minute)"
 	@[ ! -e .venv ] || [ "$$(cat $@ 2>/dev/null)" = "$(CURDIR)" ] || rm -rf .venv
 	@[ -x $(BIN)/python ] || $(PYTHON) -m venv .venv
 	@$(PIP) install --no-compile --require-hashes -r requirements/base.lock
-	@$(PIP) install --no-deps --no-build-isolation -e . -e studies -e compas
+	@$(PIP) install --no-deps --no-build-isolation -e . $(BESIDE:%=-e %)
 	@echo "$(CURDIR)" > $@
 
 demo: install
@@ -74,7 +77,7 @@ ptx: $(PTX_STAMP)
 
 wheel: install
 	@rm -rf dist build/wheel
-	@$(BIN)/python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation -w dist .
+	@$(BIN)/python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation -w dist . $(BESIDE:%=./%)
 	@ls dist/*.whl
 
 # The wheel alone, in a bare environment.
@@ -139,12 +142,12 @@ lock:
 	@[ -x .venv-lock/bin/uv ] || $(PYTHON) -m venv .venv-lock
 	@.venv-lock/bin/python -m pip --disable-pip-version-check -qq install uv==$(UV_VERSION)
 	$(LOCK) --extra test --extra dev --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra app --extra notebook \
-	    requirements/build.in requirements/compas.in pyproject.toml -o requirements/base.lock > /dev/null
+	    $(OF_PACKAGES) requirements/build.in requirements/compas.in pyproject.toml -o requirements/base.lock > /dev/null
 	$(LOCK) --extra docs -c requirements/base.lock pyproject.toml -o requirements/docs.lock > /dev/null
 	.venv-lock/bin/uv pip compile -q --python-version 3.11 --resolution lowest-direct --generate-hashes \
 	    --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
 	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra app --extra notebook \
-	    requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
+	    $(OF_PACKAGES) requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
 	$(LOCK) --no-deps requirements/peers.in -o requirements/peers.lock > /dev/null
 	$(LOCK) --extra gpu -c requirements/base.lock pyproject.toml -o requirements/gpu.lock > /dev/null
 	$(LOCK) --no-deps -c requirements/base.lock requirements/ptx.in -o requirements/ptx.lock > /dev/null
@@ -153,4 +156,4 @@ lock:
 
 clean:
 	rm -rf .venv .venv-lock .venv-pythons .venv-peers .venv-ptx src/stylobate/kernels/gpu/built build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
-	find src studies compas tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
+	find src packages studies compas tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

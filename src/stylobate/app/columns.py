@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from stylobate_exchange.convert import SURVEYS, Reading, read_model
 
 from ..column import Column
 from ..column.files import tables_of
@@ -18,7 +19,6 @@ from ..column.shapes import hull
 from ..column.tables import made_of
 from ..constants import g
 from ..errors import InputError
-from ..exchange.convert import SURVEYS, Reading, read_model
 from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
 from .words import doubted, warned

@@ -16,12 +16,12 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 from starlette.routing import Route
+from stylobate_exchange.convert import SURVEYS
 
 from ..column.assembly_files import is_assembly
 from ..column.files import write_column
 from ..column.toml import checked
 from ..errors import InputError
-from ..exchange.convert import SURVEYS
 from ..motion.readers.samples import samples
 from ..version import __version__
 from . import assemblies, columns, motions

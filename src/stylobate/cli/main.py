@@ -13,6 +13,7 @@ from typing import Annotated, Any
 
 import typer
 
+from ..added import added_commands, missing_command
 from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeWarning, PlaneOnlyWarning, StylobateError
 from ..version import __version__
 from . import (
@@ -22,11 +23,9 @@ from . import (
     columns,
     compare,
     console,
-    convert,
     critical,
     domain,
     draw,
-    export,
     fetch,
     fragility,
     ida,
@@ -48,7 +47,6 @@ from . import (
     suite,
     survival,
 )
-from .added import STUDIES, added_commands, missing_command
 from .groups import takes
 from .helping import WIDTH, Command
 
@@ -88,7 +86,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer,
-    calibrate, motion, fetch, records, spectrum, columns, draw, convert, materials, animate, export, report, serve, cite
+    calibrate, motion, fetch, records, spectrum, columns, draw, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))
@@ -137,8 +135,8 @@ def call(arguments: Sequence[str]) -> int:
         warnings.showwarning = _Warner()
         try:
             program = commands()
-            if arguments and arguments[0] in STUDIES and arguments[0] not in program.commands:
-                raise InputError(missing_command(arguments[0]))
+            if arguments and arguments[0] not in program.commands and (missing := missing_command(arguments[0])):
+                raise InputError(missing)
             code = program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
         except InputError as error:
             console.FIELD = error.field

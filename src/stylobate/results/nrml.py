@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
+
 from ..analysis.fragility_curve import Fragility
 from ..analysis.lognormal import seen
-from ..atomic import replacing
+from ..atomic import refuse_existing, replacing
 from ..errors import InputError
 from ..motion.intensity_specs import parse_measure
-from .export import refuse_existing
 
 NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
 

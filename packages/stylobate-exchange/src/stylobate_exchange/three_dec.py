@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..column.spatial.mesh_files import check_closed
-from ..column.spatial.mesh_formats import LARGEST, MeshPart
-from ..errors import InputError
-from ..reading import read_bytes, shown
+from stylobate.column.spatial.mesh_files import check_closed
+from stylobate.column.spatial.mesh_formats import LARGEST, MeshPart
+from stylobate.errors import InputError
+from stylobate.reading import read_bytes, shown
 
 #: What is read, in the words of messages.
 KNOWN = (

@@ -6,7 +6,7 @@ import io
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError
+from stylobate.errors import InputError
 
 if TYPE_CHECKING:
     from openpyxl.worksheet.worksheet import Worksheet
@@ -35,7 +35,7 @@ def rows_of_workbook(content: bytes, name: str) -> list[list[str]]:
     except ImportError:
         raise InputError(
             f"{name} is the workbook of a spreadsheet, and openpyxl, which reads them, is not installed; install "
-            "stylobate[spreadsheet], or save the survey as CSV (UTF-8)."
+            "stylobate-exchange[spreadsheet], or save the survey as CSV (UTF-8)."
         ) from None
     try:
         found, written = (load_workbook(io.BytesIO(content), data_only=values).worksheets for values in (True, False))

@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..column.shapes import cut, hull
+from stylobate.column.shapes import cut, hull
+
 from .fitting import Frustum, Hull
 
 #: Faces look at one another, and triangles of a hull are one face, to this angle: of rounded and of measured corners [rad].

@@ -10,12 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ..atomic import replacing
-from ..column.found_in_space import base_axes
-from ..column.shapes import Mesh
-from ..errors import InputError
-from ..response import Response
-from ..response.links import NAMES as LINKS
+from stylobate.atomic import refuse_existing, replacing
+from stylobate.column.found_in_space import base_axes
+from stylobate.column.shapes import Mesh
+from stylobate.errors import InputError
+from stylobate.response import Response
+from stylobate.response.links import NAMES as LINKS
+
 from .mesh_writers import FIXED, GROUND, STONE, Glb, Named, obj_text
 from .recording import Recording
 from .vtk_files import collection, grids
@@ -83,17 +84,6 @@ def export_response(
         return paths
     content = {".glb": _glb, ".obj": _obj, ".csv": _table}[suffix](recording)
     return [_write(path, content)]
-
-
-def refuse_existing(path: Path) -> None:
-    """Refuse to write where something is.
-
-    Raises
-    ------
-    InputError
-    """
-    if path.exists() or path.is_symlink():
-        raise InputError(f"{path} is there already; choose another name.", "to")
 
 
 def _write(path: Path, content: bytes) -> Path:

@@ -7,12 +7,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..column.drum import LENGTHS
-from ..column.shapes import Mesh
-from ..column.spatial.mesh_formats import MeshPart
-from ..column.spatial.moments import mesh_moments
-from ..column.spatial.stone import MOST_CORNERS
-from ..errors import InputError
+from stylobate.column.drum import LENGTHS
+from stylobate.column.shapes import Mesh
+from stylobate.column.spatial.mesh_formats import MeshPart
+from stylobate.column.spatial.moments import mesh_moments
+from stylobate.column.spatial.stone import MOST_CORNERS
+from stylobate.errors import InputError
 
 #: Between two corners a drum's side lies this share of its radius within the circle at most: twelve corners or more.
 FLAT = 1.0 - math.cos(math.radians(15.5))

@@ -10,24 +10,24 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..atomic import replacing
-from ..column import Column
-from ..column.assembly_files import load_structure
-from ..column.block import FAR_AWAY, length_of
-from ..column.files import tables_of
-from ..column.shapes import Mesh
-from ..column.spatial.files import spatial_assembly
-from ..column.spatial.mesh_files import read_stones, unit_of, upward
-from ..column.spatial.mesh_formats import MESHES, UPWARD, MeshPart
-from ..column.spatial.tables import SpatialTable
-from ..column.structure import Structure
-from ..column.tables import made_of
-from ..column.toml import checked, toml_text
-from ..errors import InputError, check_range, within
-from ..reading import shown
+from stylobate.column import Column
+from stylobate.column.assembly_files import load_structure
+from stylobate.column.block import FAR_AWAY, length_of
+from stylobate.column.files import tables_of
+from stylobate.column.shapes import Mesh
+from stylobate.column.spatial.files import spatial_assembly
+from stylobate.column.spatial.mesh_files import read_stones, unit_of, upward
+from stylobate.column.spatial.mesh_formats import MESHES, UPWARD, MeshPart
+from stylobate.column.spatial.tables import SpatialTable
+from stylobate.column.structure import Structure
+from stylobate.column.tables import made_of
+from stylobate.column.toml import checked, toml_text
+from stylobate.errors import InputError, check_range, within
+from stylobate.reading import shown
+
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
 from .contact_planes import ROUGH, SMOOTH, brought_together
-from .export import refuse_existing
+from stylobate.atomic import refuse_existing, replacing
 from .fitting import hull_of
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND

@@ -15,11 +15,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..column.shapes import Mesh
-from ..column.spatial.mesh_files import check_closed
-from ..column.spatial.mesh_formats import LARGEST, MeshPart
-from ..errors import InputError
-from ..reading import read_bytes, shown
+from stylobate.column.shapes import Mesh
+from stylobate.column.spatial.mesh_files import check_closed
+from stylobate.column.spatial.mesh_formats import LARGEST, MeshPart
+from stylobate.errors import InputError
+from stylobate.reading import read_bytes, shown
 
 #: The kinds of files, by what their ``dtype`` ends in.
 MODELS = "compas_dem.models/BlockModel", "compas_model.models/Model"

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..errors import InputError
-from . import options as o
+from stylobate.cli import options as o
+from stylobate.errors import InputError
 
 
 def convert(
@@ -41,9 +41,10 @@ def convert(
 
     Each closed part of a mesh becomes a drum where a frustum fits it, else a convex block.
     """
-    from ..exchange.convert import Reading
-    from ..exchange.convert import convert as converted
-    from . import console
+    from stylobate.cli import console
+
+    from ..convert import Reading
+    from ..convert import convert as converted
 
     reading = Reading(
         material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()), columns, north, up

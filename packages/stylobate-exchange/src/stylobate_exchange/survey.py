@@ -9,12 +9,13 @@ import re
 from pathlib import Path
 from typing import Any
 
-from ..analysis.tables import text_of
-from ..column import Column
-from ..column.files import tables_of
-from ..column.plausible import length_doubts
-from ..errors import InputError, suggest
-from ..reading import SETTINGS, read_bytes, shown
+from stylobate.analysis.tables import text_of
+from stylobate.column import Column
+from stylobate.column.files import tables_of
+from stylobate.column.plausible import length_doubts
+from stylobate.errors import InputError, suggest
+from stylobate.reading import SETTINGS, read_bytes, shown
+
 from .workbook import WORKBOOKS, rows_of_workbook
 
 #: Columns that are lengths, and what they may be in [m].

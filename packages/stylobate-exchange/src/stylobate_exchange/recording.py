@@ -9,12 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..column.found_in_space import base_axes, space_geometry
-from ..column.links.placed import strokes
-from ..column.shapes import Glued, Mesh, Placed
-from ..errors import InputError, check_range
-from ..response import Response
-from ..response.poses import quaternions, rotation_matrices
+from stylobate.column.found_in_space import base_axes, space_geometry
+from stylobate.column.links.placed import strokes
+from stylobate.column.shapes import Glued, Mesh, Placed
+from stylobate.errors import InputError, check_range
+from stylobate.response import Response
+from stylobate.response.poses import quaternions, rotation_matrices
 
 #: Corners of circles in what is written.
 AROUND = 48

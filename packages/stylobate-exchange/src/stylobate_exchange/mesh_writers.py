@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..column.shapes import Mesh
-from ..version import __version__
+from stylobate.column.shapes import Mesh
+from stylobate.version import __version__
 
 #: Colours of what can move, of what moves with the ground, and of the ground: red, green, blue, from 0 to 1.
 STONE, FIXED, GROUND = (0.86, 0.80, 0.68), (0.62, 0.62, 0.62), (0.45, 0.43, 0.40)

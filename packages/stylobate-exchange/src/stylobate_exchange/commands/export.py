@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from . import options as o
+from stylobate.cli import options as o
 
 
 def export(
@@ -20,11 +20,12 @@ def export(
     .glb is glTF that moves (Blender, Windows, web viewers), .pvd and .vtu are VTK's (ParaView), .obj is one instant, .csv
     holds time histories.
     """
-    from ..exchange.export import export_response
-    from ..motion.specs import parse_number, parse_time
-    from ..response import load_response
-    from ..response.words import doubt_of
-    from . import console
+    from stylobate.cli import console
+    from stylobate.motion.specs import parse_number, parse_time
+    from stylobate.response import load_response
+    from stylobate.response.words import doubt_of
+
+    from ..export import export_response
 
     instant = None if at is None else parse_time(at, "at")
     frames = None if rate is None else parse_number("--fps", rate, "such as 30")

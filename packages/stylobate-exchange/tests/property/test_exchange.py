@@ -17,11 +17,11 @@ import pygltflib
 import pytest
 import trimesh
 from page_server import browser
+from stylobate_exchange.export import export_response
 
 import stylobate as st
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.presets import preset
-from stylobate.exchange.export import export_response
 from stylobate.response import Histories, Measures, Response
 from stylobate.response.links import LinkHistories, LinkMeasures
 

@@ -9,7 +9,8 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from ..version import __version__
+from stylobate.version import __version__
+
 from .recording import Recording
 
 #: Numbers of VTK's cells: a point, a line, a polyhedron.

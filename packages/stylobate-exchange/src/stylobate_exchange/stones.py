@@ -8,15 +8,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..column import Column
-from ..column.block import length_of
-from ..column.drum import Drum
-from ..column.found_in_space import space_geometry
-from ..column.materials import material
-from ..column.spatial.mesh_formats import MeshPart
-from ..column.turning import about
-from ..constants import DEGREE
-from ..errors import InputError
+from stylobate.column import Column
+from stylobate.column.block import length_of
+from stylobate.column.drum import Drum
+from stylobate.column.found_in_space import space_geometry
+from stylobate.column.materials import material
+from stylobate.column.spatial.mesh_formats import MeshPart
+from stylobate.column.turning import about
+from stylobate.constants import DEGREE
+from stylobate.errors import InputError
+
 from .fitting import Frustum, Hull, within_tolerance
 
 #: A drum that leans less than this out of the one under it stands straight on it [degrees].
