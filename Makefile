@@ -13,7 +13,8 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check -qq
 UV_VERSION := 0.13.8
 LOCK := .venv-lock/bin/uv pip compile -q --universal --python-version 3.11 --generate-hashes \
         --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" $(UPGRADE)
-OF_PACKAGES := --no-emit-package stylobate $(wildcard packages/*/pyproject.toml)
+OF_GPU := packages/stylobate-gpu/pyproject.toml
+OF_PACKAGES := --no-emit-package stylobate $(filter-out $(OF_GPU),$(wildcard packages/*/pyproject.toml))
 
 # An environment that was copied or moved here would run the code at its old place: build it anew.
 ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
@@ -73,7 +74,7 @@ $(PTX_STAMP): requirements/ptx.lock
 
 # The kernels for graphics cards, where they are not there from these sources; no card is needed. KERNELS="plane rim" for some.
 ptx: $(PTX_STAMP)
-	@PYTHONPATH=src .venv-ptx/bin/python -m stylobate.kernels.gpu.build $(KERNELS)
+	@PYTHONPATH=src:packages/stylobate-gpu/src .venv-ptx/bin/python -m stylobate_gpu.build $(KERNELS)
 
 wheel: install
 	@rm -rf dist build/wheel
@@ -149,11 +150,11 @@ lock:
 	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra app --extra notebook \
 	    $(OF_PACKAGES) requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
 	$(LOCK) --no-deps requirements/peers.in -o requirements/peers.lock > /dev/null
-	$(LOCK) --extra gpu -c requirements/base.lock pyproject.toml -o requirements/gpu.lock > /dev/null
+	$(LOCK) -c requirements/base.lock --no-emit-package stylobate $(OF_GPU) -o requirements/gpu.lock > /dev/null
 	$(LOCK) --no-deps -c requirements/base.lock requirements/ptx.in -o requirements/ptx.lock > /dev/null
 	@! grep -n -e '://' -e '^ *--\(extra-\)\?index' -e '--find-links' requirements/*.lock || \
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }
 
 clean:
-	rm -rf .venv .venv-lock .venv-pythons .venv-peers .venv-ptx src/stylobate/kernels/gpu/built build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	rm -rf .venv .venv-lock .venv-pythons .venv-peers .venv-ptx packages/stylobate-gpu/src/stylobate_gpu/built build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
 	find src packages studies compas tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

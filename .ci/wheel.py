@@ -1,4 +1,4 @@
-"""The core's wheel alone: installed into a bare environment, imported without POSIX, put to work; then the packages with it."""
+"""The core's wheel alone: in a bare environment, imported without POSIX, put to work; then the packages with it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import venv
 from pathlib import Path
 
 from stylobate.added import PACKAGES
-from stylobate.kernels.gpu.kinds import kinds, missing
+from stylobate_gpu.kinds import kinds, missing
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -21,7 +21,7 @@ POSIX = ("fcntl", "resource", "pwd", "grp", "termios", "tty", "pty", "syslog", "
 #: What only an extra brings: the page is imported when it is asked for.
 EXTRAS = ("starlette", "uvicorn")
 
-#: Packages beside the core, by the names under which they are imported; stylobate_compas needs wheels that not every machine has.
+#: Packages beside the core as they are imported, but for stylobate_compas: not every machine has wheels for what it needs.
 BESIDE = [path.name for path in sorted(ROOT.glob("packages/*/src/*")) if (path / "__init__.py").is_file()]
 
 IMPORT = f"""
@@ -48,10 +48,7 @@ for name in {BESIDE}:
 """
 
 #: Every module of the packages.
-PACKAGES_  #: Packages beside the core, by the names under which they are imported; stylobate_compas needs wheels that not every machine has.
-BESIDE = [path.name for path in sorted(ROOT.glob("packages/*/src/*")) if (path / "__init__.py").is_file()]
-
-IMPORT = f"""
+PACKAGES_IMPORT = f"""
 import importlib, pkgutil
 for name in {BESIDE}:
     for module in pkgutil.walk_packages(importlib.import_module(name).__path__, f"{{name}}."):
@@ -76,8 +73,6 @@ def main() -> int:
 
         run(python, "-m", "pip", "--disable-pip-version-check", "-qq", "install", "-c", constraints, wheel)
         run(python, "-c", IMPORT)
-        built = set(kinds()) - set(missing())  # here; the wheel must carry them
-        run(python, "-c", f"from stylobate.kernels.gpu.kinds import missing; assert not {built!r} & set(missing())")
         run(command, "--help")
         for package in PACKAGES:
             for name in package.commands:
@@ -103,6 +98,8 @@ def main() -> int:
         shutil.rmtree(folder / "run")
         run(python, "-m", "pip", "--disable-pip-version-check", "-qq", "install", "-c", constraints, *others)
         run(python, "-c", PACKAGES_IMPORT)
+        built = set(kinds()) - set(missing())  # here; the wheel must carry them
+        run(python, "-c", f"from stylobate_gpu.kinds import missing; assert not {built!r} & set(missing())")
         for package in PACKAGES:
             for name in package.commands:
                 run(command, name, "--help")
@@ -112,7 +109,8 @@ def main() -> int:
 
 def pinned(folder: Path) -> Path:
     """The locked versions as constraints, without digests: only what the wheel itself asks for is installed."""
-    lines = (ROOT / "requirements" / "base.lock").read_text(encoding="utf-8").splitlines()
+    locks = [ROOT / "requirements" / name for name in ("base.lock", "gpu.lock")]
+    lines = dict.fromkeys(line for lock in locks for line in lock.read_text(encoding="utf-8").splitlines())
     path = folder / "constraints.txt"
     path.write_text("".join(line.rstrip(" \\") + "\n" for line in lines if line[:1].isalnum()), encoding="utf-8")
     return path

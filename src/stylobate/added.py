@@ -6,6 +6,8 @@ group                  an entry is
 ``stylobate.commands`` a command of the program under its name: a function whose parameters are those of the command
 ``stylobate.names``    a public name: ``infer`` becomes ``stylobate.infer``, ``plots.draw_shaking`` becomes
                        ``stylobate.plots.draw_shaking``
+``stylobate.devices``  what steps columns instead of threads of the processor: ``gpu`` is a function that returns a
+                       :class:`stylobate.models.devices.Device`
 ====================== ==================================================================================================
 
 Anybody's package may have such entries. What the packages of this repository would add is listed here as well, so that
@@ -21,7 +23,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint, EntryPoints
 
-COMMANDS, NAMES = "stylobate.commands", "stylobate.names"
+COMMANDS, NAMES, DEVICES = "stylobate.commands", "stylobate.names", "stylobate.devices"
 
 
 class Package(NamedTuple):
@@ -31,9 +33,10 @@ class Package(NamedTuple):
     folder: str
     commands: tuple[str, ...] = ()
     names: tuple[str, ...] = ()
+    devices: tuple[str, ...] = ()
 
     @property
-    def missing(self) -> str:
+    def is_missing(self) -> str:
         """That it is not installed, and how to install it."""
         return (
             f"{self.name}, which is not installed here; it is the folder {self.folder} of stylobate's source tree, and "
@@ -45,6 +48,7 @@ class Package(NamedTuple):
 PACKAGES = (
     Package("stylobate-studies", "studies", commands=("reproduce", "experiments", "bench")),
     Package("stylobate-exchange", "packages/stylobate-exchange", commands=("convert", "export")),
+    Package("stylobate-gpu", "packages/stylobate-gpu", devices=("gpu",)),
 )
 
 
@@ -82,12 +86,16 @@ def added_commands(taken: Collection[str]) -> dict[str, Callable[..., None]]:
     return found
 
 
-def missing_command(name: str) -> str | None:
-    """Where a command is that is not installed; None if no package of this repository has it."""
-    for package in PACKAGES:
-        if name in package.commands:
-            return f"{name} is a command of {package.missing}"
-    return None
+def missing(kind: str, name: str) -> str | None:
+    """Which package of this repository has something that is not installed, and how to install it; None if none has it.
+
+    Parameters
+    ----------
+    kind : str
+        ``commands``, ``names`` or ``devices``.
+    name : str
+    """
+    return next((package.is_missing for package in PACKAGES if name in getattr(package, kind)), None)
 
 
 def public_name(module: str, name: str) -> Any:
@@ -109,9 +117,8 @@ def public_name(module: str, name: str) -> Any:
         entry = entries(NAMES).get(path)
         if entry is not None:
             return entry.load()
-        for package in PACKAGES:
-            if path in package.names:
-                raise AttributeError(f"{module}.{name} is of {package.missing}", name=name)
+        if place := missing("names", path):
+            raise AttributeError(f"{module}.{name} is of {place}", name=name)
     raise AttributeError(f"module {module!r} has no attribute {name!r}", name=name)
 
 

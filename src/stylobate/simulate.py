@@ -14,7 +14,7 @@ import numpy as np
 
 from .column.structure import Structure
 from .errors import InputError, check_all, check_choice, check_kind, check_range
-from .kernels.gpu import driver
+from .models import devices
 from .models.base import Case, Cases, Model, RunOptions, duration
 from .models.shared.quiet import expected_length, share_of
 from .models.start import Start, Toss
@@ -183,7 +183,7 @@ def run_on_card(
         It computes otherwise than the processor, or has failed on the way.
     """
     finished = left = 0
-    for index, measures in model.run_on_card(driver.the_card(), cases, options, thread_count(threads)):
+    for index, measures in model.run_on_card(devices.gpu(), cases, options, thread_count(threads)):
         finished += 1
         left += measures.computed_by == CPU
         yield index, measures

@@ -5,9 +5,9 @@ import re
 
 import numpy as np
 import pytest
-from stylobate_exchange.convert import Reading, convert
 
 import stylobate as st
+from stylobate_exchange.convert import Reading, convert
 
 
 def test_a_column_has_the_properties_of_the_library(client, table):

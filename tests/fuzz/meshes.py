@@ -10,12 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 import trimesh
-from stylobate_exchange.compas_files import compas_json
-from stylobate_exchange.convert import Reading, read_model
-from stylobate_exchange.mesh_writers import TEXTS, Glb, Named
 
 from stylobate.column.shapes import CircularFrustum, Mesh, cut
 from stylobate.errors import InputError
+from stylobate_exchange.compas_files import compas_json
+from stylobate_exchange.convert import Reading, read_model
+from stylobate_exchange.mesh_writers import TEXTS, Glb, Named
 
 from .target import Fault, Target, sentence
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
 from stylobate_exchange.convert import SURVEYS, Reading, read_model
 
 from ..column import Column

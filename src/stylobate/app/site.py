@@ -16,6 +16,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, PlainTextResponse, Response
 from starlette.routing import Route
+
 from stylobate_exchange.convert import SURVEYS
 
 from ..column.assembly_files import is_assembly

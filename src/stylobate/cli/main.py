@@ -13,7 +13,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..added import added_commands, missing_command
+from ..added import added_commands, missing
 from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeWarning, PlaneOnlyWarning, StylobateError
 from ..version import __version__
 from . import (
@@ -135,8 +135,9 @@ def call(arguments: Sequence[str]) -> int:
         warnings.showwarning = _Warner()
         try:
             program = commands()
-            if arguments and arguments[0] not in program.commands and (missing := missing_command(arguments[0])):
-                raise InputError(missing)
+            name = arguments[0] if arguments else ""
+            if name not in program.commands and (place := missing("commands", name)):
+                raise InputError(f"{name} is a command of {place}")
             code = program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
         except InputError as error:
             console.FIELD = error.field

@@ -16,7 +16,7 @@ from ..response.words import round_in_the_plane
 from .start import Start, Toss
 
 if TYPE_CHECKING:
-    from ..kernels.gpu.card import Device
+    from .devices import Device
 
 #: Larger accelerations are rejected as non-physical; numbers would overflow [m/s²].
 LARGEST_ACCELERATION = 1e6

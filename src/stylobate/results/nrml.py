@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
-
 from ..analysis.fragility_curve import Fragility
 from ..analysis.lognormal import seen
 from ..atomic import refuse_existing, replacing

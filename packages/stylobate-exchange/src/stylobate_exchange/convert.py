@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from stylobate.atomic import refuse_existing, replacing
 from stylobate.column import Column
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.block import FAR_AWAY, length_of
@@ -27,7 +28,6 @@ from stylobate.reading import shown
 
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
 from .contact_planes import ROUGH, SMOOTH, brought_together
-from stylobate.atomic import refuse_existing, replacing
 from .fitting import hull_of
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND

@@ -16,8 +16,6 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as some
-from stylobate_exchange.convert import Reading, convert, read_model
-from stylobate_exchange.survey import survey_tables, survey_text
 
 import stylobate as st
 from stylobate.column.as_found import AsFound, FoundDrum
@@ -29,6 +27,8 @@ from stylobate.column.links import Dowel
 from stylobate.column.presets import preset
 from stylobate.column.projection import project
 from stylobate.column.tables import made_of
+from stylobate_exchange.convert import Reading, convert, read_model
+from stylobate_exchange.survey import survey_tables, survey_text
 
 GALLERY = Path(__file__).parents[4] / "gallery" / "assemblies"
 COMPAS = Path(__file__).parent / "compas"

@@ -17,13 +17,13 @@ import pygltflib
 import pytest
 import trimesh
 from page_server import browser
-from stylobate_exchange.export import export_response
 
 import stylobate as st
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.presets import preset
 from stylobate.response import Histories, Measures, Response
 from stylobate.response.links import LinkHistories, LinkMeasures
+from stylobate_exchange.export import export_response
 
 TIME = np.array([0.0, 0.5, 1.0, 1.5, 2.0])
 LAW = st.Joint(1e9, 1e9, 35.0)

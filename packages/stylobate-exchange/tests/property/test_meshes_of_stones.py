@@ -7,14 +7,14 @@ import re
 import numpy as np
 import pytest
 import trimesh
-from stylobate_exchange.compas_files import compas_json
-from stylobate_exchange.convert import Reading, convert, read_model
-from stylobate_exchange.mesh_writers import TEXTS, Named
 
 import stylobate as st
 from stylobate.analysis.limit_directions import limit_directions
 from stylobate.column.shapes import ConvexSolid, Mesh, cut
 from stylobate.column.spatial.moments import mesh_moments
+from stylobate_exchange.compas_files import compas_json
+from stylobate_exchange.convert import Reading, convert, read_model
+from stylobate_exchange.mesh_writers import TEXTS, Named
 
 MARBLE = Reading("marble")
 

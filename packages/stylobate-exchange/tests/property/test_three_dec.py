@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from stylobate_exchange.convert import Reading, convert, read_model
 
 import stylobate as st
 from stylobate.column.assembly_files import load_structure
+from stylobate_exchange.convert import Reading, convert, read_model
 
 EVORA = Path(__file__).parents[4].parent / "shared" / "monuments" / "evora" / "m03_geometry.dat"
 

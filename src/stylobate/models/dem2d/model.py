@@ -127,12 +127,6 @@ class DistinctElement2D(LossyDrums):
         """A block of lanes for columns of a kind."""
         return ColumnLanes(self.record_types(bool(kind.links), lanes), self.pack, kind, options, self.cost(kind.stack))
 
-    def card_kernel(self, kind: Topology) -> str | None:
-        """Of columns without links on two contact points a joint."""
-        from ...kernels.gpu.kinds import POINTS, plane_kernel
-
-        return plane_kernel(self.damped) if kind.stack and not kind.links and self.points == POINTS else None
-
     def pack(self, column: Column) -> Packed:
         """A column as the engine wants it, settled if asked for."""
         return _pack(column, self.acting(column))

@@ -326,10 +326,6 @@ class DistinctElement3D(LossyDrums):
         bodies, cost = Stack(planar=self.planar, pivots=self.pivot_friction < 1.0), self.cost(kind.rows)
         return SpaceBlock(self.records(kind, lanes), bodies, self.pack, options, cost, planar=self.planar)
 
-    def card_kernel(self, kind: Kind) -> str | None:
-        """Of columns without links on whole rims, or on corners."""
-        return kind.card_kernel
-
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
         return (8.3 if self.damped else 5.5) * super().cost(drums)

@@ -10,11 +10,10 @@ from idle_card import IdleCard
 
 import stylobate as st
 from stylobate.column.twins import twins_of
-from stylobate.kernels.gpu import driver
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.drums import card as lanes
-from stylobate.models.drums import card_check
 from stylobate.models.shared.lanes import run_lanes
+from stylobate_gpu import card_check, driver
+from stylobate_gpu import lanes as lanes
 
 COLUMN = st.Column.tapered(
     height=3.0, bottom_width=0.6, top_width=0.5, drums=3, density=2400.0,
@@ -45,7 +44,7 @@ def test_every_lane_of_wide_blocks_has_the_run_that_was_put_there(monkeypatch):
 
 
 def test_the_figures_of_a_card_are_measured_without_one(monkeypatch, tmp_path):
-    place = Path(__file__).parents[2] / "benchmarks" / "card.py"
+    place = Path(__file__).parents[4] / "benchmarks" / "card.py"
     spec = importlib.util.spec_from_file_location("figures_of_a_card", place)
     assert spec is not None
     assert spec.loader is not None

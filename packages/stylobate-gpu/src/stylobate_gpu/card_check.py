@@ -12,15 +12,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...column import Column, Joint
-from ...errors import StylobateError
-from ...motion import Motion
-from ..base import Case, Model, RunOptions
-from ..shared.lanes import run_lanes
-from .card import CardLanes
+from stylobate.column import Column, Joint
+from stylobate.errors import StylobateError
+from stylobate.models.base import Case, Model, RunOptions
+from stylobate.models.shared.lanes import run_lanes
+from stylobate.motion import Motion
+
+from .lanes import CardLanes
 
 if TYPE_CHECKING:
-    from ...kernels.gpu.card import Device
+    from .card import Device
 
 #: Largest difference of a peak from that of the processor, over the peak [-]: in so short runs rounding has not grown.
 ALIKE = 1e-6
@@ -38,7 +39,7 @@ def usable(device: Device, name: str, drums: int, kind: type[Model]) -> bool:
     StylobateError
         It computes otherwise.
     """
-    from ...kernels.gpu.card import fits
+    from .card import fits
 
     if not fits(device, name, drums):
         return False

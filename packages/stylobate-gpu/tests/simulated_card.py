@@ -20,12 +20,12 @@ from numba.np.numpy_support import as_dtype
 
 import stylobate as st
 from stylobate.column.twins import twins_of
-from stylobate.kernels.gpu import column, kinds, laws
 from stylobate.kernels.run_codes import LANES
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.drums import card as lanes
-from stylobate.models.drums import card_check
 from stylobate.models.start import Start
+from stylobate_gpu import card_check, column, kinds, laws
+from stylobate_gpu import lanes as lanes
+from stylobate_gpu.device import GraphicsCard
 
 simulator.FakeWithinKernelCUDAArray = lambda fake: fake._ary  # laws take records as they are, not in its wrapping
 memory_asked = kernelapi.FakeCUDAShared.array
@@ -50,7 +50,7 @@ for module in (column, laws):
 
 
 class Simulated:
-    """A card whose memory is that of this process; see :class:`stylobate.kernels.gpu.driver.Card`."""
+    """A card whose memory is that of this process; see :class:`stylobate_gpu.driver.Card`."""
 
     name, shared = "simulated", 10**6
 
@@ -197,7 +197,7 @@ def main(names: list[str]) -> None:
         ways = {"loop": model.run_many(cases, options, 1)}
         for way, chunks in (("card", 500), ("cut", 3)):
             lanes.CHUNKS_PER_LAUNCH = chunks
-            ways[way] = list(model.run_on_card(device, cases, options, 1))
+            ways[way] = list(model.run_on_card(GraphicsCard(device), cases, options, 1))
         found[name] = {
             "drums": columns[0].n,
             **{way: [told(one) for _, one in sorted(runs)] for way, runs in ways.items()},

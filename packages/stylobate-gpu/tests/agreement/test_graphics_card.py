@@ -18,8 +18,8 @@ import pytest
 
 import stylobate as st
 from stylobate.column.links import Dowel
-from stylobate.kernels.gpu import kinds
-from stylobate.models.drums import card_check
+from stylobate_gpu import card_check, kinds
+from stylobate_gpu.device import kernel_for
 
 HERE = Path(__file__).parents[1]
 ANY_X86 = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
@@ -45,7 +45,7 @@ def batches():
 def test_runs_of_the_card_have_the_bits_of_the_loop(batches, batch):
     # one drum: falls and stands from a pose, in the plane more runs than lanes; three: scatter, losses of stone in the
     # plane, a run that ends early; others, by their names: ``PYTHONPATH=tests NUMBA_ENABLE_CUDASIM=1 python
-    # tests/simulated_card.py sliding with_corners drums_of_stone``
+    # packages/stylobate-gpu/tests/simulated_card.py sliding with_corners drums_of_stone``
     found = batches[batch]
     assert [one["bits"] for one in found["card"]] == [one["bits"] for one in found["loop"]]
 
@@ -113,7 +113,7 @@ def test_a_kernel_of_other_sources_is_not_used(tmp_path, monkeypatch):
 def test_every_kernel_has_runs_by_which_it_is_checked(name):
     engine = st.DistinctElement2D if name.startswith("plane") else st.DistinctElement3D
     model, cases = card_check.cases_for(name, engine)
-    assert model.card_kernel(model.kind(cases[0].column)) == name
+    assert kernel_for(model, model.kind(cases[0].column)) == name
 
 
 def test_what_has_no_kernel_is_left_to_the_processor():
@@ -123,11 +123,11 @@ def test_what_has_no_kernel_is_left_to_the_processor():
     round_ = st.Column.tapered(**size, section="circular")
     linked = column.replace(links=(Dowel(joint=2, shear_stiffness=1e8, shear_capacity=1e4),))
     several = st.DistinctElement2D(points=3), st.DistinctElement3D(law=bed)
-    assert plane.card_kernel(plane.kind(column)) == "plane"
-    assert space.card_kernel(space.kind(column)) == "corner"
-    assert space.card_kernel(space.kind(round_)) == "rim"
+    assert kernel_for(plane, plane.kind(column)) == "plane"
+    assert kernel_for(space, space.kind(column)) == "corner"
+    assert kernel_for(space, space.kind(round_)) == "rim"
     for model, other in ((several[0], column), (several[1], round_), (plane, linked), (space, linked)):
-        assert model.card_kernel(model.kind(other)) is None, (model, other)
+        assert kernel_for(model, model.kind(other)) is None, (model, other)
 
 
 class Wrong:

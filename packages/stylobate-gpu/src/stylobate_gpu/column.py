@@ -31,9 +31,10 @@ from functools import cache
 import numpy as np
 from numba import cuda, from_dtype, int64
 
-from ..jit import law
-from ..run_codes import CHUNK
-from ..shared.frame import end_run, go_on, goes_on
+from stylobate.kernels.jit import law
+from stylobate.kernels.run_codes import CHUNK
+from stylobate.kernels.shared.frame import end_run, go_on, goes_on
+
 from .kinds import AHEAD, ARGUMENTS, ENTRY, OLDEST, site_type, sums_type
 from .laws import Laws, laws_for
 

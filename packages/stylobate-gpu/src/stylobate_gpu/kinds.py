@@ -14,11 +14,12 @@ from pathlib import Path
 import numpy as np
 from numpy.lib.recfunctions import repack_fields
 
-from ...errors import InputError
-from ..dem3d import records as in_space
-from ..jit import source_digest
-from ..plane import records as in_plane
-from ..run_codes import CHUNK
+from stylobate.errors import InputError
+from stylobate.kernels.dem3d import records as in_space
+from stylobate.kernels.jit import source_digest
+from stylobate.kernels.plane import records as in_plane
+from stylobate.kernels.run_codes import CHUNK
+
 from .laws import laws_for
 
 #: Compute capability of the oldest cards for which kernels are built.
@@ -113,7 +114,7 @@ def site_type(types: Types) -> np.dtype:
 
 def stamp() -> str:
     """First line of a file that was built from these sources."""
-    return f"// kernels of stylobate, built from sources {source_digest()}"
+    return f"// kernels of stylobate, built from sources {source_digest()}-{source_digest(FOLDER.parent)}"
 
 
 def missing() -> Iterator[str]:

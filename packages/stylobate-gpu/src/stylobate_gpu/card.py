@@ -7,7 +7,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..run_codes import FREE, RUNNING
+from stylobate.kernels.run_codes import FREE, RUNNING
+
 from .kinds import AHEAD, ARGUMENTS, Types, kinds, lanes_of, site_type
 
 #: Records of lanes that the kernel changes; those of sites come first among its arguments.
@@ -15,7 +16,7 @@ OF_LANES = ("lane", "feed", "watch")
 
 
 class Device(Protocol):
-    """A card, or what stands for one: see :class:`stylobate.kernels.gpu.driver.Card`."""
+    """A card, or what stands for one: see :class:`stylobate_gpu.driver.Card`."""
 
     name: str
     shared: int

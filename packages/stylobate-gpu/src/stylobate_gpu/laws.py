@@ -10,16 +10,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..dem3d import move
-from ..dem3d.beds import disc_beds, ring_beds
-from ..dem3d.corners import corner_joint
-from ..dem3d.look import ground_at as ground_in_space
-from ..dem3d.look import look_at_lane, lose
-from ..dem3d.rims import chipped_rims, whole_rims
-from ..dem3d.round_faces import on_face
-from ..jit import law
-from ..plane import look, motion, point_joint
-from ..shared.frame import goes_on
+from stylobate.kernels.dem3d import move
+from stylobate.kernels.dem3d.beds import disc_beds, ring_beds
+from stylobate.kernels.dem3d.corners import corner_joint
+from stylobate.kernels.dem3d.look import ground_at as ground_in_space
+from stylobate.kernels.dem3d.look import look_at_lane, lose
+from stylobate.kernels.dem3d.rims import chipped_rims, whole_rims
+from stylobate.kernels.dem3d.round_faces import on_face
+from stylobate.kernels.jit import law
+from stylobate.kernels.plane import look, motion, point_joint
+from stylobate.kernels.shared.frame import goes_on
 
 
 class Held(NamedTuple):

@@ -9,8 +9,8 @@ from scipy.stats import binomtest
 
 import stylobate as st
 from stylobate.column import preset
-from stylobate.kernels.gpu import driver
-from stylobate.models.drums import card as lanes
+from stylobate_gpu import driver
+from stylobate_gpu import lanes as lanes
 
 pytestmark = [pytest.mark.gpu, pytest.mark.slow]
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.kernels.gpu import card, driver, kinds
 from stylobate.kernels.run_codes import ENDED, RUNNING
+from stylobate_gpu import card, driver, kinds
 
 
 class Code(IntEnum):

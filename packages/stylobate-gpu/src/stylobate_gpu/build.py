@@ -7,7 +7,8 @@ import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
 
-from ...atomic import replacing
+from stylobate.atomic import replacing
+
 from .kinds import FOLDER, OLDEST, REGISTERS, kinds, missing, stamp
 
 

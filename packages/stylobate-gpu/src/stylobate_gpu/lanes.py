@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...kernels.run_codes import RUNNING
-from ...response import Measures
-from ..base import Case
-from ..shared.lanes import NOT_COMPUTED
-from .runs import LaneRuns
+from stylobate.kernels.run_codes import RUNNING
+from stylobate.models.base import Case
+from stylobate.models.drums.runs import LaneRuns
+from stylobate.models.shared.lanes import NOT_COMPUTED
+from stylobate.response import Measures
 
 if TYPE_CHECKING:
-    from ...kernels.gpu.card import Device
+    from .card import Device
 
 #: Chunks of steps of a launch: some tens of milliseconds, for which Ctrl-C and runs that have ended wait.
 CHUNKS_PER_LAUNCH = 500
@@ -49,8 +49,8 @@ class CardLanes:
     """
 
     def __init__(self, device: Device, name: str, make: Callable[..., LaneRuns], runs: int, turn: Lock) -> None:
-        from ...kernels.gpu.card import CardRecords, lanes_at_once
-        from ...kernels.gpu.kinds import lanes_of
+        from .card import CardRecords, lanes_at_once
+        from .kinds import lanes_of
 
         first, starter, of_card = make(WIDE), make(), lanes_of(name)
         self.each, drums = first.lanes, first.arrays.topology.stack

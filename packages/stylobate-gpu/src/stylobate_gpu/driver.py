@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, StylobateError
+from stylobate.errors import InputError, StylobateError
 
 #: What to do where there is no card.
 INSTEAD = "use a machine with an NVIDIA card made for computing (A100, H100 and the like), or leave `device` out"
@@ -38,7 +38,7 @@ class Card:
         except ImportError as error:
             raise InputError(
                 f"`device` is gpu, and cuda-bindings, by which cards are reached, cannot be loaded ({error}); install "
-                "stylobate[gpu], or leave `device` out.",
+                "stylobate-gpu with what it needs, or leave `device` out.",
                 "device",
             ) from None
         self._cuda = driver
@@ -176,7 +176,7 @@ def the_card() -> Card:
     Raises
     ------
     InputError
-        The extra ``gpu`` is not installed, there is no card, or there are no kernels for it.
+        cuda-bindings is not installed, there is no card, or there are no kernels for it.
     """
     from .kinds import kinds, missing, text_of
 

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.kernels.gpu import kinds
 from stylobate.kernels.run_codes import CHUNK, ENDED, RUNNING
+from stylobate_gpu import kinds
 
 
 class IdleCard:
-    """A card whose memory is that of this process; see :class:`stylobate.kernels.gpu.driver.Card`."""
+    """A card whose memory is that of this process; see :class:`stylobate_gpu.driver.Card`."""
 
     name, shared = "idle", 10**6
 
