@@ -49,6 +49,9 @@ PACKAGES = (
     Package("stylobate-studies", "studies", commands=("reproduce", "experiments", "bench")),
     Package("stylobate-exchange", "packages/stylobate-exchange", commands=("convert", "export")),
     Package("stylobate-gpu", "packages/stylobate-gpu", devices=("gpu",)),
+    Package(
+        "stylobate-report", "packages/stylobate-report", commands=("draw", "report"), names=("plots.sheets_to_scale",)
+    ),
 )
 
 

@@ -25,7 +25,6 @@ from . import (
     console,
     critical,
     domain,
-    draw,
     fetch,
     fragility,
     ida,
@@ -35,7 +34,6 @@ from . import (
     motion,
     pushover,
     records,
-    report,
     risk,
     run,
     sequence,
@@ -86,7 +84,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer,
-    calibrate, motion, fetch, records, spectrum, columns, draw, materials, animate, report, serve, cite
+    calibrate, motion, fetch, records, spectrum, columns, materials, animate, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))

@@ -22,7 +22,6 @@ from .joints import draw_joints as draw_joints
 from .limit_directions import draw_limit_directions as draw_limit_directions
 from .motion import draw_motion as draw_motion
 from .orbit import draw_orbit as draw_orbit
-from .paper import sheets_to_scale as sheets_to_scale
 from .probability import draw_probability as draw_probability
 from .pushover import draw_mechanism as draw_mechanism
 from .pushover import draw_pushover as draw_pushover
