@@ -9,12 +9,12 @@ from pathlib import Path
 
 import httpx
 
-from stylobate.app.server import listening_at, server_of
-from stylobate.app.site import create_app
+from stylobate_page.server import listening_at, server_of
+from stylobate_page.site import create_app
 
 #: Processes of jobs: one that computes nothing, and the real one.
 FAKE = (sys.executable, str(Path(__file__).parent / "app" / "fake_worker.py"))
-REAL = (sys.executable, "-m", "stylobate.cli.worker")
+REAL = (sys.executable, "-m", "stylobate_page.worker")
 
 
 @contextmanager

@@ -49,6 +49,7 @@ PACKAGES = (
     Package("stylobate-studies", "studies", commands=("reproduce", "experiments", "bench")),
     Package("stylobate-exchange", "packages/stylobate-exchange", commands=("convert", "export")),
     Package("stylobate-gpu", "packages/stylobate-gpu", devices=("gpu",)),
+    Package("stylobate-page", "packages/stylobate-page", commands=("serve",)),
     Package(
         "stylobate-report", "packages/stylobate-report", commands=("draw", "report"), names=("plots.sheets_to_scale",)
     ),

@@ -37,7 +37,6 @@ from . import (
     risk,
     run,
     sequence,
-    serve,
     signals,
     spectrum,
     states,
@@ -84,7 +83,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer,
-    calibrate, motion, fetch, records, spectrum, columns, materials, animate, serve, cite
+    calibrate, motion, fetch, records, spectrum, columns, materials, animate, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))
