@@ -87,7 +87,7 @@ test-wheel: wheel
 
 # What strangers may hand in, by the thousand; ARGS="columns --seconds 60" for some of it.
 fuzz: install
-	@PYTHONPATH=tests $(BIN)/python -m fuzz $(ARGS)
+	@PYTHONPATH=tests:packages/stylobate-page/tests $(BIN)/python -m fuzz $(ARGS)
 
 check: install
 	$(BIN)/ruff check .

@@ -15,7 +15,7 @@ ROOMS = [
 ]
 
 #: Packages beside the core that a reader of the reference enters.
-BESIDE = ["stylobate_report"]
+BESIDE = ["stylobate_report", "stylobate_ruins"]
 
 #: A cross-reference in a docstring.
 ROLE = re.compile(r":\w+:(`[^`]+`)")

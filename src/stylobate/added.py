@@ -53,6 +53,27 @@ PACKAGES = (
     Package(
         "stylobate-report", "packages/stylobate-report", commands=("draw", "report"), names=("plots.sheets_to_scale",)
     ),
+    Package(
+        "stylobate-ruins",
+        "packages/stylobate-ruins",
+        commands=("infer", "survival"),
+        names=(
+            "Observed",
+            "Outlasted",
+            "Prior",
+            "Ruin",
+            "infer",
+            "plots.draw_matches",
+            "plots.draw_observations",
+            "plots.draw_posterior",
+            "plots.draw_survival",
+            "plots.draw_weighing",
+            "read_ruin",
+            "read_sites",
+            "survival",
+            "weigh",
+        ),
+    ),
 )
 
 

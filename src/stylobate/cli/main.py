@@ -28,7 +28,6 @@ from . import (
     fetch,
     fragility,
     ida,
-    infer,
     limit,
     materials,
     motion,
@@ -42,7 +41,6 @@ from . import (
     states,
     study,
     suite,
-    survival,
 )
 from .groups import takes
 from .helping import WIDTH, Command
@@ -82,7 +80,7 @@ def _passing_on() -> Iterator[None]:
 
 
 for _room in (
-    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer,
+    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk,
     calibrate, motion, fetch, records, spectrum, columns, materials, animate, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]

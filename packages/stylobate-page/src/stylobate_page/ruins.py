@@ -5,13 +5,13 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from stylobate.campaign.ruin import Ruin
-from stylobate.campaign.ruin_files import read_ruin
 from stylobate.column.files import write_column
 from stylobate.column.presets import PRESETS
 from stylobate.column.structure import Structure
 from stylobate.column.toml import parse_toml
 from stylobate.errors import InputError
+from stylobate_ruins.ruin import Ruin
+from stylobate_ruins.ruin_files import read_ruin
 
 from .asked import ASSEMBLY, COLUMN, RUIN
 from .lines import point_to

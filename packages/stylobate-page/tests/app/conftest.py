@@ -1,5 +1,6 @@
 import pytest
-from page_server import FAKE, REAL, browser, served
+from chromium import browser
+from page_server import FAKE, REAL, served
 
 from stylobate_page.columns import presets
 from stylobate_page.keys import Keys

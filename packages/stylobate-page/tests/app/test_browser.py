@@ -4,7 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from page_server import AA, AA_LARGE, FAINT, browser, until
+from chromium import browser
+from page_server import AA, AA_LARGE, FAINT, until
 
 playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
 pytestmark = [

@@ -4,7 +4,8 @@ import json
 
 import numpy as np
 import pytest
-from page_server import AA, AA_LARGE, FAINT, HAZARD, RUNS, browser, until
+from chromium import browser
+from page_server import AA, AA_LARGE, FAINT, HAZARD, RUNS, until
 
 playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
 pytestmark = [
