@@ -85,7 +85,6 @@ from .plots.inline import Film as Film
 from .response import Response as Response
 from .response import load_response as load_response
 from .simulate import simulate as simulate
-from .simulate import simulate_assembly as simulate_assembly
 from .simulate import simulate_many as simulate_many
 
 __version__: str

@@ -35,7 +35,7 @@ def calibrate(
     confidence: str = o.option("SHARE", "Of intervals.", "0.9"),
     settings: o.Settings = None,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
-    execution: Annotated[o.Execution, o.But(*o.COMPUTING)],
+    execution: o.Plain,
 ) -> None:
     """What joints lose, from a measured free rocking or wobbling of a column.
 

@@ -96,7 +96,6 @@ class DistinctElement2D(LossyDrums):
     )
     computes: ClassVar[tuple[type, ...]] = (*DRUMS, Prism)
     takes_as_found: ClassVar[bool] = True
-    follows_to_rest: ClassVar[bool] = True
     takes_start: ClassVar[bool] = True
     takes_links: ClassVar[frozenset[str]] = LossyDrums.takes_links | {"clamp"}
 
@@ -197,6 +196,10 @@ class DistinctElement2D(LossyDrums):
         """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""
         if column.stack is not None:
             super().check_length(column, motion, options)
+
+    def as_followed(self, structure: Any) -> Any:
+        """What stands as it is: all of it may come loose."""
+        return structure
 
     def carried(self, column: Any) -> int:
         """Number of twins along a run: of columns only; what may come loose is alone in its lane."""

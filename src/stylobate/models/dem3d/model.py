@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 from ...column import Column
 from ...column.found_in_space import shares_left
 from ...column.shapes import DRUMS, ConvexSolid, Glued
+from ...column.spatial.assembly import SpatialAssembly
 from ...column.specimen import Specimen
 from ...column.structure import Structure
 from ...errors import InputError, check_choice, check_range
@@ -226,9 +227,11 @@ class DistinctElement3D(LossyDrums):
         if column.space_joints is None:
             super().check_length(column, motion, options)
 
-    def follows(self, column: Any) -> bool:
-        """Whether it can go on until everything lies still: of assemblies in space."""
-        return column.space_joints is not None
+    def as_followed(self, structure: Any) -> Any:
+        """An assembly as it is, a column as one of its drums: any two bodies may strike each other."""
+        if structure.space_joints is not None:
+            return structure
+        return super().as_followed(structure) if structure.stack is None else SpatialAssembly.of_column(structure.stack)
 
     def carried(self, column: Any) -> int:
         """How many are taken along: what may come loose is alone in its lane."""

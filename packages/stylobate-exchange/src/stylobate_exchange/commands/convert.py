@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 from stylobate.cli import options as o
 from stylobate.errors import InputError
@@ -36,7 +35,7 @@ def convert(
     ),
     compas: str = o.option("dem|assembly", "Package of COMPAS that .json is written for.", "dem"),
     *,
-    execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")],
+    execution: o.Plain,
 ) -> None:
     """Models of other tools to files, and back.
 
@@ -50,13 +49,15 @@ def convert(
     reading = Reading(
         material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()), columns, north, up
     )
-    structure, words, files = converted(model, to, reading, compas)
+    structure, words, files = converted(model, execution.place(to), reading, compas)
     words = [console.in_options(line) for line in words]
     moving = sum(not body.fixed for body in structure.bodies)
     found = {"name": structure.name, "kind": structure.kind, "bodies": moving, "fitted": words}
     if execution.emits(found | {"files": [str(file) for file in files]}):
         return
-    console.say(f"{structure.name}, {structure.described} of {moving} {'body' if moving == 1 else 'bodies'}: {to}", {})
+    console.say(
+        f"{structure.name}, {structure.described} of {moving} {'body' if moving == 1 else 'bodies'}: {files[0]}", {}
+    )
     for line in words:
         print(f"  {line}")
 

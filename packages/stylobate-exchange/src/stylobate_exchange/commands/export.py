@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
 
 from stylobate.cli import options as o
 
@@ -14,7 +13,7 @@ def export(
     at: str | None = o.option("TIME", "One instant, such as 3.2s; .vtu and .obj need it."),
     rate: str | None = o.option("N", "Instants a second; 30 if not given, of .csv all.", flag="--fps"),
     *,
-    execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")],
+    execution: o.Plain,
 ) -> None:
     """Write a response for other tools.
 
@@ -31,7 +30,7 @@ def export(
     instant = None if at is None else parse_time(at, "at")
     frames = None if rate is None else parse_number("--fps", rate, "such as 30")
     loaded = load_response(response / "response.nc" if response.is_dir() else response)
-    files = export_response(loaded, to, at=instant, rate=frames)
+    files = export_response(loaded, execution.place(to), at=instant, rate=frames)
     doubt = doubt_of(loaded)
     result = {"name": loaded.structure.name, "outcome": loaded.outcome.label, "doubt": doubt}
     if execution.emits(result | {"files": [str(file) for file in files]}):
