@@ -1,7 +1,6 @@
 """The public names of the package: the one list of them, for the lazy loader and for type checkers."""
 
 from . import plots as plots
-from .analysis.calibrate import calibrate as calibrate
 from .analysis.certainty import certainty as certainty
 from .analysis.compare import compare_models as compare_models
 from .analysis.critical import critical_amplitude as critical_amplitude
@@ -67,8 +66,6 @@ from .motion import MotionRequest as MotionRequest
 from .motion import harmonic as harmonic
 from .motion import pulses as pulses
 from .motion import stochastic_motion as stochastic_motion
-from .motion.free_history import FreeHistory as FreeHistory
-from .motion.free_history import read_free_history as read_free_history
 from .motion.pulses import cosine_pulse as cosine_pulse
 from .motion.pulses import gabor as gabor
 from .motion.pulses import half_sine_pulse as half_sine_pulse

@@ -46,7 +46,12 @@ class Package(NamedTuple):
 
 #: Packages of this repository; a test compares them with the entry points that they declare.
 PACKAGES = (
-    Package("stylobate-studies", "studies", commands=("reproduce", "experiments", "bench")),
+    Package(
+        "stylobate-studies",
+        "studies",
+        commands=("reproduce", "experiments", "bench", "calibrate"),
+        names=("FreeHistory", "calibrate", "plots.draw_calibration", "read_free_history"),
+    ),
     Package("stylobate-exchange", "packages/stylobate-exchange", commands=("convert", "export")),
     Package("stylobate-gpu", "packages/stylobate-gpu", devices=("gpu",)),
     Package("stylobate-page", "packages/stylobate-page", commands=("serve",)),

@@ -18,7 +18,6 @@ from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeW
 from ..version import __version__
 from . import (
     animate,
-    calibrate,
     cite,
     columns,
     compare,
@@ -81,7 +80,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk,
-    calibrate, motion, fetch, records, spectrum, columns, materials, animate, cite
+    motion, fetch, records, spectrum, columns, materials, animate, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))

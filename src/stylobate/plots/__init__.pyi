@@ -1,5 +1,4 @@
 from .amplitudes import draw_amplitudes as draw_amplitudes
-from .calibration import draw_calibration as draw_calibration
 from .collapse_over_amplitude import draw_collapse_over_amplitude as draw_collapse_over_amplitude
 from .debris import draw_debris as draw_debris
 from .design_values import draw_design_values as draw_design_values

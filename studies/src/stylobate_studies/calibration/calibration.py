@@ -10,18 +10,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..column import Column
-from ..column.loss_files import write_losses
-from ..column.losses import Losses
-from ..column.scatter import LARGEST
-from ..errors import InputError
-from ..models.drums.impact import one_body
-from ..models.drums.losses import LossyDrums
-from ..models.drums.released import Free, released
-from ..models.start import Start
-from ..motion.free_history import FreeHistory
-from ..notebook import Shown
-from ..percent import percent
+from stylobate.column import Column
+from stylobate.column.loss_files import write_losses
+from stylobate.column.losses import Losses
+from stylobate.column.scatter import LARGEST
+from stylobate.errors import InputError
+from stylobate.models.drums.impact import one_body
+from stylobate.models.drums.losses import LossyDrums
+from stylobate.models.drums.released import Free, released
+from stylobate.models.start import Start
+from stylobate.notebook import Shown
+from stylobate.percent import percent
+
+from .free_history import FreeHistory
 from .loss_likelihood import Posterior
 from .swings import Wobble
 

@@ -9,16 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from ..column import Column
-from ..column.losses import LAWS
-from ..errors import InputError, check_kind, check_range
-from ..models.base import Model
-from ..models.drums.impact import one_body
-from ..models.drums.losses import LossyDrums
-from ..models.drums.released import Free, released
-from ..models.start import Start, check_takes_pose
-from ..motion.free_history import FreeHistory
+from stylobate.column import Column
+from stylobate.column.losses import LAWS
+from stylobate.errors import InputError, check_kind, check_range
+from stylobate.models.base import Model
+from stylobate.models.drums.impact import one_body
+from stylobate.models.drums.losses import LossyDrums
+from stylobate.models.drums.released import Free, released
+from stylobate.models.start import Start, check_takes_pose
+
 from .calibration import Calibration, Loss, losses_at, start_of
+from .free_history import FreeHistory
 from .loss_likelihood import likelihoods, searched
 from .swings import Wobble, beginning, envelope, kept, kept_at, of_increments, sides_of, swings
 
@@ -126,7 +127,7 @@ def calibrate(
 
 def _checked(history: FreeHistory, column: Column, model: Model | None) -> LossyDrums:
     """The model that computes it, held in a plane where the history is of one; whatever does not go together is refused."""
-    from ..models.dem3d.model import DistinctElement3D
+    from stylobate.models.dem3d.model import DistinctElement3D
 
     check_kind("history", history, FreeHistory)
     check_kind("column", column, Column)

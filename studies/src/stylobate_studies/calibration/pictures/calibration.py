@@ -6,8 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.ticker import LogLocator
 
-from ..analysis.calibration import Calibration
-from .style import BLACK, RED, WIDTH, in_lines, page, styled, zero_line
+from stylobate.plots.style import BLACK, RED, WIDTH, in_lines, page, styled, zero_line
+
+from ..calibration import Calibration
 
 
 @styled

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..percent import whole
-from . import options as o
+from stylobate.cli import options as o
+from stylobate.percent import whole
 
 if TYPE_CHECKING:
-    from ..analysis.calibration import Calibration
+    from ..calibration.calibration import Calibration
 
 HistoryName = Annotated[
     Path,
@@ -43,10 +43,11 @@ def calibrate(
     resistance to rolling and where faces carry too, with intervals. With --out, writes losses.toml, which --losses takes in
     other commands, and a picture of both histories.
     """
-    from ..analysis.calibrate import calibrate as calibrated
-    from ..motion.free_history import read_free_history
-    from ..motion.specs import parse_number, parse_time
-    from . import console
+    from stylobate.cli import console
+    from stylobate.motion.specs import parse_number, parse_time
+
+    from ..calibration.calibrate import calibrate as calibrated
+    from ..calibration.free_history import read_free_history
 
     numbers = {
         name: None if text is None else parse_number(f"--{name}", text)
@@ -64,7 +65,7 @@ def calibrate(
             if found.after.reached:
                 files.append(found.save(files / "losses.toml"))
             if pictures:
-                from .. import plots
+                from stylobate import plots
 
                 files.picture(plots.draw_calibration(found), "calibration")
             files.asked(structures=[stone], models=[how], motions=[], history=str(history))

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import InputError
+from stylobate.errors import InputError
 
 #: An extreme is that of a parabola through the samples beyond this share of it; with fewer samples than that it is unknown.
 NEAR, FEWEST = 0.8, 5

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import InputError, check_choice, check_kind, check_range
-from .readers.source import Source
-from .readers.steps import first_bad_step, resampled, step_of
-from .readers.tables import first_row, read_table
-from .specs import TIME_UNITS
+from stylobate.errors import InputError, check_choice, check_kind, check_range
+from stylobate.motion.readers.source import Source
+from stylobate.motion.readers.steps import first_bad_step, resampled, step_of
+from stylobate.motion.readers.tables import first_row, read_table
+from stylobate.motion.specs import TIME_UNITS
 
 #: Units of tilt [rad] and of displacement [m].
 TILTS = {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180.0, "°": math.pi / 180.0, "degrees": math.pi / 180.0}
