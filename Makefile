@@ -87,7 +87,7 @@ test-wheel: wheel
 
 # What strangers may hand in, by the thousand; ARGS="columns --seconds 60" for some of it.
 fuzz: install
-	@PYTHONPATH=tests $(BIN)/python -m fuzz $(ARGS)
+	@PYTHONPATH=tests:packages/stylobate-page/tests $(BIN)/python -m fuzz $(ARGS)
 
 check: install
 	$(BIN)/ruff check .
@@ -142,12 +142,12 @@ docs: $(DOCS_STAMP)
 lock:
 	@[ -x .venv-lock/bin/uv ] || $(PYTHON) -m venv .venv-lock
 	@.venv-lock/bin/python -m pip --disable-pip-version-check -qq install uv==$(UV_VERSION)
-	$(LOCK) --extra test --extra dev --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra app --extra notebook \
+	$(LOCK) --extra test --extra dev --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra notebook \
 	    $(OF_PACKAGES) requirements/build.in requirements/compas.in pyproject.toml -o requirements/base.lock > /dev/null
 	$(LOCK) --extra docs -c requirements/base.lock pyproject.toml -o requirements/docs.lock > /dev/null
 	.venv-lock/bin/uv pip compile -q --python-version 3.11 --resolution lowest-direct --generate-hashes \
 	    --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
-	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra app --extra notebook \
+	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra notebook \
 	    $(OF_PACKAGES) requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
 	$(LOCK) --no-deps requirements/peers.in -o requirements/peers.lock > /dev/null
 	$(LOCK) -c requirements/base.lock --no-emit-package stylobate $(OF_GPU) -o requirements/gpu.lock > /dev/null

@@ -18,9 +18,6 @@ ROOT = Path(__file__).resolve().parents[1]
 #: Modules that Windows does not have: the package may use them where they are, not need them.
 POSIX = ("fcntl", "resource", "pwd", "grp", "termios", "tty", "pty", "syslog", "posix_ipc")
 
-#: What only an extra brings: the page is imported when it is asked for.
-EXTRAS = ("starlette", "uvicorn")
-
 #: Packages beside the core as they are imported, but for stylobate_compas: not every machine has wheels for what it needs.
 BESIDE = [path.name for path in sorted(ROOT.glob("packages/*/src/*")) if (path / "__init__.py").is_file()]
 
@@ -38,8 +35,7 @@ for module in pkgutil.walk_packages(stylobate.__path__, "stylobate."):
     try:
         importlib.import_module(module.name)
     except ImportError as error:
-        if error.name is None or error.name.split(".")[0] not in {EXTRAS}:
-            failed.append(f"{{module.name}}: {{error}}")
+        failed.append(f"{{module.name}}: {{error}}")
 for name in stylobate.__all__:
     getattr(stylobate, name)
 assert not failed, failed

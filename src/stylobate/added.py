@@ -46,9 +46,39 @@ class Package(NamedTuple):
 
 #: Packages of this repository; a test compares them with the entry points that they declare.
 PACKAGES = (
-    Package("stylobate-studies", "studies", commands=("reproduce", "experiments", "bench")),
+    Package(
+        "stylobate-studies",
+        "studies",
+        commands=("reproduce", "experiments", "bench", "calibrate"),
+        names=("FreeHistory", "calibrate", "plots.draw_calibration", "read_free_history"),
+    ),
     Package("stylobate-exchange", "packages/stylobate-exchange", commands=("convert", "export")),
     Package("stylobate-gpu", "packages/stylobate-gpu", devices=("gpu",)),
+    Package("stylobate-page", "packages/stylobate-page", commands=("serve",)),
+    Package(
+        "stylobate-report", "packages/stylobate-report", commands=("draw", "report"), names=("plots.sheets_to_scale",)
+    ),
+    Package(
+        "stylobate-ruins",
+        "packages/stylobate-ruins",
+        commands=("infer", "survival"),
+        names=(
+            "Observed",
+            "Outlasted",
+            "Prior",
+            "Ruin",
+            "infer",
+            "plots.draw_matches",
+            "plots.draw_observations",
+            "plots.draw_posterior",
+            "plots.draw_survival",
+            "plots.draw_weighing",
+            "read_ruin",
+            "read_sites",
+            "survival",
+            "weigh",
+        ),
+    ),
 )
 
 

@@ -18,34 +18,28 @@ from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeW
 from ..version import __version__
 from . import (
     animate,
-    calibrate,
     cite,
     columns,
     compare,
     console,
     critical,
     domain,
-    draw,
     fetch,
     fragility,
     ida,
-    infer,
     limit,
     materials,
     motion,
     pushover,
     records,
-    report,
     risk,
     run,
     sequence,
-    serve,
     signals,
     spectrum,
     states,
     study,
     suite,
-    survival,
 )
 from .groups import takes
 from .helping import WIDTH, Command
@@ -85,8 +79,8 @@ def _passing_on() -> Iterator[None]:
 
 
 for _room in (
-    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer,
-    calibrate, motion, fetch, records, spectrum, columns, draw, materials, animate, report, serve, cite
+    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk,
+    motion, fetch, records, spectrum, columns, materials, animate, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))

@@ -16,7 +16,7 @@ import numpy as np
 import pygltflib
 import pytest
 import trimesh
-from page_server import browser
+from chromium import browser
 
 import stylobate as st
 from stylobate.column.assembly_files import load_structure
