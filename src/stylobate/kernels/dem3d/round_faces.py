@@ -89,7 +89,7 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     square = squares / max(area, NOTHING)
     own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle, square
     turning = turning if pivot > 0.0 else 0.0
-    core, fresh = layers(e, v, l)
+    core, fresh = layers(e, v, l, pivot, centre)
     before = along(core[0], 1.0, fresh[0])
     core, fresh, q, twist = friction(core, fresh, own, n, slip, turning, dt, limits)
     remember(e, v, l, core, fresh)
@@ -127,15 +127,20 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
 
 
 @law
-def layers(e, v, l):
-    """Both layers of shear of a joint a step ago, in space: see ``shared/friction.py``."""
+def layers(e, v, l, pivot, centre):
+    """Both layers of shear of a joint a step ago, in space: see ``shared/friction.py``.
+
+    A face that pivots freely does not turn on what touches: its core goes along with it, and it rolls without creeping.
+    """
+    at = in_space(v, l, e.at[0, l], e.at[1, l], e.at[2, l])
+    at = at if pivot > 0.0 else centre
     return (
         (
             in_space(v, l, e.s[0, l], e.s[1, l], e.s[2, l]),
             e.t[l],
             e.kf[l],
             e.kt[l],
-            in_space(v, l, e.at[0, l], e.at[1, l], e.at[2, l]),
+            at,
         ),
         (in_space(v, l, e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.ff[l], e.fj[l]),
     )
