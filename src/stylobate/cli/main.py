@@ -33,6 +33,7 @@ from . import (
     infer,
     limit,
     materials,
+    modes,
     motion,
     pushover,
     records,
@@ -87,7 +88,7 @@ def _passing_on() -> Iterator[None]:
 
 
 for _room in (
-    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer,
+    run, sequence, critical, domain, pushover, limit, modes, compare, states, suite, ida, fragility, risk, survival, infer,
     calibrate, motion, fetch, records, spectrum, columns, draw, convert, materials, animate, export, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
