@@ -29,6 +29,7 @@ from . import (
     ida,
     limit,
     materials,
+    modes,
     motion,
     pushover,
     records,
@@ -79,7 +80,7 @@ def _passing_on() -> Iterator[None]:
 
 
 for _room in (
-    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk,
+    run, sequence, critical, domain, pushover, limit, modes, compare, states, suite, ida, fragility, risk,
     motion, fetch, records, spectrum, columns, materials, animate, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
