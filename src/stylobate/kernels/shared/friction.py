@@ -126,47 +126,47 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     # the core: beyond the extent of what touches it has opened, and its centroid moves towards C
     away = minus(place, centre)
     away = along(away, -dot(away, n), n)
-    far = math.sqrt(dot(away, away))
-    extent = EXTENT * math.sqrt(square)
-    lost = max(kc - k, k * far / max(extent, NOTHING) + 0.5 * (kc - k), 0.0)
+    far = k * math.sqrt(dot(away, away) / max(EXTENT * EXTENT * square, NOTHING))
+    lost = max(kc - k, far + 0.5 * (kc - k), 0.0)
+    each = 1.0 / (max(kc, NOTHING) * max(far, NOTHING))
     # where nothing is left of it, the fresh layer becomes core
     new = lost >= kc
-    keep, joins = (1.0, 1.0) if new else (1.0 - lost / max(kc, NOTHING), 0.0)
-    moves = 1.0 if new else min(0.5 * extent * lost / max(k * far, NOTHING), 1.0)
-    away = scaled(1.0 - moves, away)
+    keep, joins = (1.0, 1.0) if new else (1.0 - lost * max(far, NOTHING) * each, 0.0)
+    away = scaled(0.0 if new else 1.0 - min(0.5 * lost * kc * each, 1.0), away)
     s, core_torsion = along(scaled(keep, s), joins, f), keep * core_torsion + joins * torsion
     kc, jc = (k, j) if new else (keep * kc, keep * jc)
-    rest = 1.0 - joins
-    # centroid of the fresh layer from C; what the layers resist by where they are, beside their own torsion
-    each = 1.0 / max(k - kc, NO_LAYER * k, NOTHING)
-    other = scaled(-kc * each, away)
-    apart = kc * k * each * dot(away, away)
+    # the fresh layer, its centroid beyond C; what the layers resist by where they are, beside their own torsion
+    left = max(k - kc, 0.0)
+    beyond = kc / max(left, NO_LAYER * k, NOTHING)
+    apart = k * beyond * dot(away, away)
     j = max(j, apart)
     most = min(jc, j - apart)
-    core_torsion *= most / max(jc, NOTHING)
-    jc = most
-    # the fresh layer: what opened is taken from it
-    left, turns = max(k - kc, 0.0), j - apart - jc
-    f = scaled(rest * min(left / max(kf, NOTHING), 1.0), f)
-    torsion *= rest * min(turns / max(jf, NOTHING), 1.0)
-    kf, jf = left, turns
-    turning = core_torsion + torsion + dot(along(cross(away, s), 1.0, cross(other, f)), n)
-    # both springs
-    s = along(s, -kc * dt, along(slip, spin, cross(n, away)))
-    f = along(f, -kf * dt, along(slip, spin, cross(n, other)))
-    core_torsion, torsion = core_torsion - jc * dt * spin, torsion - jf * dt * spin
-    total = along(s, 1.0, f)
+    turns = j - apart - most
+    # what opened is taken from it
+    jc, kf, jf = max(jc, NOTHING), max(kf, NOTHING), max(jf, NOTHING)
+    each = 1.0 / (jc * kf * jf)
+    rest = 1.0 - joins
+    core_torsion *= most * kf * jf * each
+    f = scaled(rest * min(left * jc * jf * each, 1.0), f)
+    torsion *= rest * min(turns * jc * kf * each, 1.0)
+    jc, kf, jf = most, left, turns
+    # both springs, in sum that of all that touches
+    w = cross(n, away)
+    turning = core_torsion + torsion + dot(along(s, -beyond, f), w)
+    total = along(along(s, 1.0, f), -k * dt, slip)
+    s = along(s, -kc * dt, along(slip, spin, w))
+    torsion -= jf * dt * spin
+    f = minus(total, s)
     total = along(total, -dot(total, n), n)
-    twist = core_torsion + torsion + dot(along(cross(away, s), 1.0, cross(other, f)), n)
-    total, twist, beyond = limited(total, twist, before, turning, k, j, minus(centre, middle), n, limits)
+    twist = turning - j * dt * spin
+    total, twist, over = limited(total, twist, before, turning, k, j, minus(centre, middle), n, limits)
     # where the face slips, all that touches becomes core
-    keep = max(1.0 - SLIPPED * beyond, 0.0)
+    keep = max(1.0 - SLIPPED * over, 0.0)
     f, torsion, kf, jf = scaled(keep, f), keep * torsion, keep * kf, keep * jf
     s = minus(total, f)
-    away = scaled(keep * kc / max(k - kf, NOTHING), away)
-    core_torsion = twist - torsion - dot(along(cross(away, s), 1.0, cross(other, f)), n)
+    core_torsion = twist - torsion - dot(along(scaled(keep, s), -beyond, f), w)
     jc += (1.0 - keep) * (j - jf - jc)
-    return (s, core_torsion, k - kf, jc, along(centre, 1.0, away)), (f, torsion, kf, jf), total, twist
+    return (s, core_torsion, k - kf, jc, along(centre, keep, away)), (f, torsion, kf, jf), total, twist
 
 
 @long_law
