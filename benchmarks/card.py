@@ -36,7 +36,7 @@ from stylobate.column import Column, preset
 from stylobate.column.files import write_column
 from stylobate.kernels.gpu import card as records
 from stylobate.kernels.gpu import driver, kinds
-from stylobate.kernels.jit import source_digest
+from stylobate.kernels.sources import source_digest
 from stylobate.kernels.run_codes import CHUNK, RUNNING
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.drums import card as lanes

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..column.structure import Structure
-from ..kernels.jit import source_digest
+from ..kernels.sources import source_digest
 from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
 from ..own_files import digest as digest_of_file
