@@ -73,7 +73,7 @@ from functools import partial
 import numpy as np
 
 from ..run_codes import LANES
-from ..shared.link_records import BOND_TYPE, link_types
+from ..shared.link_records import BOND_TYPE, NO_LINK, link_types
 from ..shared.records import PAIR_TYPE, SPAN_TYPE, TOUCH_TYPE
 
 #: Rows of ``damp``.
@@ -127,7 +127,7 @@ def types(
         ),
         "joint": vertex_type(some) if face == "vertex" else joint_type(face, damped, some),
         "load": np.dtype(some("f up lo", 3)),
-        "link": link if linked else np.dtype(some("none")),
+        "link": link if linked else NO_LINK,
         "bond": BOND_TYPE,
         "lane": np.dtype(
             some("dt pivot free work shear visc")
