@@ -24,7 +24,6 @@ from . import (
     console,
     critical,
     domain,
-    fetch,
     fragility,
     ida,
     limit,
@@ -80,7 +79,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk,
-    motion, fetch, records, spectrum, columns, materials, animate, cite
+    motion, records, spectrum, columns, materials, animate, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))
