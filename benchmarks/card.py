@@ -34,8 +34,8 @@ import stylobate as st
 from stylobate.atomic import replacing
 from stylobate.column import Column, preset
 from stylobate.column.files import write_column
-from stylobate.kernels.jit import source_digest
 from stylobate.kernels.run_codes import CHUNK, RUNNING
+from stylobate.kernels.sources import source_digest
 from stylobate.models.base import Case, RunOptions
 from stylobate.motion.writing import write_csv
 from stylobate.simulate import thread_count

@@ -12,6 +12,8 @@ from .analysis.hazard import read_hazard as read_hazard
 from .analysis.ida import ida as ida
 from .analysis.limit import limit_analysis as limit_analysis
 from .analysis.limit_directions import limit_directions as limit_directions
+from .analysis.measured_frequencies import joints_from_frequencies as joints_from_frequencies
+from .analysis.modes import modes as modes
 from .analysis.other_laws import other_laws as other_laws
 from .analysis.pushover import pushover as pushover
 from .analysis.record_selection import select_records as select_records

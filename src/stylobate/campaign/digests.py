@@ -17,7 +17,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..column.structure import Structure
-from ..kernels.jit import source_digest
+from ..kernels.sources import source_digest
 from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
 from ..own_files import digest as digest_of_file

@@ -16,6 +16,7 @@ from .ida import draw_ida as draw_ida
 from .joint_plans import draw_sheet as draw_sheet
 from .joints import draw_joints as draw_joints
 from .limit_directions import draw_limit_directions as draw_limit_directions
+from .modes import draw_modes as draw_modes
 from .motion import draw_motion as draw_motion
 from .orbit import draw_orbit as draw_orbit
 from .probability import draw_probability as draw_probability

@@ -16,9 +16,9 @@ from numpy.lib.recfunctions import repack_fields
 
 from stylobate.errors import InputError
 from stylobate.kernels.dem3d import records as in_space
-from stylobate.kernels.jit import source_digest
 from stylobate.kernels.plane import records as in_plane
 from stylobate.kernels.run_codes import CHUNK
+from stylobate.kernels.sources import source_digest
 
 from .laws import laws_for
 
