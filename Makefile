@@ -14,7 +14,8 @@ UV_VERSION := 0.13.8
 LOCK := .venv-lock/bin/uv pip compile -q --universal --python-version 3.11 --generate-hashes \
         --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" $(UPGRADE)
 OF_GPU := packages/stylobate-gpu/pyproject.toml
-OF_PACKAGES := --no-emit-package stylobate $(filter-out $(OF_GPU),$(wildcard packages/*/pyproject.toml))
+OWN := $(patsubst packages/%/pyproject.toml,--no-emit-package %,$(wildcard packages/*/pyproject.toml)) --no-emit-package stylobate
+OF_PACKAGES := $(OWN) $(filter-out $(OF_GPU),$(wildcard packages/*/pyproject.toml))
 
 # An environment that was copied or moved here would run the code at its old place: build it anew.
 ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
@@ -150,7 +151,7 @@ lock:
 	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra notebook \
 	    $(OF_PACKAGES) requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
 	$(LOCK) --no-deps requirements/peers.in -o requirements/peers.lock > /dev/null
-	$(LOCK) -c requirements/base.lock --no-emit-package stylobate $(OF_GPU) -o requirements/gpu.lock > /dev/null
+	$(LOCK) -c requirements/base.lock $(OWN) $(OF_GPU) -o requirements/gpu.lock > /dev/null
 	$(LOCK) --no-deps -c requirements/base.lock requirements/ptx.in -o requirements/ptx.lock > /dev/null
 	@! grep -n -e '://' -e '^ *--\(extra-\)\?index' -e '--find-links' requirements/*.lock || \
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }

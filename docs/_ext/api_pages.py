@@ -15,7 +15,7 @@ ROOMS = [
 ]
 
 #: Packages beside the core that a reader of the reference enters.
-BESIDE = ["stylobate_report", "stylobate_ruins", "stylobate_studies.calibration"]
+BESIDE = ["strongmotion", "stylobate_report", "stylobate_ruins", "stylobate_studies.calibration"]
 
 #: A cross-reference in a docstring.
 ROLE = re.compile(r":\w+:(`[^`]+`)")

@@ -6,6 +6,7 @@ group                  an entry is
 ``stylobate.commands`` a command of the program under its name: a function whose parameters are those of the command
 ``stylobate.names``    a public name: ``infer`` becomes ``stylobate.infer``, ``plots.draw_shaking`` becomes
                        ``stylobate.plots.draw_shaking``
+``stylobate.records``  formats of record files: a sequence of :class:`stylobate.motion.readers.Format`
 ``stylobate.devices``  what steps columns instead of threads of the processor: ``gpu`` is a function that returns a
                        :class:`stylobate.models.devices.Device`
 ====================== ==================================================================================================
@@ -23,7 +24,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint, EntryPoints
 
-COMMANDS, NAMES, DEVICES = "stylobate.commands", "stylobate.names", "stylobate.devices"
+COMMANDS, NAMES = "stylobate.commands", "stylobate.names"
+RECORDS, DEVICES = "stylobate.records", "stylobate.devices"
 
 
 class Package(NamedTuple):
@@ -34,6 +36,7 @@ class Package(NamedTuple):
     commands: tuple[str, ...] = ()
     names: tuple[str, ...] = ()
     devices: tuple[str, ...] = ()
+    records: tuple[str, ...] = ()
 
     @property
     def is_missing(self) -> str:
@@ -46,6 +49,7 @@ class Package(NamedTuple):
 
 #: Packages of this repository; a test compares them with the entry points that they declare.
 PACKAGES = (
+    Package("strongmotion", "packages/strongmotion", commands=("fetch",), records=("networks",)),
     Package(
         "stylobate-studies",
         "studies",
@@ -122,7 +126,7 @@ def missing(kind: str, name: str) -> str | None:
     Parameters
     ----------
     kind : str
-        ``commands``, ``names`` or ``devices``.
+        ``commands``, ``names``, ``records`` or ``devices``.
     name : str
     """
     return next((package.is_missing for package in PACKAGES if name in getattr(package, kind)), None)

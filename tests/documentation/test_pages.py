@@ -170,4 +170,4 @@ def test_every_public_name_is_in_the_python_reference():
 
     found = {path.name: text for path, text in extension("api_pages").texts(Path())}
     assert all(f"st.{name}" in found["public.txt"] for name in stylobate.__all__)
-    assert "automodule:: stylobate.motion.readers.peer" in found["motion.md"]
+    assert "automodule:: strongmotion.formats.peer" in found["strongmotion.md"]

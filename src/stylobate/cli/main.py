@@ -24,7 +24,6 @@ from . import (
     console,
     critical,
     domain,
-    fetch,
     fragility,
     ida,
     limit,
@@ -81,7 +80,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, modes, compare, states, suite, ida, fragility, risk,
-    motion, fetch, records, spectrum, columns, materials, animate, cite
+    motion, records, spectrum, columns, materials, animate, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))
@@ -168,7 +167,7 @@ def call(arguments: Sequence[str]) -> int:
 def commands() -> Any:
     """All commands with their options, made once: the page's jobs are many command lines in one process."""
     program: Any = typer.main.get_command(app)
-    for name, function in added_commands(program.commands).items():
+    for name, function in sorted(added_commands(program.commands).items()):
         room = typer.Typer(add_completion=False, rich_markup_mode=None)
         room.command(name, cls=Command)(takes(function, _passing_on))
         program.add_command(typer.main.get_command(room), name)

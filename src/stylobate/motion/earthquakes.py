@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 
 from ..errors import InputError
 from ..reading import read_bytes
-from .readers.miniseed import is_station_xml, obspy_for
 from .readers.source import Source
 
 #: Largest catalogue that is read [bytes].
@@ -133,3 +132,19 @@ def station_of(metadata: Mapping[str, Any]) -> str | None:
     """``NET.STA`` of a record, where its file says both."""
     network, station = metadata.get("network"), metadata.get("station")
     return f"{network}.{station}" if network and station else None
+
+
+def is_station_xml(source: Source) -> bool:
+    """Whether the file is a StationXML."""
+    return b"FDSNStationXML" in source.data[:4000]
+
+
+def obspy_for(what: str) -> Any:
+    """ObsPy, or the sentence that it is missing; ``what`` needs it."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            import obspy
+    except ImportError:
+        raise InputError(f"{what}, which needs ObsPy; install it with  pip install 'stylobate[seismology]'.") from None
+    return obspy

@@ -1,7 +1,7 @@
 """Record files of any network: one registry recognises the format from the content and reads it."""
 
-from .registry import FORMATS, Format, read_motion, sample_motion
+from .registry import Format, formats, read_motion, sample_motion
 from .samples import Sample, samples
 from .suite import Suite, read_suite
 
-__all__ = ["FORMATS", "Format", "Sample", "Suite", "read_motion", "read_suite", "sample_motion", "samples"]
+__all__ = ["Format", "Sample", "Suite", "formats", "read_motion", "read_suite", "sample_motion", "samples"]

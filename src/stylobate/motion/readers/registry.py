@@ -5,28 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import combinations
 from numbers import Real
 from pathlib import Path
 
+from ...added import RECORDS, entries, missing
 from ...errors import InputError, check_all, check_kind
 from ..motion import Motion
-from . import (
-    afad,
-    bhrc,
-    cosmos,
-    csmip,
-    esm,
-    geonet,
-    knet,
-    miniseed,
-    peer,
-    renadic,
-    smc,
-    taiwan,
-    unam,
-    usc,
-)
 from . import columns as columns_of_text
 from .checks import check_whole
 from .record import Component, assemble
@@ -45,30 +31,26 @@ class Format:
     recognises : callable
         Whether a file's content is of this format.
     read : callable
-        Its components and metadata.
+        Its components and metadata, of the file and of those files that describe the station.
+    text : bool
+        It is text, of which no line may be missing.
+    describes : callable, optional
+        Whether a file's content describes the station of a record of this format, and is no record.
     """
 
     name: str
     recognises: Callable[[Source], bool]
-    read: Callable[[Source], tuple[list[Component], dict]]
+    read: Callable[[Source, Sequence[Source]], tuple[list[Component], dict]]
+    text: bool = True
+    describes: Callable[[Source], bool] | None = None
 
 
-#: Formats that state unit and step themselves. Columns of text come last and are what no other format recognises.
-FORMATS: tuple[Format, ...] = (
-    Format("CSMIP V1, V2", csmip.recognises, csmip.read),
-    Format("COSMOS V0, V1, V2", cosmos.recognises, cosmos.read),
-    Format("USGS SMC V1, V2", smc.recognises, smc.read),
-    Format("GeoNet V1A, V2A", geonet.recognises, geonet.read),
-    Format("USC V1", usc.recognises, usc.read),
-    Format("PEER AT2", peer.recognises, peer.read),
-    Format("ESM / ITACA ASCII", esm.recognises, esm.read),
-    Format("K-NET / KiK-net", knet.recognises, knet.read),
-    Format("AFAD text", afad.recognises, afad.read),
-    Format("TSMIP text", taiwan.recognises, taiwan.read),
-    Format("UNAM ASA", unam.recognises, unam.read),
-    Format("RENADIC V1", renadic.recognises, renadic.read),
-    Format("BHRC V1", bhrc.recognises, bhrc.read),
-)
+@cache
+def formats() -> tuple[Format, ...]:
+    """Formats that state unit and step themselves, of the packages that are installed: the entry point group
+    ``stylobate.records``, whose entries are sequences of :class:`Format`. Columns of text are what none of them recognises.
+    """
+    return tuple(one for entry in entries(RECORDS).values() for one in entry.load())
 
 
 #: First words of files of networks that hold something else than a record, what that is, and what to give.
@@ -132,8 +114,31 @@ def read_motion(
         columns_of_text.parse_columns(columns)
     if not paths:
         raise InputError("no file is given; give the path of a record.")
-    sources = [Source.open(one) for one in paths]
-    descriptions = [one for one in sources if miniseed.is_station_xml(one)]
+    components, records = components_of([Source.open(one) for one in paths], unit, dt, columns)
+    wanted = None if component is None else str(component)
+    return assemble(components, records[0].name, component=wanted, dt=dt)
+
+
+def components_of(
+    sources: Sequence[Source], unit: str | None = None, dt: float | None = None, columns: str | None = None
+) -> tuple[list[Component], list[Source]]:
+    """Components of the files of a record as they stand there, each with the facts of its file; and these files.
+
+    Parameters
+    ----------
+    sources : sequence of Source
+        With those that describe the station of others.
+    unit, dt, columns
+        As for :func:`read_motion`.
+
+    Raises
+    ------
+    InputError
+        One cannot be read with certainty.
+    """
+    descriptions = [
+        one for one in sources if any(each.describes is not None and each.describes(one) for each in formats())
+    ]
     records = [one for one in sources if one not in descriptions]
     if not records:
         raise InputError(f"{sources[0].name} describes a station (StationXML); give the miniSEED files with it.")
@@ -152,8 +157,7 @@ def read_motion(
             own = {key: one.metadata[key] for key in OWN_FACTS if one.metadata.get(key) is not None}
             one.facts = defaults | metadata | own | files
         components += found
-    wanted = None if component is None else str(component)
-    return assemble(components, records[0].name, component=wanted, dt=dt)
+    return components, records
 
 
 def sample_motion(name: str) -> Motion:
@@ -180,11 +184,12 @@ def sample_motion(name: str) -> Motion:
 def _read_file(
     source: Source, descriptions: Sequence[Source], unit: str | None, dt: float | None, columns: str | None
 ) -> tuple[list[Component], dict]:
-    if miniseed.recognises(source):
-        return miniseed.read(source, descriptions)
+    binary = next((one for one in formats() if not one.text and one.recognises(source)), None)
+    if binary is not None:
+        return binary.read(source, descriptions)
     if source.is_text:
         check_whole(source.lines, source.ends_with_newline, source.name)
-    matches = [one for one in FORMATS if one.recognises(source)]
+    matches = [one for one in formats() if one.text and one.recognises(source)]
     if len(matches) > 1:
         raise InputError(
             f"{source.name} looks like {' and like '.join(match.name for match in matches)}; "
@@ -196,7 +201,7 @@ def _read_file(
                 raise InputError(
                     f"{source.name} is of format {matches[0].name}, which states its {name}; leave `{name}` out.", name
                 )
-        components, metadata = matches[0].read(source)
+        components, metadata = matches[0].read(source, descriptions)
         if not components:
             raise InputError(f"{source.name} is of format {matches[0].name} but holds no component; fetch it again.")
         return components, metadata
@@ -208,7 +213,9 @@ def _read_file(
             raise InputError(f"the sample {source.name} is in {known}, as is known; leave the unit out.", "unit")
         try:
             return columns_of_text.read(source, unit or known, dt, columns)
-        except InputError:
+        except InputError as error:
+            if columns is None and (place := _networks()):
+                raise InputError(f"{error} {place}", error.field) from None
             other = next((said for begins, said in NOT_READ if begins.match(source.head)), None)
             if other is None or columns is not None:
                 raise
@@ -217,6 +224,11 @@ def _read_file(
         raise InputError(f"{source.name} is a TOML file, as of a column or a study, and no record; give a record.")
     raise InputError(
         f"{source.name} is in no format that is known here "
-        f"({', '.join(one.name for one in FORMATS)}, miniSEED, columns of text); "
-        "convert it to columns under a header such as time_s,ax_g."
+        f"({', '.join([*(one.name for one in formats()), 'columns of text'])}); "
+        f"convert it to columns under a header such as time_s,ax_g. {_networks()}".rstrip()
     )
+
+
+def _networks() -> str:
+    """Which package reads the files of networks, where it is not installed."""
+    return "" if formats() else f"Files of networks are read by {missing('records', 'networks')}"

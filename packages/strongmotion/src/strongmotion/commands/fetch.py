@@ -5,14 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError
-from . import options as o
+from stylobate.cli import options as o
+from stylobate.errors import InputError
 
 if TYPE_CHECKING:
     import pandas
 
-    from ..motion.data_centres import StationRecord
-    from ..motion.earthquakes import Earthquake
+    from stylobate.motion.earthquakes import Earthquake
+
+    from ..data_centres import StationRecord
 
 
 def fetch(
@@ -33,10 +34,11 @@ def fetch(
     read as --motion, the QuakeML, and about.csv for --about of records and ida. What has gaps or is no acceleration is left
     out and said.
     """
-    from ..motion.data_centres import DataCentre
-    from ..motion.earthquakes import read_earthquake
-    from ..motion.specs import parse_time
-    from . import console
+    from stylobate.cli import console
+    from stylobate.motion.earthquakes import read_earthquake
+    from stylobate.motion.specs import parse_time
+
+    from ..data_centres import DataCentre
 
     far, length = _kilometres(within), parse_time(lasts, "lasts")
     early, codes = parse_time(before, "before"), [one.strip() for one in channels.split(",")]
@@ -114,6 +116,6 @@ def _about(event: Earthquake, found: list[StationRecord]) -> pandas.DataFrame:
 
 
 def _kilometres(text: str) -> float:
-    from ..motion.specs import parse_number
+    from stylobate.motion.specs import parse_number
 
     return parse_number("--within", text.strip().removesuffix("km").strip())

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 
-from ...constants import g
-from ...errors import InputError
-from .checks import check_ended
-from .numbers import read_numbers
-from .record import Component, check_count, oriented
-from .source import Source
+from stylobate.constants import g
+from stylobate.errors import InputError
+from stylobate.motion.readers.checks import check_ended
+from stylobate.motion.readers.numbers import read_numbers
+from stylobate.motion.readers.record import Component, check_count, oriented
+from stylobate.motion.readers.source import Source
+
 from .volume1 import channel_end, channels, pairs, unit
 
 TEXT_LINES = 13

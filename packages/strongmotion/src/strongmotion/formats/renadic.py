@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 
-from .checks import check_ended, warn_of_missing
-from .record import LABEL, Component, oriented
-from .source import Source
+from stylobate.motion.readers.checks import check_ended, warn_of_missing
+from stylobate.motion.readers.record import LABEL, Component, oriented
+from stylobate.motion.readers.source import Source
+
 from .volume1 import channel_end, channels, check_stated_peak, header_ends, length, pairs, points, unit
 
 TEXT_LINES, HEADER_LINES = 13, 27

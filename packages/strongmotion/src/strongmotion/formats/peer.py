@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 
-from ...errors import InputError
-from ..specs import acceleration_unit
-from .checks import check_length, check_step
+from stylobate.errors import InputError
+from stylobate.motion.readers.checks import check_length, check_step
+from stylobate.motion.readers.numbers import NUMBER, number_in, read_numbers
+from stylobate.motion.readers.record import Component, check_count, oriented
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import acceleration_unit
+
 from .keyed import is_numeric
-from .numbers import NUMBER, number_in, read_numbers
-from .record import Component, check_count, oriented
-from .source import Source
 
 _UNIT = re.compile(
     r"accel\w*\s+time\s+(?:series|history)\s+in\s+units\s+of\s+(?P<unit>[a-z][a-z/0-9^]*)", re.IGNORECASE

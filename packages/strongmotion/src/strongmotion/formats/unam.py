@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 
-from ...errors import InputError, within
-from ..specs import acceleration_unit
-from .checks import CUT, check_length, check_peak, check_step
+from stylobate.errors import InputError, within
+from stylobate.motion.readers.checks import CUT, check_length, check_peak, check_step
+from stylobate.motion.readers.numbers import read_numbers
+from stylobate.motion.readers.record import Component, check_count, direction, oriented
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import acceleration_unit
+
 from .keyed import is_numeric, keyed
-from .numbers import read_numbers
-from .record import Component, check_count, direction, oriented
-from .source import Source
 
 
 def recognises(source: Source) -> bool:

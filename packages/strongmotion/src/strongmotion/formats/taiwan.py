@@ -6,14 +6,15 @@ import re
 
 import numpy as np
 
-from ...errors import InputError
-from ..specs import acceleration_unit
-from .checks import check_length, check_peak, check_same_step, check_step
+from stylobate.errors import InputError
+from stylobate.motion.readers.checks import check_length, check_peak, check_same_step, check_step
+from stylobate.motion.readers.numbers import NUMBER, read_numbers
+from stylobate.motion.readers.record import Component, oriented
+from stylobate.motion.readers.source import Source
+from stylobate.motion.readers.steps import step_of
+from stylobate.motion.specs import acceleration_unit
+
 from .keyed import is_numeric, keyed, number_of
-from .numbers import NUMBER, read_numbers
-from .record import Component, oriented
-from .source import Source
-from .steps import step_of
 
 _COLUMN = re.compile(r"(?P<label>[UNE])\((?P<sign>[+-])\)")
 _MOST = re.compile(rf"(?P<high>{NUMBER})\s*~\s*(?P<low>{NUMBER})")

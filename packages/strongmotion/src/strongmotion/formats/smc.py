@@ -6,12 +6,13 @@ import re
 
 import numpy as np
 
-from ...errors import InputError, warn
-from .checks import CUT, check_peak, check_peak_time, check_step, rising_pairs
+from stylobate.errors import InputError, warn
+from stylobate.motion.readers.checks import CUT, check_peak, check_peak_time, check_step, rising_pairs
+from stylobate.motion.readers.numbers import count_numbers, read_numbers
+from stylobate.motion.readers.record import LABEL, Component, check_count, direction, oriented
+from stylobate.motion.readers.source import Source
+
 from .keyed import is_numeric
-from .numbers import count_numbers, read_numbers
-from .record import LABEL, Component, check_count, direction, oriented
-from .source import Source
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 11, 6, 10
 _FIRST = re.compile(r"^\s*(?P<volume>\d)\s+(?P<what>.*\S)\s*$")

@@ -31,7 +31,7 @@ from stylobate.motion import Motion, read_motion, read_suite, rotated, turned, w
 from stylobate.motion.readers.numbers import read_numbers
 from stylobate.motion.readers.record import direction
 
-RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
+RECORDS = Path(__file__).resolve().parents[4].parent / "shared" / "records"
 
 
 @pytest.fixture

@@ -6,9 +6,8 @@ import re
 
 import numpy as np
 
-from ...errors import InputError
-from ..specs import acceleration_unit
-from .checks import (
+from stylobate.errors import InputError
+from stylobate.motion.readers.checks import (
     CUT,
     check_length,
     check_peak,
@@ -17,9 +16,10 @@ from .checks import (
     check_step,
     warn_of_missing,
 )
-from .numbers import NUMBER, read_numbers
-from .record import LABEL, Component, check_count, check_direction, oriented
-from .source import Source
+from stylobate.motion.readers.numbers import NUMBER, read_numbers
+from stylobate.motion.readers.record import LABEL, Component, check_count, check_direction, oriented
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import acceleration_unit
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 16, 4, 6
 _UNIT = re.compile(r"units\s+of\s+(?P<size>[\d.]+)\s*(?P<unit>[a-z][a-z/0-9]*)", re.IGNORECASE)

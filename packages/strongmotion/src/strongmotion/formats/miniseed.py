@@ -13,11 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError
-from ..specs import ACCELERATION_UNITS, acceleration_unit
-from .checks import CUT
-from .record import Component, direction
-from .source import Source
+from stylobate.errors import InputError
+from stylobate.motion.earthquakes import is_station_xml, obspy_for
+from stylobate.motion.readers.checks import CUT
+from stylobate.motion.readers.record import Component, direction
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import ACCELERATION_UNITS, acceleration_unit
 
 #: StationXML files beside the record that are looked into.
 MAX_BESIDE, MAX_XML_BYTES = 50, 20_000_000
@@ -44,11 +45,6 @@ def recognises(source: Source) -> bool:
     return (
         len(start) == 8 and start[:6].replace(b" ", b"0").isdigit() and start[6:7] in b"DRQM" and start[7:8] in b" \x00"
     )
-
-
-def is_station_xml(source: Source) -> bool:
-    """Whether the file is a StationXML."""
-    return b"FDSNStationXML" in source.data[:4000]
 
 
 def read(source: Source, descriptions: Sequence[Source]) -> tuple[list[Component], dict]:
@@ -277,17 +273,6 @@ def _complaints_raised() -> Iterator[None]:
                 raise ValueError(str(complaint.message))
     finally:
         sys.unraisablehook = hook
-
-
-def obspy_for(what: str) -> Any:
-    """ObsPy, or the sentence that it is missing; ``what`` needs it."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            import obspy
-    except ImportError:
-        raise InputError(f"{what}, which needs ObsPy; install it with  pip install 'stylobate[seismology]'.") from None
-    return obspy
 
 
 def _one_line(error: Exception) -> str:

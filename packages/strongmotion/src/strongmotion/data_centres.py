@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError, StylobateError, check_range, check_whole
-from .earthquakes import Earthquake, earthquake_of
-from .readers import miniseed
-from .readers.source import Source
+from stylobate.errors import InputError, StylobateError, check_range, check_whole
+from stylobate.motion.earthquakes import Earthquake, earthquake_of, obspy_for
+from stylobate.motion.readers.source import Source
+
+from .formats import miniseed
 
 #: Channels of accelerometers, of broad and of short band, by their SEED codes; the first that a station has are taken.
 CHANNELS = ("HN?", "EN?", "HL?", "HG?")
@@ -63,7 +64,7 @@ class DataCentre:
 
     def __init__(self, name: str) -> None:
         self.name = name
-        obspy = miniseed.obspy_for(f"a request to {name}")
+        obspy = obspy_for(f"a request to {name}")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             from obspy.clients.fdsn import Client

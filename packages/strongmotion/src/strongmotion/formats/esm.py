@@ -10,13 +10,14 @@ import re
 
 import numpy as np
 
-from ...errors import InputError
-from ..specs import acceleration_unit
-from .checks import CUT, check_length, check_peak, check_peak_time, check_step
+from stylobate.errors import InputError
+from stylobate.motion.readers.checks import CUT, check_length, check_peak, check_peak_time, check_step
+from stylobate.motion.readers.numbers import number_in, read_numbers
+from stylobate.motion.readers.record import Component, check_count, oriented
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import acceleration_unit
+
 from .keyed import is_numeric, number_after
-from .numbers import number_in, read_numbers
-from .record import Component, check_count, oriented
-from .source import Source
 
 #: Beginnings of the keys, after ``_`` has become a blank.
 _KEYS = {

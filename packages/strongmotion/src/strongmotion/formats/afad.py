@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 
-from ...errors import InputError
-from .checks import check_peak, check_step
+from stylobate.errors import InputError
+from stylobate.motion.readers.checks import check_peak, check_step
+from stylobate.motion.readers.numbers import NUMBER, read_numbers
+from stylobate.motion.readers.record import Component, check_count, oriented
+from stylobate.motion.readers.source import Source
+
 from .keyed import is_numeric, keyed, number_of
-from .numbers import NUMBER, read_numbers
-from .record import Component, check_count, oriented
-from .source import Source
 
 #: Labels of the format, by the words of its heading.
 _LABELS = {

@@ -10,13 +10,14 @@ import re
 
 import numpy as np
 
-from ...constants import g
-from ...errors import InputError
-from ..specs import acceleration_unit
-from .checks import CUT, check_ended, check_length, check_peak, check_peak_time, check_step
-from .numbers import NUMBER, fortran_width, read_numbers
-from .record import Component, check_count, check_direction, direction, oriented
-from .source import Source
+from stylobate.constants import g
+from stylobate.errors import InputError
+from stylobate.motion.readers.checks import CUT, check_ended, check_length, check_peak, check_peak_time, check_step
+from stylobate.motion.readers.numbers import NUMBER, fortran_width, read_numbers
+from stylobate.motion.readers.record import Component, check_count, check_direction, direction, oriented
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import acceleration_unit
+
 from .volume1 import channels
 
 _HEADER = re.compile(

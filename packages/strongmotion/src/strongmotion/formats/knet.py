@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from datetime import datetime, timedelta
 
-from ...errors import InputError
-from .checks import CUT, check_peak, check_step
-from .numbers import read_numbers
-from .record import Component, check_count, oriented
-from .source import Source
+from stylobate.errors import InputError
+from stylobate.motion.readers.checks import CUT, check_peak, check_step
+from stylobate.motion.readers.numbers import read_numbers
+from stylobate.motion.readers.record import Component, check_count, oriented
+from stylobate.motion.readers.source import Source
 
 _KEYS = (
     "origin time",

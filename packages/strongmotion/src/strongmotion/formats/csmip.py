@@ -8,12 +8,21 @@ from __future__ import annotations
 
 import re
 
-from ...errors import InputError
-from ..specs import acceleration_unit
-from .checks import check_ended, check_length, check_peak, check_peak_time, check_same_step, check_step, warn_of_missing
-from .numbers import NUMBER, fortran_width, read_numbers
-from .record import Component, check_count, check_direction, oriented
-from .source import Source
+from stylobate.errors import InputError
+from stylobate.motion.readers.checks import (
+    check_ended,
+    check_length,
+    check_peak,
+    check_peak_time,
+    check_same_step,
+    check_step,
+    warn_of_missing,
+)
+from stylobate.motion.readers.numbers import NUMBER, fortran_width, read_numbers
+from stylobate.motion.readers.record import Component, check_count, check_direction, oriented
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import acceleration_unit
+
 from .volume1 import pairs
 
 _BLOCK = re.compile(

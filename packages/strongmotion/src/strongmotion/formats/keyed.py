@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ...errors import InputError
-from .numbers import number_in
+from stylobate.errors import InputError
+from stylobate.motion.readers.numbers import number_in
 
 _NUMERIC = re.compile(r"\s*[+-]?([0-9]|\.[0-9])[0-9\s.eEdD+-]*")
 
