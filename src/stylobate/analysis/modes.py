@@ -201,7 +201,7 @@ def modes(column: Structure, model: Any) -> Modes:
     Notes
     -----
     Rigid bodies on the springs of their joints, with gravity's second order (P-delta); friction holds, nothing is damped.
-    Eqs. (V1) to (V3). The engines, whose joints sink under the weight, have frequencies within 0.04 % of these.
+    Eqs. (M1) to (M3). The engines, whose joints sink under the weight, have frequencies within 0.04 % of these.
     """
     standing = vibrating(column, model)
     stack = column.stack
@@ -282,6 +282,7 @@ def _mode(standing: Vibrating, frequency: float, shape: np.ndarray, plane: bool)
         size = float(np.hypot(*top[:2]))
         sign = 1.0 if (top[0] > 0.0 if abs(top[0]) > 1e-9 * size else top[1] > 0.0) else -1.0
         azimuth = math.degrees(math.atan2(sign * top[1], sign * top[0])) % 180.0
+        azimuth = 0.0 if 180.0 - azimuth < 1e-6 else azimuth
     else:
         size, sign = (abs(float(top[2])), math.copysign(1.0, top[2])) if kind == "axial" else (abs(float(top[5])), 1.0)
         sign = sign if kind == "axial" else math.copysign(1.0, top[5])
