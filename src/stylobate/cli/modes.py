@@ -123,6 +123,11 @@ def _facts(found: Modes, number: int, drops: list[dict[str, Any]], left: float) 
             facts[words] = f"{value:.4g} N/m³"
         elif value and found.structure.stack is not None:
             facts[words] = f"{min(value):.4g} to {max(value):.4g} N/m³, from joint to joint"
+    if found.structure.stack is not None:
+        solid = found.solid_modulus / 1e9
+        facts["bends as solid stone of"] = f"{solid.min():.3g} to {solid.max():.3g} GPa"
+    for doubt in found.doubts:
+        facts["mind"] = doubt
     for note in found.standing.left_out:
         facts.setdefault("does not act", note)
     if found.structure.stack is not None:
