@@ -23,7 +23,7 @@ def write(out: Path, module: bytes) -> Path:
     parts = {path.stem: path.read_text(encoding="utf-8") for path in PAGE.iterdir() if path.suffix in (".js", ".css")}
     parts["data"] = json.dumps(data, ensure_ascii=False).replace("</", "<\\/")
     parts["blob"] = base64.b64encode(zlib.compress(blob, 9)).decode()
-    text = re.sub(r"{{(\w+)}}", lambda found: parts[found[1]], (PAGE / "index.html").read_text(encoding="utf-8"))
+    text = re.sub(r"{{(\w+)}}", lambda result: parts[result[1]], (PAGE / "index.html").read_text(encoding="utf-8"))
     out.mkdir(parents=True, exist_ok=True)
     place = out / "column.html"
     place.write_text(text, encoding="utf-8")

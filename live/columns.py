@@ -56,7 +56,7 @@ class Room:
         joint, lane = (state[STATE.index(name)] for name in ("joint", "lane"))
         copies = np.zeros_like(joint), np.zeros_like(lane)
         return cls(
-            state, np.zeros(1, KEPT_TYPE), copies, tuple(one.view(np.int64) for one in (joint, lane, *copies)),
+            state, np.zeros(1, KEPT_TYPE), copies, tuple(item.view(np.int64) for item in (joint, lane, *copies)),
             np.zeros((LANES, 2)), np.zeros(LANES), np.zeros(LANES, np.int64), np.zeros((LANES, 6)),
             np.zeros((LANES, drums), STAND_TYPE), np.zeros((LANES, drums), STAND_TYPE), np.zeros((LANES + 1, drums)),
             np.zeros((LANES, drums)), np.zeros((LANES, drums)), np.zeros(drums), np.zeros(drums),
@@ -99,22 +99,22 @@ def lanes_of(columns: Sequence[Any], model: Any) -> Room:
     kept = room.kept[0]
     for lane, column in enumerate(columns):
         packed = block.packed[lane]
-        stand, found = numbers_for(column)
+        stand, result = numbers_for(column)
         kept["step"][lane], kept["barrier"][lane] = packed.step, packed.barrier
         kept["narrow"][lane], kept["gravity"][lane] = packed.widths.min(), column.gravity
         room.stand[lane] = stand
         room.stand["toe"][lane] = packed.stand
-        room.offset[lane], room.width[lane], room.stood[lane] = found, packed.widths, block.slip[lane]
+        room.offset[lane], room.width[lane], room.stood[lane] = result, packed.widths, block.slip[lane]
     return room
 
 
 def flat(arguments: Any) -> Iterator[Any]:
     """Arrays and numbers, one after the other, of arguments that may be tuples of them."""
-    for one in arguments:
-        if isinstance(one, tuple):
-            yield from flat(one)
+    for item in arguments:
+        if isinstance(item, tuple):
+            yield from flat(item)
         else:
-            yield one
+            yield item
 
 
 class Memory:
@@ -122,9 +122,9 @@ class Memory:
 
     def __init__(self, room: Room, start: int) -> None:
         self.start, self.bytes, self.places = start, bytearray(), {}
-        for one in flat([value for name in ("begin", "judge") for value in room.arguments(name)]):
-            if isinstance(one, np.ndarray):
-                self.place_of(one)
+        for item in flat([value for name in ("begin", "judge") for value in room.arguments(name)]):
+            if isinstance(item, np.ndarray):
+                self.place_of(item)
         self.room, self.results = room, self.put(bytes(LINE))
         self.calls = {name: self.put(self.words(room.arguments(name))) for name in ("begin", "advance", "judge")}
 
@@ -149,14 +149,14 @@ class Memory:
 
         Of an array: two that nobody reads, its size, that of an element, its address, its shape, its strides.
         """
-        found = bytearray(np.array([self.results, self.results + LINE // 2], np.int64).tobytes())
-        for one in flat(arguments):
-            if isinstance(one, np.ndarray):
-                layout = [0, 0, one.size, one.itemsize, self.place_of(one), *one.shape, *one.strides]
-                found += np.array(layout, np.int64).tobytes()
+        result = bytearray(np.array([self.results, self.results + LINE // 2], np.int64).tobytes())
+        for item in flat(arguments):
+            if isinstance(item, np.ndarray):
+                layout = [0, 0, item.size, item.itemsize, self.place_of(item), *item.shape, *item.strides]
+                result += np.array(layout, np.int64).tobytes()
             else:
-                found += np.array([one], np.int64 if isinstance(one, int) else np.float64).tobytes()
-        return bytes(found)
+                result += np.array([item], np.int64 if isinstance(item, int) else np.float64).tobytes()
+        return bytes(result)
 
     def last_words(self, name: str, count: int) -> int:
         """Where the last arguments of a call are, which the page writes, in bytes from where the memory begins."""
@@ -169,11 +169,11 @@ class Memory:
 
         def fields(name: str) -> dict[str, int]:
             offsets: Any = records[name].dtype.fields
-            return {one: self.place_of(records[name]) - self.start + offsets[one][1] for one in WANTED[name]}
+            return {item: self.place_of(records[name]) - self.start + offsets[item][1] for item in WANTED[name]}
 
         rows = [
-            [self.place_of(one) - self.start, one.nbytes // len(one)]
-            for one in (self.room.stand, self.room.offset, self.room.width, self.room.stood)
+            [self.place_of(item) - self.start, item.nbytes // len(item)]
+            for item in (self.room.stand, self.room.offset, self.room.width, self.room.stood)
         ]
         return {
             "calls": {name: place - self.start for name, place in self.calls.items()},
@@ -181,7 +181,7 @@ class Memory:
             "chunks": self.last_words("advance", 1),
             **{name: fields(name) for name in WANTED},
             "size": records["body"].itemsize,
-            "striped": [[self.place_of(one) - self.start, one.nbytes // (8 * LANES)] for one in striped.values()],
+            "striped": [[self.place_of(item) - self.start, item.nbytes // (8 * LANES)] for item in striped.values()],
             "rows": rows,
         }
 

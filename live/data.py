@@ -65,7 +65,7 @@ def data_of(module: bytes, start: int) -> tuple[dict[str, Any], bytes]:
         Where the module's memory is free.
     """
     blob = Blob()
-    found = {
+    result = {
         "start": start,
         "chunk": CHUNK,
         "g": st.g,
@@ -79,7 +79,7 @@ def data_of(module: bytes, start: int) -> tuple[dict[str, Any], bytes]:
         "shapes": shapes(blob),
         "earthquakes": [earthquake_data(name, blob) for name in EARTHQUAKES],
         "strong_part": STRONG_PART,
-        "outcomes": {int(one): [one.sentence_of(2), one.sentence_of(1)] for one in Outcome},
+        "outcomes": {int(item): [item.sentence_of(2), item.sentence_of(1)] for item in Outcome},
     }
     for name in COLUMNS:
         those = columns_like(name)
@@ -87,9 +87,9 @@ def data_of(module: bytes, start: int) -> tuple[dict[str, Any], bytes]:
         for motion in (sine(FREQUENCIES[1], 1.0), pulse(FREQUENCIES[1], 1.0), *map(earthquake, EARTHQUAKES)):
             step = MODEL.step_for(those[0])
             assert resolving(step, motion) == step, f"{motion.name} shortens the step of {name}"
-        found["images"][name] = blob.put(bytes(memory.bytes) + bytes(-len(memory.bytes) % 8))
-        found["columns"].append(column_data(name, those, memory))
-    return found, bytes(blob.bytes)
+        result["images"][name] = blob.put(bytes(memory.bytes) + bytes(-len(memory.bytes) % 8))
+        result["columns"].append(column_data(name, those, memory))
+    return result, bytes(blob.bytes)
 
 
 def column_data(name: str, those: list[Any], memory: Memory) -> dict[str, Any]:
@@ -107,8 +107,8 @@ def column_data(name: str, those: list[Any], memory: Memory) -> dict[str, Any]:
         "round": column.section == "circular",
         "layout": layout,
         "shapes": [
-            [[round(v, 4) for v in (d.bottom_width, d.top_width, d.height, d.centroid_height)] for d in one.drums]
-            for one in those
+            [[round(v, 4) for v in (d.bottom_width, d.top_width, d.height, d.centroid_height)] for d in item.drums]
+            for item in those
         ],
     }
 

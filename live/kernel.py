@@ -1,7 +1,7 @@
 """How runs in lanes begin, and what their ends come to, as compiled code: what Python does around the loop of the plane.
 
 The loop itself is ``stylobate.kernels.plane.step.advance``. What is here follows ``models/drums/runs.py`` line by line, and
-takes every law from where it is; ``tests/app/test_live.py`` compares both.
+takes every law from where it is; ``tests/live/test_live.py`` compares both.
 
 Legend (records and lanes as in ``kernels/plane/records.py``)::
 
@@ -176,7 +176,7 @@ def judge(state, kept, copies, words, base, dt, lanes, out, stand, flat, offset,
         row = out[n]
         for i in range(6):
             row[i] -= k.start[i, l]
-        held = row[1] + row[2] + row[3]
+        energy = row[1] + row[2] + row[3]
         share = imbalance(unaccounted(row), w.wmax[l], k.start[3, l], k.barrier[l], released(row))
         set_off = w.wmax[l] == 0.0 and released(row) > k.start[3, l]
         joint_state_of(body, joint, state[PAIR], l, opening, slip)
@@ -191,8 +191,8 @@ def judge(state, kept, copies, words, base, dt, lanes, out, stand, flat, offset,
         if outcome != FELL and outcome != NO_VERDICT:
             for j in range(joint.shape[0]):
                 flat[l, j] = stand[l, j]
-            sure = stands(flat[l], offset[LANES], k.gravity[l], 0.0, held, body, joint, l)
-            rests = held < AT_REST * k.barrier[l]
+            sure = stands(flat[l], offset[LANES], k.gravity[l], 0.0, energy, body, joint, l)
+            rests = energy < AT_REST * k.barrier[l]
             if not sure and not rests and f.step[l] < k.longest[l]:
                 goes_on(state, k, WAIT, l)
                 continue

@@ -36,13 +36,13 @@ class Reader:
 
     def number(self, signed: bool = False) -> int:
         """A number in LEB128."""
-        found = shift = 0
+        result = shift = 0
         while True:
             byte = self.byte()
-            found |= (byte & 127) << shift
+            result |= (byte & 127) << shift
             shift += 7
             if byte < 128:
-                return found - (1 << shift) if signed and byte & 64 else found
+                return result - (1 << shift) if signed and byte & 64 else result
 
     def bytes(self) -> bytes:
         """Bytes behind their number."""
@@ -57,14 +57,14 @@ class Reader:
 
 def leb(number: int, signed: bool = False, width: int = 0) -> bytes:
     """A number in LEB128, as short as can be or of a width."""
-    found = bytearray()
+    result = bytearray()
     while True:
         byte, number = number & 127, number >> 7
         ends = number == (-1 if signed and byte & 64 else 0)
-        if ends and len(found) + 1 >= width:
-            found.append(byte)
-            return bytes(found)
-        found.append(byte | 128)
+        if ends and len(result) + 1 >= width:
+            result.append(byte)
+            return bytes(result)
+        result.append(byte | 128)
 
 
 def behind_size(data: bytes) -> bytes:
@@ -99,7 +99,7 @@ class Object:
 
 def parsed(data: bytes) -> Object:
     """An object file, taken apart."""
-    found, reader = Object(), Reader(data)
+    result, reader = Object(), Reader(data)
     assert data[:8] == b"\0asm\1\0\0\0"
     reader.at = 8
     while reader.more():
@@ -108,12 +108,12 @@ def parsed(data: bytes) -> Object:
             part = Reader(content)
             name = part.bytes().decode()
             if name == "linking":
-                _read_linking(part, found)
+                _read_linking(part, result)
             elif name.startswith("reloc."):
-                found.relocations[name.removeprefix("reloc.")] = _read_relocations(part)
+                result.relocations[name.removeprefix("reloc.")] = _read_relocations(part)
         else:
-            found.sections[kind] = content
-    part = Reader(found.sections.get(IMPORTS, b"\0"))
+            result.sections[kind] = content
+    part = Reader(result.sections.get(IMPORTS, b"\0"))
     for _ in range(part.number()):
         module, name, kind, start = part.bytes(), part.bytes(), part.byte(), part.at
         if kind == FUNCTION:
@@ -125,11 +125,11 @@ def parsed(data: bytes) -> Object:
             flags = part.byte()
             for _ in range(1 + (flags & 1)):
                 part.number()
-        found.imports.append((module, name, kind, part.data[start : part.at]))
-    return found
+        result.imports.append((module, name, kind, part.data[start : part.at]))
+    return result
 
 
-def _read_linking(part: Reader, found: Object) -> None:
+def _read_linking(part: Reader, result: Object) -> None:
     """Symbols, and how segments of data are aligned."""
     assert part.number() == 2, "version of the linking section"
     while part.more():
@@ -137,11 +137,11 @@ def _read_linking(part: Reader, found: Object) -> None:
         if kind == 5:
             for _ in range(content.number()):
                 content.bytes()
-                found.alignments.append(1 << content.number())
+                result.alignments.append(1 << content.number())
                 content.number()
         elif kind == 8:
             for _ in range(content.number()):
-                found.symbols.append(_read_symbol(content))
+                result.symbols.append(_read_symbol(content))
 
 
 def _read_symbol(content: Reader) -> tuple[int, int, bytes, int, int]:
@@ -160,11 +160,11 @@ def _read_symbol(content: Reader) -> tuple[int, int, bytes, int, int]:
 
 def _read_relocations(part: Reader) -> list[tuple[int, int, int, int]]:
     part.number()  # the section, which its name tells
-    found = []
+    result = []
     for _ in range(part.number()):
         kind, place, symbol = part.byte(), part.number(), part.number()
-        found.append((kind, place, symbol, part.number(signed=True) if kind in ADDRESSES else 0))
-    return found
+        result.append((kind, place, symbol, part.number(signed=True) if kind in ADDRESSES else 0))
+    return result
 
 
 def linked(data: bytes, names: Sequence[str]) -> bytes:
@@ -176,8 +176,8 @@ def linked(data: bytes, names: Sequence[str]) -> bytes:
     contents = [bytearray(content) for _, content in segments]
     assert "DATA" not in parts.relocations, "data that holds addresses"
     stack = -(-end // 16) * 16 + STACK
-    functions = [one for one in parts.imports if one[2] == FUNCTION]
-    others = [one[1] for one in parts.imports if one[2] not in (FUNCTION, MEMORIES)]
+    functions = [item for item in parts.imports if item[2] == FUNCTION]
+    others = [item[1] for item in parts.imports if item[2] not in (FUNCTION, MEMORIES)]
     assert others in ([], [b"__stack_pointer"]), others
     index = {name.decode(): number for kind, _, name, number, _ in parts.symbols if kind == 0}
     exports = [(name, FUNCTION, index[name]) for name in names]
@@ -200,14 +200,14 @@ def linked(data: bytes, names: Sequence[str]) -> bytes:
 
 
 def _vector(items: Iterable[bytes]) -> bytes:
-    found = list(items)
-    return leb(len(found)) + b"".join(found)
+    result = list(items)
+    return leb(len(result)) + b"".join(result)
 
 
 def _placed(parts: Object) -> tuple[list[tuple[int, bytes]], int]:
     """Segments of data with their addresses, and where they end."""
     reader, place = Reader(parts.sections.get(DATA_SECTION, b"\0")), DATA
-    found = []
+    result = []
     for number in range(reader.number()):
         flags = reader.number()
         assert flags == 0, "a segment that is not placed when the module is loaded"
@@ -216,9 +216,9 @@ def _placed(parts: Object) -> tuple[list[tuple[int, bytes]], int]:
         assert reader.byte() == 0x0B
         content = reader.bytes()
         place = -(-place // parts.alignments[number]) * parts.alignments[number]
-        found.append((place, content))
+        result.append((place, content))
         place += len(content)
-    return found, place
+    return result, place
 
 
 def _relocate(

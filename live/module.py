@@ -74,10 +74,10 @@ def functions() -> dict[str, Any]:
     from . import kernel
     from .columns import arguments
 
-    found = {"begin": kernel.begin, "advance": step.advance, "judge": kernel.judge}
-    for name, function in found.items():
-        function.compile(tuple(numba.typeof(one) for one in arguments(name)))
-    return found
+    result = {"begin": kernel.begin, "advance": step.advance, "judge": kernel.judge}
+    for name, function in result.items():
+        function.compile(tuple(numba.typeof(item) for item in arguments(name)))
+    return result
 
 
 def retargeted(name: str, function: Any) -> str:
@@ -126,7 +126,7 @@ def caller(name: str, text: str) -> str:
 
 def split_arguments(text: str) -> list[str]:
     """Arguments of a function, which may hold commas in parentheses."""
-    return [one.strip() for one in re.split(r",\s*(?![^()]*\))", text)]
+    return [item.strip() for item in re.split(r",\s*(?![^()]*\))", text)]
 
 
 if __name__ == "__main__":

@@ -32,6 +32,6 @@ def pulse(frequency: float, amplitude: float) -> Motion:
 
 def earthquake(name: str, pga: float | None = None) -> Motion:
     """An earthquake of the page, scaled to a peak [m/s²] if one is given."""
-    asked = MotionRequest(files=(f"sample:{name}",), condition=(STRONG_PART,), pga=pga)
-    (found,) = asked.expand().motions
-    return found
+    request = MotionRequest(files=(f"sample:{name}",), condition=(STRONG_PART,), pga=pga)
+    (result,) = request.expand().motions
+    return result

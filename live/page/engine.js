@@ -14,7 +14,7 @@ class Engine {
 
   // Put a column into the memory as it was packed: it in the first lane, those like it in the others.
   load(name) {
-    this.column = this.data.columns.find((one) => one.name === name);
+    this.column = this.data.columns.find((item) => item.name === name);
     this.layout = this.column.layout;
     const { memory } = this.calls, image = this.data.images[name];
     this.samples = Math.ceil((this.start + image.length) / 64) * 64;
@@ -48,21 +48,21 @@ class Engine {
   begin(lane, placed, shown) {
     this.numbers[(this.layout.kept.shown >> 3) + lane] = shown;
     const end = this.layout.lane >> 3;
-    [lane, placed.x, placed.z, placed.last].forEach((one, k) => (this.words[end + k] = BigInt(one)));
-    [placed.sample, placed.peak, placed.vertical].forEach((one, k) => (this.numbers[end + 4 + k] = one));
+    [lane, placed.x, placed.z, placed.last].forEach((item, k) => (this.words[end + k] = BigInt(item)));
+    [placed.sample, placed.peak, placed.vertical].forEach((item, k) => (this.numbers[end + 4 + k] = item));
     this._call("begin");
   }
 
   // Let all lanes go on by some chunks of steps, whichever runs end on the way.
   advance(chunks) {
     const goal = this.now() + chunks * this.data.chunk;
-    let left = chunks;
-    while (left > 0) {
-      this.words[this.layout.chunks >> 3] = BigInt(left);
+    let rest = chunks;
+    while (rest > 0) {
+      this.words[this.layout.chunks >> 3] = BigInt(rest);
       this._call("advance");
       this._call("judge");
       if (!this.running()) break;
-      left = Math.round((goal - this.now()) / this.data.chunk);
+      rest = Math.round((goal - this.now()) / this.data.chunk);
     }
   }
 
@@ -105,16 +105,16 @@ class Engine {
 
   // Where all drums of all lanes are: x, z, cosine and sine of each, lane by lane.
   poses() {
-    const { body } = this.layout, { drums } = this.column, found = new Float32Array(LANES * drums * 4);
+    const { body } = this.layout, { drums } = this.column, result = new Float32Array(LANES * drums * 4);
     const fields = [body.x, body.z, body.c, body.s];
     for (let i = 0; i < drums; i++) {
       const row = (i + 1) * this.layout.size;
       for (let k = 0; k < 4; k++) {
         const place = (fields[k] + row) >> 3;
-        for (let lane = 0; lane < LANES; lane++) found[(lane * drums + i) * 4 + k] = this.numbers[place + lane];
+        for (let lane = 0; lane < LANES; lane++) result[(lane * drums + i) * 4 + k] = this.numbers[place + lane];
       }
     }
-    return found;
+    return result;
   }
 
   _call(name) {
@@ -139,14 +139,14 @@ class Engine {
 }
 
 // Samples of what the page asks for: the shapes and earthquakes that were packed, as long and as strong as asked for.
-function motionOf(data, asked) {
-  const level = asked.amplitude * data.g;
+function motionOf(data, request) {
+  const level = request.amplitude * data.g;
   let unit, count, sample;
-  if (asked.kind === "earthquake") {
-    unit = data.earthquakes.find((one) => one.name === asked.name);
+  if (request.kind === "earthquake") {
+    unit = data.earthquakes.find((item) => item.name === request.name);
     ({ count, sample } = unit);
   } else {
-    const shape = data.shapes[asked.kind], steps = Math.round(shape.length * asked.frequency * shape.cycle);
+    const shape = data.shapes[request.kind], steps = Math.round(shape.length * request.frequency * shape.cycle);
     unit = { x: shape.samples, repeats: shape.repeats };
     count = steps + 1;
     sample = shape.length / steps;
@@ -157,16 +157,16 @@ function motionOf(data, asked) {
 }
 
 function scaled(unit, count, times, repeats = false) {
-  const found = new Float64Array(count);
+  const result = new Float64Array(count);
   for (let k = 0; k < count; k++) {
     const place = repeats ? k % unit.length : k;
-    if (place < unit.length) found[k] = times * unit[place];
+    if (place < unit.length) result[k] = times * unit[place];
   }
-  return found;
+  return result;
 }
 
 function peak(samples) {
   let most = 0;
-  for (const one of samples) most = Math.max(most, Math.abs(one));
+  for (const item of samples) most = Math.max(most, Math.abs(item));
   return most;
 }

@@ -9,13 +9,13 @@ if (!window.missing) start();
 
 async function start() {
   const data = JSON.parse($("data").textContent);
-  const packed = Uint8Array.from(atob($("blob").textContent.trim()), (one) => one.charCodeAt(0));
+  const packed = Uint8Array.from(atob($("blob").textContent.trim()), (item) => item.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
   const blob = await new Response(stream).arrayBuffer();
   const numbers = (place) => place && new Float64Array(blob, place[0], place[1] / 8);
   for (const [name, place] of Object.entries(data.images)) data.images[name] = new Uint8Array(blob, ...place);
   for (const shape of Object.values(data.shapes)) shape.samples = numbers(shape.samples);
-  for (const one of data.earthquakes) [one.x, one.z] = [numbers(one.x), numbers(one.z)];
+  for (const item of data.earthquakes) [item.x, item.z] = [numbers(item.x), numbers(item.z)];
   const module = await WebAssembly.compile(new Uint8Array(blob, ...data.module));
   const source = URL.createObjectURL(new Blob([$("worker").textContent], { type: "text/javascript" }));
   Object.assign(state, { data, stage: new Stage($("stage")), trace: new Trace($("trace")), map: new Verdicts($("map"), chooseCell) });
@@ -25,7 +25,7 @@ async function start() {
   }
   state.filmer.onmessage = ({ data: message }) => message.id === state.id && (message.kind === "failed" ? failed(message) : filmed(message));
   state.mapper.onmessage = ({ data: message }) => message.id === state.mapId && mapped(message);
-  state.map.said = sayCell;
+  state.map.describe = sayCell;
   form();
   state.opening = true;
   shake();
@@ -56,11 +56,11 @@ function form() {
     label.append(input, face);
     $("columns").append(label);
   }
-  for (const one of data.earthquakes) {
-    $("earthquake").append(new Option(one.title, one.name));
-    const item = document.createElement("li");
-    item.textContent = `${one.about}. ${one.terms}.`;
-    $("sources").append(item);
+  for (const item of data.earthquakes) {
+    $("earthquake").append(new Option(item.title, item.name));
+    const line = document.createElement("li");
+    line.textContent = `${item.about}. ${item.terms}.`;
+    $("sources").append(line);
   }
   const [low, high] = data.amplitudes;
   Object.assign($("amplitude"), { min: low, max: high, step: 0.01, value: 1 });
@@ -95,11 +95,11 @@ function picture(column) {
   return `<svg viewBox="-15 0 30 60" aria-hidden="true" fill="#cbbb9b" stroke="#6d5f48" stroke-width=".5">${drawn}</svg>`;
 }
 
-function asked() {
+function choice() {
   const fields = new FormData($("choose"));
   const kind = fields.get("kind"), amplitude = Math.round(100 * +$("amplitude").value) / 100;
   const motion = kind === "earthquake" ? { kind, amplitude, name: $("earthquake").value } : { kind, amplitude, frequency: frequencyAt(+$("frequency").value) };
-  return { column: state.data.columns.find((one) => one.name === fields.get("column")), motion };
+  return { column: state.data.columns.find((item) => item.name === fields.get("column")), motion };
 }
 
 function command({ column, motion }) {
@@ -113,12 +113,12 @@ function command({ column, motion }) {
 }
 
 function shake() {
-  const what = asked(), { motion, column } = what, { data } = state;
+  const what = choice(), { motion, column } = what, { data } = state;
   $("frequency-row").hidden = motion.kind === "earthquake";
   $("earthquake-row").hidden = motion.kind !== "earthquake";
-  $("frequency-said").textContent = motion.frequency ? pace(motion.frequency) : "";
-  $("amplitude-said").textContent = `${motion.amplitude.toFixed(2)} g`;
-  for (const name of ["frequency", "amplitude"]) $(name).setAttribute("aria-valuetext", $(`${name}-said`).textContent);
+  $("frequency-text").textContent = motion.frequency ? pace(motion) : "";
+  $("amplitude-text").textContent = `${motion.amplitude.toFixed(2)} g`;
+  for (const name of ["frequency", "amplitude"]) $(name).setAttribute("aria-valuetext", $(`${name}-text`).textContent);
   $("command").textContent = command(what);
   $("copy").textContent = "Copy";
   const full = motionOf(data, motion);
@@ -127,8 +127,8 @@ function shake() {
     dust: Array.from({ length: LANES }, () => []), grounded: new Set(), over: false, began: performance.now(),
     time: 0, length: full.facts.sample * (full.x.length - 1),
   };
-  state.filmer.postMessage({ kind: "film", id: ++state.id, column: column.name, asked: motion, shown: SHOWN });
-  [...$("sixteen").children].forEach((one) => (one.className = ""));
+  state.filmer.postMessage({ kind: "film", id: ++state.id, column: column.name, request: motion, shown: SHOWN });
+  [...$("sixteen").children].forEach((item) => (item.className = ""));
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play(true);
   say();
   const key = `${column.name} ${motion.kind}`;
@@ -139,16 +139,20 @@ function shake() {
   markMap(motion);
 }
 
-const pace = (frequency) => (frequency >= 1 ? `${frequency.toFixed(2)} times a second` : `once in ${(1 / frequency).toFixed(1)} s (${frequency.toFixed(2)} Hz)`);
+function pace({ kind, frequency }) {
+  const period = `${(1 / frequency).toFixed(frequency < 2 ? 1 : 2)} s`, hertz = `${frequency.toFixed(2)} Hz`;
+  if (kind === "pulse") return `back and forth in ${period} (${hertz})`;
+  return frequency >= 1 ? `${frequency.toFixed(2)} times a second` : `once in ${period} (${hertz})`;
+}
 
 // -- the film -------------------------------------------------------------------------------------------------------
 
 function filmed(message) {
   const { film } = state;
-  for (const one of message.verdicts) {
-    film.verdicts[one.lane] = one;
-    if (one.outcome === FELL) film.fell[one.lane] = one.time;
-    $("sixteen").children[one.lane].className = one.outcome === FELL ? "fell" : one.outcome === 4 ? "none" : "stood";
+  for (const item of message.verdicts) {
+    film.verdicts[item.lane] = item;
+    if (item.outcome === FELL) film.fell[item.lane] = item.time;
+    $("sixteen").children[item.lane].className = item.outcome === FELL ? "fell" : item.outcome === 4 ? "none" : "stood";
   }
   message.times.forEach((time, k) => {
     film.times.push(time);
@@ -179,23 +183,27 @@ function land(film, time, poses) {
 }
 
 function failed({ reason }) {
-  $("said").textContent = `The computation could not go on (${reason}); this is no verdict on the column.`;
+  $("verdict-text").textContent = `The computation could not go on (${reason}); this is no verdict on the column.`;
 }
 
 function say() {
   const { film } = state, { column, verdicts } = film, own = verdicts[0];
-  const others = verdicts.slice(1), known = others.filter(Boolean).length, fell = others.filter((one) => one && one.outcome === FELL).length;
+  const others = verdicts.slice(1), known = others.filter(Boolean).length, fell = others.filter((item) => item && item.outcome === FELL).length;
   const sentence = own && state.data.outcomes[own.outcome][column.drums === 1 ? 1 : 0];
+  const standing = { 0: "No joint opened.", 1: "It rocked, and nothing is shifted.", 2: column.drums === 1 ? "It is shifted for good." : "Some of its drums are shifted for good." };
   let first;
-  if (!own) first = film.times.length > 1 && performance.now() - film.began > 400 ? "Shaking …" : "";
+  if (!own) first = performance.now() - film.began > 400 ? "Shaking …" : "";
   else if (own.outcome === FELL) first = `<b class="fell">${column.subject} falls after ${own.time.toFixed(1)} seconds.</b>`;
   else if (own.outcome === 4) first = `<b>${sentence}</b>`;
-  else first = `<b class="stood">${column.subject} stands.</b> ${{ 0: "No joint opened.", 1: "It rocked, and nothing is shifted.", 2: column.drums === 1 ? "It is shifted for good." : "Some of its drums are shifted for good." }[own.outcome]}`;
+  else first = `<b class="stood">${column.subject} stands.</b> ${standing[own.outcome]}`;
   if (own && !own.decided && own.outcome !== 4) first += " It still rocks: this could change.";
-  const rest = known < 15 ? (known || own ? `Of fifteen like it, ${fell} ${fell === 1 ? "has" : "have"} fallen so far.` : "") : fell === 15 ? "So do all fifteen like it." : fell === 0 ? "None of fifteen like it falls." : `Of fifteen like it, ${fell} ${fell === 1 ? "falls" : "fall"}.`;
-  $("said").innerHTML = `${first} ${known === 15 && own && own.outcome !== FELL && fell === 15 ? "All fifteen like it fall." : rest}`;
-  $("said").dataset.over = film.over;
-  $("said").dataset.own = own ? own.outcome : "";
+  let rest = `Of fifteen like it, ${fell} ${fell === 1 ? "falls" : "fall"}.`;
+  if (known < 15) rest = known || own ? `Of fifteen like it, ${fell} ${fell === 1 ? "has" : "have"} fallen so far.` : "";
+  else if (fell === 0) rest = "None of fifteen like it falls.";
+  else if (fell === 15) rest = own && own.outcome === FELL ? "So do all fifteen like it." : "All fifteen like it fall.";
+  $("verdict-text").innerHTML = `${first} ${rest}`;
+  $("verdict-text").dataset.over = film.over;
+  $("verdict-text").dataset.own = own ? own.outcome : "";
 }
 
 function play(on) {
@@ -239,14 +247,14 @@ function open(film, computed) {
 
 function beginMap({ motion }) {
   const { data, map } = state, [low, high] = data.amplitudes;
-  const up = Array.from({ length: MAP_ROWS }, (_, j) => Math.round((100 * high * (j + 1)) / MAP_ROWS) / 100).filter((one) => one >= low);
+  const up = Array.from({ length: MAP_ROWS }, (_, j) => Math.round((100 * high * (j + 1)) / MAP_ROWS) / 100).filter((item) => item >= low);
   let across, labels;
   if (motion.kind === "earthquake") {
-    across = data.earthquakes.map((one) => one.name);
-    labels = { ticks: data.earthquakes.map((one) => one.title.match(/\d+/)[0]), title: "the earthquakes, by year" };
+    across = data.earthquakes.map((item) => item.name);
+    labels = { ticks: data.earthquakes.map((item) => item.title.match(/\d+/)[0]), title: "the earthquakes, by year" };
   } else {
     across = Array.from({ length: MAP_COLUMNS }, (_, i) => frequencyAt((200 * i) / (MAP_COLUMNS - 1)));
-    labels = { ticks: across.map((one, i) => (i % 3 === 0 || i === MAP_COLUMNS - 1 ? `${+one.toFixed(one < 1 ? 2 : 1)}` : "")), title: "how fast: times a second (Hz)" };
+    labels = { ticks: across.map((item, i) => (i % 3 === 0 || i === MAP_COLUMNS - 1 ? `${+item.toFixed(item < 1 ? 2 : 1)}` : "")), title: "how fast: times a second (Hz)" };
   }
   map.begin(across, up, labels);
   // from coarse to fine, so that the picture is there before all of it is
@@ -257,7 +265,7 @@ function beginMap({ motion }) {
   state.mapCells = cells.map(({ i, j }) => ({ i, j, ...cellMotion(motion.kind, i, j) }));
   state.mapBegun = false;
   state.mapper.postMessage({ id: ++state.mapId });
-  $("map-said").textContent = "";
+  $("map-text").textContent = "";
 }
 
 function cellMotion(kind, i, j) {
@@ -277,13 +285,13 @@ function mapped(message) {
     const { i, j } = state.mapCells[message.cell];
     map.set(i, j, message.outcome);
   }
-  const known = map.cells.filter((one) => one !== null).length, fell = map.cells.filter((one) => one === FELL).length;
-  $("map-said").textContent = known < map.cells.length ? `${known} of ${map.cells.length} computed …` : `${fell} of ${known} bring it down. Choose a square to see it happen.`;
+  const known = map.cells.filter((item) => item !== null).length, fell = map.cells.filter((item) => item === FELL).length;
+  $("map-text").textContent = known < map.cells.length ? `${known} of ${map.cells.length} computed …` : `${fell} of ${known} bring it down. Choose a square to see it happen.`;
   $("map").dataset.over = known === map.cells.length;
 }
 
 function markMap(motion) {
-  const { map } = state, near = (list, value) => list.reduce((best, one, k) => (Math.abs(one - value) < Math.abs(list[best] - value) ? k : best), 0);
+  const { map } = state, near = (list, value) => list.reduce((best, item, k) => (Math.abs(item - value) < Math.abs(list[best] - value) ? k : best), 0);
   const i = motion.kind === "earthquake" ? map.across.indexOf(motion.name) : near(map.across.map(Math.log), Math.log(motion.frequency));
   map.mark = map.at = [i, near(map.up, motion.amplitude)];
   map.draw();
@@ -291,7 +299,7 @@ function markMap(motion) {
 
 function sayCell(i, j) {
   const { map } = state, outcome = map.of(i, j), what = typeof map.across[i] === "string" ? map.across[i] : `${map.across[i]} Hz`;
-  $("map-said").textContent = `${what}, ${map.up[j]} g: ${outcome === null ? "not yet computed" : outcome === FELL ? "falls" : outcome === 4 ? "no verdict" : "stands"}`;
+  $("map-text").textContent = `${what}, ${map.up[j]} g: ${outcome === null ? "not yet computed" : outcome === FELL ? "falls" : outcome === 4 ? "no verdict" : "stands"}`;
 }
 
 function chooseCell(i, j) {

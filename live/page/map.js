@@ -24,7 +24,7 @@ class Verdicts {
           Math.min(Math.max(this.at[0] + move[0], 0), this.across.length - 1),
           Math.min(Math.max(this.at[1] + move[1], 0), this.up.length - 1),
         ];
-        this.said(...this.at);
+        this.describe(...this.at);
       } else if (event.key === "Enter" || event.key === " ") chosen(...this.at);
       else return;
       event.preventDefault();
@@ -32,7 +32,7 @@ class Verdicts {
     });
     canvas.addEventListener("focus", () => this.draw());
     canvas.addEventListener("blur", () => this.draw());
-    this.said = () => {};
+    this.describe = () => {};
   }
 
   begin(across, up, labels) {

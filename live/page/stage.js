@@ -25,13 +25,13 @@ class Stage {
     const scale = Math.min((narrow ? 0.5 : 0.74) * h, (narrow ? 0.55 : 0.42) * w) / column.height;
     const drop = DROP * column.height; // what it stands on is so high [m]
     const ground = (narrow ? 0.66 : 0.945) * h;
-    const found = [{ x: narrow ? 0.5 * w : 0.26 * w, y: ground - drop * scale, scale, drop, own: true }];
+    const result = [{ x: narrow ? 0.5 * w : 0.26 * w, y: ground - drop * scale, scale, drop, own: true }];
     const rows = narrow ? 1 : 3, each = 15 / rows;
     for (let k = 0; k < 15; k++) {
       const row = Math.floor(k / each), place = k % each;
       const left = narrow ? 0.03 * w : 0.53 * w, width = narrow ? 0.94 * w : 0.45 * w;
       const room = narrow ? 0.2 * h : 0.225 * h;
-      found.push({
+      result.push({
         x: left + (place + 0.5) * (width / each),
         y: narrow ? 0.962 * h : (0.34 + 0.285 * row) * h,
         scale: Math.min(room / column.height, (0.9 * width) / each / (1.1 * column.width)),
@@ -39,7 +39,7 @@ class Stage {
         own: false,
       });
     }
-    return found;
+    return result;
   }
 
   // One moment: poses of all lanes, from which drum on they have fallen by then, and dust.
@@ -57,8 +57,8 @@ class Stage {
     const places = this.places(column);
     const far = places.slice(1);
     this.panel(far);
-    for (const y of new Set(far.map((one) => one.y))) {
-      const row = far.filter((one) => one.y === y);
+    for (const y of new Set(far.map((item) => item.y))) {
+      const row = far.filter((item) => item.y === y);
       row.forEach((place) => this.column(column, poses, place, far.indexOf(place) + 1, fell, false));
       row.forEach((place) => this.dust(dust[far.indexOf(place) + 1], place, time));
       this.ledge(row[0].x - 0.5 * (row[1].x - row[0].x), row.at(-1).x + 0.5 * (row[1].x - row[0].x), y);

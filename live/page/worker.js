@@ -32,16 +32,16 @@ function run(task, id) {
 }
 
 // All lanes under one motion: poses sixty times a second of the film, and verdicts as they come.
-function* film({ id, column, asked, shown }) {
+function* film({ id, column, request, shown }) {
   engine.load(column);
-  const placed = engine.place(motionOf(engine.data, asked));
+  const placed = engine.place(motionOf(engine.data, request));
   for (let lane = 0; lane < LANES; lane++) engine.begin(lane, placed, shown);
   const dt = engine.real("kept", "dt", 0), { chunk } = engine.data;
   const each = Math.max(1, Math.round(1 / 60 / (chunk * dt)));
   const known = new Array(LANES).fill(false);
   let times = [0], poses = [engine.poses()], verdicts = [], sent = performance.now(), step = 0;
   const send = (over) => {
-    postMessage({ id, kind: "film", times, poses, verdicts, over }, poses.map((one) => one.buffer));
+    postMessage({ id, kind: "film", times, poses, verdicts, over }, poses.map((item) => item.buffer));
     [times, poses, verdicts, sent] = [[], [], [], performance.now()];
   };
   while (engine.running()) {

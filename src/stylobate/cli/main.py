@@ -39,6 +39,7 @@ from . import (
     report,
     risk,
     run,
+    schema,
     sequence,
     serve,
     signals,
@@ -88,7 +89,8 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer,
-    calibrate, motion, fetch, records, spectrum, columns, draw, convert, materials, animate, export, report, serve, cite
+    calibrate, motion, fetch, records, spectrum, columns, draw, convert, schema, materials, animate, export, report,
+    serve, cite,
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))

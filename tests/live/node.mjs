@@ -12,22 +12,22 @@ const blob = packed.buffer.slice(packed.byteOffset, packed.byteOffset + packed.l
 const numbers = (place) => place && new Float64Array(blob, place[0], place[1] / 8);
 for (const [name, place] of Object.entries(data.images)) data.images[name] = new Uint8Array(blob, ...place);
 for (const shape of Object.values(data.shapes)) shape.samples = numbers(shape.samples);
-for (const one of data.earthquakes) [one.x, one.z] = [numbers(one.x), numbers(one.z)];
+for (const item of data.earthquakes) [item.x, item.z] = [numbers(item.x), numbers(item.z)];
 const module = new WebAssembly.Module(new Uint8Array(blob, ...data.module));
 const { Engine, motionOf } = vm.runInThisContext(`(() => { ${part("worker").replace("onmessage =", "const heard =")}; return { Engine, motionOf } })()`);
 
-const engine = new Engine(module, data), found = [];
-JSON.parse(fs.readFileSync(`${folder}/cases.json`)).forEach((one, number) => {
-  engine.load(one.column);
-  const motion = motionOf(data, one.asked), placed = engine.place(motion);
-  for (let lane = 0; lane < 16; lane++) engine.begin(lane, placed, one.shown);
-  engine.advance(one.chunks);
+const engine = new Engine(module, data), results = [];
+JSON.parse(fs.readFileSync(`${folder}/cases.json`)).forEach((item, number) => {
+  engine.load(item.column);
+  const motion = motionOf(data, item.request), placed = engine.place(motion);
+  for (let lane = 0; lane < 16; lane++) engine.begin(lane, placed, item.shown);
+  engine.advance(item.chunks);
   const { feed, striped } = engine.layout;
   for (const field of ["x", "z"]) engine.words.fill(0n, feed[field] >> 3, (feed[field] >> 3) + 16);
   fs.writeFileSync(`${folder}/${number}.wasm`, Buffer.concat(striped.map(([at, rows]) => Buffer.from(engine.bytes.slice(at, at + rows * 128)))));
-  found.push({ verdicts: [...Array(16).keys()].map((lane) => engine.verdict(lane)), facts: motion.facts, count: motion.x.length });
+  results.push({ verdicts: [...Array(16).keys()].map((lane) => engine.verdict(lane)), facts: motion.facts, count: motion.x.length });
 });
-// the first column in all lanes, one of them begun anew: all of them end alike
+// the first column in all lanes, item of them begun anew: all of them end alike
 engine.load("paper-monolithic");
 const placed = engine.place(motionOf(data, { kind: "pulse", frequency: 1, amplitude: 0.8 }), 3, 16);
 for (let lane = 0; lane < 16; lane++) {
@@ -40,8 +40,8 @@ engine.begin(5, placed, 0);
 while (engine.running()) engine.advance(64);
 const refilled = [...Array(16).keys()].map((lane) => engine.verdict(lane));
 const motions = [];
-for (const asked of JSON.parse(process.argv[3])) {
-  const { x, z, facts } = motionOf(data, asked);
+for (const request of JSON.parse(process.argv[3])) {
+  const { x, z, facts } = motionOf(data, request);
   motions.push({ x: [...x], z: z && [...z], facts });
 }
-fs.writeFileSync(`${folder}/node.json`, JSON.stringify({ found, refilled, motions }));
+fs.writeFileSync(`${folder}/node.json`, JSON.stringify({ results, refilled, motions }));

@@ -39,7 +39,7 @@ def built(tmp_path_factory):
     """Folder of the page, with what the same code does on a generic processor."""
     folder = tmp_path_factory.mktemp("live")
     env = os.environ | GENERIC | {"STYLOBATE_CACHE": str(folder / "cache"), "PYTHONPATH": str(ROOT)}
-    command = [sys.executable, "-W", "ignore", str(HERE / "live_reference.py"), str(folder)]
+    command = [sys.executable, "-W", "ignore", str(HERE / "reference.py"), str(folder)]
     subprocess.run(command, env=env, cwd=ROOT, check=True)
     return folder
 
@@ -47,14 +47,14 @@ def built(tmp_path_factory):
 @pytest.fixture(scope="module")
 def by_node(built):
     """What the module does in Node."""
-    asked = json.dumps([one for one, _ in MOTIONS])
-    subprocess.run(["node", str(HERE / "live_node.mjs"), str(built), asked], check=True)
+    request = json.dumps([item for item, _ in MOTIONS])
+    subprocess.run(["node", str(HERE / "node.mjs"), str(built), request], check=True)
     return json.loads((built / "node.json").read_text()) | {"cases": json.loads((built / "cases.json").read_text())}
 
 
 @needs_node
 def test_the_module_has_the_bits_of_the_generic_loop(built, by_node):
-    assert {one["column"] for one in by_node["cases"]} == set(COLUMNS)
+    assert {item["column"] for item in by_node["cases"]} == set(COLUMNS)
     for number, case in enumerate(by_node["cases"]):
         native, ours = (np.fromfile(built / f"{number}.{kind}", np.uint64) for kind in ("native", "wasm"))
         assert len(native) == len(ours) > 1500
@@ -67,25 +67,25 @@ def test_the_module_has_the_bits_of_the_generic_loop(built, by_node):
 @needs_node
 def test_verdicts_are_those_of_python_to_the_last_bit(by_node):
     outcomes = set()
-    for case, found in zip(by_node["cases"], by_node["found"], strict=True):
+    for case, result in zip(by_node["cases"], by_node["results"], strict=True):
         if case["verdicts"] is not None:
-            ours = [[one["outcome"], one["decided"], one["time"]] for one in found["verdicts"]]
+            ours = [[item["outcome"], item["decided"], item["time"]] for item in result["verdicts"]]
             assert ours == case["verdicts"], case
-            outcomes |= {one[0] for one in ours}
+            outcomes |= {item[0] for item in ours}
     assert len(outcomes) > 1
 
 
 @needs_node
 def test_a_lane_that_is_used_again_begins_anew(by_node):
-    assert all(one == by_node["refilled"][0] for one in by_node["refilled"])
+    assert all(item == by_node["refilled"][0] for item in by_node["refilled"])
 
 
 @needs_node
 @pytest.mark.filterwarnings("ignore:ridgecrest-2019. cut to the common length")
 def test_motions_are_those_of_python(by_node):
-    for (asked, motion), ours in zip(MOTIONS, by_node["motions"], strict=True):
-        motion = (motion or earthquake(asked["name"], asked["amplitude"] * g)).multiplied
-        exact = asked["kind"] != "sine"  # whose sines Python takes of long times, and the page of one cycle
+    for (request, motion), ours in zip(MOTIONS, by_node["motions"], strict=True):
+        motion = (motion or earthquake(request["name"], request["amplitude"] * g)).multiplied
+        exact = request["kind"] != "sine"  # whose sines Python takes of long times, and the page of one cycle
         np.testing.assert_allclose(ours["x"], motion.samples, rtol=0.0, atol=0.0 if exact else 1e-12)
         assert (ours["z"] is None) == (motion.z_samples is None)
         if ours["z"] is not None:
@@ -111,14 +111,14 @@ def test_numbers_of_the_linker():
 @pytest.fixture
 def open_live(chromium, built):
     """Opens the page from its file at a width; afterwards nothing has been complained of, and nothing asked of a network."""
-    opened, said, asked = [], [], []
+    opened, output, request = [], [], []
 
     def opening(width, height=900, script=""):
         page = chromium.new_page(viewport={"width": width, "height": height})
         page.set_default_timeout(120_000)
-        page.on("console", lambda one: said.append(one.text) if one.type in ("error", "warning") else None)
-        page.on("pageerror", lambda one: said.append(str(one)))
-        page.on("request", lambda one: asked.append(one.url))
+        page.on("console", lambda item: output.append(item.text) if item.type in ("error", "warning") else None)
+        page.on("pageerror", lambda item: output.append(str(item)))
+        page.on("request", lambda item: request.append(item.url))
         page.add_init_script(script)
         page.goto((built / "column.html").as_uri())
         opened.append(page)
@@ -127,12 +127,12 @@ def open_live(chromium, built):
     yield opening
     for page in opened:
         page.close()
-    assert said == []
-    assert [one for one in asked if not one.startswith(("file:", "data:", "blob:"))] == []
+    assert output == []
+    assert [item for item in request if not item.startswith(("file:", "data:", "blob:"))] == []
 
 
 def over(page):
-    page.wait_for_selector("#said[data-over=true]")
+    page.wait_for_selector("#verdict-text[data-over=true]")
     return page.evaluate("state.film.verdicts")
 
 
@@ -161,15 +161,15 @@ def test_a_verdict_is_that_of_the_command(open_live, column, kind, of, amplitude
     page.evaluate("one => { $('amplitude').value = one; shake() }", amplitude)
     ours, line = over(page), command_of(page)
     assert f"run {column} " in line
-    words = [one.strip('"') for one in line.split()[1:]]
-    said = subprocess.run(
+    words = [item.strip('"') for item in line.split()[1:]]
+    output = subprocess.run(
         [sys.executable, "-m", "stylobate", *words, "--json"], capture_output=True, text=True, check=True, cwd=ROOT
     )
-    theirs = json.loads(said.stdout)
+    theirs = json.loads(output.stdout)
     names = ["at_rest", "rocked", "displaced", "collapsed", "failed"]
     assert names[ours[0]["outcome"]] == theirs["outcome"]
     assert ours[0]["decided"] == theirs["decided"]
-    assert sum(one["outcome"] == 3 for one in ours[1:]) == round(15 * theirs["collapse_probability"])
+    assert sum(item["outcome"] == 3 for item in ours[1:]) == round(15 * theirs["collapse_probability"])
     if theirs["collapsed"]:  # last bits are those of each processor, and grow
         assert ours[0]["time"] == pytest.approx(theirs["collapse_time_s"], rel=0.15)
 
@@ -181,7 +181,7 @@ def test_it_falls_as_soon_as_it_is_opened_and_the_map_fills(open_live):
     page.wait_for_function("state.film.fell[0] < 100 && state.film.time > state.film.fell[0] - 0.6")
     assert page.evaluate("state.playing")
     over(page)
-    assert "falls after" in page.inner_text("#said")
+    assert "falls after" in page.inner_text("#verdict-text")
     page.wait_for_function("document.querySelectorAll('#sixteen .fell').length === 16")
     page.wait_for_function("state.map.cells.filter(one => one !== null).length > 30")
     # slow and strong brings it down, fast and weak does not
@@ -244,7 +244,7 @@ def test_by_keyboard_alone(open_live):
     page.keyboard.press("Home")
     for key in ("ArrowUp", "ArrowUp", "ArrowLeft"):
         page.keyboard.press(key)
-    assert " g: " in page.inner_text("#map-said")
+    assert " g: " in page.inner_text("#map-text")
     before = command_of(page)
     page.keyboard.press("Enter")
     assert command_of(page) != before

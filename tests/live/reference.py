@@ -30,12 +30,12 @@ CASES = [
 ]
 
 
-def motion_of(asked):
+def motion_of(request):
     """The motion of a case, as Python makes it."""
-    level = asked["amplitude"] * st.g
-    if asked["kind"] == "earthquake":
-        return earthquake(asked["name"], level)
-    return {"sine": sine, "pulse": pulse}[asked["kind"]](asked["frequency"], level)
+    level = request["amplitude"] * st.g
+    if request["kind"] == "earthquake":
+        return earthquake(request["name"], level)
+    return {"sine": sine, "pulse": pulse}[request["kind"]](request["frequency"], level)
 
 
 def advance(room, chunks):
@@ -45,18 +45,18 @@ def advance(room, chunks):
     def now():
         return int(feed["step"][watch["status"] == RUNNING].max(initial=0))
 
-    goal, left = now() + 32 * chunks, chunks
-    while left > 0:
-        step.advance(room.state, left)
+    goal, rest = now() + 32 * chunks, chunks
+    while rest > 0:
+        step.advance(room.state, rest)
         kernel.judge(*room.arguments("judge"))
         if not (watch["status"] == RUNNING).any():
             break
-        left = round((goal - now()) / 32)
+        rest = round((goal - now()) / 32)
 
 
-def run(name, asked, chunks, shown):
+def run(name, request, chunks, shown):
     """What the case leaves in the records; words that hold addresses are left out."""
-    motion, room = motion_of(asked).multiplied, lanes_of(columns_like(name), MODEL)
+    motion, room = motion_of(request).multiplied, lanes_of(columns_like(name), MODEL)
     z = motion.z_samples
     room.kept["shown"] = shown
     for lane in range(LANES):
@@ -66,18 +66,18 @@ def run(name, asked, chunks, shown):
         )  # fmt: skip
     advance(room, chunks)
     room.state[FEED]["x"] = room.state[FEED]["z"] = 0
-    return {one: np.asarray(room.state[STATE.index(one)]) for one in ("body", "joint", "lane", "feed", "watch")} | {
+    return {item: np.asarray(room.state[STATE.index(item)]) for item in ("body", "joint", "lane", "feed", "watch")} | {
         "kept": room.kept
     }
 
 
-def verdicts(name, asked):
+def verdicts(name, request):
     """What Python says of the column and of those like it: outcome, whether it is certain, time of the collapse."""
     own, *others = columns_like(name)
-    found = st.simulate(own, motion_of(asked), MODEL, twins=others, until_decided=True, quiet=0.0)
+    result = st.simulate(own, motion_of(request), MODEL, twins=others, until_decided=True, quiet=0.0)
     return [
-        [int(one.outcome), one.decided, one.collapse_time if one.outcome == st.Outcome.COLLAPSED else None]
-        for one in (found.measures, *found.twins)
+        [int(item.outcome), item.decided, item.collapse_time if item.outcome == st.Outcome.COLLAPSED else None]
+        for item in (result.measures, *result.twins)
     ]
 
 
@@ -85,14 +85,14 @@ if __name__ == "__main__":
     folder = Path(sys.argv[1])
     write(folder, module())
     cases = []
-    for number, (name, asked, chunks, shown) in enumerate(CASES):
-        records = run(name, asked, chunks, shown)
-        (folder / f"{number}.native").write_bytes(b"".join(one.tobytes() for one in records.values()))
+    for number, (name, request, chunks, shown) in enumerate(CASES):
+        records = run(name, request, chunks, shown)
+        (folder / f"{number}.native").write_bytes(b"".join(item.tobytes() for item in records.values()))
         whole = chunks >= 100_000
         cases.append(
             {
-                "column": name, "asked": asked, "chunks": chunks, "shown": shown,
-                "verdicts": verdicts(name, asked) if whole else None,
+                "column": name, "request": request, "chunks": chunks, "shown": shown,
+                "verdicts": verdicts(name, request) if whole else None,
             }
         )  # fmt: skip
     (folder / "cases.json").write_text(json.dumps(cases))
