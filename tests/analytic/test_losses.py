@@ -205,7 +205,10 @@ def rolling(column: st.Column, tilt: float) -> st.Start:
     [{}, {"losses": "stone"}, {"stiffness_damping": 5e-4}, {"stiffness_damping": 1e-4, "rolling_resistance": 0.01}],
 )
 def test_a_wobble_loses_what_rolling_and_the_dashpots_of_its_toe_take(losses):
-    """m g a Ω sin θ (c cos² θ + β Ω) per time (Eqs. E12, E29), to 1.5 %; friction takes less than 1e-4 of what is there."""
+    """m g a Ω sin θ (c cos² θ + β Ω) per time (Eqs. E12, E29), and up to 5 % more: the toe turns, and dashpots of shear with it.
+
+    Friction takes less than 1 % of what is there in a second.
+    """
     column = round_column(1)
     found = st.simulate(
         column, STILL, st.DistinctElement3D(**losses), start=rolling(column, 0.1), output_interval=0.005
@@ -218,8 +221,9 @@ def test_a_wobble_loses_what_rolling_and_the_dashpots_of_its_toe_take(losses):
     power = column.mass * st.g * 0.5 * rate * np.sin(tilt) * (c * np.cos(tilt) ** 2 + beta * rate)
     energy = found.histories.energy
     lost = np.trapezoid(power[later], found.time[later])
-    assert energy["viscous"][-1] - energy["viscous"][later][0] == pytest.approx(lost, rel=0.015)
-    assert energy["friction"][-1] < 1e-4 * column.mass * st.g * 0.5 * 0.1
+    taken = energy["viscous"][-1] - energy["viscous"][later][0]
+    assert 0.985 * lost <= taken <= 1.05 * lost
+    assert 0.0 <= energy["friction"][-1] < 0.01 * found.time[-1] * column.mass * st.g * 0.5 * 0.1
     assert (tilt[-1] < 0.095) == (lost > 100.0)
 
 

@@ -131,8 +131,7 @@ def parse_measured(text: str) -> tuple[Measured, ...]:
             raise InputError(f"measured frequency {part.strip()!r} is {unit}; give it in Hz, {example}.", "measured")
         if match["spread"] is None:
             raise InputError(
-                f"measured frequency {part.strip()!r} has no spread; give its standard deviation, "
-                f"{example}.",
+                f"measured frequency {part.strip()!r} has no spread; give its standard deviation, {example}.",
                 "measured",
             )
         value, spread = float(match["value"]), float(match["spread"])
