@@ -1,4 +1,4 @@
-# make install | demo | test | test-cpus | test-pythons | test-gpu | bench-gpu | test-wheel | wheel | ptx | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
+# make install | demo | live | test | test-cpus | test-pythons | test-gpu | bench-gpu | test-wheel | wheel | ptx | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
@@ -25,7 +25,7 @@ endif
 # What is imported is compiled when it is first imported, and kept: a tenth of what is installed.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: install demo test test-cpus test-pythons test-gpu bench-gpu ptx wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
+.PHONY: install demo live test test-cpus test-pythons test-gpu bench-gpu ptx wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
 
 install: $(STAMP)
 	@:
@@ -42,6 +42,10 @@ $(STAMP): pyproject.toml $(BESIDE:%=%/pyproject.toml) requirements/base.lock
 
 demo: install
 	@$(BIN)/stylobate reproduce --quick --out demo
+
+# A column to touch in a browser: one page that needs no server and no network.
+live: install
+	@$(BIN)/python -W ignore -m live build/live
 
 test: install
 	@$(BIN)/python -m pytest -n 2 --dist loadfile $(ARGS)

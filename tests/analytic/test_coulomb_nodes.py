@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from oracles import coulomb_nodes as nodes
 
+import stylobate as st
+
 G, R = 9.81, 0.25
 LOW = nodes.drum(nodes.disc(2 * R), 2 * R, 0.02)
 
@@ -87,3 +89,23 @@ def test_a_drum_that_wobbles_twists_by_the_force_that_it_rolls_with(softer):
     twist = abs(np.ptp(seen.twist[later][[0, -1]]) / np.ptp(azimuth[[0, -1]]))
     across = rate**2 * b * sine / G
     assert twist == pytest.approx(1.0 - cosine + across * softer * theta, rel=0.04)
+
+
+@pytest.mark.parametrize(("softer", "share"), [(2.0, (0.72, 0.82)), (0.5, (0.78, 0.88))])
+def test_a_column_that_wobbles_twists_by_four_fifths_of_that(softer, share):
+    """The engine's rim beside the same theory: a tenth and a fourth of it, while the shear went along with what touches."""
+    a, b, theta = 0.275, 1.25, 0.05
+    drum = st.Drum(2.0 * b, 2.0 * a, 2.0 * a, 2400.0, section="circular")
+    column = st.Column.of_drums([drum], st.Joint(5e9, 5e9 / softer, friction_coefficient=0.7))
+    sine, cosine, mass = math.sin(theta), math.cos(theta), column.masses[0]
+    across, arm = mass * (0.25 * a * a + b * b / 3.0), a * cosine - b * sine
+    rate = math.sqrt(mass * G * arm / (sine * (across * cosine + mass * b * (b * cosine + a * sine))))
+    start = st.Start(tilt=theta, angular_velocity=(-rate * sine * cosine, 0.0, rate * sine * sine))
+    response = st.simulate(column, st.Motion(0.01, np.zeros(301)), st.DistinctElement3D(), start=start, until_end=True)
+    later = response.time > 1.0
+    w, x, y, z = response.body_orientation[later, 0].T
+    azimuth = np.unwrap(np.arctan2(y * z - w * x, x * z + w * y))
+    twist = np.unwrap(2.0 * np.arctan2(z, w))
+    found = abs(np.ptp(twist[[0, -1]]) / np.ptp(azimuth[[0, -1]]))
+    theory = 1.0 - cosine + rate**2 * b * sine / G * softer * theta
+    assert share[0] < found / theory < share[1]

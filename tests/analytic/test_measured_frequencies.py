@@ -20,10 +20,10 @@ def column(bending: float = 1e10, shear: float = 2e9, drums: int = 3) -> st.Colu
 
 
 def survey(spread: float, stream=None, **stiffness) -> list[Measured]:
-    """First and second bending and torsion of such a column, as measured with an error of that 95 %."""
+    """First and second bending and torsion of such a column, as measured with an error of that standard deviation."""
     found = st.modes(column(**stiffness), MODEL)
     true = {("bending", 1): found.bending[0], ("bending", 2): found.bending[1], ("torsion", 1): found.torsion[0]}
-    error = (lambda: 0.0) if stream is None else (lambda: math.log1p(spread) / 1.959964 * stream.standard_normal())
+    error = (lambda: 0.0) if stream is None else (lambda: math.log1p(spread) * stream.standard_normal())
     return [Measured(float(f) * math.exp(error()), spread, kind, number) for (kind, number), f in true.items()]
 
 
@@ -37,10 +37,10 @@ def test_what_is_measured_without_error_is_found():
 
 
 def test_torsion_alone_tells_of_shear_as_a_square():
-    """ω² is k_s times a number on rigid ground: an interval of ±x of the frequency is one of ±2x of k_s, to 1 %."""
+    """ω² is k_s times a number on rigid ground: ±x of the frequency is ±2x of k_s, and 95 % are 1.96 of them, to 1 %."""
     torsion = survey(0.03)[2]
     found = st.joints_from_frequencies(column(), [torsion], MODEL)
-    ends = [2e9 * math.exp(2.0 * sign * math.log1p(0.03)) for sign in (-1.0, 1.0)]
+    ends = [2e9 * math.exp(2.0 * 1.959964 * sign * math.log1p(0.03)) for sign in (-1.0, 1.0)]
     assert (found.shear.low, found.shear.high) == pytest.approx(ends, rel=0.01)
     assert found.shear.median == pytest.approx(2e9, rel=0.005)
     assert found.bending == (None, None, None)
@@ -110,7 +110,7 @@ def survey_of_two(stream, bending: float, shear: float) -> list[Measured]:
         ("torsion", 1, 0.06, found.torsion[0]),
     )
     return [
-        Measured(float(f) * math.exp(math.log1p(s) / 1.959964 * stream.standard_normal()), s, kind, number)
+        Measured(float(f) * math.exp(math.log1p(s) * stream.standard_normal()), s, kind, number)
         for kind, number, s, f in true
     ]
 
@@ -129,7 +129,7 @@ def test_frequencies_as_typed():
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("1.27Hz", "has no spread; say within which it lies"),
+        ("1.27Hz", "has no spread; give its standard deviation"),
         ("1.27±3%", "is without a unit; give it in Hz"),
         ("1.27s±3%", "is in s; give it in Hz"),
         ("1.27Hz±3", "the spread of .* has no unit"),

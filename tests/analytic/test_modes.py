@@ -263,6 +263,16 @@ def test_a_mode_holds_until_its_first_edge_has_risen():
     assert found.shape[1, 0] + (5.95 - column.drums[0].centroid_height) * turn == pytest.approx(1.0, rel=1e-9)
 
 
+def test_joints_stiffer_than_stone_are_doubted():
+    """Twelve drums of half a metre on rims of 1e10 N/m³ bend as stone of 10 GPa, of 2e11 as stone of 198 GPa, which
+    is none.
+    """
+    assert st.modes(tapered(12), MODELS["rim"]).solid_modulus == pytest.approx(2e10 * 5.95 / 12.0)
+    assert st.modes(tapered(12), MODELS["rim"]).doubts == []
+    stiff = st.modes(tapered(12, st.Joint(2e11, 1e11, 35.0)), MODELS["rim"])
+    assert "bend as solid stone of 198 GPa, stiffer than any stone" in stiff.doubts[0]
+
+
 # -- assemblies --------------------------------------------------------------------------------------------------------
 
 

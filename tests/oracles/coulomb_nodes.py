@@ -131,7 +131,7 @@ def _turn(w, dt):
 
 
 @njit(cache=True)
-def _run(place, area, height, mass, inertia, kn, ks, mu, gravity, push, step, x, r, v, w, dt, steps, every, seen):
+def _run(place, area, height, mass, inertia, kn, ks, mu, beta, gravity, push, step, x, r, v, w, dt, steps, every, seen):
     """Steps of a body; ``seen`` takes place, the three axes, velocity, momentum and heat after every so many."""
     n = len(area)
     was = np.zeros((n, 2))
@@ -146,24 +146,31 @@ def _run(place, area, height, mass, inertia, kn, ks, mu, gravity, push, step, x,
             ay = r[1, 0] * place[q, 0] + r[1, 1] * place[q, 1] - r[1, 2] * height
             az = r[2, 0] * place[q, 0] + r[2, 1] * place[q, 1] - r[2, 2] * height
             depth = -(x[2] + az)
+            sx, sy = v[0] + w[1] * az - w[2] * ay, v[1] + w[2] * ax - w[0] * az
+            press = kn * area[q] * (depth - beta * (v[2] + w[0] * ay - w[1] * ax))
             if depth <= 0.0:
                 if touched[q]:
                     heat += 0.5 * (hold[q, 0] ** 2 + hold[q, 1] ** 2) / (ks * area[q])
                     touched[q] = False
                     hold[q] = 0.0
-                continue
-            if touched[q]:
-                hold[q, 0] -= ks * area[q] * (x[0] + ax - was[q, 0])
-                hold[q, 1] -= ks * area[q] * (x[1] + ay - was[q, 1])
-            touched[q] = True
-            was[q, 0], was[q, 1] = x[0] + ax, x[1] + ay
-            press = kn * area[q] * depth
+                if beta == 0.0 or press <= 0.0:
+                    continue
+            else:
+                press = max(press, 0.0)
+                if touched[q]:
+                    hold[q, 0] -= ks * area[q] * (x[0] + ax - was[q, 0])
+                    hold[q, 1] -= ks * area[q] * (x[1] + ay - was[q, 1])
+                touched[q] = True
+                was[q, 0], was[q, 1] = x[0] + ax, x[1] + ay
             size = math.sqrt(hold[q, 0] ** 2 + hold[q, 1] ** 2)
             if size > mu * press:
                 heat += mu * press * (size - mu * press) / (ks * area[q])
                 hold[q, 0] *= mu * press / size
                 hold[q, 1] *= mu * press / size
-            fx, fy = hold[q, 0], hold[q, 1]
+            fx, fy = hold[q, 0] - beta * ks * area[q] * sx, hold[q, 1] - beta * ks * area[q] * sy
+            size = math.sqrt(fx * fx + fy * fy)
+            if beta > 0.0 and size > mu * press:
+                fx, fy = fx * mu * press / size, fy * mu * press / size
             force[0] += fx
             force[1] += fy
             force[2] += press
@@ -216,13 +223,15 @@ class Seen(NamedTuple):
 
 
 def run(
-    body: Body, duration: float, dt: float = 5e-5, *, mu: float = 0.7, kn: float = 5e9, ks: float | None = None,
+    body: Body, duration: float, dt: float = 5e-5, *, mu: float = 0.7, kn: float = 5e9, ks: float | None = None, beta=0.0,
     gravity=(0.0, 0.0, -9.81), push=None, step: float = 0.005, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0.0),
     axes=None, place=None, every: float = 0.01,
 ) -> Seen:  # fmt: skip
     """A body from rest on its base, pressed down by its weight, or from a pose.
 
-    ``push`` is the acceleration of the base, shape (T, 3), in steps of ``step`` [s]; what is seen is kept every so often.
+    ``beta`` is dashpot over stiffness of a node [s], in normal and in shear; no node pulls, and friction in sum stays within
+    Coulomb's. ``push`` is the acceleration of the base, shape (T, 3), in steps of ``step`` [s]; what is seen is kept every
+    so often.
     """
     gravity = np.array(gravity, dtype=float)
     sunk = -body.mass * gravity[2] / (kn * body.base.area.sum())
@@ -233,7 +242,7 @@ def run(
     seen = np.zeros((steps // kept + 1, 19))
     count = _run(
         body.base.place, body.base.area, body.height, body.mass, body.inertia, kn, 0.5 * kn if ks is None else ks, mu,
-        gravity, push, step, x, r, np.array(velocity, dtype=float), np.array(spin, dtype=float), dt, steps, kept, seen,
+        beta, gravity, push, step, x, r, np.array(velocity, dtype=float), np.array(spin, dtype=float), dt, steps, kept, seen,
     )  # fmt: skip
     got = seen[:count]
     return Seen(

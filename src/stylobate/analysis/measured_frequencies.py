@@ -59,7 +59,7 @@ class Measured:
     frequency : float
         [Hz]
     spread : float
-        Relative half width within which the frequency lies in 95 of 100 cases [-].
+        Relative standard deviation of the measurement [-].
     kind : {"bending", "across", "torsion", "axial"}
         ``across`` is bending out of the plane of x and z, of rectangular columns.
     number : int
@@ -131,8 +131,7 @@ def parse_measured(text: str) -> tuple[Measured, ...]:
             raise InputError(f"measured frequency {part.strip()!r} is {unit}; give it in Hz, {example}.", "measured")
         if match["spread"] is None:
             raise InputError(
-                f"measured frequency {part.strip()!r} has no spread; say within which it lies in 95 of 100 cases, "
-                f"{example}.",
+                f"measured frequency {part.strip()!r} has no spread; give its standard deviation, {example}.",
                 "measured",
             )
         value, spread = float(match["value"]), float(match["spread"])
@@ -206,7 +205,7 @@ class Ground:
     Notes
     -----
     Static stiffness of a square surface footing (Gazetas 1991): sway 9 G B/(2 − ν), rocking 3.6 G B³/(1 − ν), torsion
-    8.3 G B³, vertical 4.54 G B/(1 − ν), with G = ρ V_s². The footing has no mass and no height. Eq. (V5).
+    8.3 G B³, vertical 4.54 G B/(1 − ν), with G = ρ V_s². The footing has no mass and no height. Eq. (M5).
     """
 
     shear_wave_velocity: tuple[float, float]
@@ -233,7 +232,7 @@ class Ground:
 
     def stiffness(self, draws: np.ndarray) -> np.ndarray:
         """Springs at the base for draws between 0 and 1 of V_s, density and ν, shape (M, 3): sway, sway, vertical [N/m],
-        rocking, rocking, torsion [N m], shape (M, 6).  # Eq. (V5); Gazetas (1991), square footing"""
+        rocking, rocking, torsion [N m], shape (M, 6).  # Eq. (M5); Gazetas (1991), square footing"""
         ends = (self.shear_wave_velocity, self.density, self.poisson)
         speed, density, nu = (low + (high - low) * draws[:, i] for i, (low, high) in enumerate(ends))
         modulus, b = density * speed**2, self.half_width
@@ -542,11 +541,11 @@ def joints_from_frequencies(
     Notes
     -----
     All joints have one k_b/J_A and one k_s, each as probable at any order of magnitude; a measurement ±x has a
-    lognormal error with 95 % within. Ground and columns are drawn (seed), the two stiffnesses are integrated over on
-    a grid for each draw, and the intervals are quantiles of what is left.  A side is open where the end of the range,
+    lognormal error of that standard deviation. Ground and columns are drawn (seed), the two stiffnesses are integrated over on
+    a grid for each draw, and the intervals are quantiles of what is left. A side is open where the end of the range,
     1e6 or 1e14 N/m³, is likelier than a 95 % interval allows; the other side is then where the likelihood has fallen
     by as much.
-    # Eq. (V4)
+    # Eq. (M4)
     """
     measured = parse_measured(measured) if isinstance(measured, str) else tuple(measured)
     check_measured(measured)
@@ -620,13 +619,13 @@ def _table(
 
 
 def _score(table: _Table, measured: Sequence[Measured], blunt: float = 0.0) -> np.ndarray:
-    """Log-likelihood of every draw and pair of stiffnesses, shape (M, K, L).  # Eq. (V4)
+    """Log-likelihood of every draw and pair of stiffnesses, shape (M, K, L).  # Eq. (M4)
 
     ``blunt`` is a further error of the logarithm of a frequency, where a grid is coarse.
     """
     total = np.zeros(table.values.shape[1:])
     for one, values in zip(measured, table.values, strict=True):
-        size = math.hypot(math.log1p(one.spread) / TWO_SIDED, blunt)
+        size = math.hypot(math.log1p(one.spread), blunt)
         total -= 0.5 * ((values - math.log(one.frequency)) / size) ** 2
     return total
 
@@ -657,7 +656,7 @@ def _box(table: _Table, measured: Sequence[Measured]) -> Box | None:
     cell = 0.5 * max(table.bending[1] - table.bending[0], table.shear[1] - table.shear[0])
     near = np.ones(table.values.shape[1:], dtype=bool)
     for one, values in zip(measured, table.values, strict=True):
-        near &= np.abs(values - math.log(one.frequency)) < FARTHEST * math.log1p(one.spread) / TWO_SIDED + cell
+        near &= np.abs(values - math.log(one.frequency)) < FARTHEST * math.log1p(one.spread) + cell
     some = near.any(axis=0)
     if not some.any():
         return None

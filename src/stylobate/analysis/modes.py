@@ -24,6 +24,9 @@ APART = 1e-9
 #: Two planes of bending are alike to this [-].
 ALIKE = 1e-9
 
+#: Young's modulus that no building stone reaches [Pa]: marble has 40 to 80 GPa, the stiffest basalts some 100.
+STIFFEST_STONE = 100e9
+
 #: Most modes of an assembly that are computed.
 MOST = 60
 
@@ -142,6 +145,25 @@ class Modes(Shown):
         return self._frequencies("axial")
 
     @property
+    def solid_modulus(self) -> np.ndarray:
+        """Young's modulus of a solid column that bends as this one, drum by drum: k_b h/J_A [Pa], shape (n,).  # Eq. (M6)"""
+        stack = self.structure.stack
+        return np.zeros(0) if stack is None else self.joint_bending_stiffness * stack.heights
+
+    @property
+    def doubts(self) -> list[str]:
+        """What no stone is, in sentences."""
+        most = float(self.solid_modulus.max(initial=0.0))
+        if most <= STIFFEST_STONE:
+            return []
+        joint = int(self.solid_modulus.argmax())
+        return [
+            f"{self.joints[joint]} and the drum on it bend as solid stone of {most / 1e9:.3g} GPa, stiffer than "
+            f"any stone: the "
+            f"drum alone is softer; a normal_stiffness up to {STIFFEST_STONE / most:.2g} of it is what stone allows"
+        ]
+
+    @property
     def joints(self) -> tuple[str, ...]:
         """Names of the joints."""
         return tuple(joint.name for joint in self.standing.joints)
@@ -168,6 +190,8 @@ class Modes(Shown):
             "joint_bending_stiffness": _plain(self.joint_bending_stiffness),
             "joint_normal_stiffness": _plain(self.joint_normal_stiffness),
             "joint_shear_stiffness": _plain(self.joint_shear_stiffness),
+            "solid_modulus_pa": _plain(self.solid_modulus),
+            "doubts": self.doubts,
             "left_out": list(self.standing.left_out),
         }
 
@@ -201,7 +225,7 @@ def modes(column: Structure, model: Any) -> Modes:
     Notes
     -----
     Rigid bodies on the springs of their joints, with gravity's second order (P-delta); friction holds, nothing is damped.
-    Eqs. (V1) to (V3). The engines, whose joints sink under the weight, have frequencies within 0.04 % of these.
+    Eqs. (M1) to (M3). The engines, whose joints sink under the weight, have frequencies within 0.04 % of these.
     """
     standing = vibrating(column, model)
     stack = column.stack
@@ -282,6 +306,7 @@ def _mode(standing: Vibrating, frequency: float, shape: np.ndarray, plane: bool)
         size = float(np.hypot(*top[:2]))
         sign = 1.0 if (top[0] > 0.0 if abs(top[0]) > 1e-9 * size else top[1] > 0.0) else -1.0
         azimuth = math.degrees(math.atan2(sign * top[1], sign * top[0])) % 180.0
+        azimuth = 0.0 if 180.0 - azimuth < 1e-6 else azimuth
     else:
         size, sign = (abs(float(top[2])), math.copysign(1.0, top[2])) if kind == "axial" else (abs(float(top[5])), 1.0)
         sign = sign if kind == "axial" else math.copysign(1.0, top[5])

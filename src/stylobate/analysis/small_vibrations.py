@@ -178,7 +178,7 @@ class Vibrating:
     def joint_matrix(self, joint: ClosedJoint) -> np.ndarray:
         """Elastic stiffness of a joint against the twelve coordinates of its two bodies, the upper first, shape (12, 12).
 
-        # Eq. (V2)
+        # Eq. (M2)
         """
         normal = self._rises(joint, joint.points)
         matrix = normal.T @ (joint.springs[:, None] * normal)
@@ -208,7 +208,7 @@ class Vibrating:
     def geometric_matrix(
         self, force: np.ndarray, upper: int, lower: int, at: tuple[np.ndarray, np.ndarray], follows_lower: float
     ) -> np.ndarray:
-        """Second order of a force that two bodies exert on one another, as :meth:`joint_matrix`.  # Eq. (V3)
+        """Second order of a force that two bodies exert on one another, as :meth:`joint_matrix`.  # Eq. (M3)
 
         Parameters
         ----------
@@ -251,7 +251,7 @@ class Vibrating:
 
     @cached_property
     def stiffness_matrix(self) -> np.ndarray:
-        """Of joints and links with the second order of the forces at rest, shape (6 N, 6 N).  # Eqs. (V2), (V3)"""
+        """Of joints and links with the second order of the forces at rest, shape (6 N, 6 N).  # Eqs. (M2), (M3)"""
         matrix = np.zeros((6 * len(self.masses),) * 2)
         for joint, elastic in zip(self.joints, self.joint_matrices, strict=True):
             at = joint.place, joint.place

@@ -34,6 +34,7 @@ from . import (
     records,
     risk,
     run,
+    schema,
     sequence,
     signals,
     spectrum,
@@ -80,7 +81,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, sequence, critical, domain, pushover, limit, modes, compare, states, suite, ida, fragility, risk,
-    motion, records, spectrum, columns, materials, animate, cite
+    motion, records, spectrum, columns, schema, materials, animate, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))

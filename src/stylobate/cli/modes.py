@@ -18,7 +18,7 @@ def modes(
     number: str = o.option("N", "How many modes of each kind are listed.", "3"),
     measured: str | None = o.option(
         "F±S,…",
-        "Measured frequencies and their 95 %: 1.27Hz±3%,6.5Hz±6%,torsion 9.0Hz±6%; gives the joints' stiffness.",
+        "Measured frequencies with standard deviations, such as 1.27Hz±3%,6.5Hz±6%,torsion 9.0Hz±6%: the joints' stiffness.",
     ),
     ground: str | None = o.option(
         "GROUND", "Under what was measured: rigid, or vs=200:400m/s,half_width=4m of the footing."
@@ -123,6 +123,11 @@ def _facts(found: Modes, number: int, drops: list[dict[str, Any]], left: float) 
             facts[words] = f"{value:.4g} N/m³"
         elif value and found.structure.stack is not None:
             facts[words] = f"{min(value):.4g} to {max(value):.4g} N/m³, from joint to joint"
+    if found.structure.stack is not None:
+        solid = found.solid_modulus / 1e9
+        facts["bends as solid stone of"] = f"{solid.min():.3g} to {solid.max():.3g} GPa"
+    for doubt in found.doubts:
+        facts["mind"] = doubt
     for note in found.standing.left_out:
         facts.setdefault("does not act", note)
     if found.structure.stack is not None:

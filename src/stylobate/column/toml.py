@@ -260,6 +260,39 @@ def _short(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "…"
 
 
+def json_schema(tables: Sequence[type[Table]], title: str) -> dict[str, Any]:
+    """JSON schema of files that follow one of some tables, for editors: keys, types, what is needed, what a table is for.
+
+    TOML has no null: a key that may be left out is not listed as needed, and that is all.
+    """
+    from pydantic import TypeAdapter
+
+    several: Any = typing.Union
+    schema = TypeAdapter(several[tuple(tables)]).json_schema()
+    for part in (schema, *schema.get("$defs", {}).values()):
+        _for_editors(part)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema"} | schema | {"title": title}
+
+
+def _for_editors(schema: dict[str, Any]) -> None:
+    """Leave out what a TOML file cannot say, and titles that repeat the key."""
+    schema.pop("title", None)
+    if "description" in schema:
+        schema["description"] = schema["description"].replace("``", "`")
+    if schema.get("default", ...) is None:
+        del schema["default"]
+    kinds = [kind for kind in schema.get("anyOf", ()) if kind != {"type": "null"}]
+    if kinds:
+        schema["anyOf"] = kinds
+    if len(kinds) == 1:
+        schema |= kinds[0]
+        del schema["anyOf"]
+    inner = [*schema.get("properties", {}).values(), *schema.get("anyOf", ()), schema.get("items")]
+    for part in inner:
+        if isinstance(part, dict):
+            _for_editors(part)
+
+
 def toml_text(tables: Mapping[str, Any], comments: Iterable[str] = ()) -> str:
     """Tables as the text of a TOML file, each table of a list under a heading of its own, as files are written by hand.
 

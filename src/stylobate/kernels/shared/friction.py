@@ -158,14 +158,19 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     torsion -= jf * dt * spin
     f = minus(total, s)
     total = along(total, -dot(total, n), n)
-    twist = turning - j * dt * spin
-    total, twist, over = limited(total, twist, before, turning, k, j, minus(centre, middle), n, limits)
-    # where the face slips, all that touches becomes core
+    drawn, wound = total, turning - j * dt * spin
+    total, twist, over = limited(drawn, wound, before, turning, k, j, minus(centre, middle), n, limits)
+    # both slip alike; where the face slips, all that touches becomes core
+    each = 1.0 / (max(k, NOTHING) * max(j, NOTHING))
+    turned = (wound - twist) * k * each
+    f = along(f, -kf, along(scaled(j * each, minus(drawn, total)), -beyond * turned, w))
+    torsion -= jf * turned
     keep = max(1.0 - SLIPPED * over, 0.0)
     f, torsion, kf, jf = scaled(keep, f), keep * torsion, keep * kf, keep * jf
     s = minus(total, f)
-    core_torsion = twist - torsion - dot(along(scaled(keep, s), -beyond, f), w)
     jc += (1.0 - keep) * (j - jf - jc)
+    core_torsion = twist - torsion - dot(along(scaled(keep, s), -beyond, f), w)
+    core_torsion = core_torsion if jc > NO_LAYER * j else 0.0  # what is rounded
     return (s, core_torsion, k - kf, jc, along(centre, keep, away)), (f, torsion, kf, jf), total, twist
 
 

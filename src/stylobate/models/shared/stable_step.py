@@ -69,6 +69,11 @@ def chosen_step(stable: float, step_factor: float, time_step: float | None, what
     return time_step
 
 
+def chunks_in(duration: float, step: float) -> int:
+    """How many chunks of steps of at most ``step`` [s] fill a time [s]; the browser is given the same code, compiled."""
+    return max(1, math.ceil(duration / (CHUNK * step)))
+
+
 def whole_steps(motion: Motion, tail: float, step: float) -> tuple[float, int]:
     """Largest step up to ``step`` that resolves the motion and of which whole chunks fill it [s], and how many chunks
     there are with the tail.
@@ -76,5 +81,5 @@ def whole_steps(motion: Motion, tail: float, step: float) -> tuple[float, int]:
     The tail has no say in the step: what happens before it does not depend on it.
     """
     step = resolving(step, motion)
-    dt = motion.duration / (CHUNK * max(1, math.ceil(motion.duration / (CHUNK * step))))
+    dt = motion.duration / (CHUNK * chunks_in(motion.duration, step))
     return dt, math.ceil((motion.duration + tail) / (CHUNK * dt) * (1.0 - 1e-12))
