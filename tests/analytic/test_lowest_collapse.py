@@ -18,7 +18,6 @@ from stylobate.analysis.critical_words import as_recorded, sentence, sentence_of
 from stylobate.campaign.twins import Twins
 from stylobate.column.presets import preset
 from stylobate.column.scatter import Scatter
-from stylobate_report.critical import critical_result
 
 COLUMN = preset("paper-monolithic")
 AMPLITUDES = np.array([0.2, 0.3, 0.4, 0.5])
@@ -133,6 +132,7 @@ def test_the_next_lower_amplitude_is_told_of_both_grids():
 
 
 def test_motions_of_a_record_are_told_apart_from_records_and_what_is_undecided_is_told():
+    critical_result = pytest.importorskip("stylobate_report.critical").critical_result
     both = [RECORD.replace(name=f"a {k}", metadata={"direction": {"record": "a", "azimuth": 90.0 * k}}) for k in (0, 1)]
     suite = CriticalSuite((over("succ", ["sssc"], both[0]), over("ssss", ["scsu"], both[1])), 1.0)
     found = suite.summary()
@@ -181,6 +181,7 @@ def test_bounds_are_told_as_bounds():
 
 
 def test_the_report_has_the_shares_of_the_columns_alike():
+    critical_result = pytest.importorskip("stylobate_report.critical").critical_result
     summary = over("sssc", ["sscc", "scsc", "ssss", "sssc"]).summary()
     folder = SimpleNamespace(summary=json.loads(json.dumps(summary)), structures=[], pictures={})
     (said, _), (_, facts, table, *_) = critical_result(folder)
@@ -196,6 +197,7 @@ def test_the_report_has_the_shares_of_the_columns_alike():
 
 
 def test_what_is_undecided_is_told_beside_the_share_of_the_columns_alike():
+    critical_result = pytest.importorskip("stylobate_report.critical").critical_result
     record = st.Motion(0.01, 0.2 * st.g * np.sin(2.0 * np.pi * 0.01 * np.arange(200)), name="record.csv")
     record = record.scaled_to_pga(0.2 * st.g)
     found = over("ussc", ["ussc"] * 13 + ["sscc"] * 2, record)

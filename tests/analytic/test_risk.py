@@ -15,7 +15,6 @@ from stylobate.analysis.hazard import Hazard, read_hazard
 from stylobate.analysis.limit_states import FAILED, OPEN
 from stylobate.analysis.risk import risk
 from stylobate.errors import InputError
-from stylobate_ruins.survival import parse_age, survival
 
 
 @pytest.fixture(scope="module")
@@ -118,12 +117,15 @@ def test_the_interval_of_a_rate_holds_those_of_both_ends_of_open_runs(curve):
 
 
 def test_hazards_of_one_name_are_refused(curve):
+    survival = pytest.importorskip("stylobate_ruins.survival").survival
     one = Hazard(np.geomspace(0.01, 10.0, 9), 1e-4 * np.geomspace(0.01, 10.0, 9) ** -2.0, "m/s", "site.csv", "PGV")
     with pytest.raises(InputError, match=r"two hazard curves are called 'site\.csv'"):
         survival(curve, 2400.0, [one, one])
 
 
 def test_survival(curve):
+    parse_age = pytest.importorskip("stylobate_ruins.survival").parse_age
+    survival = pytest.importorskip("stylobate_ruins.survival").survival
     x = np.geomspace(0.01, 10.0, 9)
     hazards = [Hazard(x, k0 * x**-2.0, "m/s", name) for name, k0 in (("a", 1e-4), ("b", 1e-3))]
     found = survival(curve, 2400.0, hazards)
@@ -200,6 +202,7 @@ def one_site(kind):
 
 def test_what_a_hazard_curve_is_of_its_logic_tree_is_told(curve, tmp_path):
     """By the comment of a CSV, its name, or the attributes of NRML; where none states it, nothing is told."""
+    survival = pytest.importorskip("stylobate_ruins.survival").survival
     path = tmp_path / "h.csv"
     files = [(one_site(f"kind='{kind}'"), statistic) for kind, statistic in KINDS.items()]
     files += [(NRML_CURVES.format(kind='statistics="mean"'), "mean")]

@@ -14,7 +14,6 @@ from stylobate.analysis.unknown_law import share_limits, share_under_another_law
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import LAW, the_twins
 from stylobate.campaign.unknown_laws import PER_LAW, usual_with_laws
-from stylobate_report.certainty import certainty_section, certainty_sentence
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 SIZE = {"height": 2.0, "bottom_width": 0.5, "top_width": 0.5, "density": 2700.0}
@@ -114,6 +113,8 @@ def test_the_interval_holds_the_share_of_another_law_where_that_of_the_columns_d
 
 
 def test_the_sentence_says_which_part_is_the_laws():
+    certainty_section = pytest.importorskip("stylobate_report.certainty").certainty_section
+    certainty_sentence = pytest.importorskip("stylobate_report.certainty").certainty_sentence
     twins = drawn(6)
     peak = {
         "peak_top_displacement_m": 0.1,

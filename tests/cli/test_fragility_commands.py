@@ -14,7 +14,6 @@ from stylobate.motion import half_sine_pulse, write_csv
 from stylobate.own_files import digest
 from stylobate.response.words import ROUND_IN_THE_PLANE
 from stylobate.results import read_results
-from stylobate_report.others import sections_of
 
 PROMISED = {"median", "median_low", "median_high", "beta", "beta_low", "beta_high", "im", "unit", "state", "records", "runs",
             "undecided", "failed"}  # fmt: skip
@@ -62,6 +61,7 @@ def test_fragility_risk_and_survival(place, capsys):
 
 
 def test_bad_input_is_one_sentence(place, capsys):
+    sections_of = pytest.importorskip("stylobate_report.others").sections_of
     few = place / "few.csv"
     few.write_text("record,im,collapsed\n" + "a,0.1,0\na,0.2,1\n" * 10)
     rises = place / "rises.csv"
@@ -149,6 +149,7 @@ def test_a_hazard_curve_names_its_intensity_or_it_is_said_what_it_is_taken_for(p
 
 def test_a_median_beyond_all_runs_is_none(place, capsys):
     """Ten of twelve records stand at the largest level, or all below it: the curve goes on, the runs do not."""
+    sections_of = pytest.importorskip("stylobate_report.others").sections_of
     rows = [
         f"r{k},{x:.3f},{int(x > (0.1, 0.25, 1.0)[min(k, 2)])}" for k in range(12) for x in np.geomspace(0.05, 0.4, 5)
     ]
@@ -195,6 +196,7 @@ def records(tmp_path):
 
 
 def test_an_ida_and_its_fragility(tmp_path, records, capsys):
+    sections_of = pytest.importorskip("stylobate_report.others").sections_of
     out = tmp_path / "ida"
     found = said(
         capsys, "ida", tmp_path / "block.toml", records, "--model", "housner", "--im", "pgv", "--runs", "8", "--out", out,
@@ -249,6 +251,7 @@ def test_an_ida_and_its_fragility(tmp_path, records, capsys):
 
 
 def test_what_is_not_known_of_a_risk_is_said(place, capsys):
+    sections_of = pytest.importorskip("stylobate_report.others").sections_of
     said(capsys, "risk", place / "runs.csv", "--im", "pgv", "--hazard", place / "A.csv", "--out", place / "r", "--json")
     (result,) = read_results([place / "r"])
     (basis,) = [one for one in sections_of(result, set()) if one.title == "What it was computed from"]
@@ -290,6 +293,7 @@ def test_states_are_chosen_among_as_columns_are(tmp_path, records, capsys):
 
 def test_what_a_plane_says_of_round_columns_is_doubted_wherever_its_runs_go(tmp_path, capsys):
     """An IDA did not say what it left out, and nothing that rests on one said that it was computed in a plane."""
+    sections_of = pytest.importorskip("stylobate_report.others").sections_of
     (folder := tmp_path / "records").mkdir()
     for k, f in enumerate(np.linspace(0.6, 2.4, 10)):
         pulse = half_sine_pulse(float(f), 0.4 * st.g, 8.0)

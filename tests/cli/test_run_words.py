@@ -17,8 +17,6 @@ from stylobate.motion import half_sine_pulse, write_csv
 from stylobate.response import SpaceMeasures
 from stylobate.response.words import doubt_of, longer_tail, sentence_of, to_decide
 from stylobate.results import read_results
-from stylobate_report.others import sections_of
-from stylobate_report.runs import several_sections
 
 BLOCK = ("run", "paper-monolithic", "--model", "housner")
 
@@ -143,6 +141,7 @@ def column(tmp_path):
     ],
 )
 def test_what_a_plane_says_of_round_drums_is_doubted_before_it(command, arguments, column, capsys, tmp_path):
+    sections_of = pytest.importorskip("stylobate_report.others").sections_of
     words = [command, column, *arguments]
     if command == "study":
         file = tmp_path / "study.toml"
@@ -178,6 +177,7 @@ def test_what_a_study_and_a_film_show_is_doubted(column, capsys, tmp_path):
 
 
 def test_runs_in_several_directions_say_their_doubt_once(column, capsys, tmp_path):
+    several_sections = pytest.importorskip("stylobate_report.runs").several_sections
     asked = ("--harmonic", "1Hz,0.3g,0.5s", "--signs", "both", "--replicates", "0", "--no-pictures")
     text = said(capsys, "run", column, *asked, "--out", tmp_path / "out")
     assert " ".join(text.split()).count(DOUBT) == 1
@@ -203,6 +203,7 @@ def test_the_strip_of_the_median_is_followed_as_its_run_was(monkeypatch):
 
 
 def test_a_run_says_its_doubt(column, capsys, tmp_path):
+    sections_of = pytest.importorskip("stylobate_report.others").sections_of
     plane = said(capsys, "run", column, "--harmonic", "1Hz,0.3g,0.5s", "--replicates", "0")
     assert plane.count(DOUBT) == 1
     assert "Round columns" not in said(capsys, "run", column, "--harmonic", "1Hz,0.01g,0.5s", "--replicates", "0")

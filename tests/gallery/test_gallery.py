@@ -13,7 +13,6 @@ import pytest
 from matplotlib.figure import Figure
 
 import stylobate as st
-from stylobate_ruins.ruin_files import read_ruin
 
 GALLERY = Path(__file__).parents[2] / "gallery"
 EXAMPLES = sorted(path.stem.removeprefix("plot_") for path in GALLERY.glob("plot_*.py"))
@@ -365,6 +364,7 @@ def test_many_sites(run):
 
 def test_ruins_of_rome():
     """The ruins of the documentation's real case: 100 Roman feet high, twins, one of them with a drum out of place."""
+    read_ruin = pytest.importorskip("stylobate_ruins.ruin_files").read_ruin
     both, alone = (read_ruin(GALLERY / "ruins" / f"{name}.toml") for name in ("rome", "aurelius_alone"))
     aurelius, trajan = both.structures
     assert aurelius.height == pytest.approx(100 * 0.2957, rel=0.002)  # a Roman foot of 295.7 mm

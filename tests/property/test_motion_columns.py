@@ -10,8 +10,6 @@ from hypothesis import strategies as st
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import Motion, bandpass, read_motion, write_csv
-from stylobate_report.page import Note
-from stylobate_report.shaking import motion_section
 
 VALUES = st.floats(-40.0, 40.0, allow_nan=False)
 
@@ -71,6 +69,8 @@ def test_what_was_done_to_a_record_is_read_whole_or_refused(tmp_path):
 
 def test_a_report_on_a_filtered_record_tells_its_filter_and_of_a_drifting_one_how_far(tmp_path):
     """Both are uncorrected by their source; only what was done since, and what is left, tells them apart."""
+    Note = pytest.importorskip("stylobate_report.page").Note
+    motion_section = pytest.importorskip("stylobate_report.shaking").motion_section
     time = np.arange(4000) * 0.01
     raw = Motion(0.01, np.sin(6.0 * time) + 0.01, metadata={"stage": "uncorrected", "station": "A"})
     filtered = bandpass(raw, 0.2, None)

@@ -14,7 +14,6 @@ from stylobate.motion import keep_axes, read_motion, write_csv
 from stylobate.motion.orientation import record_of, rotated
 from stylobate.motion.specs import parse_angle
 from stylobate.motion.spectra import pseudo_acceleration
-from stylobate_report.shaking import axes_in_words
 
 WAVE = np.sin(np.linspace(0.0, 12.0, 201))
 
@@ -161,6 +160,7 @@ def test_a_circle_of_azimuths_with_both_signs_is_told_to_be_computed_twice(recor
 @pytest.mark.parametrize("azimuths", [(), (30.0,)])
 def test_the_azimuths_of_a_reversed_motion_are_turned_with_it(azimuths, tmp_path):
     """Written, read back and turned to north, both signs are one motion of the ground; rows tell the direction as before."""
+    axes_in_words = pytest.importorskip("stylobate_report.shaking").axes_in_words
     path = tmp_path / "two.csv"
     path.write_text(
         "# azimuth_x_deg: 90\n# azimuth_y_deg: 0\ntime_s,ax_g,ay_g\n0,0.1,0.02\n0.01,-0.3,0.08\n0.02,0.2,-0.1\n"

@@ -54,8 +54,6 @@ def gpu() -> Device:
     """
     entry = entries(DEVICES).get("gpu")
     if entry is None:
-        raise InputError(
-            f"`device` is gpu, and graphics cards are reached by {missing('devices', 'gpu')}; or leave `device` out.",
-            "device",
-        )
+        place = missing("devices", "gpu")
+        raise InputError(f"`device` is gpu, and graphics cards are reached by {place} Or leave `device` out.", "device")
     return entry.load()()

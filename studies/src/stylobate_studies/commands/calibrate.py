@@ -65,9 +65,9 @@ def calibrate(
             if found.after.reached:
                 files.append(found.save(files / "losses.toml"))
             if pictures:
-                from stylobate import plots
+                from ..calibration.pictures.calibration import draw_calibration
 
-                files.picture(plots.draw_calibration(found), "calibration")
+                files.picture(draw_calibration(found), "calibration")
             files.asked(structures=[stone], models=[how], motions=[], history=str(history))
             files.summary(summary, "calibrate.json")
     if not execution.emits(summary):

@@ -41,10 +41,12 @@ def draw(
         raise InputError(f"--paper {paper} draws sheets to scale, and --out is {str(out)!r}; name a .pdf.", "out")
     from stylobate import plots
 
+    from ..sheets import sheets_to_scale
+
     if paper is None:
         files = plots.save_as(plots.draw_sheet(structure, structure.name), out)
     else:
-        sheets = plots.sheets_to_scale(structure, structure.name, paper=paper.upper(), scale=parse_scale(scale))
+        sheets = sheets_to_scale(structure, structure.name, paper=paper.upper(), scale=parse_scale(scale))
         files = plots.save_sheets(sheets, out)
     moving = sum(not body.fixed for body in structure.bodies)
     if execution.emits({"name": structure.name, "bodies": moving, "files": [str(file) for file in files]}):

@@ -49,12 +49,12 @@ def infer(
             files.table(answer.draws, "draws.csv")
             files.table(pandas.DataFrame(answer.told), "observations.csv")
             if pictures:
-                from stylobate import plots
+                from ..pictures.inference import draw_matches, draw_observations, draw_posterior
 
-                files.picture(plots.draw_posterior(answer), "infer")
-                files.picture(plots.draw_matches(answer), "matches")
+                files.picture(draw_posterior(answer), "infer")
+                files.picture(draw_matches(answer), "matches")
                 if answer.told:
-                    files.picture(plots.draw_observations(answer), "observations")
+                    files.picture(draw_observations(answer), "observations")
             what: dict[str, Any] = {
                 "structures": list(asked.structures),
                 "models": [asked.model],

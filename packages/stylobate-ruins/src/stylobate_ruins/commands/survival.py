@@ -64,10 +64,10 @@ def survival(
         if files.wanted:
             import pandas
 
-            from stylobate import plots
+            from ..pictures.survival import draw_survival
 
             files.table(pandas.DataFrame(result["hazards"]), "survival.csv")
-            files.picture(plots.draw_survival(found), "survival")
+            files.picture(draw_survival(found), "survival")
             files.asked(**kept_of(used), **hazards_of(hazard, site), state=asked.state, age_y=years)
             files.summary(result, "survival.json")
     if execution.emits(result):
@@ -101,12 +101,12 @@ def _several(source: Path, age: str | None, hazard: list[Path] | None, execution
         if files.wanted:
             import pandas
 
-            from stylobate import plots
+            from ..pictures.weighing import draw_weighing
 
             rows = [{key: value for key, value in one.items() if key != "annual_rates"} for one in result["hazards"]]
             files.table(pandas.DataFrame(rows), "survival.csv")
             files.table(pandas.DataFrame(found.table()), "hazard.csv")
-            files.picture(plots.draw_weighing(found), "survival")
+            files.picture(draw_weighing(found), "survival")
             files.asked(sites=f"{source} (SHA-256 {digest(source)})")
             files.summary(result, "survival.json")
     if not execution.emits(result):
