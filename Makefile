@@ -7,10 +7,14 @@ DOCS_STAMP := .venv/.installed-docs
 PEERS_STAMP := .venv-peers/.installed
 PTX_STAMP := .venv-ptx/.installed
 GPU_STAMP := .venv/.installed-gpu
+# What stands beside the core in this repository, all of it installed with it.
+BESIDE := $(patsubst %/pyproject.toml,%,$(wildcard packages/*/pyproject.toml)) studies compas
 PIP := $(BIN)/python -m pip --disable-pip-version-check -qq
 UV_VERSION := 0.13.8
 LOCK := .venv-lock/bin/uv pip compile -q --universal --python-version 3.11 --generate-hashes \
         --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" $(UPGRADE)
+OF_GPU := packages/stylobate-gpu/pyproject.toml
+OF_PACKAGES := --no-emit-package stylobate $(filter-out $(OF_GPU),$(wildcard packages/*/pyproject.toml))
 
 # An environment that was copied or moved here would run the code at its old place: build it anew.
 ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
@@ -25,14 +29,14 @@ unexport PYTHONDONTWRITEBYTECODE
 install: $(STAMP)
 	@:
 
-$(STAMP): pyproject.toml studies/pyproject.toml compas/pyproject.toml requirements/base.lock
+$(STAMP): pyproject.toml $(BESIDE:%=%/pyproject.toml) requirements/base.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	    { echo "stylobate needs Python 3.11 or newer: name one with  make install PYTHON=/path/to/python3.11" >&2; exit 1; }
 	@echo "Installing stylobate and its pinned requirements into .venv (about a minute)"
 	@[ ! -e .venv ] || [ "$$(cat $@ 2>/dev/null)" = "$(CURDIR)" ] || rm -rf .venv
 	@[ -x $(BIN)/python ] || $(PYTHON) -m venv .venv
 	@$(PIP) install --no-compile --require-hashes -r requirements/base.lock
-	@$(PIP) install --no-deps --no-build-isolation -e . -e studies -e compas
+	@$(PIP) install --no-deps --no-build-isolation -e . $(BESIDE:%=-e %)
 	@echo "$(CURDIR)" > $@
 
 demo: install
@@ -74,11 +78,11 @@ $(PTX_STAMP): requirements/ptx.lock
 
 # The kernels for graphics cards, where they are not there from these sources; no card is needed. KERNELS="plane rim" for some.
 ptx: $(PTX_STAMP)
-	@PYTHONPATH=src .venv-ptx/bin/python -m stylobate.kernels.gpu.build $(KERNELS)
+	@PYTHONPATH=src:packages/stylobate-gpu/src .venv-ptx/bin/python -m stylobate_gpu.build $(KERNELS)
 
 wheel: install
 	@rm -rf dist build/wheel
-	@$(BIN)/python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation -w dist .
+	@$(BIN)/python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation -w dist . $(BESIDE:%=./%)
 	@ls dist/*.whl
 
 # The wheel alone, in a bare environment.
@@ -87,7 +91,7 @@ test-wheel: wheel
 
 # What strangers may hand in, by the thousand; ARGS="columns --seconds 60" for some of it.
 fuzz: install
-	@PYTHONPATH=tests $(BIN)/python -m fuzz $(ARGS)
+	@PYTHONPATH=tests:packages/stylobate-page/tests $(BIN)/python -m fuzz $(ARGS)
 
 check: install
 	$(BIN)/ruff check .
@@ -142,19 +146,19 @@ docs: $(DOCS_STAMP)
 lock:
 	@[ -x .venv-lock/bin/uv ] || $(PYTHON) -m venv .venv-lock
 	@.venv-lock/bin/python -m pip --disable-pip-version-check -qq install uv==$(UV_VERSION)
-	$(LOCK) --extra test --extra dev --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra app --extra notebook \
-	    requirements/build.in requirements/compas.in pyproject.toml -o requirements/base.lock > /dev/null
+	$(LOCK) --extra test --extra dev --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra notebook \
+	    $(OF_PACKAGES) requirements/build.in requirements/compas.in pyproject.toml -o requirements/base.lock > /dev/null
 	$(LOCK) --extra docs -c requirements/base.lock pyproject.toml -o requirements/docs.lock > /dev/null
 	.venv-lock/bin/uv pip compile -q --python-version 3.11 --resolution lowest-direct --generate-hashes \
 	    --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
-	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra app --extra notebook \
-	    requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
+	    --extra test --extra seismology --extra video --extra parquet --extra cluster --extra exchange --extra spreadsheet --extra notebook \
+	    $(OF_PACKAGES) requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
 	$(LOCK) --no-deps requirements/peers.in -o requirements/peers.lock > /dev/null
-	$(LOCK) --extra gpu -c requirements/base.lock pyproject.toml -o requirements/gpu.lock > /dev/null
+	$(LOCK) -c requirements/base.lock --no-emit-package stylobate $(OF_GPU) -o requirements/gpu.lock > /dev/null
 	$(LOCK) --no-deps -c requirements/base.lock requirements/ptx.in -o requirements/ptx.lock > /dev/null
 	@! grep -n -e '://' -e '^ *--\(extra-\)\?index' -e '--find-links' requirements/*.lock || \
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }
 
 clean:
-	rm -rf .venv .venv-lock .venv-pythons .venv-peers .venv-ptx src/stylobate/kernels/gpu/built build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
-	find src studies compas tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
+	rm -rf .venv .venv-lock .venv-pythons .venv-peers .venv-ptx packages/stylobate-gpu/src/stylobate_gpu/built build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	find src packages studies compas tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

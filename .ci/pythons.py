@@ -46,7 +46,8 @@ def environment(name: str, python: Path, lock: Path) -> Path:
         run([python, "-m", "venv", folder])
         pip = [inside, "-m", "pip", "--disable-pip-version-check", "-qq", "install"]
         run([*pip, "--require-hashes", "-r", lock])
-        beside = [part for folder in ("studies", "compas") for part in ("-e", ROOT / folder)]
+        folders = [one.parent for one in (*ROOT.glob("packages/*/pyproject.toml"), *ROOT.glob("*/pyproject.toml"))]
+        beside = [part for folder in folders for part in ("-e", folder)]
         run([*pip, "--no-deps", "--no-build-isolation", "-e", ROOT, *beside])
         made.write_text(lock.read_text())
     return inside

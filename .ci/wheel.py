@@ -1,4 +1,4 @@
-"""The wheel alone, without the studies: installed into a bare environment, imported without POSIX, put to work."""
+"""The core's wheel alone: in a bare environment, imported without POSIX, put to work; then the packages with it."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ import tempfile
 import venv
 from pathlib import Path
 
-from stylobate.kernels.gpu.kinds import kinds, missing
+from stylobate.added import PACKAGES
+from stylobate_gpu.kinds import kinds, missing
 
 ROOT = Path(__file__).resolve().parents[1]
 
 #: Modules that Windows does not have: the package may use them where they are, not need them.
 POSIX = ("fcntl", "resource", "pwd", "grp", "termios", "tty", "pty", "syslog", "posix_ipc")
 
-#: What only an extra brings: the page is imported when it is asked for.
-EXTRAS = ("starlette", "uvicorn")
+#: Packages beside the core as they are imported, but for stylobate_compas: not every machine has wheels for what it needs.
+BESIDE = [path.name for path in sorted(ROOT.glob("packages/*/src/*")) if (path / "__init__.py").is_file()]
 
 IMPORT = f"""
 import importlib.util, pkgutil, sys
@@ -34,17 +35,26 @@ for module in pkgutil.walk_packages(stylobate.__path__, "stylobate."):
     try:
         importlib.import_module(module.name)
     except ImportError as error:
-        if error.name is None or error.name.split(".")[0] not in {EXTRAS}:
-            failed.append(f"{{module.name}}: {{error}}")
+        failed.append(f"{{module.name}}: {{error}}")
 for name in stylobate.__all__:
     getattr(stylobate, name)
 assert not failed, failed
-assert importlib.util.find_spec("stylobate_studies") is None
+for name in {BESIDE}:
+    assert importlib.util.find_spec(name) is None, name
+"""
+
+#: Every module of the packages.
+PACKAGES_IMPORT = f"""
+import importlib, pkgutil
+for name in {BESIDE}:
+    for module in pkgutil.walk_packages(importlib.import_module(name).__path__, f"{{name}}."):
+        importlib.import_module(module.name)
 """
 
 
 def main() -> int:
-    (wheel,) = (ROOT / "dist").glob("*.whl")
+    (wheel,) = (ROOT / "dist").glob("stylobate-*.whl")
+    others = [path for path in (ROOT / "dist").glob("*.whl") if path != wheel and "compas" not in path.name]
     with tempfile.TemporaryDirectory() as text:
         folder = Path(text)
         venv.create(folder / "env", with_pip=True)
@@ -59,15 +69,14 @@ def main() -> int:
 
         run(python, "-m", "pip", "--disable-pip-version-check", "-qq", "install", "-c", constraints, wheel)
         run(python, "-c", IMPORT)
-        built = set(kinds()) - set(missing())  # here; the wheel must carry them
-        run(python, "-c", f"from stylobate.kernels.gpu.kinds import missing; assert not {built!r} & set(missing())")
         run(command, "--help")
-        for name in ("reproduce", "experiments", "bench"):
-            done = subprocess.run(
-                [command, name], capture_output=True, text=True, cwd=folder, env=environment, check=False
-            )
-            assert done.returncode == 2, done
-            assert "stylobate-studies" in done.stderr, done.stderr
+        for package in PACKAGES:
+            for name in package.commands:
+                done = subprocess.run(
+                    [command, name], capture_output=True, text=True, cwd=folder, env=environment, check=False
+                )
+                assert done.returncode == 2, done
+                assert package.name in done.stderr, done.stderr
         run(command, "columns")
         run(command, "motion", "--samples")
         run(
@@ -83,13 +92,21 @@ def main() -> int:
         )
         assert any((folder / "run").iterdir())
         shutil.rmtree(folder / "run")
-    print(f"{wheel.name} works alone")
+        run(python, "-m", "pip", "--disable-pip-version-check", "-qq", "install", "-c", constraints, *others)
+        run(python, "-c", PACKAGES_IMPORT)
+        built = set(kinds()) - set(missing())  # here; the wheel must carry them
+        run(python, "-c", f"from stylobate_gpu.kinds import missing; assert not {built!r} & set(missing())")
+        for package in PACKAGES:
+            for name in package.commands:
+                run(command, name, "--help")
+    print(f"{wheel.name} works alone, and {len(others)} packages with it")
     return 0
 
 
 def pinned(folder: Path) -> Path:
     """The locked versions as constraints, without digests: only what the wheel itself asks for is installed."""
-    lines = (ROOT / "requirements" / "base.lock").read_text(encoding="utf-8").splitlines()
+    locks = [ROOT / "requirements" / name for name in ("base.lock", "gpu.lock")]
+    lines = dict.fromkeys(line for lock in locks for line in lock.read_text(encoding="utf-8").splitlines())
     path = folder / "constraints.txt"
     path.write_text("".join(line.rstrip(" \\") + "\n" for line in lines if line[:1].isalnum()), encoding="utf-8")
     return path

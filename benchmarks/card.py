@@ -34,15 +34,15 @@ import stylobate as st
 from stylobate.atomic import replacing
 from stylobate.column import Column, preset
 from stylobate.column.files import write_column
-from stylobate.kernels.gpu import card as records
-from stylobate.kernels.gpu import driver, kinds
-from stylobate.kernels.jit import source_digest
 from stylobate.kernels.run_codes import CHUNK, RUNNING
+from stylobate.kernels.sources import source_digest
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.drums import card as lanes
-from stylobate.models.drums import card_check
 from stylobate.motion.writing import write_csv
 from stylobate.simulate import thread_count
+from stylobate_gpu import card as records
+from stylobate_gpu import card_check, driver, kinds
+from stylobate_gpu import lanes as lanes
+from stylobate_gpu.device import kernel_for
 
 ROOT = Path(__file__).parents[1]
 
@@ -192,7 +192,7 @@ def measure_kernels(keep: Keep) -> None:
     for where in RUNS:
         column, model = twelve_drums(where)
         kind, options = model.kind(column), RunOptions()
-        name, device = model.card_kernel(kind), driver.the_card()
+        name, device = kernel_for(model, kind), driver.the_card()
         many = lanes.CardLanes(device, name, partial(model.block_for, kind, options), 10**9, Lock())
         for lane, motion in enumerate(shakings(many.lanes)):
             many.load(lane, Case(column, motion))
@@ -238,7 +238,18 @@ def measure_cores(each: dict[str, int], keep: Keep) -> None:
 
 def measure_tests(keep: Keep) -> None:
     """The tests that need a card."""
-    command = [sys.executable, "-m", "pytest", "-n", "0", "-m", "gpu", "-v", "-rs", "tests/agreement/test_on_card.py"]
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-n",
+        "0",
+        "-m",
+        "gpu",
+        "-v",
+        "-rs",
+        "packages/stylobate-gpu/tests/agreement/test_on_card.py",
+    ]
     with subprocess.Popen(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as running:
         told: list[str] = []
         for line in running.stdout or ():

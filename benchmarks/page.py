@@ -10,8 +10,10 @@ from pathlib import Path
 from statistics import median
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "packages" / "stylobate-page" / "tests"))
 
-from page_server import REAL, browser, served
+from chromium import browser
+from page_server import REAL, served
 from playwright.sync_api import Page, sync_playwright
 
 #: Looks at the page: when something was asked for, when its film was painted, and the times between frames.

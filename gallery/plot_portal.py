@@ -31,14 +31,14 @@ portal = st.Assembly(blocks, st.Joint(5e10, 2.5e10, friction_angle=35.0), name="
 
 for amplitude in (0.19, 0.21):
     push = st.rectangular_pulse(1.0, amplitude * st.g, duration=1.5)
-    moved = st.simulate_assembly(portal, push).summary()["peak_displacement_m"]
+    moved = st.simulate(portal, push, st.DistinctElement2D()).summary()["peak_displacement_m"]
     print(f"{amplitude} g: moves by {1000 * moved:.1f} mm")
 
 # %%
 # And until it lies on the ground, under a sine of 0.7 Hz and 0.4 g.
 
 shaking = st.harmonic(0.7, 0.4 * st.g, duration=6.0)
-response = st.simulate_assembly(portal, shaking, until_rest=True)
+response = st.simulate(portal, shaking, st.DistinctElement2D(), until_rest=True)
 print("fallen:", ", ".join(response.fallen))
 
 figure, panels = plt.subplots(1, 5, figsize=(9.0, 1.8), layout="constrained")

@@ -10,9 +10,12 @@ import stylobate
 #: Rooms that a reader of the reference enters; kernels and commands have pages of their own.
 ROOMS = [
     *("column", "motion", "models", "simulate", "response"),
-    *("campaign", "analysis", "plots", "report", "bibliography"),
+    *("campaign", "analysis", "plots", "bibliography"),
     *("outcome", "errors", "constants"),
 ]
+
+#: Packages beside the core that a reader of the reference enters.
+BESIDE = ["stylobate_report", "stylobate_ruins", "stylobate_studies.calibration"]
 
 #: A cross-reference in a docstring.
 ROLE = re.compile(r":\w+:(`[^`]+`)")
@@ -20,16 +23,18 @@ ROLE = re.compile(r":\w+:(`[^`]+`)")
 
 def texts(out):
     """The pages of the rooms and the table."""
-    return [(out / f"{room}.md", page(room)) for room in ROOMS] + [(out / "public.txt", public())]
+    rooms = [(room, f"stylobate.{room}") for room in ROOMS] + [(name, name) for name in BESIDE]
+    return [(out / f"{room}.md", page(name)) for room, name in rooms] + [(out / "public.txt", public())]
 
 
 def page(room):
-    """All modules of a room, each with its public members."""
-    package = importlib.import_module(f"stylobate.{room}")
+    """All modules of a room or a package but its commands, each with its public members."""
+    package = importlib.import_module(room)
     names = [package.__name__]
     if hasattr(package, "__path__"):
         names = [one.name for one in pkgutil.walk_packages(package.__path__, f"{package.__name__}.") if not one.ispkg]
-    parts = [f"# `stylobate.{room}`\n"]
+        names = [name for name in names if ".commands." not in name]
+    parts = [f"# `{room}`\n"]
     if len(names) > 1:
         parts.append(f"{first_line(package)}\n")
     for name in names:

@@ -1,7 +1,6 @@
 """The public names of the package: the one list of them, for the lazy loader and for type checkers."""
 
 from . import plots as plots
-from .analysis.calibrate import calibrate as calibrate
 from .analysis.certainty import certainty as certainty
 from .analysis.compare import compare_models as compare_models
 from .analysis.critical import critical_amplitude as critical_amplitude
@@ -11,9 +10,10 @@ from .analysis.evidence import evidence as evidence
 from .analysis.fragility import fragility as fragility
 from .analysis.hazard import read_hazard as read_hazard
 from .analysis.ida import ida as ida
-from .analysis.infer import infer as infer
 from .analysis.limit import limit_analysis as limit_analysis
 from .analysis.limit_directions import limit_directions as limit_directions
+from .analysis.measured_frequencies import joints_from_frequencies as joints_from_frequencies
+from .analysis.modes import modes as modes
 from .analysis.other_laws import other_laws as other_laws
 from .analysis.pushover import pushover as pushover
 from .analysis.record_selection import select_records as select_records
@@ -25,16 +25,9 @@ from .analysis.sequence import sequence as sequence
 from .analysis.states import compare_states as compare_states
 from .analysis.studies import run_study as run_study
 from .analysis.suite import suite_table as suite_table
-from .analysis.survival import survival as survival
 from .analysis.target_spectra import target_spectrum as target_spectrum
-from .analysis.weighing import weigh as weigh
 from .campaign.campaign import Campaign as Campaign
 from .campaign.cases import Study as Study
-from .campaign.outlasted import Outlasted as Outlasted
-from .campaign.prior import Prior as Prior
-from .campaign.ruin import Observed as Observed
-from .campaign.ruin import Ruin as Ruin
-from .campaign.ruin_files import read_ruin as read_ruin
 from .column import AsFound as AsFound
 from .column import Column as Column
 from .column import Drum as Drum
@@ -75,8 +68,6 @@ from .motion import MotionRequest as MotionRequest
 from .motion import harmonic as harmonic
 from .motion import pulses as pulses
 from .motion import stochastic_motion as stochastic_motion
-from .motion.free_history import FreeHistory as FreeHistory
-from .motion.free_history import read_free_history as read_free_history
 from .motion.pulses import cosine_pulse as cosine_pulse
 from .motion.pulses import gabor as gabor
 from .motion.pulses import half_sine_pulse as half_sine_pulse
@@ -92,9 +83,7 @@ from .outcome import Outcome as Outcome
 from .plots.inline import Film as Film
 from .response import Response as Response
 from .response import load_response as load_response
-from .results.site_files import read_sites as read_sites
 from .simulate import simulate as simulate
-from .simulate import simulate_assembly as simulate_assembly
 from .simulate import simulate_many as simulate_many
 
 __version__: str

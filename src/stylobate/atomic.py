@@ -157,3 +157,14 @@ def _is_running(process: int) -> bool:
     except OSError:
         return True
     return True
+
+
+def refuse_existing(path: Path) -> None:
+    """Refuse to write where something is.
+
+    Raises
+    ------
+    InputError
+    """
+    if path.exists() or path.is_symlink():
+        raise InputError(f"{path} is there already; choose another name.", "to")

@@ -14,7 +14,7 @@ import numpy as np
 
 from .column.structure import Structure
 from .errors import InputError, check_all, check_choice, check_kind, check_range
-from .kernels.gpu import driver
+from .models import devices
 from .models.base import Case, Cases, Model, RunOptions, duration
 from .models.shared.quiet import expected_length, share_of
 from .models.start import Start, Toss
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     import pandas
 
     from .column import Column
-    from .column.assembly import Assembly
 
 
 def simulate(
@@ -62,8 +61,8 @@ def simulate(
     until_end : bool
         Go on after the collapse is certain.
     until_rest : bool
-        Go on until everything lies still, on the ground if need be (``DistinctElement2D``, and ``DistinctElement3D`` with
-        assemblies; others refuse).
+        Go on until everything lies still, on the ground if need be (``DistinctElement2D`` and ``DistinctElement3D``; others
+        refuse). In space a column is an assembly of its drums then, and so is the structure of the response.
     until_decided : bool
         Go on after motion and tail, a minute at most: columns of models that step drums as long as they move and their
         verdict could change, assemblies as long as nothing has fallen and not all lies still. Commands and campaigns do.
@@ -95,6 +94,8 @@ def simulate(
     check_kind("progress", progress, Callable, optional=True)
     check_kind("start", start, (Start, Toss), optional=True)
     twins = check_all("twins", twins, Structure)
+    if until_rest:
+        column = model.as_followed(column)
     share = share_of(motion) if quiet is None else quiet
     cut = share if column.moving_acceleration is not None else 0.0  # nobody knows what is quiet for anything else
     following = run_options(tail, output_interval, until_end, until_rest, cut, until_decided)
@@ -113,39 +114,7 @@ def simulate(
     return response.with_provenance(provenance, wall)
 
 
-def simulate_assembly(
-    assembly: Assembly,
-    motion: Motion,
-    model: Model | None = None,
-    *,
-    tail: float = 0.0,
-    output_interval: float = 0.01,
-    until_rest: bool = False,
-    progress: Callable[[float, float], None] | None = None,
-) -> Response:
-    """Shake any set of blocks once and record what happens.
-
-    Parameters
-    ----------
-    assembly : Assembly
-    motion : Motion
-    model : Model, optional
-        ``DistinctElement2D``, the only one for assemblies.
-    tail, output_interval, until_rest, progress
-        As in :func:`simulate`.
-
-    Raises
-    ------
-    InputError
-        The input cannot be used, or the model is for columns only.
-    """
-    from .models.dem2d.model import DistinctElement2D
-
-    options = {"tail": tail, "output_interval": output_interval, "until_rest": until_rest, "progress": progress}
-    return simulate(assembly, motion, DistinctElement2D() if model is None else model, **options)
-
-
-def simulate_iter(
+def run_cases(
     cases: Sequence[Case],
     model: Model,
     *,
@@ -186,11 +155,8 @@ def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> Non
             f"{model.name} starts from rest; leave start out, or use dem2d or dem3d (DistinctElement2D, 3D)."
         )
     for column, motion in _to_check(cases):
-        if options.until_rest and not model.follows(column):
-            raise InputError(
-                f"`until_rest` is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or "
-                "leave it off: `tail` and `until_end` are for every model."
-            )
+        if options.until_rest:
+            model.as_followed(column)
         model.check(column, motion)
         model.check_length(column, motion, options)
 
@@ -198,7 +164,7 @@ def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> Non
 def run_checked(
     cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None = None
 ) -> Generator[tuple[int, Measures], None, None]:
-    """Run cases that :func:`check_cases` has let pass; yields as :func:`simulate_iter` does."""
+    """Run cases that :func:`check_cases` has let pass; yields as :func:`run_cases` does."""
     count = thread_count(threads)
     _tell_wait(cases, model, options, count)
     yield from model.run_many(cases, options, count)
@@ -217,7 +183,7 @@ def run_on_card(
         It computes otherwise than the processor, or has failed on the way.
     """
     finished = left = 0
-    for index, measures in model.run_on_card(driver.the_card(), cases, options, thread_count(threads)):
+    for index, measures in model.run_on_card(devices.gpu(), cases, options, thread_count(threads)):
         finished += 1
         left += measures.computed_by == CPU
         yield index, measures
@@ -253,7 +219,7 @@ def simulate_many(
     threads : int, optional
         All cores by default.
     device : {"cpu", "gpu"}
-        As in :func:`simulate_iter`; the column ``computed_by`` says what computed a run.
+        As in :func:`run_cases`; the column ``computed_by`` says what computed a run.
 
     Returns
     -------
@@ -275,7 +241,7 @@ def simulate_many(
     for share in sorted(set(shares)):
         numbers = [number for number, one in enumerate(shares) if one == share]
         cases = Cases(len(numbers), lambda k, numbers=numbers: Case(columns[numbers[k]], motions[numbers[k]]))
-        for index, measures in simulate_iter(cases, model, quiet=share, **options):
+        for index, measures in run_cases(cases, model, quiet=share, **options):
             rows[numbers[index]] = measures.row()
     wall = (time.perf_counter() - started) / len(columns)
     return rows.table().assign(wall_s=wall, model=model.name, version=__version__)

@@ -9,7 +9,7 @@ import stylobate as st
 from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.plane.assemblies import AFTER_THE_FALL, follow
-from stylobate.simulate import simulate_assembly, simulate_iter
+from stylobate.simulate import run_cases, simulate
 
 JOINT = st.Joint(1e8, 5e7, friction_angle=35.0)
 MODEL = st.DistinctElement2D()
@@ -28,7 +28,7 @@ PORTAL = st.Assembly(
 
 
 def batch(motions, model=MODEL, **options):
-    found = dict(simulate_iter([Case(PORTAL, motion) for motion in motions], model, threads=1, **options))
+    found = dict(run_cases([Case(PORTAL, motion) for motion in motions], model, threads=1, **options))
     return [found[i] for i in range(len(motions))]
 
 
@@ -38,7 +38,7 @@ def test_without_histories_a_run_has_the_same_measures(losses):
     model = st.DistinctElement2D(losses=losses)
     motions = [st.harmonic(1.0, size * st.g, 2.0) for size in (0.05, 0.25)]
     for one, motion in zip(batch(motions, model), motions, strict=True):
-        alone = simulate_assembly(PORTAL, motion, model).measures
+        alone = simulate(PORTAL, motion, model).measures
         assert not alone.collapsed
         assert one == alone
 
@@ -72,7 +72,7 @@ def test_a_run_of_a_batch_ends_after_the_fall():
     motion = st.Motion(0.01, push)
     [one] = batch([motion])
     [whole] = batch([motion], until_end=True)
-    alone = simulate_assembly(PORTAL, motion, MODEL).measures
+    alone = simulate(PORTAL, motion, MODEL).measures
     assert whole == alone
     assert one.collapsed
     for name in ("outcome", "decided", "collapse_time", "peak_rotation", "peak_joint_opening", "time_step"):

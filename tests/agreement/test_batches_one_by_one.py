@@ -14,7 +14,7 @@ from stylobate.errors import OutOfRangeWarning
 from stylobate.models.base import Case
 from stylobate.models.plane.columns import ColumnLanes
 from stylobate.models.shared.lanes import LONGEST_CALL, MOST_ALONE, WINDOW, run_alike, run_lanes
-from stylobate.simulate import simulate_iter
+from stylobate.simulate import run_cases
 
 JOINT = st.Joint(5e9, 2.5e9, friction_angle=35.0)
 
@@ -153,8 +153,8 @@ BLOCK = column(1)
 @pytest.mark.parametrize("model", [st.HousnerBlock(), st.RigidBeam(), st.DistinctElement2D()], ids=lambda one: one.name)
 def test_models_take_sequences_that_make_their_cases(model):
     cases = Kept(40)
-    lazily = dict(simulate_iter(cases, model, threads=2))
-    listed = dict(simulate_iter(list(cases), model, threads=1))
+    lazily = dict(run_cases(cases, model, threads=2))
+    listed = dict(run_cases(list(cases), model, threads=1))
     assert {k: one.row() for k, one in lazily.items()} == {k: one.row() for k, one in listed.items()}
     assert sorted(lazily) == list(range(40))
 
@@ -164,8 +164,8 @@ def test_of_runs_that_end_together_each_has_its_own_measures_or_its_own_error(mo
     stone, time = column(), np.arange(0.0, 0.5, 0.01)
     motions = [st.Motion(0.01, size * np.sin(9.0 * time)) for size in np.linspace(0.1, 4.0, 8)]
     cases, model = [Case(stone, motion) for motion in motions], st.DistinctElement2D()
-    alone = [dict(simulate_iter([case], model, threads=1))[0] for case in cases]
-    assert dict(simulate_iter(cases, model, threads=1)) == dict(enumerate(alone))
+    alone = [dict(run_cases([case], model, threads=1))[0] for case in cases]
+    assert dict(run_cases(cases, model, threads=1)) == dict(enumerate(alone))
     stay = ColumnLanes.stay
 
     def odd(block, lanes, *given):
@@ -174,7 +174,7 @@ def test_of_runs_that_end_together_each_has_its_own_measures_or_its_own_error(mo
         return stay(block, lanes, *given)
 
     monkeypatch.setattr(ColumnLanes, "stay", odd)
-    found = dict(simulate_iter(cases, model, threads=1))
+    found = dict(run_cases(cases, model, threads=1))
     assert found.pop(3).reason == "this one is odd"
     assert found == {number: measures for number, measures in enumerate(alone) if number != 3}
 

@@ -31,7 +31,7 @@ from stylobate.campaign.stream import Stream
 from stylobate.cli.main import call
 from stylobate.models.base import Case, Cases, RunOptions
 from stylobate.motion.request import MotionRequest
-from stylobate.simulate import simulate_iter
+from stylobate.simulate import run_cases
 
 COLUMN = st.preset("paper-monolithic")
 POISON = dataclasses.replace(COLUMN, name="poison")
@@ -60,7 +60,7 @@ def test_rows_are_those_of_threads_to_the_bit(cluster, tmp_path):
         Request.of(cases, Hasher(st.DistinctElement2D(), RunOptions()), 0.1),
         st.Campaign(ledger=tmp_path / "runs.sqlite"),
     )
-    by_threads = {number: one.row() for number, one in simulate_iter(cases, st.DistinctElement2D(), quiet=0.1)}
+    by_threads = {number: one.row() for number, one in run_cases(cases, st.DistinctElement2D(), quiet=0.1)}
     assert list(map(repr, on_workers)) == [repr(by_threads[number]) for number in range(60)]
 
 

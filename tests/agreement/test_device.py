@@ -11,7 +11,7 @@ import pytest
 import stylobate as st
 from stylobate.campaign.campaign import Campaign
 from stylobate.cli.main import call
-from stylobate.kernels.gpu import driver
+from stylobate.models import devices
 from stylobate.models.drums.stepped import SteppedDrums
 
 COLUMN = st.preset("paper-monolithic")
@@ -31,7 +31,7 @@ def card(monkeypatch):
             by = "gpu (a card)" if on_card[index] else "cpu"
             yield index, dataclasses.replace(measures, computed_by=by)
 
-    monkeypatch.setattr(driver, "the_card", lambda: "the card")
+    monkeypatch.setattr(devices, "gpu", lambda: "the card")
     monkeypatch.setattr(SteppedDrums, "run_on_card", run)
     monkeypatch.setattr(SteppedDrums, "on_card", lambda model, device, column: not column.links)
     return made
@@ -106,7 +106,7 @@ def test_the_card_is_asked_for_before_anything_is_made(tmp_path, monkeypatch, ca
     def none():
         raise st.InputError("`device` is gpu, and no NVIDIA card is found.", "device")
 
-    monkeypatch.setattr(driver, "the_card", none)
+    monkeypatch.setattr(devices, "gpu", none)
     out = tmp_path / "out"
     options = ["--model", "dem2d", "--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2", "--out", str(out)]
     assert call(["domain", "paper-monolithic", *options, "--device", "gpu"]) == 2

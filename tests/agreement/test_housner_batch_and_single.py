@@ -18,7 +18,7 @@ from stylobate.models.rocking.lanes import RockingLanes
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
-from stylobate.simulate import simulate, simulate_iter, simulate_many
+from stylobate.simulate import run_cases, simulate, simulate_many
 
 COLUMN = preset("paper-monolithic")
 JOINT = Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_coefficient=0.7)
@@ -64,11 +64,11 @@ def mixed_cases() -> list[Case]:
 def test_same_bits_for_any_order_and_number_of_threads():
     cases = mixed_cases()
     model = HousnerBlock()
-    reference = dict(simulate_iter(cases, model, threads=1))
+    reference = dict(run_cases(cases, model, threads=1))
     assert len({str(m.outcome) for m in reference.values()}) >= 2
-    threaded = dict(simulate_iter(cases, model, threads=2))
+    threaded = dict(run_cases(cases, model, threads=2))
     order = np.random.default_rng(1).permutation(len(cases))
-    shuffled = {order[i]: m for i, m in simulate_iter([cases[i] for i in order], model, threads=1)}
+    shuffled = {order[i]: m for i, m in run_cases([cases[i] for i in order], model, threads=1)}
     for index, measures in reference.items():
         expected = repr(measures)
         assert repr(threaded[index]) == expected

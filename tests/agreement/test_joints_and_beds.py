@@ -10,7 +10,7 @@ import stylobate as st
 from stylobate.column.assembly import Assembly, Block
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.plane.loose import Loose
-from stylobate.simulate import simulate_assembly
+from stylobate.simulate import simulate
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 TALL = ((-0.5, 0.0), (0.5, 0.0), (0.5, 2.4), (-0.5, 2.4))
@@ -38,7 +38,8 @@ def slope(degrees):
 def test_a_side_with_corners_in_it_is_one_side():
     push = st.harmonic(1.0, 0.6 * st.g, 2.0)
     whole, split = (
-        simulate_assembly(Assembly((Block(corners, 2000.0, "block"),), JOINT), push) for corners in (TALL, SPLIT)
+        simulate(Assembly((Block(corners, 2000.0, "block"),), JOINT), push, DistinctElement2D())
+        for corners in (TALL, SPLIT)
     )
     assert len(split.assembly.blocks[0].vertices) == 4
     assert np.abs(whole.rotation).max() > 0.01
@@ -48,7 +49,7 @@ def test_a_side_with_corners_in_it_is_one_side():
 def test_a_worn_edge_does_not_sink_in():
     """The joint of the face hands over before the worn edge comes down on the ground."""
     push = st.harmonic(0.7, 0.4 * st.g, 3.0)
-    response = simulate_assembly(Assembly((Block(WORN, 2000.0, "block"),), JOINT), push)
+    response = simulate(Assembly((Block(WORN, 2000.0, "block"),), JOINT), push, DistinctElement2D())
     assert str(response.outcome) != "failed"
     assert np.abs(response.rotation).max() > math.radians(22.0)
     lowest = min(response.outline(i, 1)[:, 1].min() for i in range(len(response.time)))
@@ -65,7 +66,7 @@ def test_a_polygon_rolls_on_its_faces(sides, degrees):
     polygon[:, 1] -= polygon[:, 1].min()
     blocks = (slope(degrees), Block(turned(polygon, degrees), 2000.0, "polygon"))
     with pytest.warns(st.OutOfRangeWarning, match="not in equilibrium"):
-        response = simulate_assembly(Assembly(blocks, JOINT, ground=None), still(1.0))
+        response = simulate(Assembly(blocks, JOINT, ground=None), still(1.0), DistinctElement2D())
     assert str(response.outcome) != "failed"
     assert abs(response.rotation[-1, 1]) > 4.0 * math.pi / sides  # over two of its faces at least
     level = np.array([turned(response.outline(i, 1), -degrees) for i in range(len(response.time))])
@@ -84,7 +85,7 @@ def test_the_law_between_two_blocks_holds_for_joint_and_bed(gap):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", st.OutOfRangeWarning)  # it slides from the start, or touches nothing yet
         assembly = Assembly(blocks, JOINT, ground=None, overrides=(("slope", "box", slippery),))
-        response = simulate_assembly(assembly, still(duration), DistinctElement2D(stiffness_damping=1e-5))
+        response = simulate(assembly, still(duration), DistinctElement2D(stiffness_damping=1e-5))
     angle = math.radians(10.0)
     expected = 0.5 * st.g * (math.sin(angle) - 0.02 * math.cos(angle)) * duration**2
     way = math.hypot(response.x[-1, 1] - response.x[0, 1], response.z[-1, 1] - response.z[0, 1])
@@ -110,5 +111,5 @@ def test_a_slab_too_soft_for_what_falls_on_it_is_said():
     corner_down = tuple((x, z + 6.0) for x, z in turned(((-0.75, 0.0), (0.75, 0.0), (0.75, 1.5), (-0.75, 1.5)), 45.0))
     heavy = Block(corner_down, 2500.0, "heavy")
     with pytest.warns(st.OutOfRangeWarning, match="'slab' is 20 mm thick"):
-        response = simulate_assembly(Assembly((slab, heavy), soft), still(1.5), DistinctElement2D(restitution=0.3))
+        response = simulate(Assembly((slab, heavy), soft), still(1.5), DistinctElement2D(restitution=0.3))
     assert response.provenance["deepest_penetration_m"] > 0.004

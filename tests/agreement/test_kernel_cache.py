@@ -1,4 +1,4 @@
-"""Compiled kernels are kept by the digest of their sources: an edit anywhere in the folder asks for new code."""
+"""Compiled kernels are found by what they are compiled from and for: an edit of what they call asks for new code."""
 
 import json
 import os
@@ -8,8 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import stylobate
-from stylobate.kernels import jit
+from stylobate.kernels import cache, jit, levels, sources
 
 KERNELS = Path(stylobate.__file__).parent / "kernels"
 
@@ -22,19 +24,61 @@ print(total(3))
 """
 
 
+#: What a package of kernels of one's own needs of the package's.
+MACHINERY = ("jit.py", "cache.py", "known_branches.py", "levels.py", "numba_patches.py", "sources.py")
+
+
 def test_digest_changes_with_any_kernel_file(tmp_path):
     copy = tmp_path / "kernels"
     shutil.copytree(KERNELS, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    before = jit.source_digest(copy)
-    assert before == jit.source_digest(KERNELS)
+    before = sources.source_digest(copy)
+    assert before == sources.source_digest(KERNELS) == jit.source_digest()
     for name in ("plane/contact.py", "jit.py"):
         path = copy / name
         text = path.read_text(encoding="utf-8")
         path.write_text(text + "\n# another law\n", encoding="utf-8")
-        assert jit.source_digest(copy) != before
+        assert sources.source_digest(copy) != before
         path.write_text(text, encoding="utf-8")
-    assert jit.source_digest(copy) == before
-    assert jit.cache_folder(copy).name == before
+    assert sources.source_digest(copy) == before
+
+
+def digests(root: Path) -> dict[str, str]:
+    """Digests of what modules are compiled from, without those that this process has made before."""
+    sources._imported.cache_clear()
+    return {name: sources.module_digest.__wrapped__(name, root) for name in ("plane.step", "dem3d.step", "space.step")}
+
+
+@pytest.mark.parametrize(
+    ("edited", "changed"),
+    [
+        ("plane/step.py", {"plane.step"}),
+        ("dem3d/step.py", {"dem3d.step"}),
+        ("space/bed.py", {"space.step"}),
+        ("dem3d/links.py", {"dem3d.step", "space.step"}),
+        ("shared/links.py", {"plane.step", "dem3d.step", "space.step"}),
+        ("run_codes.py", {"plane.step", "dem3d.step", "space.step"}),
+        ("numba_patches.py", {"plane.step", "dem3d.step", "space.step"}),
+        ("rocking/step.py", set()),
+    ],
+)
+def test_an_edit_asks_for_new_code_of_what_is_compiled_from_it(tmp_path, edited, changed):
+    copy = tmp_path / "kernels"
+    shutil.copytree(KERNELS, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    before = digests(copy)
+    assert before == digests(KERNELS)  # wherever it is
+    path = copy / edited
+    path.write_text(path.read_text(encoding="utf-8") + "\n# another law\n", encoding="utf-8")
+    after = digests(copy)
+    assert {name for name in before if before[name] != after[name]} == changed
+
+
+def test_what_a_module_is_compiled_from_is_all_that_python_imports_for_it():
+    # The compiler takes laws from modules; those that importing plane.step loads are those whose text is in its digest.
+    script = "import sys; import stylobate.kernels.plane.step; print(*sorted(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    prefix = "stylobate.kernels."
+    loaded = {name.removeprefix(prefix) for name in done.stdout.split() if name.startswith(prefix)}
+    assert loaded <= sources.modules_of("plane.step", KERNELS)
 
 
 def trial(tmp_path):
@@ -42,7 +86,8 @@ def trial(tmp_path):
     package.mkdir(parents=True)
     (package.parent / "__init__.py").write_text("", encoding="utf-8")
     (package / "__init__.py").write_text("", encoding="utf-8")
-    (package / "jit.py").write_text((KERNELS / "jit.py").read_text(encoding="utf-8"), encoding="utf-8")
+    for name in MACHINERY:
+        shutil.copy(KERNELS / name, package / name)
     (package / "loop.py").write_text(
         "from .jit import kernel\nfrom .rule import rule\n\n"
         "@kernel\ndef total(n):\n    out = 0\n    for i in range(n):\n        out += rule(i)\n    return out\n",
@@ -65,7 +110,9 @@ def test_an_edited_law_is_used_by_a_cached_loop(tmp_path, monkeypatch):
     assert total(1) == 3
     assert total(1) == 3
     assert total(10) == 30
-    assert len(list((tmp_path / "cache" / "kernels").iterdir())) == 2
+    assert len(list((tmp_path / "cache" / "kernels").rglob("loop.total-*"))) == 2
+    assert total(1) == 3
+    assert len(list((tmp_path / "cache" / "kernels").rglob("loop.total-*"))) == 2
 
 
 #: A kernel too long to be written into the loop that calls it, and whose copies the code of that loop has.
@@ -165,7 +212,7 @@ def start():
         return [loop.total(3), sorted({{str(one.message)[-33:] for one in said}})]
 
 found = [["first", "", loop.total(3), []]]
-for path in sorted(Path({cache!r}).rglob("*.nb[ic]")):
+for path in sorted(Path({cache!r}).rglob("*.kernel")):
     sound = path.read_bytes()
     for name, damage in DAMAGES.items():
         path.write_bytes(damage(sound))
@@ -183,23 +230,76 @@ def test_damaged_compiled_code_is_made_anew_with_a_warning(tmp_path, monkeypatch
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     first, *found = json.loads(done.stdout)
-    assert len(found) == 2 * 2 * len(DAMAGES)
+    assert len(found) == 2 * len(DAMAGES)
     assert {total for _, _, total, _ in (first, *found)} == {21}
     for suffix, name, _, said in found:
         expected = [] if name.startswith("after") else ["was damaged and is compiled anew."]
         assert said == expected, (suffix, name)
 
 
-def test_a_half_written_file_that_another_process_ends_meanwhile_is_nothing_to_warn_of(tmp_path):
-    # Listed and gone: a link to nothing. One of an hour ago, of a process that was killed, is taken away.
-    listed, abandoned = (tmp_path / f"loop.total.nbc.tmp.{one}" for one in ("listed", "abandoned"))
-    listed.symlink_to(tmp_path / "gone")
-    abandoned.write_bytes(b"half")
-    os.utime(abandoned, (0, 0))
-    files = jit._CacheFiles(str(tmp_path), "loop.total", (0.0, 0))
-    files.save("key", "code")
-    assert files.load("key") == "code"
-    assert not abandoned.exists()
+def test_code_is_found_by_a_copy_of_the_sources_elsewhere_and_at_another_time(tmp_path, monkeypatch):
+    package, script = trial(tmp_path / "here")
+    (package / "rule.py").write_text(RULE, encoding="utf-8")
+    monkeypatch.setenv("STYLOBATE_CACHE", str(tmp_path / "cache"))
+    subprocess.run([sys.executable, "-c", script], check=True, stdout=subprocess.DEVNULL)
+    before = kept(tmp_path)
+    shutil.copytree(tmp_path / "here", tmp_path / "there")
+    for path in (tmp_path / "there").rglob("*.py"):
+        os.utime(path, (0, 0))
+    there = script.replace(str(tmp_path / "here"), str(tmp_path / "there"))
+    look = f"{there}from trial.kernels import cache\nprint([one[1] for one in cache.read])\n"
+    done = subprocess.run([sys.executable, "-c", look], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["21", "['total']"]
+    assert kept(tmp_path) == before
+    assert not any(str(tmp_path).encode() in path.read_bytes() for path in (tmp_path / "cache").rglob("*.kernel"))
+
+
+def kept(folder):
+    return {path.name: path.stat().st_mtime_ns for path in (folder / "cache").rglob("*.kernel")}
+
+
+def test_shipped_code_is_taken_by_its_level_and_damaged_one_is_not(tmp_path, monkeypatch):
+    package, script = trial(tmp_path)
+    (package / "rule.py").write_text(RULE, encoding="utf-8")
+    monkeypatch.setenv("STYLOBATE_CACHE", str(tmp_path / "cache"))
+    subprocess.run([sys.executable, "-c", script], check=True, stdout=subprocess.DEVNULL)
+    shutil.move(tmp_path / "cache" / "kernels", package / "built")
+
+    def run(**environment):
+        settings = os.environ | environment
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, env=settings)
+        assert done.stdout.strip() == "21"
+        return done.stderr, len(list((tmp_path / "cache").rglob("*.kernel")))
+
+    assert run() == ("", 0)
+    other = next(name for name in (*levels.X86, *levels.ARM) if name != levels.levels_here()[-1])
+    if other in levels.levels_here():
+        assert run(**levels.settings(other)) == ("", 1)  # compiled for the other level
+        shutil.rmtree(tmp_path / "cache")
+    for path in (package / "built").rglob("*.kernel"):
+        path.write_bytes(path.read_bytes()[:-1])
+    said, count = run()
+    assert "was damaged and is compiled anew" in said
+    assert count > 0
+    assert run()[1] == count
+
+
+def test_code_that_cannot_be_kept_is_run_all_the_same(tmp_path, monkeypatch):
+    package, script = trial(tmp_path)
+    (package / "rule.py").write_text(RULE, encoding="utf-8")
+    (tmp_path / "cache").write_text("a file where the folder should be")
+    monkeypatch.setenv("STYLOBATE_CACHE", str(tmp_path / "cache"))
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "21"
+    assert "compiled code cannot be kept" in done.stderr
+
+
+def test_every_reader_finds_its_folder(monkeypatch, tmp_path):
+    monkeypatch.setenv("STYLOBATE_CACHE", str(tmp_path))
+    assert cache.cache_folder() == tmp_path / "kernels"
+    monkeypatch.delenv("STYLOBATE_CACHE")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
+    assert cache.cache_folder() == tmp_path / "xdg" / "stylobate" / "kernels"
 
 
 def test_a_command_says_that_the_cache_was_damaged_and_gives_its_answer(tmp_path):
@@ -215,7 +315,7 @@ def test_a_command_says_that_the_cache_was_damaged_and_gives_its_answer(tmp_path
 
 
 def _after(cache, command, damage):
-    for path in cache.rglob("*.nb[ic]") if damage else ():
+    for path in cache.rglob("*.kernel") if damage else ():
         path.write_bytes(b"")
     environment = os.environ | {"STYLOBATE_CACHE": str(cache)}
     return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)

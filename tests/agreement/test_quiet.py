@@ -16,7 +16,7 @@ from stylobate.models.drums.runs import LaneRuns
 from stylobate.models.shared.quiet import BEFORE, LOOK, QUIET, level, shaking, share_of
 from stylobate.motion import harmonic
 from stylobate.motion.writing import write_csv
-from stylobate.simulate import simulate_iter
+from stylobate.simulate import run_cases
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement2D(stiffness_damping=1e-4), st.DistinctElement3D()]
 SOFT = st.Joint(normal_stiffness=2e9, shear_stiffness=1e9, friction_coefficient=0.7)
@@ -35,7 +35,7 @@ def shocks(*sizes, pause=8.0, last=None):
 
 def rows(motions, model, quiet, column=COLUMN, tail=0.0):
     cases = [Case(column, motion) for motion in motions]
-    found = dict(simulate_iter(cases, model, tail=tail, quiet=quiet, threads=1))
+    found = dict(run_cases(cases, model, tail=tail, quiet=quiet, threads=1))
     return [found[i].row() for i in range(len(cases))]
 
 

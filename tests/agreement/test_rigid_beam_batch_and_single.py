@@ -13,7 +13,7 @@ from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.response import Measures
-from stylobate.simulate import simulate, simulate_iter
+from stylobate.simulate import run_cases, simulate
 
 SOFT = Joint(normal_stiffness=1e9, shear_stiffness=5e8, friction_coefficient=0.7)
 
@@ -38,10 +38,10 @@ def test_same_bits_for_any_order_and_number_of_threads(model):
         motion = shaken((0.15 + 0.01 * k) * g, vertical=k % 5 == 0 and not model.sliding)
         section = "circular" if k % 3 == 0 and not model.sliding else "rectangular"
         cases.append(Case(stack(1 + k % 2, section), motion))
-    reference = dict(simulate_iter(cases, model, threads=1))
-    threaded = dict(simulate_iter(cases, model, threads=2))
+    reference = dict(run_cases(cases, model, threads=1))
+    threaded = dict(run_cases(cases, model, threads=2))
     order = np.random.default_rng(1).permutation(len(cases))
-    shuffled = {order[i]: m for i, m in simulate_iter([cases[i] for i in order], model, threads=1)}
+    shuffled = {order[i]: m for i, m in run_cases([cases[i] for i in order], model, threads=1)}
     for index, measures in reference.items():
         assert repr(threaded[index]) == repr(measures)
         assert repr(shuffled[index]) == repr(measures)
@@ -109,7 +109,7 @@ def test_both_solvers_count_the_same_collapses():
 
     def count(**settings) -> int:
         model = RigidBeam(**settings)
-        return sum(m.collapsed for _, m in simulate_iter(cases, model, threads=1))
+        return sum(m.collapsed for _, m in run_cases(cases, model, threads=1))
 
     fixed = [count(), count(time_step=5e-4), count(time_step=2.5e-4)]
     adaptive = sum(run_adaptive(column, motion, RigidBeam(), output_interval=0.1).collapsed for motion in motions)
@@ -171,7 +171,7 @@ def test_collapse_verdicts_are_never_taken_back():
     column = stack(3)
     motions = [harmonic(f, a * g, 4.0) for f in (0.5, 1.0) for a in np.linspace(0.25, 0.6, 12)]
     found = dict(
-        simulate_iter([Case(column, motion) for motion in motions], RigidBeam(), tail=2.0, until_end=True, threads=1)
+        run_cases([Case(column, motion) for motion in motions], RigidBeam(), tail=2.0, until_end=True, threads=1)
     )
     collapsed = [m for m in found.values() if m.collapsed]
     assert len(collapsed) >= 4

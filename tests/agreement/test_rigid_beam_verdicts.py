@@ -16,7 +16,7 @@ from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion
 from stylobate.outcome import Outcome
-from stylobate.simulate import simulate, simulate_iter
+from stylobate.simulate import run_cases, simulate
 
 ROUGH, SMOOTH = (Joint(5e9, 2.5e9, friction_coefficient=mu) for mu in (0.7, 0.05))
 COLUMN = Column.tapered(
@@ -66,7 +66,7 @@ def test_a_column_that_leaves_the_ground_has_no_verdict(model):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", OutOfRangeWarning)
             single = simulate(ONE, motion, model()).measures
-            batch = dict(simulate_iter([Case(ONE, motion)], model(), threads=1))[0]
+            batch = dict(run_cases([Case(ONE, motion)], model(), threads=1))[0]
         for found in (single, batch):
             assert (found.outcome is Outcome.FAILED) == fails
             if fails:
@@ -93,7 +93,7 @@ def test_displacements_count_from_the_start(model):
     quiet = Motion(0.01, np.zeros(151))
     block = model(initial_rotation=start)
     single = simulate(ONE, quiet, block, output_interval=0.002)
-    batch = dict(simulate_iter([Case(ONE, quiet)], block, threads=1))[0]
+    batch = dict(run_cases([Case(ONE, quiet)], block, threads=1))[0]
     history = single.top_displacement
     assert history[0] == 0.0
     # let go from a tilt to −x it comes to upright, 0.36 m on, and some way over to the other side

@@ -13,7 +13,7 @@ from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.plane.loose import SETTLED
 from stylobate.motion import Motion, harmonic
 from stylobate.response.mechanism import Mechanism
-from stylobate.simulate import simulate, simulate_assembly
+from stylobate.simulate import simulate
 
 JOINT = Joint(1e9, 5e8, friction_coefficient=0.7)
 DENSITY = 2000.0
@@ -31,10 +31,10 @@ def box(x, z, width, height, name, angle=0.0, **fields):
     return Block(tuple((float(p), float(q)) for p, q in corners), DENSITY, name, **fields)
 
 
-def falls(assembly, *arguments, **options):
+def falls(assembly, motion, model, **options):
     """A run of an assembly that is not in equilibrium as drawn, which is said."""
     with pytest.warns(UserWarning, match="is not in equilibrium as drawn; it moves from the start"):
-        response = simulate_assembly(assembly, *arguments, **options)
+        response = simulate(assembly, motion, model, **options)
     assert response.summary()["in_equilibrium_as_drawn"] is False
     return response
 
@@ -62,14 +62,14 @@ def test_block_dropped_on_a_corner(restitution, rests):
 def test_fall_before_the_impact_is_free():
     with pytest.warns(UserWarning, match="touches nothing"):
         assembly = Assembly((box(0.0, 2.0, 1.0, 0.6, "b"),), JOINT)
-    response = falls(assembly, still(0.6), output_interval=0.05)
+    response = falls(assembly, still(0.6), DistinctElement2D(), output_interval=0.05)
     assert response.z[:, 1] == pytest.approx(2.3 - 0.5 * g * response.time**2, abs=1e-6)
 
 
 @pytest.mark.processor
 def test_tower_of_twenty_stands_a_minute():
     tower = Assembly(tuple(box(0.0, 0.5 * i, 1.0, 0.5, f"b{i}") for i in range(20)), JOINT)
-    response = simulate_assembly(tower, still(60.0), DistinctElement2D(start="settle"), output_interval=0.5)
+    response = simulate(tower, still(60.0), DistinctElement2D(start="settle"), output_interval=0.5)
     assert response.at_rest
     assert np.abs(response.x).max() < 1e-12
     # Settled means that no block would accelerate by more than SETTLED. Without damping the tower then swings about its
@@ -118,7 +118,7 @@ def test_inclined_plane_at_22_degrees(friction, gap):
         assembly = Assembly(blocks, joint, ground=None)
     assert len(assembly.joints) == (0 if gap else 1)
     model = DistinctElement2D(restitution=0.1, stiffness_damping=1e-4)
-    run = falls if friction < 22.0 else simulate_assembly
+    run = falls if friction < 22.0 else simulate
     response = run(assembly, still(1.2), model)
     down = -((response.x[:, -1] - response.x[0, -1]) * c + (response.z[:, -1] - response.z[0, -1]) * s)
     late = response.time > 0.3
@@ -140,13 +140,13 @@ def portal(joint=JOINT):
 
 def test_two_columns_with_an_architrave():
     assert len(portal().joints) == 10
-    resting = simulate_assembly(portal(), still(2.0), DistinctElement2D(start="settle"))
+    resting = simulate(portal(), still(2.0), DistinctElement2D(start="settle"))
     assert np.abs(resting.x - resting.x[0]).max() < 1e-9
     # mirror image: both columns carry the same
     assert resting.z[-1, 1:5] == pytest.approx(resting.z[-1, 5:9], abs=1e-12)
     assert resting.outcome.label == "at_rest"
     assert resting.decided
-    brought_down = simulate_assembly(portal(), harmonic(0.5, 0.6 * g, 6.0), until_rest=True)
+    brought_down = simulate(portal(), harmonic(0.5, 0.6 * g, 6.0), DistinctElement2D(), until_rest=True)
     assert "architrave" in brought_down.fallen
     assert brought_down.at_rest
     assert brought_down.energy_imbalance < 0.01
@@ -156,7 +156,7 @@ def test_two_columns_with_an_architrave():
 def test_a_portal_shaken_hard_comes_to_rest_without_damping(stiffness):
     """It rocks and stands; once the shaking is over the impacts of its joints take what is left."""
     joint = Joint(stiffness, 0.5 * stiffness, friction_coefficient=0.7)
-    response = simulate_assembly(portal(joint), harmonic(1.5, 0.5 * g, 4.0), until_rest=True)
+    response = simulate(portal(joint), harmonic(1.5, 0.5 * g, 4.0), DistinctElement2D(), until_rest=True)
     assert response.outcome.label == "displaced"
     assert response.at_rest
     assert response.joint_opening.max() > 0.02
@@ -188,8 +188,8 @@ def arch(ratio, stones=40, radius=10.0):
 
 @pytest.mark.parametrize(("share", "stands"), [(1.02, True), (1.002, True), (0.998, False), (0.98, False)])
 def test_semicircular_arch_at_the_edge_of_milankovitch_s_thickness(share, stands):
-    run = simulate_assembly if stands else falls
-    response = run(arch(0.1075 * share), still(1.25), output_interval=0.25)
+    run = simulate if stands else falls
+    response = run(arch(0.1075 * share), still(1.25), DistinctElement2D(), output_interval=0.25)
     crown = response.z[:, 20] - response.z[0, 20]
     if stands:
         assert np.abs(crown).max() < 1e-6

@@ -13,7 +13,7 @@ from stylobate.column.links import Clamp, Link, block_link
 from stylobate.column.links.dowel import shear_limits, shear_stiffness
 from stylobate.column.links.link import Site
 from stylobate.column.links.materials import MATERIALS
-from stylobate.simulate import simulate_assembly
+from stylobate.simulate import simulate
 
 G = 9.80665
 SMOOTH = st.Joint(1e9, 5e8, friction_coefficient=0.0)
@@ -48,7 +48,7 @@ def test_a_clamp_carries_to_its_capacity_and_is_lost() -> None:
     """
     clamp = block_link("clamp", **ENDS, axial_stiffness=1e7, axial_capacity=2e3, ultimate_elongation=1e-3,
                        shear_stiffness=0.0)  # fmt: skip
-    response = simulate_assembly(side_by_side(clamp), push(4.0, 1.0, 0.2))
+    response = simulate(side_by_side(clamp), push(4.0, 1.0, 0.2), st.DistinctElement2D())
     (measures,) = response.measures.links
     time, tension = response.time, response.links.tension[:, 0]
     early = (time > 0.1) & (time < 0.48)
@@ -75,7 +75,7 @@ def test_a_clamp_holds_against_both_senses_behind_its_slack() -> None:
     )  # fmt: skip
     model = st.DistinctElement2D(mass_damping=4.0)
     for sign in (1.0, -1.0):
-        response = simulate_assembly(gap, push(sign * 1.0, 1.0, 3.0), model)
+        response = simulate(gap, push(sign * 1.0, 1.0, 3.0), model)
         assert response.links.elongation[-1, 0] == pytest.approx(sign * (2e-3 + 1e3 / 1e6), rel=0.02)
         assert response.links.tension[-1, 0] == pytest.approx(sign * 1e3, rel=0.05)
         assert response.measures.links[0].peak_elongation >= np.abs(response.links.elongation).max() > 2e-3
@@ -96,7 +96,7 @@ def test_a_clamped_pair_turns_as_one_block_up_to_its_clamps_yield(share) -> None
     blocks = box(-b, 0.0, 0.0, h, "left", surface=ROUGH), box(0.0, b, 0.0, h, "right", surface=ROUGH)
     pair = Assembly(blocks, ROUGH, "pair", G, overrides=(("left", "right", SMOOTH),), links=(clamp,) if share else ())
     limit = b / h * G * (1.0 + min(share, 1.0))
-    below, above = (simulate_assembly(pair, push(factor * limit, 1.2, 0.5)) for factor in (0.96, 1.04))
+    below, above = (simulate(pair, push(factor * limit, 1.2, 0.5), st.DistinctElement2D()) for factor in (0.96, 1.04))
     assert below.peak_rotation < 1e-3
     assert above.peak_rotation > 5e-3
     if share == 0.5:
@@ -120,8 +120,8 @@ def test_a_dowelled_architrave_slides_at_friction_and_capacity_after_its_slack()
     blocks = box(0.0, 1.0, 0.0, 1.0, "pier", fixed=True), box(0.0, 1.0, 1.0, 1.5, "architrave", surface=joint)
     pier = Assembly(blocks, SMOOTH, "pier and architrave", gravity=G, links=(dowel,))
     limit = friction * G + capacity / mass
-    below = simulate_assembly(pier, push(0.96 * limit, 2.0, 0.4))
-    above = simulate_assembly(pier, push(1.04 * limit, 0.4, 0.6))
+    below = simulate(pier, push(0.96 * limit, 2.0, 0.4), st.DistinctElement2D())
+    above = simulate(pier, push(1.04 * limit, 0.4, 0.6), st.DistinctElement2D())
     slip = np.abs(below.links.slip[:, 0])
     assert slack + (0.96 * limit - friction * G) * mass / stiffness < 1.01 * slip[-1] < slack + capacity / stiffness
     assert np.ptp(slip[-20:]) < 1e-5
@@ -139,9 +139,7 @@ def test_a_pretension_is_there_when_all_has_settled() -> None:
     tied = Assembly((block,), ROUGH, "tied", gravity=G, links=(tie,))
     mass = block.properties[0]
     expected = (mass * G * b + pull * (b + x)) / (mass * 0.5 * height)
-    response = simulate_assembly(
-        tied, push(1.15 * expected, 1.15 * expected / 5.0, 0.0), st.DistinctElement2D(start="settle")
-    )
+    response = simulate(tied, push(1.15 * expected, 1.15 * expected / 5.0, 0.0), st.DistinctElement2D(start="settle"))
     assert response.links.tension[0, 0] == pull
     opened = int(np.argmax(response.joint_opening[:, 0] > 1e-7))
     assert abs(response.ground_acceleration[opened]) == pytest.approx(expected, rel=0.03)

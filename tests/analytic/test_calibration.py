@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.loss_likelihood import searched
-from stylobate.analysis.swings import envelope, kept, swings
 from stylobate.models.drums.released import released
-from stylobate.motion.free_history import FreeHistory
+from stylobate_studies.calibration.free_history import FreeHistory
+from stylobate_studies.calibration.loss_likelihood import searched
+from stylobate_studies.calibration.swings import envelope, kept, swings
 
 
 def block(stiffness: float = 3e9, section: str = "rectangular") -> st.Column:

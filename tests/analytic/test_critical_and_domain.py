@@ -33,6 +33,7 @@ class Threshold(Model):
     undecided_at: tuple = ()
 
     name: ClassVar[str] = "threshold"
+    version: ClassVar[str] = "1"
 
     def run_many(self, cases, options, threads):
         for index in reversed(range(len(cases))):  # in another order than asked for
@@ -220,13 +221,14 @@ here["domain"](out={str(tmp_path)!r}, progress=killed)
     assert runs() == 26
 
 
-def test_a_file_that_is_no_ledger_is_set_aside(tmp_path):
+def test_a_file_that_is_no_ledger_is_refused_and_left_as_it_was(tmp_path):
     text = "not a database, and long enough to be looked at as one\n" * 20
     (tmp_path / RUNS_FILE).write_text(text)
-    with pytest.warns(st.errors.DamagedFileWarning, match="kept as runs.sqlite.damaged-1"):
-        found = domain(out=tmp_path)
-    assert found.complete
-    assert (tmp_path / f"{RUNS_FILE}.damaged-1").read_text() == text
+    with pytest.raises(st.InputError, match=r"is damaged, or no such file .* it stays as it is: move it away"):
+        domain(out=tmp_path)
+    assert (tmp_path / RUNS_FILE).read_text() == text
+    (tmp_path / RUNS_FILE).rename(tmp_path / "aside")
+    assert domain(out=tmp_path).complete
     with pytest.raises(st.InputError, match="does not exist"):
         domain(out=tmp_path / "none")
 

@@ -18,7 +18,7 @@ from stylobate.analysis.critical_words import as_recorded, sentence, sentence_of
 from stylobate.campaign.twins import Twins
 from stylobate.column.presets import preset
 from stylobate.column.scatter import Scatter
-from stylobate.report.critical import critical_result
+from stylobate_report.critical import critical_result
 
 COLUMN = preset("paper-monolithic")
 AMPLITUDES = np.array([0.2, 0.3, 0.4, 0.5])

@@ -18,7 +18,7 @@ from stylobate.column.files import write_column
 from stylobate.column.links import block_link
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.plane.beds import bed_laws
-from stylobate.simulate import simulate_assembly
+from stylobate.simulate import simulate
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()]
 JOINT = st.Joint(normal_stiffness=2e9, shear_stiffness=1e9, friction_coefficient=2.0)
@@ -74,7 +74,7 @@ def test_a_block_of_an_assembly_swings_on_its_pad() -> None:
     again = assembly_from_dict(json.loads(json.dumps(assembly.to_dict())))
     assert again == assembly
     assert again.digest == assembly.digest
-    response = simulate_assembly(assembly, PULSE)
+    response = simulate(assembly, PULSE, st.DistinctElement2D())
     assert period(response.time, response.x[:, 1]) == pytest.approx(PERIOD, rel=2e-3)
 
 

@@ -15,7 +15,7 @@ from stylobate.models.base import Case
 from stylobate.models.rigid_beam.equations import BeamMatrices, tridiagonal
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import Motion
-from stylobate.simulate import simulate, simulate_iter
+from stylobate.simulate import run_cases, simulate
 from stylobate_studies.paper.nodal_beam import nodal_matrices
 
 pytestmark = pytest.mark.processor
@@ -130,7 +130,7 @@ def test_constant_pulse_overturns_the_beam_with_housners_law(pt):
     for factor in (0.995, 0.998, 1.002, 1.005):
         motions.append(Motion(pt / p / 1000, np.ones(1001), factor=ratio * factor * alpha * g))
     cases = [Case(column, motion) for motion in motions]
-    found = dict(simulate_iter(cases, model, tail=3.0, threads=1))
+    found = dict(run_cases(cases, model, tail=3.0, threads=1))
     assert [found[i].collapsed for i in range(4)] == [False, False, True, True]
 
 
@@ -146,11 +146,11 @@ def test_housners_law_lifts_off_at_the_true_acceleration(second_order, slope):
     for factor, lifts in ((0.9995, False), (1.0005, True)):
         motion = Motion(0.01, np.full(101, factor * limit))
         single = simulate(column, motion, model)
-        batch = dict(simulate_iter([Case(column, motion)], model, threads=1))[0]
+        batch = dict(run_cases([Case(column, motion)], model, threads=1))[0]
         assert (single.peak_rotation > 0.0) == (batch.peak_rotation > 0.0) == lifts
     motion, time = Motion(0.001, np.full(21, 1.5 * limit)), 0.02
     expected = 0.5 * (0.5 * column.mass * limit * 2.0) / float(BeamMatrices(column).mass[0, 0]) * time**2
-    for found in (simulate(column, motion, model), dict(simulate_iter([Case(column, motion)], model, threads=1))[0]):
+    for found in (simulate(column, motion, model), dict(run_cases([Case(column, motion)], model, threads=1))[0]):
         assert found.peak_rotation == pytest.approx(expected, rel=2e-3)
 
 

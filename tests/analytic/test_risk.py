@@ -14,8 +14,8 @@ from stylobate.analysis.fragility import fragility
 from stylobate.analysis.hazard import Hazard, read_hazard
 from stylobate.analysis.limit_states import FAILED, OPEN
 from stylobate.analysis.risk import risk
-from stylobate.analysis.survival import parse_age, survival
 from stylobate.errors import InputError
+from stylobate_ruins.survival import parse_age, survival
 
 
 @pytest.fixture(scope="module")

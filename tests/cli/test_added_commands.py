@@ -1,11 +1,14 @@
-"""Commands of other packages: there where they are installed, one sentence where they are not."""
+"""Commands and public names of other packages: there where they are installed, one sentence where they are not."""
 
 import json
+import tomllib
 from importlib.metadata import EntryPoint
+from pathlib import Path
 
 import pytest
 
-from stylobate.cli import added
+import stylobate
+from stylobate import added, plots
 from stylobate.cli.main import call, commands
 
 
@@ -14,28 +17,65 @@ def installed(monkeypatch):
     """What is installed of the group, by name and object, for one test."""
 
     def have(**entries):
-        found = [EntryPoint(name, value, added.GROUP) for name, value in entries.items()]
-        monkeypatch.setattr(added, "entry_points", lambda group: found if group == added.GROUP else [])
+        found = [EntryPoint(name, value, added.COMMANDS) for name, value in entries.items()]
+        monkeypatch.setattr(added, "entry_points", lambda group: found if group == added.COMMANDS else [])
         commands.cache_clear()
 
     yield have
     commands.cache_clear()
 
 
-@pytest.mark.parametrize("name", added.STUDIES)
-def test_studies_that_are_not_installed_are_said_to_be_elsewhere(installed, capsys, name):
+ROOT = Path(__file__).parents[2]
+COMMANDS = [(package, name) for package in added.PACKAGES for name in package.commands]
+NAMES = [(package, path) for package in added.PACKAGES for path in package.names]
+
+
+@pytest.mark.parametrize(("package", "name"), COMMANDS)
+def test_a_command_that_is_not_installed_is_said_to_be_elsewhere(installed, capsys, package, name):
     installed()
     assert call([name, "--quick"]) == 2
     said = capsys.readouterr().err
-    assert said.startswith(f"stylobate: {name} is a command of stylobate-studies, which is not installed here;")
+    assert said.startswith(f"stylobate: {name} is a command of {package.name}, which is not installed here;")
     assert "make install" in said
     assert call(["--help"]) == 0
     assert f"\n  {name} " not in capsys.readouterr().out
 
 
-def test_the_studies_of_this_checkout_are_installed():
-    assert set(added.STUDIES) <= set(commands().commands)
-    assert set(added.STUDIES).isdisjoint(added.added_commands(added.STUDIES))
+def test_packages_of_this_checkout_add_what_the_core_says_of_them():
+    """The list by which a missing command or name is explained is that of the packages' own entry points."""
+    assert {ROOT / package.folder for package in added.PACKAGES} | {ROOT / "compas"} == {
+        path.parent for place in ("*", "packages/*") for path in ROOT.glob(f"{place}/pyproject.toml")
+    }
+    for package in added.PACKAGES:
+        project = tomllib.loads((ROOT / package.folder / "pyproject.toml").read_text())["project"]
+        points = project.get("entry-points", {})
+        assert project["name"] == package.name
+        assert set(points.get(added.COMMANDS, {})) == set(package.commands)
+        assert set(points.get(added.NAMES, {})) == set(package.names)
+        assert set(points.get(added.DEVICES, {})) == set(package.devices)
+        assert set(package.commands) <= set(commands().commands)
+
+
+@pytest.mark.parametrize(("package", "path"), NAMES)
+def test_a_public_name_is_that_of_the_package_or_said_to_be_elsewhere(monkeypatch, package, path):
+    room, _, name = path.rpartition(".")
+    module = plots if room == "plots" else stylobate
+    assert name in dir(module)
+    assert name in module.__all__
+    assert getattr(module, name) is not None
+    monkeypatch.setattr(added, "entry_points", lambda group: [])
+    assert name not in dir(module)
+    with pytest.raises(
+        AttributeError, match=f"{name} is of {package.name}, which is not installed here;.*make install"
+    ):
+        getattr(module, name)
+
+
+def test_a_name_that_nobody_has_is_refused_as_of_any_module():
+    with pytest.raises(AttributeError, match="module 'stylobate' has no attribute 'no_such_name'"):
+        _ = stylobate.no_such_name
+    assert not hasattr(plots, "draw_nothing")
+    assert not hasattr(stylobate, "__wrapped__")
 
 
 def test_a_package_adds_a_command(installed, capsys):

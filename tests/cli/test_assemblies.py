@@ -74,7 +74,7 @@ def test_run_prints_one_json_object(command, portal):
     assert result["in_equilibrium_as_drawn"] is True
     assert result["collapse_time_s"] is None
     # the same in Python
-    response = st.simulate_assembly(read_assembly(portal), st.harmonic(1.0, 0.02 * st.g, 1.0))
+    response = st.simulate(read_assembly(portal), st.harmonic(1.0, 0.02 * st.g, 1.0), st.DistinctElement2D())
     assert result["peak_displacement_m"] == response.summary()["peak_displacement_m"] > 0.0
 
 

@@ -18,7 +18,7 @@ from stylobate.column import preset
 from stylobate.column.as_blocks import of_column
 from stylobate.motion import parse_pulse, stochastic_motion
 from stylobate.response import Response
-from stylobate.simulate import simulate_assembly
+from stylobate.simulate import simulate
 
 
 def said(capsys, *arguments, code=0):
@@ -72,7 +72,9 @@ def test_computed_motions_bring_their_sources():
 
 
 def test_an_assembly_names_its_contact(capsys, tmp_path):
-    response = simulate_assembly(of_column(preset("paper-monolithic")), st.harmonic(1.0, 0.01 * st.g, 0.05))
+    response = simulate(
+        of_column(preset("paper-monolithic")), st.harmonic(1.0, 0.01 * st.g, 0.05), st.DistinctElement2D()
+    )
     text = said(capsys, response.save(tmp_path / "assembly.nc")).out
     assert text.strip() == response.citation()
     assert bibliography()["feng2004"].text in text

@@ -12,9 +12,9 @@ from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.motion import half_sine_pulse, write_csv
 from stylobate.own_files import digest
-from stylobate.report.others import sections_of
 from stylobate.response.words import ROUND_IN_THE_PLANE
 from stylobate.results import read_results
+from stylobate_report.others import sections_of
 
 PROMISED = {"median", "median_low", "median_high", "beta", "beta_low", "beta_high", "im", "unit", "state", "records", "runs",
             "undecided", "failed"}  # fmt: skip

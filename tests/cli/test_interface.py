@@ -181,15 +181,14 @@ OPTIONS = {
     "experiments": "",
     "report": "",
     "study run": MANY.replace("replicates seed tail", ""),
+    "study status": "",
+    "study export": "to",
+    "export": "to at",
+    "convert": "to",
+    "fetch": "",
+    "calibrate": "",
 }
-OTHERS = {
-    "serve": "port no-browser out",
-    "export": "to at json",
-    "convert": "to json",
-    "draw": "out json",
-    "study status": "json",
-    "study export": "to json",
-}
+OTHERS = {"serve": "port no-browser out", "draw": "out json threads"}
 
 
 @pytest.fixture(scope="module")

@@ -21,7 +21,7 @@ from stylobate.campaign.ledger import APPLICATION, RUNS_FILE, finished_runs_in
 from stylobate.cli.main import call
 from stylobate.errors import DamagedFileWarning
 from stylobate.own_files import LIST, own_files
-from stylobate.report.page import Picture, Rows, Section
+from stylobate_report.page import Picture, Rows, Section
 from stylobate_studies.commands.reproduce import build, describe
 from stylobate_studies.paper import literature, pieces, study
 from stylobate_studies.paper.cases import BEAM

@@ -14,11 +14,11 @@ from stylobate.analysis.studies import StudyResult
 from stylobate.cli.main import call
 from stylobate.cli.run import write_population
 from stylobate.motion import half_sine_pulse, write_csv
-from stylobate.report.others import sections_of
-from stylobate.report.runs import several_sections
 from stylobate.response import SpaceMeasures
 from stylobate.response.words import doubt_of, longer_tail, sentence_of, to_decide
 from stylobate.results import read_results
+from stylobate_report.others import sections_of
+from stylobate_report.runs import several_sections
 
 BLOCK = ("run", "paper-monolithic", "--model", "housner")
 

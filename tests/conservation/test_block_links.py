@@ -12,7 +12,7 @@ import stylobate as st
 from stylobate.column.assembly import Assembly, Block
 from stylobate.column.assembly_files import assembly_from_dict
 from stylobate.column.links import block_link
-from stylobate.simulate import simulate_assembly
+from stylobate.simulate import simulate
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.5)
 MOTION = st.harmonic(frequency=2.0, amplitude=4.5, duration=1.2)
@@ -64,7 +64,7 @@ def linked(kind: str) -> Assembly:
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_ledger_closes_with_every_kind_of_link(kind, tmp_path) -> None:
     """To 0.2 % of the energy at stake, in a quarter of the usual step: the bare portal leaves as much."""
-    response = simulate_assembly(linked(kind), MOTION, st.DistinctElement2D(step_factor=0.1))
+    response = simulate(linked(kind), MOTION, st.DistinctElement2D(step_factor=0.1))
     links = response.measures.links
     assert response.energy_imbalance < 2e-3
     assert min(max(one.peak_shear, one.peak_tension) for one in links) > 100.0
@@ -91,7 +91,8 @@ def test_links_without_stiffness_are_none_to_the_bit() -> None:
     idle: dict[str, Any] = {**CLAMP, "axial_stiffness": 0.0, "shear_stiffness": 0.0}
     nothing = (block_link(**idle),)
     motion = st.harmonic(frequency=2.0, amplitude=4.5, duration=0.3)
-    bare, other = (simulate_assembly(dataclasses.replace(PORTAL, links=links), motion) for links in ((), nothing))
+    model = st.DistinctElement2D()
+    bare, other = (simulate(dataclasses.replace(PORTAL, links=links), motion, model) for links in ((), nothing))
     assert np.array_equal(bare.x, other.x)
     assert np.array_equal(bare.rotation, other.rotation)
     assert bare.measures == other.measures
@@ -126,7 +127,7 @@ def test_a_column_in_an_assembly_takes_its_links_along(tmp_path) -> None:
     step = 0.5 * st.DistinctElement2D().step_for(column)
     model = st.DistinctElement2D(time_step=step)
     motion = st.harmonic(frequency=2.0, amplitude=4.0, duration=0.25)
-    plane, blocks = st.simulate(column, motion, model), simulate_assembly(assembly, motion, model)
+    plane, blocks = st.simulate(column, motion, model), simulate(assembly, motion, model)
     way, other = plane.drum_x[:, -1], blocks.x[:, -1] - blocks.x[0, -1]
     assert np.abs(way).max() > 1e-5
     assert other == pytest.approx(way, abs=0.01 * np.abs(way).max())

@@ -16,7 +16,7 @@ from stylobate.models.plane.assemblies import follow, stable_step_of
 from stylobate.models.plane.loose import Loose
 from stylobate.motion import harmonic
 from stylobate.response.assembly_measures import recorded_blocks
-from stylobate.simulate import simulate_assembly
+from stylobate.simulate import simulate
 
 
 def box(x, z, width, height, name):
@@ -111,7 +111,7 @@ def test_at_rest_nothing_is_deeper_than_static(name):
 def test_the_ledger_closes_through_a_whole_collapse(name):
     """Below 1 % of the potential energy that the fall released; measured 0.1 %, 0.03 %, 0.004 % and 0.06 %."""
     make, motion = CASES[name]
-    response = simulate_assembly(make(), motion, until_rest=True, output_interval=0.02)
+    response = simulate(make(), motion, DistinctElement2D(), until_rest=True, output_interval=0.02)
     assert response.at_rest
     assert response.collapsed
     released = -float(response.energy["gravitational"].min())

@@ -13,7 +13,7 @@ from stylobate.models.base import Case
 from stylobate.models.shared.soft_joints import longest_step
 from stylobate.models.shared.stable_step import whole_steps
 from stylobate.motion import Motion, harmonic
-from stylobate.simulate import simulate_iter
+from stylobate.simulate import run_cases
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock()]
 
@@ -26,9 +26,7 @@ def on_joints(stiffness, name="paper-monolithic"):
 
 def outcomes(column, motions, model):
     cases = [Case(column, motion) for motion in motions]
-    return [
-        measures.outcome.label for _, measures in sorted(simulate_iter(cases, model, threads=1), key=lambda p: p[0])
-    ]
+    return [measures.outcome.label for _, measures in sorted(run_cases(cases, model, threads=1), key=lambda p: p[0])]
 
 
 def test_fast_shaking_of_soft_joints_ends_as_with_a_finer_step():

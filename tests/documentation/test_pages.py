@@ -17,9 +17,11 @@ PAGES = {
 }
 SOURCES = {
     path: path.read_text(encoding="utf-8")
-    for folder in ("src", "studies")
-    for path in sorted((ROOT / folder).rglob("*.py"))
+    for folder in (ROOT / "src", *sorted(ROOT.glob("packages/*/src")), ROOT / "studies")
+    for path in sorted(folder.rglob("*.py"))
 }
+
+READMES = [f"../{path.relative_to(ROOT).as_posix()}" for path in sorted(ROOT.glob("packages/*/README.md"))]
 
 TAG = re.compile(r"\\tag\{(\w+)\}")
 
@@ -99,12 +101,18 @@ def test_pages_named_in_the_code_exist():
 @pytest.mark.parametrize("page", PAGES)
 def test_files_named_on_the_page_exist(page):
     named = re.findall(r"`((?:\w+/)+\w+\.(?:py|bib))`", without_code(PAGES[page]))
-    roots = (ROOT, ROOT / "src", ROOT / "src" / "stylobate", ROOT / "studies" / "src" / "stylobate_studies")
+    roots = (
+        ROOT,
+        ROOT / "src",
+        ROOT / "src" / "stylobate",
+        *ROOT.glob("packages/*/src/*"),
+        *ROOT.glob("studies/src/*"),
+    )
     missing = [one for one in named if not any((root / one).exists() for root in roots)]
     assert [one for one in missing if "my_model" not in one] == []
 
 
-@pytest.mark.parametrize("page", [*PAGES, "../README.md", "../CONTRIBUTING.md", "../studies/README.md"])
+@pytest.mark.parametrize("page", [*PAGES, "../README.md", "../CONTRIBUTING.md", "../studies/README.md", *READMES])
 def test_links_lead_somewhere(page):
     path = DOCS / page
     text = without_code(path.read_text(encoding="utf-8"))

@@ -20,7 +20,7 @@ from stylobate.plots.animation import draw_frame, frame_indices, write_gif, writ
 from stylobate.plots.player import write_player
 from stylobate.plots.scene import Scene, scale_bar
 from stylobate.response.poses import rotation_matrices
-from stylobate.simulate import simulate, simulate_assembly
+from stylobate.simulate import simulate
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,9 @@ def knocked():
     )
     assembly = st.Assembly(blocks, Joint(1e8, 5e7, friction_coefficient=0.7), "two blocks", ground=-0.5)
     with pytest.warns(UserWarning, match="not in equilibrium"):
-        return simulate_assembly(assembly, st.Motion(0.01, np.zeros(101)), until_rest=True, output_interval=0.02)
+        return simulate(
+            assembly, st.Motion(0.01, np.zeros(101)), DistinctElement2D(), until_rest=True, output_interval=0.02
+        )
 
 
 @pytest.mark.parametrize("name", ["fall", "knocked"])

@@ -13,7 +13,7 @@ from stylobate.plots.filmstrip import draw_filmstrip
 from stylobate.plots.link_marks import link_marks
 from stylobate.plots.player import film_data
 from stylobate.plots.scene import Scene
-from stylobate.simulate import simulate_assembly
+from stylobate.simulate import simulate
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.2)
 LINKS = (
@@ -55,7 +55,7 @@ def test_marks_between_blocks_stay_on_them() -> None:
         block_link("dowel", ("ground", "a"), (0.5, 0.0), shear_stiffness=1e7, embedment=0.1),
     )
     pair = Assembly(blocks, JOINT, "pair", links=links)
-    found = simulate_assembly(pair, st.harmonic(frequency=2.0, amplitude=1.0, duration=0.05))
+    found = simulate(pair, st.harmonic(frequency=2.0, amplitude=1.0, duration=0.05), st.DistinctElement2D())
     marks = link_marks(Scene(found), 0)
     assert marks[0][0] == pytest.approx(np.array([(0.8, 0.4), (1.2, 0.4)]), abs=1e-4)
     assert marks[1][0] == pytest.approx(np.array([(0.5, -0.1), (0.5, 0.1)]), abs=1e-4)

@@ -16,8 +16,9 @@ from stylobate.column.assembly_files import assembly_from_dict, load_structure
 from stylobate.column.column import Column
 from stylobate.column.links import KINDS
 from stylobate.errors import InputError
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
-from stylobate.simulate import simulate_assembly
+from stylobate.simulate import simulate
 
 from . import odd
 from .target import Fault, Target, sentence
@@ -142,7 +143,7 @@ def computed(rng: random.Random, assembly: Assembly) -> str:
     """A short run ends with a result, or is refused in one sentence."""
     motion = harmonic(rng.uniform(0.5, 4.0), rng.uniform(0.5, 8.0), 0.05)
     try:
-        response = simulate_assembly(assembly, motion)
+        response = simulate(assembly, motion, DistinctElement2D())
     except InputError as error:
         sentence(error)
         return "refused to compute"

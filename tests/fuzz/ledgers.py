@@ -1,14 +1,13 @@
-"""Ledgers, damaged in every way: what is whole in one is kept, nothing is altered, and it can be added to."""
+"""Ledgers, damaged in every way: refused in a sentence and left as they are, or read with no row altered and added to."""
 
 from __future__ import annotations
 
 import random
-import warnings
 from contextlib import closing
 from pathlib import Path
 
-from stylobate.campaign.ledger import SEAL, Ledger, rows_in
-from stylobate.campaign.salvage import write_line
+from stylobate.campaign.ledger import Ledger, rows_in
+from stylobate.errors import InputError
 
 from .target import Fault, Target, sentence
 
@@ -56,25 +55,20 @@ def one(rng: random.Random, folder: Path) -> str:
     path.write_bytes(bad)
     if rng.random() < 0.3:
         path.with_name(f"{path.name}-wal").write_bytes(rng.randbytes(rng.randrange(5000)))
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always")
+    try:
         found = rows(path)
+    except InputError as error:
+        sentence(error)
+        if path.read_bytes() != bad:
+            raise Fault(f"{kind}: a refused file was changed") from error
+        return "refused"
     if any(line != row(number) for number, line in found.items()):
         raise Fault(f"{kind}: a row was altered")
-    if len(said) > 1:
-        raise Fault(f"{kind}: said {[str(one.message) for one in said]}")
-    for text in said:
-        sentence(text.message)
-        if path.with_name(f"{path.name}.damaged-1").read_bytes() != bad:
-            raise Fault(f"{kind}: what was set aside was changed")
-    whole = [number for number in range(runs) if write_line(number, row(number), SEAL).encode() in bad]
-    if not set(whole) <= set(found) <= set(range(runs)):
-        raise Fault(f"{kind}: {len(whole)} rows are whole in the file, {len(found)} were kept")
     with closing(Ledger(path)) as book:
         book.record(runs, row(runs))
     if set(rows(path)) != {*found, runs}:
         raise Fault(f"{kind}: nothing can be added")
-    return "all kept" if len(found) == runs else "part kept" if found else "none kept"
+    return "all kept" if len(found) == runs else "part kept"
 
 
 def rows(path):

@@ -13,9 +13,9 @@ import trimesh
 
 from stylobate.column.shapes import CircularFrustum, Mesh, cut
 from stylobate.errors import InputError
-from stylobate.exchange.compas_files import compas_json
-from stylobate.exchange.convert import Reading, read_model
-from stylobate.exchange.mesh_writers import TEXTS, Glb, Named
+from stylobate_exchange.compas_files import compas_json
+from stylobate_exchange.convert import Reading, read_model
+from stylobate_exchange.mesh_writers import TEXTS, Glb, Named
 
 from .target import Fault, Target, sentence
 

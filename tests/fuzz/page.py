@@ -22,8 +22,8 @@ from urllib.parse import quote
 import httpx
 from page_server import FAKE, served
 
-from stylobate.app.columns import presets
-from stylobate.app.keys import Keys
+from stylobate_page.columns import presets
+from stylobate_page.keys import Keys
 
 from . import odd
 from .records import originals

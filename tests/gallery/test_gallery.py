@@ -13,7 +13,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import stylobate as st
-from stylobate.campaign.ruin_files import read_ruin
+from stylobate_ruins.ruin_files import read_ruin
 
 GALLERY = Path(__file__).parents[2] / "gallery"
 EXAMPLES = sorted(path.stem.removeprefix("plot_") for path in GALLERY.glob("plot_*.py"))

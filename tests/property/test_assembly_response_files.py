@@ -112,7 +112,7 @@ def test_a_saved_response_is_loaded_without_loss(response, tmp_path_factory):
 def test_a_run_is_read_back_and_tells_the_same(tmp_path):
     square = st.Block(((0, 0), (1, 0), (1, 1), (0, 1)), 2000.0, "stone")
     assembly = st.Assembly((square,), st.Joint(1e9, 5e8, friction_angle=30.0))
-    response = st.simulate_assembly(assembly, st.harmonic(2.0, 0.7 * st.g, 0.5), until_rest=True)
+    response = st.simulate(assembly, st.harmonic(2.0, 0.7 * st.g, 0.5), st.DistinctElement2D(), until_rest=True)
     loaded = Response.load(response.save(tmp_path / "run.nc"))
     assert loaded.provenance == response.provenance
     assert loaded.summary() == response.summary()

@@ -14,7 +14,13 @@ from stylobate.motion.specs import PULSES
 ROOT = Path(__file__).parents[2]
 TEXTS = {
     path: path.read_text(encoding="utf-8")
-    for folder, ending in (("src", "*.py"), ("docs", "*.md"), ("tests", "*.py"), ("gallery", "*.py"))
+    for folder, ending in (
+        ("src", "*.py"),
+        ("packages", "*.py"),
+        ("docs", "*.md"),
+        ("tests", "*.py"),
+        ("gallery", "*.py"),
+    )
     for path in sorted((ROOT / folder).rglob(ending))
     if "_build" not in path.parts and path != Path(__file__)
 }

@@ -12,9 +12,8 @@ import pytest
 
 import stylobate as st
 from stylobate.campaign import ledger as module
-from stylobate.campaign.ledger import Ledger, finished_runs_in, rows_in
-from stylobate.campaign.salvage import read_line, write_line
-from stylobate.errors import DamagedFileWarning, StylobateError
+from stylobate.campaign.ledger import Ledger, finished_runs_in, read_line, rows_in, write_line
+from stylobate.errors import StylobateError
 
 ROW = {"outcome": "rocked", "peak_top_displacement_m": 0.12345678901234567, "collapse_time_s": None}
 
@@ -26,7 +25,7 @@ def filled(path, runs=100):
 
 
 def rows(path):
-    with closing(Ledger(path)):  # one that is damaged is mended here
+    with closing(Ledger(path)):
         return dict(rows_in(path, lambda number: True))
 
 
@@ -139,14 +138,21 @@ def test_a_link_is_refused_and_left_as_it_was(tmp_path, there):
     assert (tmp_path / "mine.sqlite").exists() == there
 
 
-def test_a_ledger_whose_mark_was_damaged_is_still_taken_over(tmp_path):
+def refused(path, why):
+    """A damaged ledger is refused in one sentence, and left as it was."""
+    before = path.read_bytes()
+    with pytest.raises(st.InputError, match=why) as error:
+        Ledger(path)
+    assert "it stays as it is: move it away" in str(error.value)
+    assert path.read_bytes() == before
+
+
+def test_a_ledger_whose_mark_was_damaged_is_refused(tmp_path):
     path = tmp_path / "runs.sqlite"
     filled(path, 5)
-    whole = rows(path)
     with closing(sqlite3.connect(path)) as file, file:
         file.execute("PRAGMA application_id = 7")
-    with pytest.warns(DamagedFileWarning, match="5 of its finished runs are whole and are used"):
-        assert rows(path) == whole
+    refused(path, "not written by this version")
 
 
 def test_only_runs_that_are_wanted_are_counted(tmp_path):
@@ -176,41 +182,30 @@ def test_a_full_disk_is_one_sentence_and_what_was_written_stays(tmp_path):
     assert list(rows(path)) == list(range(20))
 
 
-def test_a_line_proves_its_campaign_its_number_and_its_row():
-    line = write_line(12, ROW, "this")
-    assert read_line(line, "this") == (12, ROW)
-    assert read_line(line, "that") is None
-    assert read_line(line.replace(" 12 ", " 13 "), "this") is None
-    assert read_line(line.replace("rocked", "collapsed"), "this") is None
-    assert read_line(None, "this") is read_line(b"", "this") is read_line("", "this") is None
+def test_a_line_proves_its_number_and_its_row():
+    line = write_line(12, ROW)
+    assert read_line(12, line) == ROW
+    assert read_line(13, line) is None
+    assert read_line(13, line.replace(" 12 ", " 13 ")) is None
+    assert read_line(12, line.replace("rocked", "collapsed")) is None
+    assert read_line(12, None) is read_line(12, b"") is read_line(12, "") is None
 
 
-def test_a_row_that_was_changed_is_left_out(tmp_path):
+@pytest.mark.parametrize(
+    "change", ["line = replace(line, 'rocked', 'collapsed')", "line = CAST(line AS BLOB)", "number = 77"]
+)
+def test_a_row_that_was_changed_is_left_out(tmp_path, change):
     path = tmp_path / "runs.sqlite"
     filled(path, 5)
     with closing(sqlite3.connect(path)) as file, file:
-        file.execute("UPDATE runs SET line = replace(line, 'rocked', 'collapsed') WHERE number = 3")
+        file.execute(f"UPDATE runs SET {change} WHERE number = 3")
     assert list(rows(path)) == [0, 1, 2, 4]
 
 
-@pytest.mark.parametrize("change", ["line = CAST(line AS BLOB)", "number = 77"])
-def test_a_row_that_sqlite_no_longer_finds_is_found_in_the_bytes(tmp_path, change):
-    path = tmp_path / "runs.sqlite"
-    filled(path, 5)
-    whole = rows(path)
-    with closing(sqlite3.connect(path)) as file, file:
-        file.execute(f"UPDATE runs SET {change} WHERE number = 2")
-    with pytest.warns(DamagedFileWarning, match="5 of its finished runs are whole and are used"):
-        assert rows(path) == whole
-
-
-def test_half_a_ledger_gives_its_whole_rows(tmp_path):
+@pytest.mark.parametrize("share", [0.0, 0.01, 0.5, 0.99])
+def test_a_ledger_that_was_cut_is_refused(tmp_path, share):
     path = tmp_path / "runs.sqlite"
     filled(path, 400)
     data = path.read_bytes()
-    path.write_bytes(data[: len(data) // 2])
-    with pytest.warns(DamagedFileWarning, match=r"kept as runs\.sqlite\.damaged-1, and \d+ of its finished runs"):
-        found = rows(path)
-    assert 150 < len(found) < 250
-    assert (tmp_path / "runs.sqlite.damaged-1").read_bytes() == data[: len(data) // 2]
-    assert rows(path) == found  # sound again
+    path.write_bytes(data[: int(share * len(data))])
+    refused(path, "is damaged, or no such file")

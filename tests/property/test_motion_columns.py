@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import Motion, bandpass, read_motion, write_csv
-from stylobate.report.page import Note
-from stylobate.report.shaking import motion_section
+from stylobate_report.page import Note
+from stylobate_report.shaking import motion_section
 
 VALUES = st.floats(-40.0, 40.0, allow_nan=False)
 

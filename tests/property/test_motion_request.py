@@ -14,7 +14,7 @@ from stylobate.motion import keep_axes, read_motion, write_csv
 from stylobate.motion.orientation import record_of, rotated
 from stylobate.motion.specs import parse_angle
 from stylobate.motion.spectra import pseudo_acceleration
-from stylobate.report.shaking import axes_in_words
+from stylobate_report.shaking import axes_in_words
 
 WAVE = np.sin(np.linspace(0.0, 12.0, 201))
 

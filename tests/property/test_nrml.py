@@ -11,7 +11,7 @@ from stylobate.analysis.evidence import Evidence
 from stylobate.analysis.fragility import fragility
 from stylobate.cli.main import call
 from stylobate.errors import InputError
-from stylobate.exchange.nrml import write_nrml
+from stylobate.results.nrml import write_nrml
 
 TAG = "{http://openquake.org/xmlns/nrml/0.5}"
 

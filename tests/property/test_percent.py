@@ -2,20 +2,17 @@
 
 import re
 from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
+from sources import sources
 
-import stylobate
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.population import Population, chance_words
 from stylobate.analysis.side_by_side import shares
 from stylobate.campaign.twins import Twins
 from stylobate.column.scatter import Scatter
 from stylobate.percent import percent, percents, whole
-
-SOURCES = Path(stylobate.__file__).parent
 
 
 @pytest.mark.parametrize(
@@ -53,8 +50,8 @@ def test_nobody_else_rounds_a_share():
     """Neither a script of the page nor a module writes a percentage of whole numbers by itself."""
     own = re.compile(r":\.0f\} %|:\.0%|Math\.round\(100")
     found = [
-        f"{path.relative_to(SOURCES)}: {line.strip()}"
-        for path in sorted([*SOURCES.rglob("*.py"), *SOURCES.rglob("*.js")])
+        f"{name}: {line.strip()}"
+        for name, path in sources("py", "js")
         for line in path.read_text(encoding="utf-8").splitlines()
         if own.search(line) and "running.done" not in line  # how far a job is, no share of runs
     ]

@@ -109,15 +109,16 @@ OWN = """
 import stylobate as st
 class Own(st.HousnerBlock):
     name = "own"
+    version = "1"
     def taken(self, motion):
         return super().taken(motion)
 """
 
 
-def test_a_model_of_ones_own_whose_source_has_changed_is_another_law(tmp_path, monkeypatch):
+def test_a_model_of_ones_own_of_another_version_is_another_law(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
     found = []
-    for source in (OWN, OWN, f"{OWN}        # another"):
+    for source in (OWN, f"{OWN}        # edited", OWN.replace('"1"', '"2"')):
         (tmp_path / "own_model.py").write_text(source)
         monkeypatch.delitem(sys.modules, "own_model", raising=False)
         importlib.invalidate_caches()

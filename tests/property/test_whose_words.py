@@ -4,30 +4,37 @@ import ast
 import pickle
 import re
 from functools import cache
-from pathlib import Path
 
 import pytest
+from sources import sources
 
-import stylobate
 import stylobate as st
 from stylobate.cli import console, main
 from stylobate.column.tables import made_of
 from stylobate.errors import PARAMETER, InputError, check_range, reworded, within
 
-SOURCE = Path(stylobate.__file__).parent
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 
 #: What makes command lines: of our own commands, and of a browser.
-COMMAND_LINES = {"app/asked.py", "app/forms.py", "report/pdf.py"}
+COMMAND_LINES = {
+    "stylobate_page/asked.py",
+    "stylobate_page/forms.py",
+    "stylobate_page/worker.py",
+    "stylobate_report/pdf.py",
+}
 
 
 @cache
 def texts():
     """Every text below the command line but docstrings, with its file; names stand for what is filled in."""
     found = []
-    for path in sorted(SOURCE.rglob("*.py")):
-        name = path.relative_to(SOURCE).as_posix()
-        if name.startswith("cli/") or name in COMMAND_LINES:
+    for name, path in sources("py"):
+        if (
+            name.startswith("stylobate/cli/")
+            or "/commands/" in name
+            or name == "stylobate_page/worker.py"
+            or name in COMMAND_LINES
+        ):
             continue
         nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
         described = {
@@ -54,7 +61,7 @@ def test_every_parameter_in_a_message_is_given_by_an_option():
         for parameter in command.params
         for option in parameter.opts
     }
-    named = {found[1] for name, text in texts() if name != "errors.py" for found in PARAMETER.finditer(text)}
+    named = {found[1] for name, text in texts() if name != "stylobate/errors.py" for found in PARAMETER.finditer(text)}
     assert len(named) > 20
     assert {one for one in named if console.in_options(f"`{one}`") not in options} == set()
 

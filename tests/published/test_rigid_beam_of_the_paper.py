@@ -12,14 +12,14 @@ from stylobate.constants import g
 from stylobate.models.base import Case
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import harmonic
-from stylobate.simulate import simulate_iter
+from stylobate.simulate import run_cases
 
 MONOLITH, DRUMS = preset("paper-monolithic"), preset("paper-12-drums")
 
 
 def collapses(column, model, frequency: float, amplitudes, duration: float = 10.0) -> np.ndarray:
     cases = [Case(column, harmonic(frequency, float(a) * g, duration)) for a in amplitudes]
-    found = dict(simulate_iter(cases, model, threads=1))
+    found = dict(run_cases(cases, model, threads=1))
     return np.array([found[i].collapsed for i in range(len(cases))])
 
 

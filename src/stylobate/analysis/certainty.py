@@ -96,6 +96,8 @@ def certainty(
         A number that is not allowed, or input that the model refuses.
     """
     began = time.perf_counter()
+    if until_rest:
+        column = model.as_followed(column)
     drawn = the_twins(column, model, campaign)
     twins, tail = drawn.columns, campaign.tail
     riding = _riding(drawn, column, model, until_end or until_rest)

@@ -17,7 +17,7 @@ from ..models.rocking.model import HousnerBlock
 from ..motion import Motion, pulse_match
 from ..notebook import Shown
 from ..outcome import Outcome
-from ..simulate import simulate_iter
+from ..simulate import run_cases
 
 if TYPE_CHECKING:
     import pandas
@@ -174,7 +174,7 @@ def rocking_spectrum(
     peak = np.empty(len(cases))
     collapsed = np.zeros(len(cases), dtype=bool)
     decided, failed = np.zeros(len(cases), dtype=bool), np.zeros(len(cases), dtype=bool)
-    for i, measures in simulate_iter(cases, HousnerBlock(restitution=restitution), tail=tail, threads=threads):
+    for i, measures in run_cases(cases, HousnerBlock(restitution=restitution), tail=tail, threads=threads):
         peak[i], collapsed[i], decided[i] = measures.peak_rotation, measures.collapsed, measures.decided
         failed[i] = measures.outcome is Outcome.FAILED
     shape = len(p), len(alpha)

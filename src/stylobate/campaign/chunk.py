@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..kernels.jit import source_digest
+from ..kernels.sources import source_digest
 from ..models.base import Case, Cases, Model, RunOptions
 from ..motion import Motion
 from ..response import Measures

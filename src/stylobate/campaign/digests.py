@@ -11,20 +11,24 @@ from collections.abc import Sequence
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
+from uuid import uuid4
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from ..column.structure import Structure
-from ..kernels.jit import source_digest
+from ..kernels.sources import source_digest
 from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
 from ..own_files import digest as digest_of_file
-from ..version import __version__
+from ..version import __version__ as PACKAGE_VERSION
 from .campaign import DECIDED
-from .code import PACKAGE, Code
 
 #: Bytes of a digest.
 LENGTH = 16
+
+#: This package, whose sources are digested room by room.
+PACKAGE = Path(__file__).parents[1]
 
 #: Rooms of this package whose sources are the laws by which a run is made and measured.
 ROOMS = ("column", "kernels", "models", "response")
@@ -34,6 +38,20 @@ ROOMS = ("column", "kernels", "models", "response")
 def laws() -> tuple[str, ...]:
     """Digests of the sources by which runs are made: no run of other laws is ever taken for one of these."""
     return tuple(source_digest(PACKAGE / room) for room in ROOMS)
+
+
+#: Marks of classes without a version, by which other processes do not know their runs again.
+_MARKS: WeakKeyDictionary[type, str] = WeakKeyDictionary()
+
+
+def version_of(kind: type[Model]) -> list[str]:
+    """What tells the runs of a model of somebody else from those of other models: its name and its ``version``.
+
+    Where its class states none, its runs are known again in this process alone. Nothing for a model of this package.
+    """
+    if kind.__module__.partition(".")[0] == __name__.partition(".")[0]:
+        return []
+    return [kind.__qualname__, vars(kind).get("version") or _MARKS.setdefault(kind, uuid4().hex)]
 
 
 class Hasher:
@@ -49,7 +67,7 @@ class Hasher:
     def __init__(self, model: Model, options: RunOptions = DECIDED) -> None:
         self.model, self.options = model, options
         length = [options.tail, options.until_rest, options.until_decided]
-        law = [model.name, model.parameters(), length, __version__, *laws(), Code().of_model(model)]
+        law = [model.name, model.parameters(), length, PACKAGE_VERSION, *laws(), version_of(type(model))]
         self._head = json.dumps(law, sort_keys=True, default=str)
         self._samples: dict[tuple, tuple[Motion, str]] = {}
 

@@ -8,6 +8,7 @@ number and itself.
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import sqlite3
 import threading
@@ -19,9 +20,8 @@ from typing import Any
 
 import numpy as np
 
-from ..atomic import replacing, set_aside
-from ..errors import DamagedFileWarning, InputError, StylobateError, warn
-from . import salvage
+from ..atomic import replacing
+from ..errors import InputError, StylobateError
 from .holding import Holding
 
 #: File in an output folder that keeps finished runs, of whichever commands have made them.
@@ -61,9 +61,6 @@ _SOUND_FILE = (
 #: Words of SQLite for a damaged file; its own words need not be text then.
 _DAMAGE = sqlite3.Error, ValueError
 
-#: Rows that are no line of text, or not at the number that their line tells behind its checksum.
-MISPLACED = "typeof(line) <> 'text' OR number <> CAST(substr(line, 18) AS INTEGER)"
-
 #: A ledger and what SQLite keeps beside it.
 ENDINGS = ("", "-wal", "-shm")
 
@@ -77,16 +74,17 @@ class Ledger:
     Parameters
     ----------
     path : str or Path
-        Made if it is not there. A file that is damaged, or no database, is set aside under a new name with a warning;
-        rows that are whole in it are taken over.
+        Made if it is not there.
     waiting : callable, optional
         Called again and again while another process holds the ledger, instead of refusing it.
 
     Raises
     ------
     InputError
-        The folder holds the ledger of an earlier version, the file is a link or the database of another program, another
-        process holds it, or nothing can be written there.
+        The folder holds the ledger of an earlier version, the file is damaged, a link or the database of another program,
+        or another process holds it.
+    StylobateError
+        Nothing can be written there.
     """
 
     def __init__(self, path: str | Path, waiting: Callable[[], object] | None = None) -> None:
@@ -122,7 +120,7 @@ class Ledger:
         """
         self._check()
         with self._wake:
-            self._pending.append((number, salvage.write_line(number, row, SEAL)))
+            self._pending.append((number, write_line(number, row)))
             waiting = len(self._pending)
             self._wake.notify()
         if waiting > MOST_WAITING:  # a slow disk is waited for
@@ -178,31 +176,13 @@ class Ledger:
             )
 
     def _open(self) -> sqlite3.Connection:
-        taken: list[tuple[int, str]] = []
-        if any(os.path.lexists(f"{self.path}{ending}") for ending in ENDINGS):
+        if not any(os.path.lexists(f"{self.path}{ending}") for ending in ENDINGS):
             try:
-                return connect(self.path)
-            except Damaged as damage:
-                try:
-                    aside = set_aside(self.path, ENDINGS)
-                except OSError as error:
-                    raise _cannot(self.path, error.strerror or str(error)) from None
-                taken = salvage.whole_lines(aside, SEAL)
-                kept = (
-                    f"{len(taken)} of its finished runs are whole and are used" if taken else "no run in it is of use"
-                )
-                said = f"{self.path} is damaged or no ledger ({damage}); it is kept as {aside.name}, and {kept}."
-                warn(said, DamagedFileWarning)
-        try:
-            with replacing(self.path) as partial:
-                create(partial, taken)
-            return connect(self.path)
-        except (sqlite3.Error, Damaged, OSError) as error:
-            raise _cannot(self.path, str(error)) from None
-
-
-class Damaged(Exception):
-    """A file is no whole ledger; the message says why."""
+                with replacing(self.path) as partial:
+                    create(partial)
+            except (sqlite3.Error, OSError) as error:
+                raise _cannot(self.path, str(error)) from None
+        return connect(self.path)
 
 
 def connect(path: Path) -> sqlite3.Connection:
@@ -211,61 +191,87 @@ def connect(path: Path) -> sqlite3.Connection:
     Raises
     ------
     InputError
-        It is the ledger of an earlier version.
-    Damaged
-        It is not whole, or no ledger.
+        It is damaged, no ledger, or that of an earlier version.
     StylobateError
         The system does not let it be used.
     """
-    if not path.exists():
-        raise Damaged("its main file is missing")
-    if path.stat().st_size == 0:
-        raise Damaged("it is empty")
-    file = sqlite3.connect(path, timeout=10.0, isolation_level=None, check_same_thread=False)
-    file.text_factory = salvage.text
+    if not path.is_file() or path.stat().st_size == 0:
+        raise _damaged(path, "it is empty" if path.exists() else "its main file is missing")
+    file = _text_file(path, timeout=10.0, isolation_level=None, check_same_thread=False)
     try:
-        marks = [file.execute(f"PRAGMA {name}").fetchone()[0] for name in ("application_id", "user_version")]
-        if marks != [APPLICATION, LAYOUT]:
-            raise Damaged("it was not written by this version of stylobate")
-        if (said := file.execute("PRAGMA quick_check(1)").fetchone()[0]) != "ok":
-            raise Damaged(" ".join(said.split()))
+        _check(file, path)
         file.execute("PRAGMA journal_mode = WAL")
-        found = file.execute("SELECT key, sum FROM campaign").fetchall()
-        if file.execute(f"SELECT count(*) FROM runs WHERE {MISPLACED}").fetchone()[0]:
-            raise Damaged("what it holds of a run is not what is held of that run")
-        if len(found) != 1 or hashlib.sha256(str(found[0][0]).encode()).hexdigest() != found[0][1]:
-            raise Damaged("what it says of itself is not whole")
     except sqlite3.Error as error:
         file.close()
         if getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT) & 0xFF in _SOUND_FILE:
             raise _cannot(path, str(error)) from None
-        raise Damaged(str(error)) from None
-    except ValueError as error:  # SQLite returned bytes that are not text
+        raise _damaged(path, str(error)) from None
+    except UnicodeDecodeError as error:  # words of SQLite that are no text
         file.close()
-        raise Damaged(str(error)) from None
+        raise _damaged(path, str(error)) from None
     except BaseException:
         file.close()
         raise
-    if found[0][0] != KEY:
-        file.close()
-        raise _former(path)
     return file
 
 
-def create(path: Path, lines: list[tuple[int, str]]) -> None:
+def _check(file: sqlite3.Connection, path: Path) -> None:
+    """Refuse a ledger that is not whole, or of an earlier version."""
+    marks = [file.execute(f"PRAGMA {name}").fetchone()[0] for name in ("application_id", "user_version")]
+    if marks != [APPLICATION, LAYOUT]:
+        raise _damaged(path, "it was not written by this version of stylobate")
+    if (check := file.execute("PRAGMA quick_check(1)").fetchone()[0]) != "ok":
+        raise _damaged(path, " ".join(check.split()))
+    keys = file.execute("SELECT key, sum FROM campaign").fetchall()
+    if len(keys) != 1 or hashlib.sha256(str(keys[0][0]).encode()).hexdigest() != keys[0][1]:
+        raise _damaged(path, "its first table is not whole")
+    if keys[0][0] != KEY:
+        raise _former(path)
+
+
+def create(path: Path) -> None:
     """Write a new ledger; it is whole when this returns."""
-    file = sqlite3.connect(path, isolation_level=None)
-    try:
+    with closing(sqlite3.connect(path, isolation_level=None)) as file:
         file.execute(f"PRAGMA application_id = {APPLICATION}")
         file.execute(f"PRAGMA user_version = {LAYOUT}")
         file.execute("BEGIN")
         file.execute("CREATE TABLE campaign (key TEXT, sum TEXT)")
         file.execute("CREATE TABLE runs (number INTEGER PRIMARY KEY, line TEXT)")
         file.execute("INSERT INTO campaign VALUES (?, ?)", (KEY, SEAL))
-        file.executemany("INSERT OR REPLACE INTO runs VALUES (?, ?)", lines)
         file.execute("COMMIT")
-    finally:
-        file.close()
+
+
+def write_line(number: int, row: Mapping[str, Any]) -> str:
+    """A run as one line: checksum, number, row."""
+    rest = f"{number} {json.dumps(row)}"
+    return f"{_checksum(rest)} {rest}"
+
+
+def read_line(number: int, line: Any) -> dict | None:
+    """The row in the line of a run; None if the line is not whole, or that of another run."""
+    checksum, _, rest = line.partition(" ") if isinstance(line, str) else ("", "", "")
+    if checksum != _checksum(rest) or not rest.startswith(f"{number} "):
+        return None
+    return json.loads(rest.partition(" ")[2])
+
+
+def _checksum(rest: str) -> str:
+    return hashlib.sha256(f"{SEAL} {rest}".encode("utf-8", "surrogatepass")).hexdigest()[:16]
+
+
+def _text_file(path: Path, mode: str = "", **options: Any) -> sqlite3.Connection:
+    """A database whose texts may be damaged: checksums judge them, not the decoder."""
+    place: Any = f"{path.absolute().as_uri()}?{mode}" if mode else path
+    file = sqlite3.connect(place, uri=bool(mode), **options)
+    file.text_factory = lambda data: data.decode("utf-8", "replace")
+    return file
+
+
+def _damaged(path: Path, why: str) -> InputError:
+    return InputError(
+        f"{path} keeps finished runs and is damaged, or no such file ({why}); it stays as it is: move it away, and the same "
+        "command computes its runs anew, or choose another folder."
+    )
 
 
 def _cannot(path: Path, why: str) -> StylobateError:
@@ -318,9 +324,7 @@ def _key_of(path: Path) -> str | None:
 
 
 def _untouched(path: Path) -> sqlite3.Connection:
-    file = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)  # leaves nothing beside it
-    file.text_factory = salvage.text
-    return file
+    return _text_file(path, "mode=ro&immutable=1")  # leaves nothing beside it
 
 
 def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple[int, dict]]:
@@ -329,11 +333,10 @@ def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple
     Rows without a valid checksum are left out; a file that is missing, or no ledger, holds none.
     """
     with closing(_opened(path)) as file, suppress(*_DAMAGE):
-        for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
-            number = salvage.number_of(line)
-            found = None if number is None or not wanted(number) else salvage.read_line(line, SEAL)
-            if found is not None:
-                yield found
+        for number, line in file.execute("SELECT number, line FROM runs ORDER BY number"):
+            row = read_line(number, line) if wanted(number) else None
+            if row is not None:
+                yield number, row
 
 
 def finished_runs_in(path: str | Path, wanted: np.ndarray | None = None) -> int:
@@ -349,8 +352,7 @@ def _opened(path: str | Path) -> sqlite3.Connection:
     place = Path(path).absolute()
     for access in ("mode=ro", "mode=ro&immutable=1"):  # the second where the folder cannot be written to either
         if place.is_file():
-            file = sqlite3.connect(f"{place.as_uri()}?{access}", uri=True)
-            file.text_factory = salvage.text
+            file = _text_file(place, access)
             with suppress(*_DAMAGE):
                 file.execute("SELECT number FROM runs LIMIT 1").fetchone()
                 return file

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..kernels.gpu import driver
+from ..models import devices
 from ..models.base import Case, Cases, Model, RunOptions
 from ..models.shared.quiet import share_of
 from ..own_files import digest as digest_of_file
@@ -137,7 +137,7 @@ class Runs:
             self._cluster.enter_context(on_cluster(self.campaign.dask, self.campaign.threads, _log.info))
             self._elsewhere = True
         if self.campaign.device == GPU and not self._elsewhere:
-            driver.the_card()
+            devices.gpu()
             self._cluster.enter_context(computed_by(run_on_card))
             self._elsewhere = True
         if self._book is None and self.path is not None:
@@ -233,7 +233,7 @@ class Runs:
             return
         if self.campaign.device == GPU:
             model = next(model for numbers, model, _ in request.groups if number in numbers)
-            if not model.on_card(driver.the_card(), request.cases[number].column):
+            if not model.on_card(devices.gpu(), request.cases[number].column):
                 return
         raise InputError(
             f"{self.path} keeps finished runs of this request that were computed by {by}, and `device` is "

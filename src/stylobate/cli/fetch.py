@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from . import options as o
@@ -25,7 +25,7 @@ def fetch(
     before: str = o.option("TIME", "Begin before the time of origin.", "10s"),
     lasts: str = o.option("TIME", "Length of the records.", "120s"),
     *,
-    execution: Annotated[o.Execution, o.But(*o.COMPUTING)],
+    execution: o.Plain,
 ) -> None:
     """Accelerograms of an earthquake from a data centre (needs the extra seismology).
 

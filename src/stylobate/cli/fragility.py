@@ -77,7 +77,7 @@ def fragility(
 
     A lognormal curve by maximum likelihood with intervals over records; several sources or columns in one picture.
     """
-    from ..exchange.nrml import check_nrml, write_nrml
+    from ..results.nrml import check_nrml, write_nrml
     from ..results.sources import kept_of
     from . import console
 

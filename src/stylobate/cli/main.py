@@ -13,43 +13,36 @@ from typing import Annotated, Any
 
 import typer
 
+from ..added import added_commands, missing
 from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeWarning, PlaneOnlyWarning, StylobateError
 from ..version import __version__
 from . import (
     animate,
-    calibrate,
     cite,
     columns,
     compare,
     console,
-    convert,
     critical,
     domain,
-    draw,
-    export,
     fetch,
     fragility,
     ida,
-    infer,
     limit,
     materials,
+    modes,
     motion,
     pushover,
     records,
-    report,
     risk,
     run,
     schema,
     sequence,
-    serve,
     signals,
     spectrum,
     states,
     study,
     suite,
-    survival,
 )
-from .added import STUDIES, added_commands, missing_command
 from .groups import takes
 from .helping import WIDTH, Command
 
@@ -88,9 +81,8 @@ def _passing_on() -> Iterator[None]:
 
 
 for _room in (
-    run, sequence, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, infer,
-    calibrate, motion, fetch, records, spectrum, columns, draw, convert, schema, materials, animate, export, report,
-    serve, cite,
+    run, sequence, critical, domain, pushover, limit, modes, compare, states, suite, ida, fragility, risk,
+    motion, fetch, records, spectrum, columns, schema, materials, animate, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))
@@ -139,8 +131,9 @@ def call(arguments: Sequence[str]) -> int:
         warnings.showwarning = _Warner()
         try:
             program = commands()
-            if arguments and arguments[0] in STUDIES and arguments[0] not in program.commands:
-                raise InputError(missing_command(arguments[0]))
+            name = arguments[0] if arguments else ""
+            if name not in program.commands and (place := missing("commands", name)):
+                raise InputError(f"{name} is a command of {place}")
             code = program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
         except InputError as error:
             console.FIELD = error.field

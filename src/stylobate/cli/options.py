@@ -224,6 +224,15 @@ class Execution(Group):
 
         return files(self.out, command, *writes)
 
+    def place(self, file: Path) -> Path:
+        """The file in the folder of ``--out``, which is made; where no folder is named, the file as it is."""
+        if self.out is None:
+            return file
+        if self.out.exists() and not self.out.is_dir():
+            raise InputError(f"--out is {str(self.out)!r}, which is a file; name a folder.", "out")
+        self.out.mkdir(parents=True, exist_ok=True)
+        return self.out / file
+
     def emits(self, result: Mapping[str, Any]) -> bool:
         """Print the result as one JSON object where that is asked for, else leave it to be told to people."""
         from . import console
@@ -233,9 +242,8 @@ class Execution(Group):
         return self.as_json
 
 
-#: Options that say what computes many runs besides threads, and what computes any.
+#: Options that say what computes many runs besides threads.
 CAMPAIGNS = "dask", "device", "mix_devices"
-COMPUTING = "threads", *CAMPAIGNS
 
 #: Of commands whose runs are no campaign.
 Plain = Annotated[Execution, But(*CAMPAIGNS)]

@@ -42,7 +42,7 @@ def run(
     following: o.Following,
     until_end: bool = o.option(None, "Go on after the collapse is certain.", False),
     until_rest: bool = o.option(
-        None, "Go on until everything lies still, on the ground if need be (dem2d; assemblies in space, dem3d).", False
+        None, "Go on until everything lies still, on the ground if need be (dem2d, dem3d).", False
     ),
     output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
     settings: o.Settings = None,
@@ -65,6 +65,8 @@ def run(
     asked = motions.request()
     stone = o.the_structure(column, project)
     how = o.the_model(model, settings, losses)
+    if until_rest:
+        stone = how.as_followed(stone)
     found = asked.expand(stone.frequency_parameter)
     options = {"output_interval": parse_time(output_interval), "until_end": until_end, "until_rest": until_rest}
     campaign, given = execution.campaign(following, population), population.replicates is not None

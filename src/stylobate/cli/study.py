@@ -57,7 +57,7 @@ def run(
     print(f"{console.counted(len(files), 'file')} in {out}: {named}, histories of {histories} runs")
 
 
-def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")]) -> None:
+def status(directory: StudyFolder, *, execution: o.Plain) -> None:
     """State of a study, which may be running."""
     from ..analysis.studies import StudyResult
     from ..campaign.ledger import RUNS_FILE
@@ -65,15 +65,16 @@ def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But(*o
     from . import console
 
     result = StudyResult.in_folder(directory)
-    if execution.as_json:
-        written = directory / "study.json"
-        last = json.loads(written.read_text()).get("wall_s") if written.is_file() else None
-        names = (*(path.name for path in sorted(directory.glob("study.*"))), PLAN_FILE, RUNS_FILE)
-        summary = result.summary() | {"wall_s": last, "files": [str(directory / name) for name in names]}
-        summary.pop("computed")
-        console.emit(summary)
-    else:
-        console.print_doubt(result.summary())
+    written = directory / "study.json"
+    last = json.loads(written.read_text()).get("wall_s") if written.is_file() else None
+    names = (*(path.name for path in sorted(directory.glob("study.*"))), PLAN_FILE, RUNS_FILE)
+    summary = result.summary() | {"wall_s": last, "files": [str(directory / name) for name in names]}
+    summary.pop("computed")
+    with execution.files("study status", "status.json") as files:
+        if files.wanted:
+            files.json(summary, "status.json")
+    if not execution.emits(summary):
+        console.print_doubt(summary)
         print(sentence(result))
 
 
@@ -81,13 +82,14 @@ def export(
     directory: StudyFolder,
     to: Path = o.option("FILE", "Table to write: .parquet or .csv.", ...),
     *,
-    execution: Annotated[o.Execution, o.But(*o.COMPUTING, "out")],
+    execution: o.Plain,
 ) -> None:
     """Write the table of a study, one row per finished case; of one that is not finished as well."""
     from ..analysis.studies import StudyResult, write_table
     from . import console
 
     result = StudyResult.in_folder(directory)
+    to = execution.place(to)
     if to.exists():
         from ..errors import InputError
 

@@ -16,7 +16,7 @@ from ..response.words import round_in_the_plane
 from .start import Start, Toss
 
 if TYPE_CHECKING:
-    from ..kernels.gpu.card import Device
+    from .devices import Device
 
 #: Larger accelerations are rejected as non-physical; numbers would overflow [m/s²].
 LARGEST_ACCELERATION = 1e6
@@ -107,17 +107,18 @@ class RunOptions:
 class Model:
     """Base of the models. A subclass is a frozen dataclass of parameters, checked where it is made.
 
-    Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography;
-    ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model takes, ``xz`` in a plane;
-    ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
-    everything lies still, ``takes_start`` whether it can start from a pose,
-    ``computes`` the shapes of bodies that it knows; ``takes_rings`` whether joints may carry on rings; ``takes_links`` by
-    which laws links may act; ``carries`` how many columns alike it can take along in a single run at next to no cost;
-    ``varies_law`` whether columns may have losses and laws of joints of their own.
+    Class attributes: ``name`` as on the command line; ``version`` of a model of somebody else, another whenever its
+    results change, because finished runs of an equal version are not computed again; ``title`` for people; ``references``
+    as keys of the bibliography; ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model
+    takes, ``xz`` in a plane; ``computes`` the shapes of bodies that it knows, ``takes_as_found`` whether it computes
+    columns that are not as built, ``takes_start`` whether it can start from a pose, ``takes_rings`` whether joints may
+    carry on rings, ``takes_links`` by which laws links may act; ``carries`` how many columns alike it can take along in a
+    single run at next to no cost; ``varies_law`` whether columns may have losses and laws of joints of their own.
     """
 
     wanted: ClassVar[str] = "a model, such as DistinctElement2D()"
     name: ClassVar[str] = ""
+    version: ClassVar[str] = ""
     title: ClassVar[str] = ""
     references: ClassVar[tuple[str, ...]] = ()
     assumptions: ClassVar[tuple[str, ...]] = ()
@@ -125,7 +126,6 @@ class Model:
     axes: ClassVar[str] = "xz"
     computes: ClassVar[tuple[type, ...]] = DRUMS
     takes_as_found: ClassVar[bool] = False
-    follows_to_rest: ClassVar[bool] = False
     takes_start: ClassVar[bool] = False
     takes_rings: ClassVar[bool] = False
     takes_links: ClassVar[frozenset[str]] = frozenset()
@@ -173,10 +173,19 @@ class Model:
         """The components of a motion that the model takes; what it leaves out is said in ``metadata["left_out"]``."""
         return keep_axes(motion, self.axes)
 
-    def follows(self, column: Any) -> bool:
-        """Whether it can go on until everything lies still, of what stands."""
-        del column
-        return self.follows_to_rest
+    def as_followed(self, structure: Any) -> Any:
+        """What stands, in the form in which a run that goes on until everything lies still computes it.
+
+        Raises
+        ------
+        InputError
+            The model follows no collapse of it to the ground.
+        """
+        raise InputError(
+            f"`until_rest` is on, and {self.name} does not follow how {structure.described} comes down; use dem2d or dem3d "
+            "for columns and assemblies, or leave it off: `tail` and `until_end` are for every model.",
+            "until_rest",
+        )
 
     def carried(self, column: Any) -> int:
         """Number of twins along a run of what stands."""

@@ -5,4 +5,6 @@ The names are those of ``__init__.pyi``; each is loaded when it is first used, w
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+from ..added import with_added
+
+__getattr__, __dir__ = with_added(__name__, lazy_loader.attach_stub(__name__, __file__))

@@ -1,17 +1,15 @@
-"""Risk: which shaking brings a column down, deaggregated by intensity; and what its age says about hazard curves."""
+"""Risk: which shaking brings a column down, deaggregated by intensity."""
 
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..analysis.risk import Risk, years
-from ..analysis.survival import Survival
 from ..motion.intensity_specs import parse_measure
 from ..percent import percent
 from .fragility import NARROW, logarithmic
-from .style import BLACK, BLUE, GREY, RED, page, panel, styled
+from .style import BLACK, BLUE, RED, page, styled
 
 
 @styled
@@ -53,34 +51,4 @@ def draw_risk(result: Risk, title: str | None = None, *, figure: Figure | SubFig
     lower.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)
     period = "never" if result.rate == 0.0 else f"once in {years(1.0 / result.rate)}"
     upper.set_title(title or f"{f.evidence.state}: {period}", fontsize=9)
-    return figure
-
-
-@styled
-def draw_survival(result: Survival, title: str | None = None, *, ax: Axes | None = None) -> Figure:
-    """Probability that the column would still stand, by hazard curve, with the interval of its fragility.
-
-    Parameters
-    ----------
-    result : Survival
-    title : str, optional
-        The age by default.
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
-    """
-    figure, axes = panel(ax, (NARROW[0], 1.2 + 0.62 * len(result.risks)))
-    low, high = result.interval
-    at = np.arange(len(result.risks))
-    axes.barh(at, result.probability, height=0.36, color=BLUE, alpha=0.6)
-    axes.hlines(at, low, high, color=BLACK, linewidth=1.4)
-    weight = result.likelihood / result.likelihood.sum()
-    for k, risk in enumerate(result.risks):
-        text = f"{risk.hazard.name}: {result.probability[k]:.2g}, weight {weight[k]:.2f}"
-        axes.annotate(text, (0.0, k), xytext=(2, 15), textcoords="offset points", va="center", fontsize=8)
-    axes.set_yticks([])
-    axes.spines["left"].set_color(GREY)
-    axes.set(xlim=(0.0, 1.02), ylim=(len(at) - 0.6, -0.8))
-    axes.set_xlabel("probability that it would still stand [-]")
-    axes.grid(True, axis="x")
-    axes.set_title(title or f"{years(result.age)} without {result.risks[0].fragility.evidence.state}", fontsize=9)
     return figure

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Response(Recorded):
-    """Result of :func:`stylobate.simulate` and :func:`stylobate.simulate_assembly`; everything relative to the moving base.
+    """Result of :func:`stylobate.simulate`; everything relative to the moving base.
 
     Histories and measures can be read off it directly: ``response.time``, ``response.peak_top_displacement``.
 

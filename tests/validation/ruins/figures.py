@@ -12,14 +12,14 @@ import numpy as np
 from scipy.stats import chi2
 
 import stylobate as st
-from stylobate.analysis import abc
-from stylobate.analysis.answers import FEWEST, TOLD, Answers
-from stylobate.analysis.infer import infer
-from stylobate.analysis.ruin_check import checks_of
 from stylobate.campaign.campaign import Campaign
-from stylobate.campaign.prior import Prior
-from stylobate.campaign.ruin import Fact, Observed, Ruin
-from stylobate.campaign.simulations import FELL, TAIL, Simulations, simulations_of
+from stylobate_ruins import abc
+from stylobate_ruins.answers import FEWEST, TOLD, Answers
+from stylobate_ruins.infer import infer
+from stylobate_ruins.prior import Prior
+from stylobate_ruins.ruin import Fact, Observed, Ruin
+from stylobate_ruins.ruin_check import checks_of
+from stylobate_ruins.simulations import FELL, TAIL, Simulations, simulations_of
 
 #: Where the figures are kept.
 KEPT = Path(__file__).with_name("figures.json")

@@ -13,7 +13,7 @@ from ...constants import g as STANDARD_GRAVITY
 from ...errors import InputError, check_kind, check_range
 from ..assembly_fields import check_fields
 from ..block import FAR_AWAY, ground_block, length_of
-from ..column import GRAVITIES
+from ..column import GRAVITIES, Column
 from ..faces import Bed
 from ..joint import Joint, given
 from ..links import link_from_dict
@@ -23,6 +23,7 @@ from ..links.placed import PlacedLink
 from ..shapes import Glued
 from ..structure import Body, Structure
 from .links import place_in_space
+from .placing import drums_in_space
 from .stone import Stone
 from .touching import TOUCHING, Overlap, Solid, SpaceJoint, overlap_of, overlaps, separation
 
@@ -111,6 +112,23 @@ class SpatialAssembly(Structure):
         else:
             self._contacts  # noqa: B018  refuses bodies that overlap
         self.placed_links  # noqa: B018  refuses links that cannot be
+
+    @classmethod
+    def of_column(cls, column: Column) -> SpatialAssembly:
+        """The drums of a column as stones, each with the law of the joint below it.
+
+        Raises
+        ------
+        InputError
+            Rings, tilts or a base out of level, which stones in space do not have.
+        """
+        if column.as_found.base_tilt:
+            raise InputError(
+                f"{column.name!r} stands on a base out of level, and the ground of an assembly is level; leave it out."
+            )
+        stones, links = drums_in_space(column)
+        own = {"gravity": column.gravity, "links": tuple(links), "north": column.north}
+        return cls(tuple(stones), column.joints[0], column.name, **own)
 
     def _refuse_moving(self) -> None:
         moving = next((one for one in self.stones if any(one.velocity) or any(one.angular_velocity)), None)

@@ -62,33 +62,59 @@ def stand_in_space(
         raise InputError("columns stand on the ground, and ground is false; give its level in m.")
     for table in tables:
         column = standing_column(table.file, folder)
-        column.must_carry_on_whole_faces("an assembly in space")
-        tilted = next((one.drum for one in column.as_found.drums if one.tilt), None)
-        if tilted is not None:
-            raise InputError(
-                f"drum {tilted} of {column.name!r} is found tilted; an assembly in space takes offsets, turns and chips as "
-                "found, and no tilt so far: leave it out."
-            )
         if column.gravity != gravity:
             raise InputError(
                 f"{column.name!r} has a gravity of {column.gravity:g} m/s² and the assembly {gravity:g} m/s²; give one."
             )
-        at, turn = space_geometry(column), about(UP, table.turn * DEGREE)
-        c, s = math.cos(table.turn * DEGREE), math.sin(table.turn * DEGREE)
         for x, y in _places(table):
             name = f"{table.name or 'column'} {len(axes) + 1}"
-            for i, (drum, body, law) in enumerate(zip(column.drums, column.bodies[1:], column.joints, strict=True)):
-                u, v, w = (float(one) for one in at.centroid[i])
-                place = (x + c * u - s * v, y + s * u + c * v, float(ground or 0.0) + w)
-                turned = product(turn, quaternion_of(at.axes[i]))
-                parts = (Placed(body.shape),)  # pyright: ignore[reportArgumentType]
-                stones.append(Stone(parts, place, drum.density, f"{name}, {body.name}", turned, surface=law))
+            drums, own = drums_in_space(column, (x, y, float(ground or 0.0)), table.turn * DEGREE, f"{name}, ")
+            stones += drums
+            links += own
             level = float(ground or 0.0) + column.height
             axes.append(Axis(name, (x, y), level, stones[-1], column.joints[-1]))
-            called = {"ground": "ground"} | {body.name: f"{name}, {body.name}" for body in column.bodies[1:]}
-            stands = partial(_ends_of, column, at, np.array([x, y, float(ground or 0.0)]), matrix_of(turn))
-            links += links_of_column(column, stands, called, f"{name}, ")
     return stones, axes, links
+
+
+def drums_in_space(
+    column: Column, foot: Point = (0.0, 0.0, 0.0), angle: float = 0.0, named: str = ""
+) -> tuple[list[Stone], list[Link]]:
+    """Drums of a column as stones in space, and its links.
+
+    Parameters
+    ----------
+    column : Column
+    foot : (float, float, float)
+        Middle of its base [m].
+    angle : float
+        By which it is turned about the vertical [rad].
+    named : str
+        Before the names of its drums and links.
+
+    Raises
+    ------
+    InputError
+        Rings or tilts, which stones in space do not have.
+    """
+    column.must_carry_on_whole_faces("an assembly in space")
+    tilted = next((one.drum for one in column.as_found.drums if one.tilt), None)
+    if tilted is not None:
+        raise InputError(
+            f"drum {tilted} of {column.name!r} is found tilted; an assembly in space takes offsets, turns and chips as "
+            "found, and no tilt so far: leave it out."
+        )
+    at, turn = space_geometry(column), about(UP, angle)
+    c, s = math.cos(angle), math.sin(angle)
+    stones = []
+    for i, (drum, body, law) in enumerate(zip(column.drums, column.bodies[1:], column.joints, strict=True)):
+        u, v, w = (float(one) for one in at.centroid[i])
+        place = (foot[0] + c * u - s * v, foot[1] + s * u + c * v, foot[2] + w)
+        turned = product(turn, quaternion_of(at.axes[i]))
+        parts = (Placed(body.shape),)  # pyright: ignore[reportArgumentType]
+        stones.append(Stone(parts, place, drum.density, f"{named}{body.name}", turned, surface=law))
+    called = {"ground": "ground"} | {body.name: f"{named}{body.name}" for body in column.bodies[1:]}
+    stands = partial(_ends_of, column, at, np.array(foot), matrix_of(turn))
+    return stones, links_of_column(column, stands, called, named)
 
 
 def _ends_of(column: Column, at: SpaceGeometry, foot: np.ndarray, turned: np.ndarray, link: PlacedLink) -> list[Point]:

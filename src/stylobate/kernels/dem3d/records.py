@@ -20,7 +20,8 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
     joint[j]   kn ks co       stiffness and cohesion per area [N/m³], [N/m³], [Pa]
                mu             tan φ
                s[3] t kf kt   core of the shear, see shared/friction.py: force on the drum above in the axes of that below
-                              [N], torsion [N m], its k [N/m] and j [N m];  fs[3] ft ff fj  the same of the fresh layer;
+                              [N], torsion [N m], its k [N/m] and j [N m];  at[3]  its place from the middle of the face
+                              below, in the same axes [m];  fs[3] ft ff fj  the same of the fresh layer;
                               tm[3]  moment of both about the middle of the face below, in space [N m];
                               with corners ``s`` is one shear force for each of them, x, y, z, and all else but kf is 0
                en             elastic energy of the normal pressure [J]
@@ -72,7 +73,7 @@ from functools import partial
 import numpy as np
 
 from ..run_codes import LANES
-from ..shared.link_records import BOND_TYPE, link_types
+from ..shared.link_records import BOND_TYPE, NO_LINK, link_types
 from ..shared.records import PAIR_TYPE, SPAN_TYPE, TOUCH_TYPE
 
 #: Rows of ``damp``.
@@ -126,7 +127,7 @@ def types(
         ),
         "joint": vertex_type(some) if face == "vertex" else joint_type(face, damped, some),
         "load": np.dtype(some("f up lo", 3)),
-        "link": link if linked else np.dtype(some("none")),
+        "link": link if linked else NO_LINK,
         "bond": BOND_TYPE,
         "lane": np.dtype(
             some("dt pivot free work shear visc")
@@ -162,7 +163,7 @@ def joint_type(face: str, damped: bool, some: Fields) -> np.dtype:
     return np.dtype(
         some("kn ks co mu t kf kt en ox oy ot tw ft ff fj")
         + some("s", 3 * CORNERS if cornered else 3)
-        + some("fs tm", 1 if cornered else 3)
+        + some("fs at tm", 1 if cornered else 3)
         + some("d", dashpots)
         + own.get(face, some("chip", 1))
     )

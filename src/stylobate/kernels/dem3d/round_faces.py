@@ -86,9 +86,10 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     # friction with one limit for both  # Eq. (E6)
     limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * math.sqrt(spread)
     pivot = o.pivot[l]
-    own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle
+    square = squares / max(area, NOTHING)
+    own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle, square
     turning = turning if pivot > 0.0 else 0.0
-    core, fresh = layers(e, v, l)
+    core, fresh = layers(e, v, l, pivot, centre)
     before = along(core[0], 1.0, fresh[0])
     core, fresh, q, twist = friction(core, fresh, own, n, slip, turning, dt, limits)
     remember(e, v, l, core, fresh)
@@ -126,10 +127,21 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
 
 
 @law
-def layers(e, v, l):
-    """Both layers of shear of a joint a step ago, in space: see ``shared/friction.py``."""
+def layers(e, v, l, pivot, centre):
+    """Both layers of shear of a joint a step ago, in space: see ``shared/friction.py``.
+
+    A face that pivots freely does not turn on what touches: its core goes along with it, and it rolls without creeping.
+    """
+    at = in_space(v, l, e.at[0, l], e.at[1, l], e.at[2, l])
+    at = at if pivot > 0.0 else centre
     return (
-        (in_space(v, l, e.s[0, l], e.s[1, l], e.s[2, l]), e.t[l], e.kf[l], e.kt[l]),
+        (
+            in_space(v, l, e.s[0, l], e.s[1, l], e.s[2, l]),
+            e.t[l],
+            e.kf[l],
+            e.kt[l],
+            at,
+        ),
         (in_space(v, l, e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.ff[l], e.fj[l]),
     )
 
@@ -137,7 +149,8 @@ def layers(e, v, l):
 @law
 def remember(e, v, l, core, fresh):
     """Write both layers into the record of a joint, in the axes of the drum below."""
-    s, e.t[l], e.kf[l], e.kt[l] = core
+    s, e.t[l], e.kf[l], e.kt[l], at = core
+    e.at[0, l], e.at[1, l], e.at[2, l] = in_body(v, l, at[0], at[1], at[2])
     e.s[0, l], e.s[1, l], e.s[2, l] = in_body(v, l, s[0], s[1], s[2])
     s, e.ft[l], e.ff[l], e.fj[l] = fresh
     e.fs[0, l], e.fs[1, l], e.fs[2, l] = in_body(v, l, s[0], s[1], s[2])

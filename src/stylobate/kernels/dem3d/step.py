@@ -148,14 +148,6 @@ def stored(joint, lane, l):
     return lambda joint, lane, l: stored_in_faces(joint, lane, l)
 
 
-@chosen
-def ledger_of_links(link, bond, l, out):
-    """Adds what links hold to the ledger of one lane, where there are some."""
-    if rows(link, "none"):
-        return lambda link, bond, l, out: None
-    return lambda link, bond, l, out: add_to_ledger(link, bond, l, out)
-
-
 @long_law
 def look_ahead(state):
     """Search before a chunk of steps."""
@@ -211,7 +203,7 @@ def ledgers(state, dt, lanes, out):
         out[k, 3] = elastic + held
         out[k, 4] = o.shear[l] - held
         out[k, 5] = o.visc[l]
-        ledger_of_links(state[LINK], state[BOND], l, out[k])
+        add_to_ledger(state[LINK], state[BOND], l, out[k])
 
 
 @strict

@@ -5,9 +5,10 @@ Records and legend: ``shared/link_records.py``; the laws: ``shared/links.py``. L
 
 import math
 
-from ..jit import apart, kernel, law
+from ..jit import apart, chosen, kernel, law
 from ..run_codes import CHUNK
 from ..shared.links import begun, clamped, held, look_at_hold, look_at_links, note_slack, note_slip, pulled, some_leaves
+from ..shared.records import rows
 from .point_joint import face
 
 
@@ -146,9 +147,17 @@ def straight(body, load, link, pair, n, m):
         f.ml[l] += ax * fz - az * fx
 
 
-@kernel
+@chosen
 def link_forces(body, joint, load, link, bond, pair):
-    """Forces of all links at t_n; brings their memory from t_{n−1} to t_n."""
+    """Forces of all links at t_n, where there are some; brings their memory from t_{n−1} to t_n."""
+    if rows(link, "none"):
+        return lambda body, joint, load, link, bond, pair: None
+    return lambda body, joint, load, link, bond, pair: add_links(body, joint, load, link, bond, pair)
+
+
+@kernel
+def add_links(body, joint, load, link, bond, pair):
+    """See :func:`link_forces`."""
     for m in range(link.shape[0]):
         b = bond[m]
         n = joint.shape[0] + m
@@ -180,9 +189,17 @@ def slack_left(body, link, pair, n, m):
         note_slack(k, l, abs(at_s - k.px[l]), abs(at_s - k.sx[l]), abs(speed), CHUNK * k.dt[l])
 
 
-@kernel
+@chosen
 def look_ahead(body, joint, load, link, bond, pair, watch):
     """Which links may hold something within the next chunk of steps: all but dowels far within their slack."""
+    if rows(link, "none"):
+        return lambda body, joint, load, link, bond, pair, watch: None
+    return lambda body, joint, load, link, bond, pair, watch: look_for_slack(body, joint, load, link, bond, pair, watch)
+
+
+@kernel
+def look_for_slack(body, joint, load, link, bond, pair, watch):
+    """See :func:`look_ahead`."""
     for m in range(link.shape[0]):
         b = bond[m]
         if b.line == 0 and b.ten == 0 and b.both == 0 and b.c == 0.0:
@@ -193,11 +210,34 @@ def look_ahead(body, joint, load, link, bond, pair, watch):
                 clear(load, n)
 
 
-@kernel
+@chosen
 def look_at_all(joint, link, bond, lane, feed, watch, hold, pair):
     """Between chunks of steps: peaks and breaks of links, and what the whole ones hold of a column."""
+    if rows(link, "none"):
+        return lambda joint, link, bond, lane, feed, watch, hold, pair: None
+    return lambda joint, link, bond, lane, feed, watch, hold, pair: look_at_links_and_hold(
+        joint, link, bond, lane, feed, watch, hold, pair
+    )
+
+
+@kernel
+def look_at_links_and_hold(joint, link, bond, lane, feed, watch, hold, pair):
+    """See :func:`look_at_all`."""
     look_at_links(link, bond, lane, feed, watch)
     look_at_hold(link, hold, pair, joint.shape[0])
+
+
+@chosen
+def set_step(link, dt):
+    """Lets the dashpots of all links know the step of one lane [s]."""
+    if rows(link, "none"):
+        return lambda link, dt: None
+
+    def of_all(link, dt):
+        for m in range(link.shape[0]):
+            link[m].dt[0] = dt
+
+    return of_all
 
 
 @kernel

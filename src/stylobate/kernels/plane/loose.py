@@ -33,7 +33,7 @@ from ..shared.records import BODY, BOND, FEED, GROUND, JOINT, LANE, LINK, LOAD, 
 from . import clip as near
 from . import contact as ct
 from .bed import bed_forces, stored_by_bed
-from .links import link_forces
+from .links import link_forces, set_step
 from .motion import drift, gather
 from .point_joint import meeting, press, put, stored
 from .records import ALPHA, BETA, LOCAL
@@ -113,8 +113,7 @@ def loose_forces(state, search):
     now, hand, shape, corner, _, _, joined, law, memory, real, whole = search
     body, joint, load, link, lane, pair = state[BODY], state[JOINT], state[LOAD], state[LINK], state[LANE], state[PAIR]
     loose_joints(body, joint, load, pair, lane, now, hand)
-    for m in range(link.shape[0]):
-        link[m].dt[0] = now[0].last
+    set_step(link, now[0].last)
     link_forces(body, joint, load, link, state[BOND], pair)
     start = joint.shape[0] + link.shape[0]
     beta = lane[0].damp[BETA, 0]

@@ -49,7 +49,7 @@ positions at t_n, velocities at t_{n−1/2})::
 
 import numpy as np
 
-from ..shared.link_records import BOND_TYPE, link_types
+from ..shared.link_records import BOND_TYPE, NO_LINK, link_types
 from ..shared.records import PAIR_TYPE, SPAN_TYPE, TOUCH_TYPE
 
 #: Rows of ``damp``.
@@ -95,13 +95,13 @@ def types(joint, damped, points, lanes, linked):
     linked : bool
         Whether there are links.
     """
-    link, hold = link_types(lanes if linked else 0)
+    link, hold = link_types(lanes)
     counts = [(name, np.int64, (lanes,)) for name in ("status", "follow", "when", "which", "side", "parted", "about")]
     return {
         "body": np.dtype(_fields("x z th c s vx vz w m i im ii fx fz mo", lanes)),
         "joint": joint,
         "load": np.dtype(_fields("fx fz mu_ ml", lanes)),
-        "link": link,
+        "link": link if linked else NO_LINK,
         "bond": BOND_TYPE,
         "lane": np.dtype(
             _fields("dt g gx work shear visc px pz", lanes)

@@ -1,15 +1,18 @@
 """Friction of a face: a shear force and a torsion that remember, in two layers, within one limit surface.
 
 Shear is carried by what touches, evenly, pressed much or little: a layer is a spring of stiffness k = k_s A in shear at
-the centroid of its area A, and j = κ k_s J in torsion about that centroid, J the polar moment of the area about it. Such a
-spring has a potential as long as its area is the same: the tangent stiffness is symmetric, and no closed loop of small
-motions does work. Only Coulomb's limit knows the pressure, and its middle P.
+the centroid of its area A, and j in torsion about that centroid. Together they are the spring of all that touches, k and
+j = κ k_s J at its centroid C, J the polar moment of the area about it. Such springs have a potential as long as their areas
+are the same: the tangent stiffness is symmetric, and no closed loop of small motions does work. Only Coulomb's limit knows
+the pressure, and its middle P.
 
 What touches changes. Two layers remember: the *core* has touched all the time since the face last slipped; the *fresh* layer
-is what has closed since, and came without force. What opens is taken from the fresh layer, and only then from the core, so
-that a vibration that opens and closes an edge takes nothing from the core, and a lasting push does not creep. What opens
+is what has closed since, and came without force. The core keeps its place on the face below: a vibration that opens and
+closes an edge moves C to and fro, and neither takes from the core nor moves its force, so that a lasting push neither creeps
+nor flutters. What opens is taken from the fresh layer, and from the core what lies beyond the extent of what touches. It
 takes its share of the force with it: stored energy never rises. At the limit the whole face slips, and all of it is core.
-Under a drum that rolls the forces go along with what touches, as under a wheel that rolls without creeping.
+Under a drum that rolls the core is left behind, and what has closed meanwhile takes its place: what lasts across the way of
+a toe is borne by turning on it, as of strips that enter free of shear (theory of rolling contact).
 """
 
 import math
@@ -28,6 +31,10 @@ NO_LIMIT = 1e-12
 
 #: A layer of less than this share of what touches is none: areas are no more exact.
 NO_LAYER = 1e-12
+
+#: Extent of what touches over its polar radius of gyration; of a strip √12. A toe that wobbles twists with it by four fifths
+#: of what it does node by node.
+EXTENT = 3.0
 
 #: The fresh layer becomes core where the face slips: all of it by a thousandth of the limit.
 SLIPPED = 1e3
@@ -88,24 +95,16 @@ def limited(force, torsion, before, turning, k, j, arm, n, limits):
     return force, less * moment - dot(cross(arm, force), n), beyond
 
 
-@law
-def opened(force, torsion, k, j, k_before, j_before, k_least, j_least):
-    """What remains of a layer when its stiffness has become k and j; less than the least of either is none."""
-    k_before, j_before = max(k_before, k_least), max(j_before, j_least)
-    each = 1.0 / (k_before * j_before)
-    return scaled(min(k * j_before * each, 1.0), force), min(j * k_before * each, 1.0) * torsion
-
-
 @long_law
-def friction(core, fresh, face, n, slip, spin, dt, limits):
+def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     """Friction of a face at t_n, from its layers a step ago.
 
     Parameters
     ----------
     core, fresh : tuple
-        Layers: shear force on the upper body [N], torsion [N m], k [N/m], j [N m].
+        Layers: shear force on the upper body [N], torsion [N m], k [N/m], j [N m]; of the core its place as well.
     face : tuple
-        Of what touches now: k, j, centroid C, middle of pressure P.
+        Of what touches now: k, j, centroid C, middle of pressure P, square of the polar radius of gyration about C [m²].
     n : vector
         Normal of the face.
     slip, spin, dt : vector, float, float
@@ -120,35 +119,61 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):
     force, torsion : vector, float
         Of both layers, at C and about it.
     """
-    before, turn_before, k_before, j_before = core
-    f, t, kf_before, jf_before = fresh
-    k, j, centre, middle = face
-    last, turning = along(before, 1.0, f), turn_before + t
-    new = k_before == 0.0  # what begins to touch is core
-    kc, jc = (k, j) if new else (min(k, k_before), min(j, j_before))
-    kf, jf = k - kc, j - jc
-    k_least, j_least = max(NO_LAYER * k, NOTHING), max(NO_LAYER * j, NOTHING)
-    k_before, j_before = (k, j) if new else (k_before, j_before)
-    force, torsion = opened(before, turn_before, kc, jc, k_before, j_before, k_least, j_least)
-    f, t = opened(f, t, kf, jf, kf_before, jf_before, k_least, j_least)
-    # both springs; the fresh layer, and both
-    f, t = along(f, -kf * dt, slip), t - jf * dt * spin
-    total = along(along(force, -kc * dt, slip), 1.0, f)
+    s, core_torsion, kc, jc, place = core
+    f, torsion, kf, jf = fresh
+    k, j, centre, middle, square = face
+    before = along(s, 1.0, f)
+    # the core: beyond the extent of what touches it has opened, and its centroid moves towards C
+    away = minus(place, centre)
+    away = along(away, -dot(away, n), n)
+    far = k * math.sqrt(dot(away, away) / max(EXTENT * EXTENT * square, NOTHING))
+    lost = max(kc - k, far + 0.5 * (kc - k), 0.0)
+    each = 1.0 / (max(kc, NOTHING) * max(far, NOTHING))
+    # where nothing is left of it, the fresh layer becomes core
+    new = lost >= kc
+    keep, joins = (1.0, 1.0) if new else (1.0 - lost * max(far, NOTHING) * each, 0.0)
+    away = scaled(0.0 if new else 1.0 - min(0.5 * lost * kc * each, 1.0), away)
+    s, core_torsion = along(scaled(keep, s), joins, f), keep * core_torsion + joins * torsion
+    kc, jc = (k, j) if new else (keep * kc, keep * jc)
+    # the fresh layer, its centroid beyond C; what the layers resist by where they are, beside their own torsion
+    left = max(k - kc, 0.0)
+    beyond = kc / max(left, NO_LAYER * k, NOTHING)
+    apart = k * beyond * dot(away, away)
+    j = max(j, apart)
+    most = min(jc, j - apart)
+    turns = j - apart - most
+    # what opened is taken from it
+    jc, kf, jf = max(jc, NOTHING), max(kf, NOTHING), max(jf, NOTHING)
+    each = 1.0 / (jc * kf * jf)
+    rest = 1.0 - joins
+    core_torsion *= most * kf * jf * each
+    f = scaled(rest * min(left * jc * jf * each, 1.0), f)
+    torsion *= rest * min(turns * jc * kf * each, 1.0)
+    jc, kf, jf = most, left, turns
+    # both springs, in sum that of all that touches
+    w = cross(n, away)
+    turning = core_torsion + torsion + dot(along(s, -beyond, f), w)
+    total = along(along(s, 1.0, f), -k * dt, slip)
+    s = along(s, -kc * dt, along(slip, spin, w))
+    torsion -= jf * dt * spin
+    f = minus(total, s)
     total = along(total, -dot(total, n), n)
-    twist = torsion - jc * dt * spin + t
-    total, twist, beyond = limited(total, twist, last, turning, k, j, minus(centre, middle), n, limits)
+    twist = turning - j * dt * spin
+    total, twist, over = limited(total, twist, before, turning, k, j, minus(centre, middle), n, limits)
     # where the face slips, all that touches becomes core
-    keep = max(1.0 - SLIPPED * beyond, 0.0)
-    f, t, kf, jf = scaled(keep, f), keep * t, keep * kf, keep * jf
-    core = minus(total, f), twist - t, k - kf, j - jf
-    return core, (f, t, kf, jf), total, twist
+    keep = max(1.0 - SLIPPED * over, 0.0)
+    f, torsion, kf, jf = scaled(keep, f), keep * torsion, keep * kf, keep * jf
+    s = minus(total, f)
+    core_torsion = twist - torsion - dot(along(scaled(keep, s), -beyond, f), w)
+    jc += (1.0 - keep) * (j - jf - jc)
+    return (s, core_torsion, k - kf, jc, along(centre, keep, away)), (f, torsion, kf, jf), total, twist
 
 
 @long_law
 def dragged(total, twist, face, n, slip, spin, beta, limits):
     """Force and torsion of dashpots parallel to the springs of friction, at C and about it; all of it in sum stays within
     Coulomb's limit. Parameters as of :func:`friction`, ``beta`` is dashpot over stiffness [s]."""
-    k, j, centre, middle = face
+    k, j, centre, middle, _ = face
     force, torsion = along(total, -beta * k, slip), twist - beta * j * spin
     force, torsion, _ = limited(force, torsion, total, twist, k, j, minus(centre, middle), n, limits)
     return minus(force, total), torsion - twist
@@ -156,7 +181,7 @@ def dragged(total, twist, face, n, slip, spin, beta, limits):
 
 @law
 def stored(core, fresh):
-    """Energy that the two layers hold in shear and in torsion [J]."""
+    """Energy that the two layers, force, torsion, k and j of each, hold in shear and in torsion [J]."""
     f, t, k, j = core
     g, s, kf, jf = fresh
     shear = dot(f, f) / max(k, NOTHING) + dot(g, g) / max(kf, NOTHING)

@@ -47,7 +47,11 @@ OWN = (
 BOND_TYPE = np.dtype([(name, np.int64) for name in NUMBERS.split()] + [(name, np.float64) for name in SHARED.split()])
 
 
+#: Type of the records of links where there are none: nothing of them is compiled.
+NO_LINK = np.dtype([("none", np.float64, (1,))])
+
+
 def link_types(lanes: int) -> tuple[np.dtype, np.dtype]:
-    """Record types (link, hold) for so many lanes; with 0 lanes, of runs without links."""
+    """Record types (link, hold) for so many lanes."""
     link = [*((name, np.float64, (lanes,)) for name in OWN.split()), ("when", np.int64, (lanes,))]
     return np.dtype(link), np.dtype([("moment", np.float64, (lanes,))])

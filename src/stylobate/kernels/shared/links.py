@@ -7,8 +7,9 @@ points. Whoever computes a force puts it on both bodies at the same place, so th
 Records and legend: ``link_records.py``.
 """
 
-from ..jit import apart, kernel, law, strict
+from ..jit import apart, chosen, kernel, law, strict
 from ..run_codes import RUNNING
+from .records import rows
 
 #: Look ahead at what moves: at so many times the present speed, and at so much acceleration [m/s²].
 SPEEDS, HASTE = 3.0, 100.0
@@ -204,9 +205,17 @@ def look_at_hold(link, hold, pair, joints):
                     hold[j].moment[l] += k.whole[l] if k.on[l] > 0.0 else 0.0
 
 
-@strict
+@chosen
 def add_to_ledger(link, bond, l, out):
-    """Adds elastic energy and heat of all links of a lane to its ledger [J]."""
+    """Adds elastic energy and heat of all links of a lane to its ledger [J], where there are some."""
+    if rows(link, "none"):
+        return lambda link, bond, l, out: None
+    return lambda link, bond, l, out: add_links_to_ledger(link, bond, l, out)
+
+
+@strict
+def add_links_to_ledger(link, bond, l, out):
+    """See :func:`add_to_ledger`."""
     for m in range(link.shape[0]):
         k = link[m]
         b = bond[m]

@@ -8,7 +8,7 @@ import math
 
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
-from ..shared.vectors import across, along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
+from ..shared.vectors import across, along, cross, dot, inward, length, minus, of, outward, place, put, scaled, velocity
 from .acting import act_at, add, mobility, motion_then
 from .friction import late, relax, rub
 from .nearest import parting
@@ -370,11 +370,12 @@ def press(p, a, u, b, v, vertex, numbers, now, simplex):
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
     p.pn = fn * vn
     p.en -= before + 0.5 * p.pn * now.last
-    face = ks * area, ks * area * square, minus(centre, place(u)), ru
-    f, twist = rub(
-        p, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
+    face = ks * area, ks * area * square, minus(centre, place(u)), ru, square
+    f, twist, core = rub(
+        p, outward(u, of(p.at)), n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
         face, (mu * (fn + dn), math.sqrt(mean)), scaled(dn, n), w, now,
     )  # fmt: skip
+    put(p.at, inward(u, core))
     p.fn = fn
     grown = max(area - p.area, 0.0) * (now.dt / max(now.last, 1e-300) if p.area > 0.0 else 1.0)
     p.area = area

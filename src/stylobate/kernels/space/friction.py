@@ -37,13 +37,15 @@ def about_middle(face, n, force, torsion):
 
 
 @kernel
-def rub(q, n, slip, rolling, spin, past, past_spin, face, limits, push, velocity, now):
+def rub(q, at, n, slip, rolling, spin, past, past_spin, face, limits, push, velocity, now):
     """Friction at t_n; brings its memory from t_{n−1} to t_n.
 
     Parameters
     ----------
     q : record
         What remembers, of a pair or of a joint.
+    at : vector
+        Place of the core, from the centroid of the first body.
     n : vector
         Normal of the contact.
     slip, rolling, spin : vector, float, float
@@ -60,16 +62,18 @@ def rub(q, n, slip, rolling, spin, past, past_spin, face, limits, push, velocity
     -------
     force, twist : vector, float
         On the second body, with ``push``, at the middle of pressure: shear force and torsion moment about n.
+    at : vector
+        Place of the core now.
     """
     dt = now.last
     tell(q, past, past_spin, now)
-    core = turned(of(q.s), n, rolling * dt), q.st, q.kf, q.kt
+    core = turned(of(q.s), n, rolling * dt), q.st, q.kf, q.kt, at
     fresh = turned(of(q.fs), n, rolling * dt), q.ft, q.ff, q.fj
-    at = at_centroid(face, n, slip, spin)
-    core, fresh, f, torsion = friction(core, fresh, face, n, at, spin, dt, limits)
+    there = at_centroid(face, n, slip, spin)
+    core, fresh, f, torsion = friction(core, fresh, face, n, there, spin, dt, limits)
     g, more = (0.0, 0.0, 0.0), 0.0
     if now.beta > 0.0:
-        g, more = dragged(f, torsion, face, n, at, spin, now.beta, limits)
+        g, more = dragged(f, torsion, face, n, there, spin, now.beta, limits)
     twist, more = about_middle(face, n, f, torsion), about_middle(face, n, g, more)
     g = along(g, 1.0, push)
     q.pf = dot(f, slip) + twist * spin
@@ -83,7 +87,7 @@ def rub(q, n, slip, rolling, spin, past, past_spin, face, limits, push, velocity
     put(q.d, g)
     q.t = twist
     q.dt = more
-    return along(f, 1.0, g), twist + more
+    return along(f, 1.0, g), twist + more, core[4]
 
 
 @long_law

@@ -130,14 +130,18 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
     pressing *= share
     closed, polar, centre = closed
     kf = share * e.ks * closed
-    face = kf, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at
+    face = kf, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at, polar / max(closed, NOTHING)
+    i, j = outward(u, of(e.il)), outward(u, of(e.jl))
+    z = cross(i, j)
+    core = along(along(along(ml, e.at[0], i), e.at[1], j), e.at[2], z)
     dn = normal_dashpot(pressing, 0.0, vn, restitution_share(now.dull, now.calm, vn))
     past, past_spin = motion_then(e, u, v)
     limits = e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread)
-    f, twist = rub(
-        e, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
+    f, twist, core = rub(
+        e, core, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
         face, limits, scaled(dn, n), w, now,
     )  # fmt: skip
+    put(e.at, seen(minus(core, ml), i, j, z))
     act_at(e, n, at, rv)
     if now.dull > 0.0:
         now.rate = max(now.rate, share * e.kn * closed * (mobility(u, at, n) + mobility(v, rv, n)))

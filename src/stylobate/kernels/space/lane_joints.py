@@ -162,10 +162,10 @@ def act(damped, e, u, v, s, o, l):
     write(e.rb, l, rv)
     slip, spin, before, turn = along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
     centre = along(ml, 1.0, in_axes(s, l, centre))
-    face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at
+    face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at, polar / max(closed, NOTHING)
     limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
     rolling = 0.5 * (spin_u + spin_v) * last
-    core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l]
+    core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l], along(ml, 1.0, in_axes(s, l, row(e.at, l)))
     fresh = turned(row(e.fs, l), n, rolling), e.ft[l], e.ff[l], e.fj[l]
     there = at_centroid(face, n, slip, spin)
     core, fresh, f, torsion = friction(core, fresh, face, n, there, spin, last, limits)
@@ -173,6 +173,7 @@ def act(damped, e, u, v, s, o, l):
     keep = 1.0 if pressing > 0.0 else 0.0
     half = 0.5 * last
     write(e.s, l, scaled(keep, core[0]))
+    write(e.at, l, seen(s, l, minus(core[4], ml)))
     write(e.fs, l, scaled(keep, fresh[0]))
     e.st[l], e.kf[l], e.kt[l] = keep * core[1], keep * core[2], keep * core[3]
     e.ft[l], e.ff[l], e.fj[l] = keep * fresh[1], keep * fresh[2], keep * fresh[3]

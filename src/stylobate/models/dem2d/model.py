@@ -96,7 +96,6 @@ class DistinctElement2D(LossyDrums):
     )
     computes: ClassVar[tuple[type, ...]] = (*DRUMS, Prism)
     takes_as_found: ClassVar[bool] = True
-    follows_to_rest: ClassVar[bool] = True
     takes_start: ClassVar[bool] = True
     takes_links: ClassVar[frozenset[str]] = LossyDrums.takes_links | {"clamp"}
 
@@ -127,12 +126,6 @@ class DistinctElement2D(LossyDrums):
     def block_for(self, kind: Topology, options: RunOptions, lanes: int = LANES) -> ColumnLanes:
         """A block of lanes for columns of a kind."""
         return ColumnLanes(self.record_types(bool(kind.links), lanes), self.pack, kind, options, self.cost(kind.stack))
-
-    def card_kernel(self, kind: Topology) -> str | None:
-        """Of columns without links on two contact points a joint."""
-        from ...kernels.gpu.kinds import POINTS, plane_kernel
-
-        return plane_kernel(self.damped) if kind.stack and not kind.links and self.points == POINTS else None
 
     def pack(self, column: Column) -> Packed:
         """A column as the engine wants it, settled if asked for."""
@@ -203,6 +196,10 @@ class DistinctElement2D(LossyDrums):
         """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""
         if column.stack is not None:
             super().check_length(column, motion, options)
+
+    def as_followed(self, structure: Any) -> Any:
+        """What stands as it is: all of it may come loose."""
+        return structure
 
     def carried(self, column: Any) -> int:
         """Number of twins along a run: of columns only; what may come loose is alone in its lane."""

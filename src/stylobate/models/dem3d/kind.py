@@ -50,11 +50,3 @@ class Kind(NamedTuple):
     def record_types(self, linked: bool, lanes: int = LANES) -> dict[str, np.dtype]:
         """Types of the kernel's records, with links or without."""
         return types(self.face, self.damped, self.rolls, linked, lanes)
-
-    @property
-    def card_kernel(self) -> str | None:
-        """Name of the kernel for graphics cards: for columns without links on whole rims, or on corners."""
-        from ...kernels.gpu import kinds
-
-        taken = self.face in kinds.FACES and not self.topology.links
-        return kinds.space_kernel(self.face, self.damped, self.rolls) if taken else None

@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 from ...column import Column
 from ...column.found_in_space import shares_left
 from ...column.shapes import DRUMS, ConvexSolid, Glued
+from ...column.spatial.assembly import SpatialAssembly
 from ...column.specimen import Specimen
 from ...column.structure import Structure
 from ...errors import InputError, check_choice, check_range
@@ -226,9 +227,11 @@ class DistinctElement3D(LossyDrums):
         if column.space_joints is None:
             super().check_length(column, motion, options)
 
-    def follows(self, column: Any) -> bool:
-        """Whether it can go on until everything lies still: of assemblies in space."""
-        return column.space_joints is not None
+    def as_followed(self, structure: Any) -> Any:
+        """An assembly as it is, a column as one of its drums: any two bodies may strike each other."""
+        if structure.space_joints is not None:
+            return structure
+        return super().as_followed(structure) if structure.stack is None else SpatialAssembly.of_column(structure.stack)
 
     def carried(self, column: Any) -> int:
         """How many are taken along: what may come loose is alone in its lane."""
@@ -322,10 +325,6 @@ class DistinctElement3D(LossyDrums):
             return SpaceBlock(self.records(kind), FreeBody(), self.pack, options, self.cost(kind.rows // 32))
         bodies, cost = Stack(planar=self.planar, pivots=self.pivot_friction < 1.0), self.cost(kind.rows)
         return SpaceBlock(self.records(kind, lanes), bodies, self.pack, options, cost, planar=self.planar)
-
-    def card_kernel(self, kind: Kind) -> str | None:
-        """Of columns without links on whole rims, or on corners."""
-        return kind.card_kernel
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""

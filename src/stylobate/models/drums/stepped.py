@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import partial
 from threading import Lock
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -23,7 +22,7 @@ from .bodies import Topology
 from .histories import histories
 
 if TYPE_CHECKING:
-    from ...kernels.gpu.card import Device
+    from ..devices import Device
 
 #: Largest share of the stable step at which columns alike are computed in one step: joints 2.8 times as stiff bear it.
 SAFE_FACTOR = 0.6
@@ -84,11 +83,6 @@ class SteppedDrums(Model):
     def block_for(self, kind: Any, options: RunOptions, lanes: int = LANES) -> Any:
         """A block of lanes for columns of a kind."""
         raise NotImplementedError
-
-    def card_kernel(self, kind: Any) -> str | None:
-        """Name of the kernel for graphics cards that steps columns of a kind; None where there is none."""
-        del kind
-        return None
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]; a batch shares it among its lanes."""
@@ -183,33 +177,20 @@ class SteppedDrums(Model):
         if len(cases) and cases[0].column.stack is None:
             return self.run_many(cases, options, threads)
 
-        from .card import THREADS, CardLanes
-
         turn = Lock()
 
         def lanes(kind: Any) -> LaneBlock:
-            name = self._kernel_on(device, kind)
-            if name is None:
+            if not device.steps(self, kind):
                 return self.block_for(kind, options)
-            return CardLanes(device, name, partial(self.block_for, kind, options), -(-len(cases) // THREADS), turn)
+            return device.lanes(self, kind, options, len(cases), turn)
 
         return run_alike(
             lambda case: self.kind(case.column),
             lanes,
             cases,
-            lambda kind: threads if self._kernel_on(device, kind) is None else THREADS,
+            lambda kind: device.threads if device.steps(self, kind) else threads,
         )
 
     def on_card(self, device: Device, column: Any) -> bool:
         """Whether a graphics card steps runs of what stands: of columns without links for which it has kernels."""
-        return column.stack is not None and self._kernel_on(device, self.kind(column.stack)) is not None
-
-    def _kernel_on(self, device: Device, kind: Any) -> str | None:
-        """Name of the kernel by which a card steps columns of a kind; None if it does not."""
-        name = self.card_kernel(kind)
-        if name is None:
-            return None
-        from .card_check import usable
-
-        drums = kind.stack if isinstance(kind, Topology) else kind.topology.stack
-        return name if usable(device, name, drums, type(self)) else None
+        return column.stack is not None and device.steps(self, self.kind(column.stack))

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...column.links.placed import PlacedLink
 from ...column.structure import Structure
-from ...kernels.shared.link_records import OWN, link_types
+from ...kernels.shared.link_records import NO_LINK, OWN, link_types
 from ..drums.links import LinkStiffness, acting, hold_of, law_fields, link_matrices
 from ..shared.stable_step import highest_frequency
 
@@ -20,7 +20,7 @@ def links_at_rest(structure: Structure, body: Any) -> np.ndarray:
     pretension."""
     links = acting(structure)
     if not links:
-        return np.zeros(0, link_types(0)[0])
+        return np.zeros(0, NO_LINK)
     records = np.zeros(len(links), link_types(1)[0])
     for name, values in law_fields(links).items():
         if name in OWN.split():

@@ -137,7 +137,9 @@ class Loose:
         for j, (lower, upper) in enumerate(topology.joints):
             joined[lower, upper] = j
         records.bond[...], records.link[...] = bonds(structure), links_at_rest(structure, records.body)
-        self.pretension, self.clearance = records.link["ft"].copy(), records.link["gap"].copy()
+        self.tied = len(records.link) > 0
+        if self.tied:
+            self.pretension, self.clearance = records.link["ft"].copy(), records.link["gap"].copy()
         e = restitution
         now["eta"], now["calm"] = (1.0 - e * e) / (1.0 + e * e), CALM
         now["touched"], now["finer"] = -1, FINER
@@ -172,7 +174,7 @@ class Loose:
     def begin_links(self) -> None:
         """Let the links be free of force where the bodies are now, but for their pretension."""
         records = self.records
-        if len(records.link):
+        if self.tied:
             records.link["ft"], records.link["gap"] = self.pretension, self.clearance
             records.link["back"] = self.clearance
             self.ties.begin(records.body, records.joint, records.link, records.bond, records.pair)
@@ -219,7 +221,8 @@ class Loose:
                 self.safe = self.chunks_ahead()
             piece = min(chunks, longest_piece(self.cost, CHUNK), self.safe if self.safe > 0 else self.look)
             if self.safe > 0:
-                self.records.link["dt"] = self.dt
+                if self.tied:
+                    self.records.link["dt"] = self.dt
                 self.records.forget_pairs()  # none of them touches, but their last loads are kept
                 self.records.kernel.advance(self.records.state, piece)
                 self.safe -= piece
@@ -358,6 +361,6 @@ class Loose:
 
     def state(self) -> dict[str, Any]:
         """Part of the present state in a history."""
-        held = {"links": link_snapshot(self.records.link, 0)} if len(self.records.link) else {}
+        held = {"links": link_snapshot(self.records.link, 0)} if self.tied else {}
         held["velocity"] = np.stack([self.records.body[key][:, 0] for key in ("vx", "vz", "w")], axis=-1)
         return self.pose() | held | {"energy": self.energies()}

@@ -35,7 +35,7 @@ OF_BODY = (*POSE, "vx", "vy", "vz", "lx", "ly", "lz", "wx", "wy", "wz", "m", "im
 OF_JOINT = (
     "ml", "il", "jl", "mu", "iu", "ju", "f", "d", "gf", "gm", "n", "ra", "rb",
     "rl", "ru", "kn", "ks", "tan", "co", "width", "from_c", "apart_c", "apart", "t", "dt", "kf", "kt", "en",
-    "s", "st", "fs", "ft", "ff", "fj",
+    "s", "st", "at", "fs", "ft", "ff", "fj",
 )  # fmt: skip
 OF_NOW = ("last", "beta", "work", "shear", "visc", "g")
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from stylobate.analysis.domain import Domain
-    from stylobate.report.page import Picture
+    from stylobate_report.page import Picture
 
     from .study import PaperResults
 
@@ -23,7 +23,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
     from stylobate import plots
     from stylobate.column.presets import PAPER
     from stylobate.constants import g
-    from stylobate.report.page import Picture
+    from stylobate_report.page import Picture
 
     from . import cases as c
     from . import page

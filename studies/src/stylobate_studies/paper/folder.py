@@ -15,7 +15,7 @@ from stylobate.campaign.ledger import refuse_former
 from stylobate.column import preset
 from stylobate.column.presets import PAPER
 from stylobate.errors import DamagedFileWarning, InputError
-from stylobate.kernels.jit import source_digest
+from stylobate.kernels.sources import source_digest
 from stylobate.own_files import LIST, OwnFiles, guard_of
 from stylobate.version import __version__
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from stylobate.analysis import verdicts as v
 from stylobate.constants import g
-from stylobate.report.page import Item, Picture, Points, Rows, Section, kinds, part, write_html
 from stylobate.version import __version__
+from stylobate_report.page import Item, Picture, Points, Rows, Section, kinds, part, write_html
 
 from .announced import motions_rows
 from .cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH, Grids

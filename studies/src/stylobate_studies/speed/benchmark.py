@@ -23,8 +23,8 @@ from stylobate.campaign.executor import executor
 from stylobate.column import Column, preset
 from stylobate.constants import g
 from stylobate.errors import StylobateError
-from stylobate.kernels.gpu.driver import the_card
 from stylobate.kernels.run_codes import CHUNK
+from stylobate.models import devices
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
@@ -99,7 +99,7 @@ def bench(
     count = thread_count(threads)
     column, model = preset("paper-12-drums"), DistinctElement2D()
     if device == GPU:
-        the_card()  # refused before anything is measured
+        devices.gpu()  # refused before anything is measured
     out: dict[str, Any] = {"threads": count, "cpu": cpu_name()}
     say("kernel and native reference")
     out |= _kernel(model, column, Motion(1.0, np.array([2.0, 2.0])), "native_dem2d.cpp", model.points)
@@ -138,7 +138,7 @@ def bench(
 def _on_card(count: int) -> dict[str, Any]:
     """Runs per second of twelve drums for ten seconds, by the card and by threads, from motions to a table."""
     column = preset("paper-12-drums")
-    found: dict[str, Any] = {"gpu": the_card().name}
+    found: dict[str, Any] = {"gpu": devices.gpu().name}
     of_plane, of_space = (column, DistinctElement2D()), (_round(column), DistinctElement3D())
     for name, (stone, model), runs in (("plane", of_plane, 20_000), ("space", of_space, 8_000)):
         units = [harmonic(f, 1.0, 10.0) for f in np.linspace(0.33, 4.0, 64)]

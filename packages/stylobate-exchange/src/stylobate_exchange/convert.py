@@ -1,0 +1,358 @@
+"""Models converted: meshes, COMPAS JSON and surveys to column and assembly files, and these to all of them."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from stylobate.atomic import refuse_existing, replacing
+from stylobate.column import Column
+from stylobate.column.assembly_files import load_structure
+from stylobate.column.block import FAR_AWAY, length_of
+from stylobate.column.files import tables_of
+from stylobate.column.shapes import Mesh
+from stylobate.column.spatial.files import spatial_assembly
+from stylobate.column.spatial.mesh_files import read_stones, unit_of, upward
+from stylobate.column.spatial.mesh_formats import MESHES, UPWARD, MeshPart
+from stylobate.column.spatial.tables import SpatialTable
+from stylobate.column.structure import Structure
+from stylobate.column.tables import made_of
+from stylobate.column.toml import checked, toml_text
+from stylobate.errors import InputError, check_range, within
+from stylobate.reading import shown
+
+from .compas_files import LAYOUTS, Block, compas_json, read_compas
+from .contact_planes import ROUGH, SMOOTH, brought_together
+from .fitting import hull_of
+from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
+from .recording import AROUND
+from .stones import ROUNDING, assembly_tables, column_tables, distance_of, fit_all, near
+from .survey import WORKBOOKS, survey_tables, survey_text
+from .three_dec import read_three_dec
+
+#: Endings of what is written; of what is read besides column and assembly files.
+WRITTEN = (".toml", ".json", ".csv", ".obj", ".ply", ".stl", ".glb")
+SURVEYS = (".csv", *WORKBOOKS)
+READ = (*MESHES, ".json", ".dat", *SURVEYS)
+
+#: Largest distance of a mesh from what stands for it unless told otherwise [m].
+TOLERANCE = 0.001
+
+#: A closed part of a model, whether it is fixed, and its density [kg/m³] if the model tells.
+Part: TypeAlias = tuple[MeshPart, bool, float | None]
+
+#: Tolerances that are tried for an advice [m], up to this share of the smallest stone.
+TOLERANCES, LOOSEST = (0.002, 0.005, 0.01, 0.02, 0.05, 0.1), 0.1
+
+#: Kinds that stones of a mesh can become.
+KINDS = ("assembly", "column")
+
+
+class Reading:
+    """How a model of another tool is read.
+
+    Parameters
+    ----------
+    material : str, optional
+        Stone and joints by name; of a mesh needed.
+    becomes : str
+        ``assembly`` or ``column``.
+    unit : str
+        Of a mesh.
+    tolerance : float
+        Largest distance of a mesh from what stands for it [m].
+    ground : float, None or False
+        Level of the ground [m]; None for the lowest point, False for none.
+    fixed : sequence of str
+        Names of stones that move with the ground.
+    columns : str, optional
+        Of a survey whose row of names is not ours, such as ``drum, height [cm], bottom_width [cm], top_width [cm], -``.
+    north : float, optional
+        Bearing of the x axis of a survey, clockwise from north [degrees].
+    up : str, optional
+        Axis of the file that is upward, ``y`` or ``z``; y of glTF and z of others unless given.
+    """
+
+    def __init__(
+        self,
+        material: str | None = None,
+        becomes: str = "assembly",
+        unit: str = "m",
+        tolerance: float = TOLERANCE,
+        ground: float | bool | None = None,
+        fixed: tuple[str, ...] = (),
+        columns: str | None = None,
+        north: float | None = None,
+        up: str | None = None,
+    ) -> None:
+        if becomes not in KINDS:
+            raise InputError(f"`as` is {becomes!r}; allowed are {', '.join(KINDS)}.", "as")
+        if up not in (None, *UPWARD):
+            raise InputError(f"`up` is {up!r}; allowed are {', '.join(UPWARD)}.", "up")
+        check_range("`tolerance`", tolerance, 0.0, 1.0, unit="m", field="tolerance")
+        if isinstance(ground, float):
+            check_range("level of the ground", ground, -FAR_AWAY, FAR_AWAY, unit="m", field="ground")
+        self.material, self.becomes, self.unit = material, becomes, unit
+        self.tolerance, self.ground, self.fixed = tolerance, ground, fixed
+        self.columns, self.north, self.up = columns, north, up
+
+
+def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tuple[Structure, list[str], list[Path]]:
+    """Read a model and write it to a file, of the kind that its ending tells.
+
+    Parameters
+    ----------
+    model : str
+        A preset, a file of a column or of an assembly, a mesh, COMPAS JSON or a survey (CSV or a workbook).
+    path : Path
+        Nothing may be there.
+    reading : Reading
+    layout : str
+        Of COMPAS JSON that is written: ``dem`` or ``assembly``.
+
+    Returns
+    -------
+    structure : Structure
+    words : list of str
+        What became of each stone.
+    files : list of Path
+
+    Raises
+    ------
+    InputError
+        What cannot be, in one sentence; nothing is written then.
+    """
+    suffix = path.suffix.lower()
+    if suffix not in WRITTEN:
+        raise InputError(f"a model cannot be written to {str(path)!r}; endings are {', '.join(WRITTEN)}.", "to")
+    if layout not in LAYOUTS:
+        raise InputError(f"`compas` is {layout!r}; allowed are {', '.join(LAYOUTS)}.", "compas")
+    refuse_existing(path)
+    read_from = Path(model).suffix.lower()
+    foreign = read_from in READ
+    if reading.columns is not None and read_from not in SURVEYS:
+        raise InputError("`columns` are those of a survey, and none is given; leave them out.", "columns")
+    structure, tables, words = read_model(Path(model), reading) if foreign else (load_structure(model), None, [])
+    if suffix == ".toml":
+        comments = [" ".join(line.split()) for line in words]
+        content = _file_of(structure) if tables is None else toml_text(tables, comments).encode()
+    elif suffix == ".csv":
+        column = structure.stack
+        if column is None:
+            raise InputError(
+                f"a survey holds the drums of a column, and {structure.name!r} is {structure.described}.", "to"
+            )
+        content = survey_text(column).encode()
+    elif suffix == ".json":
+        blocks = [(name, mesh, fixed, density) for name, mesh, fixed, density in surfaces_of(structure)]
+        content = compas_json(structure.name, blocks, layout).encode()
+    else:
+        named = [Named(name, mesh, FIXED if fixed else STONE) for name, mesh, fixed, _ in surfaces_of(structure)]
+        content = _glb(structure.name, named) if suffix == ".glb" else TEXTS[suffix](named).encode()
+        words += _lost(structure, suffix)
+    with replacing(path) as partial:
+        partial.write_bytes(content)
+    return structure, words, [path]
+
+
+def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any], list[str]]:
+    """A model of another tool: what stands, the content of its file, and what became of each stone.
+
+    Raises
+    ------
+    InputError
+    """
+    if path.suffix.lower() in SURVEYS:
+        tables, notes = survey_tables(path, reading.material, reading.columns, reading.north)
+        tables.setdefault("name", path.stem)
+        column = made_of(Column, tables, shown(path))
+        return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]
+    stated: dict[str, Any] | None = None
+    if path.suffix.lower() == ".dat":
+        name, up, factor = path.stem, reading.up or "z", unit_of(reading.unit, shown(path))
+        found, stated = read_three_dec(path)
+        parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in found]
+    elif path.suffix.lower() == ".json":
+        name, blocks = read_compas(path)
+        up, factor = reading.up or "z", unit_of(reading.unit, shown(path))
+        parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in parts_of(blocks)]
+    else:
+        name, up = path.stem, reading.up or upward(path)
+        parts = [(part, False, None) for part in read_stones(path, reading.unit, up)]
+    structure, tables, words = stand_up(name, parts, reading, shown(path), path.parent, stated)
+    words.insert(-1, f"{up} is taken as upward" + ("" if reading.up else "; `up` says otherwise"))
+    return structure, tables, words
+
+
+def parts_of(blocks: Sequence[Block]) -> list[Part]:
+    """Blocks of a model of COMPAS as parts of a model."""
+    return [(block.part, block.fixed, block.density) for block in blocks]
+
+
+def stand_up(
+    name: str, parts: Sequence[Part], reading: Reading, where: str, folder: Path, stated: dict[str, Any] | None = None
+) -> tuple[Structure, dict[str, Any], list[str]]:
+    """What stands of the parts of a model; returns and errors as of :func:`read_model`.
+
+    Parameters
+    ----------
+    name : str
+    parts : sequence of Part
+    reading : Reading
+    where : str
+        What messages call the model.
+    folder : Path
+        That paths of meshes start from.
+    stated : dict, optional
+        Tables that a model of polyhedra, of which none is round, gives of its joints and its gravity.
+    """
+    material = reading.material
+    if material is None and "joint" not in (stated or {}):
+        raise InputError(
+            f"{where} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
+        )
+    parts, notes = _near_the_origin(parts)
+    rounding = max(part.rounding for part, *_ in parts)
+    notes += [f"its numbers are rounded by up to {near(rounding)} (single precision)"] if rounding > ROUNDING else []
+    level, parts = _without_ground(parts)
+    if not parts:
+        raise InputError(f"{where} holds a ground and no stones; give those that stand on it.")
+    names = [part.name for part, *_ in parts]
+    unknown = next((one for one in reading.fixed if one not in names), None)
+    if unknown is not None:
+        raise InputError(f"`fixed` names {unknown!r}, which {where} does not hold; it holds {_some(names)}.", "fixed")
+    parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
+    hulls = [hull_of(part, f"{where}: part {part.name!r}", stated is None) for part, *_ in parts]
+
+    def stood(tolerance: float) -> tuple[Structure, dict[str, Any], list[str]]:
+        with within(where):
+            if rounding > tolerance:
+                raise InputError(
+                    f"its numbers, of single precision, are rounded by up to {length_of(rounding)} so far from the origin; "
+                    f"allowed are {length_of(tolerance)}: write it from an origin nearby, or in double precision.",
+                    "tolerance",
+                )
+            stones = fit_all(parts, hulls, tolerance)
+            words = [f"{one.name}: {one.words}" for one in stones] + notes
+            if reading.becomes == "column":
+                tables, said = column_tables(name, stones, material, tolerance)
+                column = made_of(Column, tables)
+                said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
+                return column, tables, words + said
+            ground = float(reading.ground) if reading.ground is not None and reading.ground is not False else None
+            if reading.ground is None and (level is not None or not any(one.fixed for one in stones)):
+                ground = round(min(one.shape.lowest for one in stones) if level is None else level, 7) + 0.0
+
+            def level_at(facing: float) -> tuple[Structure, dict[str, Any], float]:
+                shapes, shift = brought_together([one.shape for one in stones], ground, tolerance, facing)
+                level_stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
+                tables = assembly_tables(name, level_stones, material, ground) | (stated or {})
+                return spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder), tables, shift
+
+            try:
+                structure, tables, shift = level_at(SMOOTH)
+            except InputError:
+                structure, tables, shift = level_at(ROUGH)
+            if shift > ROUNDING:
+                words.append(f"faces that touch were brought into common planes: corners moved by up to {near(shift)}")
+            words.append(
+                "no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m"
+            )
+            return structure, tables, words
+
+    try:
+        return stood(reading.tolerance)
+    except InputError as error:
+        most = LOOSEST * min(float(np.ptp(hull.corners, axis=0).max()) for hull in hulls)
+        enough = next((one for one in TOLERANCES if reading.tolerance < one <= most and _is_read(stood, one)), None)
+        if enough is None:
+            raise
+        more = f"{str(error).rstrip('.')}, or allow more with `tolerance={enough:g}`."
+        raise InputError(more, error.field) from None
+
+
+def _is_read(stood: Callable[[float], object], tolerance: float) -> bool:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            stood(tolerance)
+        except InputError:
+            return False
+    return True
+
+
+def _near_the_origin(parts: Sequence[Part]) -> tuple[list[Part], list[str]]:
+    """Parts without the place on a map that their coordinates begin from, and what was taken off."""
+    points = np.concatenate([part.points[part.used] for part, *_ in parts])
+    place = np.where(np.abs(points).max(axis=0) > FAR_AWAY, np.floor(points.min(axis=0)), 0.0)
+    off = ", ".join(f"{axis} = {value:.0f} m" for axis, value in zip("xyz", place.tolist(), strict=True) if value)
+    words = [f"its place was taken off: coordinates count from {off}"] if off else []
+    return [(replace(part, points=part.points - place), fixed, density) for part, fixed, density in parts], words
+
+
+def _without_ground(parts: Sequence[Part]) -> tuple[float | None, list[Part]]:
+    """Level of a part called ``ground`` [m], as exports have it, and the others."""
+    level = next((float(part.points[part.used, 2].max()) for part, *_ in parts if part.name == "ground"), None)
+    return level, [one for one in parts if one[0].name != "ground"]
+
+
+def _some(names: list[str]) -> str:
+    return ", ".join(map(repr, names[:6])) + (f" and {len(names) - 6} more" if len(names) > 6 else "")
+
+
+def surfaces_of(structure: Structure) -> list[tuple[str, Mesh, bool, float]]:
+    """Convex parts of the bodies of a structure where they stand: names, surfaces [m], whether fixed, densities [kg/m³]."""
+    found = []
+    densities = (
+        {f"drum {i}": drum.density for i, drum in enumerate(structure.stack.drums, 1)} if structure.stack else {}
+    )
+    for body in structure.bodies:
+        if body.fixed and body.size > FAR_AWAY:
+            continue
+        density = float(getattr(body, "density", densities.get(body.name, 0.0)))
+        parts = body.placed
+        for number, part in enumerate(parts, 1):
+            name = body.name if len(parts) == 1 else f"{body.name}, part {number}"
+            found.append((name, _clean(part.mesh(AROUND)), body.fixed, density))
+    return found
+
+
+def _clean(mesh: Mesh) -> Mesh:
+    """Only vertices that faces use."""
+    used = sorted({i for face in mesh.faces for i in face})
+    numbers = {old: new for new, old in enumerate(used)}
+    return Mesh(mesh.vertices[used], tuple(tuple(numbers[i] for i in face) for face in mesh.faces))
+
+
+def _lost(structure: Structure, suffix: str) -> list[str]:
+    """What a mesh does not hold of a structure."""
+    glued = [body.name for body in structure.bodies if len(body.placed) > 1 and not body.size > FAR_AWAY]
+    fixed = [body.name for body in structure.bodies if body.fixed and not body.size > FAR_AWAY]
+    words = [
+        f"{suffix} holds shapes{' without names' if suffix == '.ply' else ' and names'} alone, no densities and joints"
+    ]
+    words += [f"supports are not kept: {_some(fixed)}, to be named in `fixed`"] if fixed else []
+    loose = suffix == ".ply" and glued
+    return words + (
+        [f"glue is not kept: the parts of {_some(glued)} come loose; other formats keep it"] if loose else []
+    )
+
+
+def _glb(name: str, surfaces: list[Named]) -> bytes:
+    file = Glb(name)
+    for one in surfaces:
+        middle = one.mesh.vertices.mean(axis=0)
+        file.add(one._replace(mesh=Mesh(one.mesh.vertices - middle, one.mesh.faces)), middle.tolist())
+    return file.content()
+
+
+def _file_of(structure: Structure) -> bytes:
+    column = structure.stack
+    if column is None:
+        raise InputError(f"{structure.name!r} is an assembly file already; write another kind of file.", "to")
+    return toml_text(tables_of(column)).encode()

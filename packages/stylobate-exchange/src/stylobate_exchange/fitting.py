@@ -1,0 +1,299 @@
+"""Stones from meshes: the frustum that fits a drum, or the convex hull, each with how far the mesh is from it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from stylobate.column.drum import LENGTHS
+from stylobate.column.shapes import Mesh
+from stylobate.column.spatial.mesh_formats import MeshPart
+from stylobate.column.spatial.moments import mesh_moments
+from stylobate.column.spatial.stone import MOST_CORNERS
+from stylobate.errors import InputError
+
+#: Between two corners a drum's side lies this share of its radius within the circle at most: twelve corners or more.
+FLAT = 1.0 - math.cos(math.radians(15.5))
+
+#: A drum is filled by its mesh to this share: twelve corners leave 4.5 % of a circle out.
+FILLED = (0.94, 1.06)
+
+#: Most corners that a frustum is fitted to; the distance of all is told.
+MOST = 4000
+
+#: Corners that are left of a hull that has too many.
+FEW_CORNERS = 160
+
+#: Rounds of fitting, each with faces told apart by the fit before it.
+ROUNDS = 5
+
+#: Number of the side among the three surfaces of a frustum.
+SIDE = 2
+
+
+class Frustum(NamedTuple):
+    """A round drum in space.
+
+    Parameters
+    ----------
+    foot : array
+        Middle of its lower face [m], shape (3,).
+    axis : array
+        Unit vector from there to the middle of its upper face [-], shape (3,).
+    bottom, top, height : float
+        Diameters and height [m].
+    residual : float
+        Largest distance of the mesh from it, but for what lies evenly between corners [m].
+    flat : float
+        How far the sides of the mesh lie within it between their corners: the median of its faces [m].
+    filled : float
+        Volume of the mesh, as a share of its own [-].
+    """
+
+    foot: np.ndarray
+    axis: np.ndarray
+    bottom: float
+    top: float
+    height: float
+    residual: float
+    flat: float
+    filled: float
+
+    @property
+    def lowest(self) -> float:
+        """Level of its lowest point [m]."""
+        lean, top = 0.5 * math.hypot(*self.axis[:2]), self.foot[2] + self.height * self.axis[2]
+        return float(min(self.foot[2] - lean * self.bottom, top - lean * self.top))
+
+
+class Hull(NamedTuple):
+    """The convex hull of a mesh.
+
+    Parameters
+    ----------
+    corners : array
+        [m], shape (k, 3).
+    residual : float
+        How far the mesh lies within it at most [m].
+    filled : float
+        Volume of the mesh, as a share of its own [-].
+    drum : Frustum or None
+        The drum that fits best, and not well enough; None of what is not round at all.
+    bent : str
+        The face whose corners are farthest out of one plane, and by how much, in words; empty where all are plane.
+    """
+
+    corners: np.ndarray
+    residual: float
+    filled: float
+    drum: Frustum | None = None
+    bent: str = ""
+
+    @property
+    def lowest(self) -> float:
+        """Level of its lowest point [m]."""
+        return float(self.corners[:, 2].min())
+
+
+def solid_of(part: MeshPart) -> Mesh:
+    """The surface of a part, with the vertices that it uses."""
+    numbers = {int(old): new for new, old in enumerate(part.used)}
+    return Mesh(part.points[part.used], tuple(tuple(numbers[i] for i in face) for face in part.faces))
+
+
+def hull_of(part: MeshPart, what: str, drums: bool) -> Hull:
+    """The hull of a part with the drum that fits it best, if it may be one, whatever their distances.
+
+    Raises
+    ------
+    InputError
+        The part is no solid.
+    """
+    mesh = solid_of(part)
+    volume = mesh_moments(mesh, 1.0).mass
+    if not volume > LENGTHS[0] ** 3:
+        inside = " its faces run clockwise: turn them round." if volume < 0.0 else " give a solid."
+        raise InputError(f"{what} encloses {volume:.3g} m³;{inside}")
+    drum = fit_frustum(mesh, volume) if drums else None
+    return fit_hull(mesh, volume, what)._replace(drum=drum, bent=_bent(part))
+
+
+def _bent(part: MeshPart) -> str:
+    """The face of a part that is least plane, in words; empty where all are."""
+    off = []
+    for face in part.faces:
+        corners = part.points[list(face)]
+        corners = corners - corners.mean(axis=0)
+        off.append(0.0 if len(face) == 3 else float(np.abs(corners @ np.linalg.svd(corners)[2][-1]).max()))
+    worst = int(np.argmax(off))
+    return f", and its {part.face(worst)} is out of plane by {1e3 * off[worst]:.3g} mm" if off[worst] > 1e-6 else ""
+
+
+def within_tolerance(hull: Hull, tolerance: float, what: str) -> Frustum | Hull:
+    """The drum of a part if it is no farther from it than the tolerance [m], or else the hull.
+
+    Raises
+    ------
+    InputError
+        The part is not convex by more than the tolerance.
+    """
+    drum = hull.drum
+    if drum is not None and drum.residual <= tolerance:
+        return drum
+    if hull.residual > tolerance:
+        said = "" if drum is None else f", and a drum does not fit it by {1e3 * drum.residual:.3g} mm"
+        raise InputError(
+            f"{what} is not convex: it lies {1e3 * hull.residual:.3g} mm within its hull{said}{hull.bent}; allowed are "
+            f"{1e3 * tolerance:g} mm: split it into convex parts.",
+            "tolerance",
+        )
+    return hull
+
+
+def fit_hull(mesh: Mesh, volume: float, what: str) -> Hull:
+    """The hull of a mesh, and the depth of the mesh within it [m]: of a vertex, or its mean where that is more."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        found: Any = ConvexHull(mesh.vertices)
+    except QhullError:
+        raise InputError(f"{what} lies in one plane and has no thickness; give a solid.") from None
+    planes, points = found.equations, _points_on(mesh)
+    some = np.array_split(points, 1 + len(points) * len(planes) // 10_000_000)
+    deepest = max(0.0, *(float(-(one @ planes[:, :3].T + planes[:, 3]).max(axis=1).min()) for one in some))
+    depth = max(deepest, float(found.volume - volume) / float(found.area))
+    corners = mesh.vertices[np.sort(found.vertices)]
+    if len(corners) <= MOST_CORNERS:
+        return Hull(corners, depth, volume / float(found.volume))
+    corners, out = _thinned(corners)
+    return Hull(corners, max(depth, out), volume / float(ConvexHull(corners).volume))
+
+
+def _thinned(corners: np.ndarray) -> tuple[np.ndarray, float]:
+    """Corners of a hull without those that reach least beyond the others, and how far these do [m]."""
+    from scipy.spatial import ConvexHull
+
+    ways = np.array([way for way in np.ndindex(3, 3, 3) if way != (1, 1, 1)]) - 1.0
+    kept = np.unique((corners @ ways.T).argmax(axis=0)).tolist()
+    found: Any = ConvexHull(corners[kept], incremental=True)
+    while True:
+        out = (corners @ found.equations[:, :3].T + found.equations[:, 3]).max(axis=1)
+        farthest = int(out.argmax())
+        if len(kept) >= FEW_CORNERS or farthest in kept:
+            return corners[np.sort(kept)], max(0.0, float(out[farthest]))
+        kept.append(farthest)
+        found.add_points(corners[[farthest]])
+
+
+def _points_on(mesh: Mesh) -> np.ndarray:
+    """Vertices, middles of edges and of faces [m], shape (k, 3): the edge within an L has its ends on the hull."""
+    edges = {(min(edge), max(edge)) for face in mesh.faces for edge in zip(face, (*face[1:], face[0]), strict=True)}
+    middles = mesh.vertices[np.array(sorted(edges))].mean(axis=1)
+    return np.concatenate((mesh.vertices, middles, [mesh.vertices[list(face)].mean(axis=0) for face in mesh.faces]))
+
+
+def fit_frustum(mesh: Mesh, volume: float) -> Frustum | None:
+    """The frustum of the least squares of the distances of corners from it; None of what is not round.
+
+    A corner is as far from it as from the lower face, the upper one, or the side: from all of them to which faces of the
+    mesh belong that meet there. The axis begins as whichever principal axis, or the vertical, brings the corners nearest.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    volume : float
+        That it encloses [m³].
+    """
+    from scipy.optimize import least_squares
+
+    moments = mesh_moments(mesh, 1.0)
+    points, centre = mesh.vertices - moments.centroid, moments.centroid
+    corner, owner = np.concatenate(mesh.faces), np.repeat(np.arange(len(mesh.faces)), [len(f) for f in mesh.faces])
+    middles = np.array([points[list(face)].mean(axis=0) for face in mesh.faces])
+    axes = [*np.linalg.eigh(moments.tensor)[1].T, np.array([0.0, 0.0, 1.0])]
+    starts = [_start(points, axis) for axis in axes]
+    frame, values = min(starts, key=lambda one: float(np.square(_distances(points, *one)).sum()))
+    size = float(np.ptp(points, axis=0).max())
+    kinds = sides = np.zeros(0, dtype=int)
+    for _ in range(ROUNDS):
+        costs = np.square(_from_surfaces(middles, frame, values))
+        np.add.at(costs, owner, np.square(_from_surfaces(points, frame, values))[corner])
+        least, second = np.sort(costs, axis=1)[:, :2].T
+        found = np.where(
+            4.0 * least <= second, costs.argmin(axis=1), -1
+        )  # a face across an edge belongs to neither side
+        if np.array_equal(found, kinds):
+            break
+        kinds = found
+        sides = np.unique(np.stack((corner, kinds[owner]))[:, kinds[owner] >= 0], axis=1)
+        if len(np.unique(sides[1])) < 3:
+            return None
+        some = sides[:, :: max(1, len(sides[0]) // MOST)]
+
+        def misfit(x: np.ndarray, some: np.ndarray = some) -> np.ndarray:
+            return _from_surfaces(points[some[0]], frame, x)[np.arange(len(some[0])), some[1]] / size
+
+        values = least_squares(misfit, values, x_scale=size, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=60).x
+        _, _, (low, high, bottom, top) = _unpacked(frame, values)
+        if high - low < LENGTHS[0] or min(bottom, top) < 0.5 * LENGTHS[0]:
+            return None
+    foot, axis, (low, high, bottom, top) = _unpacked(frame, values)
+    if axis[2] < 0.0:
+        axis, low, high, bottom, top = -axis, -high, -low, top, bottom
+    corners = np.abs(_from_surfaces(points[sides[0]], frame, values)[np.arange(len(sides[0])), sides[1]])
+    depth = np.abs(_from_surfaces(middles, frame, values)[:, 2])
+    flat = float(np.median(depth[kinds == SIDE]))
+    between = np.maximum(_distances(_points_on(Mesh(points, mesh.faces)), frame, values) - flat, 0.0)
+    filled = volume / (math.pi * (high - low) * (bottom**2 + bottom * top + top**2) / 3.0)
+    if flat > FLAT * max(bottom, top) or not FILLED[0] <= filled <= FILLED[1]:
+        return None
+    axis = np.where(np.abs(axis) < 1e-9, 0.0, axis)
+    axis = axis / np.linalg.norm(axis)
+    residual = float(max(corners.max(), between.max()))
+    return Frustum(centre + foot + low * axis, axis, 2.0 * bottom, 2.0 * top, high - low, residual, flat, filled)
+
+
+def _start(points: np.ndarray, axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Axes around a first axis as columns, and the first values of the eight numbers of a frustum."""
+    across = np.cross(axis, np.eye(3)[int(np.abs(axis).argmin())])
+    across /= np.linalg.norm(across)
+    frame = np.stack((across, np.cross(axis, across), axis), axis=1)
+    along, radius = points @ axis, np.linalg.norm(points @ frame[:, :2], axis=1)
+    low, high = float(along.min()), float(along.max())
+    third = 0.3 * (high - low)
+    ends = [float(radius[near].max()) for near in (along <= low + third, along >= high - third)]
+    return frame, np.array([0.0, 0.0, 0.0, 0.0, low, high, *ends])
+
+
+def _unpacked(
+    frame: np.ndarray, values: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, tuple[float, float, float, float]]:
+    """A point of the axis, the axis, and its two ends along it and two radii."""
+    aside, lean = values[:2], values[2:4]
+    axis = frame @ (*lean, 1.0)
+    low, high, bottom, top = (float(one) for one in values[4:])
+    return frame[:, :2] @ aside, axis / np.linalg.norm(axis), (low, high, bottom, top)
+
+
+def _from_surfaces(points: np.ndarray, frame: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Distances of points from the planes of the lower and the upper face and the cone of the side [m], shape (n, 3)."""
+    foot, axis, (low, high, bottom, top) = _unpacked(frame, values)
+    along = (points - foot) @ axis
+    radius = np.linalg.norm(points - foot - np.outer(along, axis), axis=1)
+    slope = (top - bottom) / (high - low)
+    side = (radius - bottom - slope * (along - low)) / math.hypot(1.0, slope)
+    return np.stack((along - low, along - high, side), axis=1)
+
+
+def _distances(points: np.ndarray, frame: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Distances of points from the surface of a frustum: from the nearest of its two faces and its side [m]."""
+    foot, axis, (low, high, bottom, top) = _unpacked(frame, values)
+    along = (points - foot) @ axis
+    radius = np.linalg.norm(points - foot - np.outer(along, axis), axis=1)
+    side = np.array([top - bottom, high - low])
+    share = np.clip(((radius - bottom) * side[0] + (along - low) * side[1]) / float(side @ side), 0.0, 1.0)
+    from_side = np.hypot(radius - bottom - share * side[0], along - low - share * side[1])
+    from_faces = [np.hypot(np.maximum(radius - r, 0.0), along - t) for t, r in ((low, bottom), (high, top))]
+    return np.minimum(from_side, np.minimum(*from_faces))

@@ -1,0 +1,289 @@
+"""Requests of the page, checked, and the command lines that do them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+from pydantic import Field
+
+from stylobate.column.toml import Table
+from stylobate.errors import InputError
+from stylobate.motion.ranges import amplitude_range, frequency_range
+from stylobate.motion.specs import parse_time
+
+from .folder import RECORDS
+from .forms import FORMS, Form
+
+#: Files of a job: its column or assembly, the study of a domain, and where its commands write; its records lie in a folder
+#: that is called as that of the page.
+COLUMN, ASSEMBLY, STUDY, RUIN, RESULT, FRAGILITY, REPORT = (
+    *("column.toml", "assembly.toml", "study.toml", "ruin.toml", "result", "fragility", "report.html"),
+)
+
+#: The runs that a job rests on, the folder of another one or a table that was opened; and the folder of its hazard curves.
+RUNS, TABLE, HAZARDS = "runs", "opened-table.csv", "hazards"
+
+#: Most cells of a domain.
+CELLS = 20_000
+
+
+class MotionAsked(Table):
+    """A motion as the page holds it, in the words of the command line.
+
+    ``kind`` is ``harmonic``, ``pulse``, ``synthetic``, ``sample`` or ``record``; ``text`` what follows that option, the
+    name of the sample, or the id of the record.
+    """
+
+    kind: Literal["harmonic", "pulse", "synthetic", "sample", "record"]
+    text: str
+    across: str | None = None
+    unit: str | None = None
+    dt: str | None = None
+    columns: str | None = None
+    component: str | None = None
+    azimuth: str | None = None
+    pga: str | None = None
+    scale: str | None = None
+    vertical: Literal["on", "off"] = "on"
+
+    def words(self, files: Sequence[str] = ()) -> dict[str, Any]:
+        """Words of :meth:`stylobate.motion.MotionRequest.typed`.
+
+        Parameters
+        ----------
+        files : sequence of str
+            Paths of the record.
+        """
+        options = ("across", "unit", "dt", "columns", "component", "azimuth", "pga", "scale")
+        found: dict[str, Any] = {name: value for name in options if (value := getattr(self, name))}
+        if self.vertical == "off":
+            found["vertical"] = "off"
+        if self.kind in ("sample", "record"):
+            return found | {"motion": [f"sample:{self.text}"] if self.kind == "sample" else list(files)}
+        return found | {self.kind: self.text}
+
+
+class JobAsked(Table):
+    """Computation that is asked for: all but kind, column and model as on the command line.
+
+    ``column`` is what a column file holds, ``assembly`` the text of an assembly file, ``ruin`` that of a ruin file; of
+    ``critical`` the amplitudes go from ``first`` to ``last`` by ``step``. An analysis of :data:`~stylobate_page.forms.FORMS`
+    has ``options``, what its fields hold, and may rest on a ``source``, the id of another job, or on the text of a ``table``
+    of runs, and on texts of ``hazards`` by the names of their files. ``page`` is what the page's fields hold, for it to fill
+    them again.
+    """
+
+    kind: Literal["run", "critical", "domain", "ida", "directions", "compare", "sequence", "risk", "survival", "infer"]
+    options: dict[str, str] = Field(default_factory=dict)
+    source: str | None = None
+    table: str | None = None
+    hazards: dict[str, str] = Field(default_factory=dict)
+    column: dict[str, Any] | None = None
+    assembly: str | None = None
+    ruin: str | None = None
+    model: str = "dem2d"
+    settings: dict[str, str] = Field(default_factory=dict)
+    motion: MotionAsked | None = None
+    replicates: str | None = None
+    tail: str | None = None
+    frequencies: str | None = None
+    amplitudes: str | None = None
+    duration: str | None = None
+    first: str | None = None
+    last: str | None = None
+    step: str | None = None
+    page: dict[str, Any] = Field(default_factory=dict)
+    records: list[str] = Field(default_factory=list)
+    unit: str | None = None
+    columns: str | None = None
+    im: str | None = None
+    runs: str | None = None
+    state: str | None = None
+
+
+def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list[str]]:
+    """The command lines, without the program's name; paths from the folder of the job.
+
+    Parameters
+    ----------
+    asked : JobAsked
+    records : mapping
+        Paths of the files of each record, by its id.
+
+    Raises
+    ------
+    InputError
+        Something is missing.
+    """
+    if asked.kind in FORMS:
+        return [_of_form(asked, FORMS[asked.kind], records)]
+    common = [COLUMN if asked.assembly is None else ASSEMBLY, *_model(asked.model, asked.settings)]
+    end = [*_options(tail=asked.tail), f"--out={RESULT}"]
+    if asked.kind in ("run", "critical"):
+        given = [*common, *_motion(_the_motion(asked), records), *_options(replicates=asked.replicates)]
+        if asked.kind == "run":
+            return [["run", *given, "--no-pictures", *end]]
+        steps = {"from": asked.first, "to": asked.last, "step": asked.step}
+        return [["critical", *given, *_options(**steps), *end]]
+    if asked.kind == "domain":
+        return [["domain", STUDY, f"--out={RESULT}"]]
+    from stylobate.analysis.fragility_checks import FEWEST
+
+    if not asked.records:
+        raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
+    files = _each(asked.records, records)
+    analysis = [
+        "ida",
+        *common,
+        *files,
+        *_options(unit=asked.unit, columns=asked.columns, im=asked.im, runs=asked.runs),
+        *end,
+    ]
+    if len(asked.records) < FEWEST:
+        return [analysis]
+    return [analysis, ["fragility", RESULT, *_options(state=asked.state), f"--out={FRAGILITY}"]]
+
+
+def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) -> list[str]:
+    """The command line of an analysis: what it takes of the page, and what its fields hold."""
+    takes, boxes = form.takes, {box.option: box for box in form.boxes}
+    unknown = next((name for name in asked.options if name not in boxes), None)
+    if unknown is not None:
+        raise InputError(f"{form.title!r} has no field {unknown!r}; reload the page.")
+    given = {name: asked.options.get(name, box.start).strip() for name, box in boxes.items()}
+    empty = next((box for name, box in boxes.items() if box.start and not given[name]), None)
+    if empty is not None:
+        raise InputError(f"“{empty.label}” is empty; give it, such as {empty.start}.", empty.option.replace("-", "_"))
+    line = [form.command]
+    if "ruin" in takes:
+        line.append(RUIN)
+    elif "column" in takes:
+        line.append(COLUMN if asked.assembly is None else ASSEMBLY)
+    if "source" in takes:
+        line.append(RUNS if asked.table is None else TABLE)
+    if "model" in takes:
+        model = given.pop("model", asked.model)
+        line += _model(model, asked.settings if model == asked.model else {})
+    if "motions" in takes and asked.records:
+        line += [f"--motion={path}" for path in _each(asked.records, records)]
+    elif {"motion", "motions", "round"} & {*takes}:
+        given = {
+            name: text for name, text in given.items() if name not in ("unit", "columns")
+        }  # the page's motion has its own
+        motion = _the_motion(asked)
+        line += _motion(motion.model_copy(update={"azimuth": None}) if "round" in takes else motion, records)
+    if {"hazard", "hazards"} & {*takes}:
+        number = len(asked.hazards)
+        if not number or (number > 1 and "hazard" in takes):
+            wanted = "one" if "hazard" in takes else "at least one"
+            raise InputError(
+                f"{number} hazard curves are open; {form.title.lower()} takes {wanted}: open its file.", "hazard"
+            )
+        line += [f"--hazard={HAZARDS}/{name}" for name in hazard_files(asked)]
+    line += _options(**{name: text and text + boxes[name].unit for name, text in given.items()})
+    return [*line, *form.fixed, *_options(tail=asked.tail if "tail" in takes else None), f"--out={RESULT}"]
+
+
+def hazard_files(asked: JobAsked) -> dict[str, str]:
+    """Texts of the hazard curves by the names of their files in the folder of the job: those that they had, made safe.
+
+    Raises
+    ------
+    InputError
+        Two are called the same.
+    """
+    found: dict[str, str] = {}
+    for name, text in asked.hazards.items():
+        safe = safe_name(name, "hazard")
+        if safe in found:
+            raise InputError(f"two hazard curves are called {safe!r}; rename one of the files.", "hazard")
+        found[safe] = text
+    return found
+
+
+def safe_name(name: str, otherwise: str) -> str:
+    """The name of a file of somebody, made one that a folder here can hold."""
+    return re.sub(r"[^\w.() -]+", "_", name).strip(". ")[-60:] or otherwise
+
+
+def _the_motion(asked: JobAsked) -> MotionAsked:
+    if asked.motion is None:
+        raise InputError("there is no motion; choose one.")
+    return asked.motion
+
+
+def _model(model: str, settings: Mapping[str, str]) -> list[str]:
+    return [*_options(model=model), *(f"--set={name}={value}" for name, value in settings.items() if value)]
+
+
+def _each(chosen: Sequence[str], records: Mapping[str, Sequence[str]]) -> list[str]:
+    """The file of each record that is chosen."""
+    if any(len(records.get(record, ())) > 1 for record in chosen):
+        raise InputError("a record of several files cannot be one of many here; upload one file for each record.")
+    return [path for record in chosen for path in _files(record, records)]
+
+
+def study(asked: JobAsked) -> dict[str, Any]:
+    """The study file of a domain, as TOML gives it.
+
+    Raises
+    ------
+    InputError
+        A time cannot be read.
+    """
+    found = {"column": COLUMN, "model": asked.model, "frequencies": asked.frequencies, "amplitudes": asked.amplitudes}
+    found |= {name: parse_time(text, name) for name in ("duration", "tail") if (text := getattr(asked, name))}
+    settings = {name: value for name, value in asked.settings.items() if value}
+    missing = next((name for name, value in found.items() if value is None), None)
+    if missing is not None:
+        raise InputError(f"a domain has no {missing}; give them, such as 0.33:4:24 and 0.05g:0.6g:32.", missing)
+    cells = len(frequency_range(str(asked.frequencies))) * len(amplitude_range(str(asked.amplitudes)))
+    if cells > CELLS:
+        raise InputError(
+            f"the domain has {cells} cells; the page takes up to {CELLS}: give fewer frequencies.", "frequencies.number"
+        )
+    return found | ({"set": settings} if settings else {})
+
+
+def report_of(folder: Path) -> list[list[str]]:
+    """The command line of a report on what lies in the folder of a job.
+
+    Raises
+    ------
+    InputError
+        Nothing has been computed there.
+    """
+    found = [name for name in (RESULT, FRAGILITY) if (folder / name).is_dir()]
+    if not found:
+        raise InputError("there is no result to report on; run the job first.")
+    return [["report", *found, f"--out={REPORT}"]]
+
+
+def shown(command: Sequence[str]) -> str:
+    """A command line as a person types it."""
+    return " ".join(["stylobate", *(one if re.fullmatch(r"[\w./:=,@?+-]+", one) else _quoted(one) for one in command)])
+
+
+def _quoted(text: str) -> str:
+    return "'" + text.replace("'", "'\"'\"'") + "'"
+
+
+def _options(**values: str | None) -> list[str]:
+    return [f"--{name}={value}" for name, value in values.items() if value]
+
+
+def _motion(motion: MotionAsked, records: Mapping[str, Sequence[str]]) -> list[str]:
+    words = motion.words(_files(motion.text, records) if motion.kind == "record" else ())
+    files = [f"--motion={path}" for path in words.pop("motion", ())]
+    return files + _options(**words)
+
+
+def _files(record: str, records: Mapping[str, Sequence[str]]) -> list[str]:
+    if record.startswith("sample:"):
+        return [record]
+    if record not in records:
+        raise InputError("the record is no longer here; upload it again.")
+    return [f"{RECORDS}/{name}" for name in records[record]]

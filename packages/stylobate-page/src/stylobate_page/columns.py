@@ -1,0 +1,199 @@
+"""Columns for the page: what a column file holds, checked, with properties and an elevation."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from stylobate.column import Column
+from stylobate.column.files import tables_of
+from stylobate.column.found_in_space import base_axes, space_geometry
+from stylobate.column.links.placed import strokes
+from stylobate.column.presets import PRESETS, preset
+from stylobate.column.shapes import hull
+from stylobate.column.tables import made_of
+from stylobate.constants import g
+from stylobate.errors import InputError
+from stylobate.response.bodies import bodies_of
+from stylobate.response.poses import PlanePoses
+from stylobate_exchange.convert import SURVEYS, Reading, read_model
+
+from .words import doubted, warned
+
+#: Name of a column in messages, at first; on the page that goes without saying.
+SOURCE = "the column"
+
+#: How a file is spoken of, and how its reader sees the same in the fields of the page, in this order.
+_IN_FIELDS = [
+    (re.compile(said), seen)
+    for said, seen in (
+        (r"\[\[drum\]\] number (\d+)", r"drum \1"),
+        (r"\[\[joint_override\]\] with index (\d+)", r"the joint under drum \1"),
+        (r"\[\[link\]\] number (\d+)", r"link \1"),
+        (r"\[joint\]", "all joints"),
+        (r"\[as_found\]", "the base"),
+        (r"key ('\w+') is missing in ([^;]+); add it", r"\1 of \2 is empty; give it"),
+        (r"('\w+') in ([^;]+) is ", r"\1 of \2 is "),
+        (r"(drum \d+|the joint under drum \d+): (\w+) of a (?:drum|joint) is ", r"\2 of \1 is "),
+        (r" is '([+-]?\d+),(\d+)'; it must be a number", r" is '\1,\2'; it must be a number, with a point: \1.\2"),
+        (r", or (?:a common one at the top|name a material)\b", ""),
+    )
+]
+#: Rows of a list, by their place in it.
+_ROWS = re.compile(r"\[\[(as_found\.drum|joint_override)\]\] number (\d+)")
+
+
+def column_of(table: Mapping[str, Any]) -> Column:
+    """The column that the tables of a file describe.
+
+    Raises
+    ------
+    InputError
+        They describe none; the message names the key and the remedy.
+    """
+    try:
+        return made_of(Column, dict(table), SOURCE)
+    except InputError as error:
+        error.without(f"{SOURCE}: ")
+        error.args = (_in_fields(str(error), table),)
+        group, _, rest = (error.field or "").partition(".")
+        own = [str(one.get("index")) for one in table.get("joint_override") or ()]
+        if group == "override" and rest.partition(".")[0] not in own:  # what is wrong there is that of all joints
+            error.field = f"joint.{rest.partition('.')[2]}"
+        raise
+
+
+def _in_fields(said: str, table: Mapping[str, Any]) -> str:
+    """A message about a column file, for somebody who sees the fields of the page."""
+
+    def row(found: re.Match[str]) -> str:
+        rows = table["as_found"]["drum"] if found[1] == "as_found.drum" else table["joint_override"]
+        one = rows[int(found[2]) - 1]
+        drum = f"drum {one['index']}" if isinstance(one, Mapping) and "index" in one else f"row {found[2]}"
+        return drum if found[1] == "as_found.drum" else f"the joint under {drum}"
+
+    said = _ROWS.sub(row, said)
+    for pattern, seen in _IN_FIELDS:
+        said = pattern.sub(seen, said)
+    return said
+
+
+def presets() -> dict[str, dict[str, Any]]:
+    """Column files of the presets by their names."""
+    return {name: tables_of(preset(name)) for name in PRESETS}
+
+
+def tables_in(path: Path, material: str | None = None, names: str | None = None) -> dict[str, Any]:
+    """Contents of a column file or a survey, drum by drum, whichever way it is written.
+
+    Parameters
+    ----------
+    path : Path
+    material, names : str, optional
+        Of a survey that states none, and of its columns where they are not called as ours, as ``convert`` takes them.
+    """
+    if path.suffix.lower() in SURVEYS:
+        column, *_ = read_model(path, Reading(material, columns=names))
+        assert isinstance(column, Column)  # a survey is one
+        return tables_of(column)
+    return tables_of(Column.from_toml(path))
+
+
+def describe(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Column on the page: properties, warnings and outlines.
+
+    Raises
+    ------
+    InputError
+        The tables describe no column.
+    """
+    with doubted() as doubts:
+        column = column_of(table)
+        facts = {
+            "height": column.height,
+            "mass": column.mass,
+            "slenderness": column.slenderness,
+            "frequency_parameter": column.frequency_parameter,
+            "uplift_g": column.uplift_acceleration / g,
+            "joint_uplift_g": (column.joint_uplift_accelerations / g).tolist(),
+            "radius": column.radius,
+            "drums": column.n,
+            "name": column.name,
+            "digest": column.digest,
+        }
+    in_space = not column.as_found.in_plane
+    seen = {"xz": _outlines(column, 0), "yz": _outlines(column, 1)} if in_space else {"xz": _in_plane(column)}
+    return {
+        "facts": facts,
+        "outlines": {name: [one.round(4).tolist() for one in found] for name, found in seen.items()},
+        "in_space": in_space,
+        "links": _links(column, in_space),
+        "slope": float(np.tan(np.radians(column.as_found.base_tilt))) if not in_space else 0.0,
+        "joints": [
+            {"width": float(column.joint_widths[i]), "friction": joint.tan_phi} for i, joint in enumerate(column.joints)
+        ],
+        "warnings": warned(doubts),
+    }
+
+
+def _in_plane(column: Column) -> list[np.ndarray]:
+    """Corners of the drums of a column as found, seen along y [m]."""
+    shapes = bodies_of(column).shapes
+    return [_turned(shape.outline, at) for shape, at in zip(shapes, _placed(column), strict=True)]
+
+
+def _placed(column: Column) -> np.ndarray:
+    """Places of the drums of a column found in the plane: x and z of their centroids [m], and their angles [rad]."""
+    still = np.zeros((1, column.n))
+    return bodies_of(column).reference.plane(PlanePoses(still, still, still))[0]
+
+
+def _turned(points: np.ndarray, at: np.ndarray) -> np.ndarray:
+    x, z, angle = at
+    c, s = np.cos(angle), np.sin(angle)
+    return points @ np.array([[c, s], [-s, c]]) + (x, z)
+
+
+def _links(column: Column, in_space: bool) -> dict[str, list[Any]]:
+    """Ends of the lines that stand for its links [m], by what is looked at as outlines are."""
+    if not in_space:
+        base = np.array([0.0, 0.0, np.radians(column.as_found.base_tilt)])
+        at = [base, *_placed(column)]
+
+        def plane(body: int, place: np.ndarray) -> list[float]:
+            return _turned(place[None, [0, 2]], at[body])[0].round(4).tolist()
+
+        return {"xz": [[plane(*stroke.lower[:2]), plane(*stroke.upper[:2])] for stroke in strokes(column.placed_links)]}
+    space, upright = space_geometry(column), base_axes(column)
+
+    def seen(body: int, place: np.ndarray, axis: int) -> list[float]:
+        point = space.centroid[body - 1] + space.axes[body - 1] @ place if body else place
+        return (upright @ point)[[axis, 2]].round(4).tolist()
+
+    lines = strokes(column.placed_links)
+    return {
+        name: [[seen(*line.lower[:2], axis), seen(*line.upper[:2], axis)] for line in lines]
+        for name, axis in (("xz", 0), ("yz", 1))
+    }
+
+
+def _outlines(column: Column, axis: int) -> list[np.ndarray]:
+    """The same of a column that is found out of the plane, over x or over y."""
+    at, upright = space_geometry(column), base_axes(column)
+    outlines = []
+    for i, shape in enumerate(bodies_of(column).shapes):
+        points = (at.centroid[i] + shape.mesh().vertices @ at.axes[i].T) @ upright.T
+        outlines.append(hull(points[:, [axis, 2]]))
+    return outlines
+
+
+def refuse_large(table: Mapping[str, Any]) -> None:
+    """Refuse tables with more drums or overrides than a column can have, before they are looked at one by one."""
+    for key in ("drum", "joint_override", "link"):
+        rows = table.get(key)
+        if isinstance(rows, list) and len(rows) > 1000:
+            raise InputError(f"the column has {len(rows)} entries under {key}; allowed is up to 1000.")

@@ -1,0 +1,1 @@
+"""The command of this package, which the command line of stylobate finds by its entry point."""

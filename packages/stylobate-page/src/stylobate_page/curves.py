@@ -1,0 +1,147 @@
+"""Curves of analyses for the page, from their files: incremental dynamic analysis, fragility, critical amplitude."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from stylobate.atomic import replacing
+from stylobate.motion.intensity_specs import parse_measure
+
+from .asked import FRAGILITY, RESULT
+from .job import GROWING
+
+if TYPE_CHECKING:
+    from stylobate.analysis.ida_curves import Ida
+
+#: Room at the right of the largest response, for collapses [-].
+ROOM = 1.25
+
+#: Share of the records by the column of the table that holds its curve.
+SHARES = {"16": "edp_16", "50": "edp_50", "84": "edp_84"}
+
+
+def curves(folder: Path) -> dict[str, Any]:
+    """Pictures of a job, without those of what it has not computed.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the job.
+    """
+    found: dict[str, Any] = {}
+    if (folder / RESULT / "capacities.csv").is_file():
+        found["ida"] = _ida(folder / RESULT)
+    for name, file in (("fragility", folder / FRAGILITY / "fragility.json"), ("growing", folder / GROWING)):
+        if file.is_file() and "fragility" not in found:
+            found[name] = _fragility(json.loads(file.read_text(encoding="utf-8")))
+    if (folder / RESULT / "critical.csv").is_file():
+        found["critical"] = [
+            [_number(row["amplitude_g"]), _moved(row), row["verdict"]]
+            for row in _rows(folder / RESULT / "critical.csv")
+        ]
+    return found
+
+
+def _ida(folder: Path) -> dict[str, Any]:
+    """Intensity over the response of every record, collapses as plateaus; and the curves of the records' shares."""
+    said = json.loads((folder / "ida.json").read_text(encoding="utf-8"))
+    runs: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    width = 1.0
+    for row in _rows(folder / "runs.csv"):
+        width = _number(row.get("base_width_m")) or 1.0
+        level, moved = _number(row["level"]), _moved(row)
+        if level is not None and moved is not None:
+            runs.setdefault(_curve(row), []).append((level, abs(moved) / width))
+    lines, ends = [], []
+    for row in _rows(folder / "capacities.csv"):
+        stands, falls = _number(row["stands_until"]), _number(row["collapses_from"])
+        below = [
+            (0.0, 0.0),
+            *sorted(one for one in runs.get(_curve(row), ()) if falls is None or one[0] < falls),
+        ]
+        lines.append({"name": _curve(row)[0], "x": [one[1] for one in below], "y": [one[0] for one in below]})
+        ends.append(None if falls is None else math.sqrt(stands * falls) if stands else 0.5 * falls)
+    right = ROOM * (max((max(one["x"]) for one in lines), default=0.0) or 1.0)
+    for line, end in zip(lines, ends, strict=True):
+        if end is not None:
+            line["x"] += [line["x"][-1], right]
+            line["y"] += [end, end]
+    shares = {}
+    for share, column in SHARES.items():
+        x, y = [0.0], [0.0]
+        for row in _rows(folder / "fractiles.csv"):
+            value, level = float(row[column] or "nan"), _number(row["im"])
+            if math.isnan(value) or level is None:
+                continue
+            x.append(min(value / width, right))
+            y.append(level)
+            if math.isinf(value):
+                break
+        shares[share] = {"x": _plain(x), "y": _plain(y)}
+    for line in lines:
+        line["x"], line["y"] = _plain(line["x"]), _plain(line["y"])
+    moves = (
+        "peak displacement [m]" if said.get("edp") == "peak_displacement_m" else "peak top displacement [base widths]"
+    )
+    return {"records": lines, "shares": shares, "right": right, "moves": moves, "words": _words(said)}
+
+
+def write_points(analysis: Ida, state: str, target: Path) -> Path:
+    """Write the shares of the records that are known of an analysis so far, in the form of a fragility without a curve."""
+    from stylobate.analysis.evidence import evidence
+    from stylobate.analysis.fragility_points import points_of
+
+    told = evidence(analysis, state=state)
+    points = points_of(told, told.codes, "records" if told.brackets else "runs")
+    said = {"im": told.measure, "state": told.state, "points": points.table()}
+    with replacing(target) as partial:
+        partial.write_text(json.dumps(said), encoding="utf-8")
+    return target
+
+
+def _fragility(said: Mapping[str, Any]) -> dict[str, Any]:
+    """The curve with its band, the shares of the records with their intervals, and the interval of the median."""
+    points = [
+        [_number(one[key]) for key in ("im", "share", "low", "high", "records")] for one in said.get("points", ())
+    ]
+    points = [one for one in points if one[0] is not None]
+    interval = [_number(said.get(key)) for key in ("median_low", "median_high")]
+    drawn = {name: _plain(values) for name, values in said.get("curve", {}).items()}
+    return {"curve": drawn, "points": points, "median": interval, "state": said["state"], "words": _words(said)}
+
+
+def _words(said: Mapping[str, Any]) -> str:
+    return "intensity" if said["im"] == "im" else parse_measure(said["im"]).words
+
+
+def _moved(row: Mapping[str, str]) -> float | None:
+    """Peak displacement of the top, or of the body of an assembly that goes farthest [m]."""
+    return _number(row.get("peak_top_displacement_m", row.get("peak_displacement_m")))
+
+
+def _curve(row: Mapping[str, str]) -> tuple[str, str]:
+    """Motion and realisation of a row; folders of earlier versions hold the record only."""
+    return row.get("motion") or row["record"], row["realisation"]
+
+
+def _rows(path: Path) -> Iterator[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        yield from csv.DictReader(file)
+
+
+def _number(value: Any) -> float | None:
+    """A finite number; None for anything else."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _plain(values: list[float]) -> list[float]:
+    return [float(f"{value:.6g}") for value in values]

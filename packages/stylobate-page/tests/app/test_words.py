@@ -1,0 +1,217 @@
+"""The page speaks of its fields: no sentence that it shows names a parameter or an option of the command line."""
+
+import dataclasses
+import json
+import re
+import threading
+import time
+import warnings
+from pathlib import Path
+
+import pytest
+from page_server import HAZARD, RUNS
+
+import stylobate_page
+from stylobate.column.links import COLUMN_KINDS
+from stylobate.errors import OutOfRangeWarning
+from stylobate_page import worker
+from stylobate_page.job import Job
+from stylobate_page.words import LABELS, doubted, in_page_words, warned
+
+STATIC = Path(stylobate_page.__file__).parent / "static"
+OPTION = re.compile(r"(?<![\w-])--[a-z]")
+COMMAND = re.compile(r"\bstylobate [a-z]|command line|same command")
+
+
+@pytest.mark.parametrize(
+    ("said", "shown"),
+    [
+        ("a states no unit: `unit='g'`, or gal.", "a states no unit: “Unit” g, or gal."),
+        ("state it: `dt=0.01`.", "state it: “Step” 0.01s."),
+        ("`scale` and `pga` are both given.", "“scale” and “Scale to a peak of” are both given."),
+        ("give `files=FILE`, or several `azimuths`.", "give “Record”, or several “Directions”."),
+        ("take it off (`condition='baseline'`).", "take it off."),
+        ("bottom_width of a drum is -1 m.", "bottom width of a drum is -1 m."),
+        ("far from rest; go on with --tail 5s.", "far from rest; go on with “Tail after the motion” 5s."),
+        ("--azimuth is 'x'; write it with its unit.", "“Azimuth” is 'x'; write it with its unit."),
+        ("leave it out or give --motion FILE.", "leave it out or give “Record”."),
+        ("choose another --until-rest, or --tail", "choose another “until rest”, or “Tail after the motion”"),
+        ("Missing option '--models'; see 'stylobate compare --help'.", "Missing option “Models”."),
+        ("`pga` is -9.81 m/s²; allowed is [0, 981] m/s².", "“Scale to a peak of” is -1 g; allowed is [0, 100] g."),
+        ("gravity is 100 m/s²; allowed is [0.1, 30] m/s².", "gravity is 100 m/s²; allowed is [0.1, 30] m/s²."),
+        ("a drum -- or two--three - is -1 m; <!-- no -->", "a drum -- or two--three - is -1 m; <!-- no -->"),
+    ],
+)  # fmt: skip
+def test_parameters_and_options_become_fields(said, shown):
+    assert in_page_words(said) == shown
+    assert in_page_words({"a": [said, 1, None]}) == {"a": [shown, 1, None]}
+
+
+def test_the_scripts_take_the_names_of_fields_from_one_list():
+    scripts = "".join(one.read_text(encoding="utf-8") for one in STATIC.glob("*.js"))
+    assert {name for name in LABELS if f"labels.{name}" not in scripts} == set()
+    assert set(re.findall(r"labels\.(\w+)", scripts)) == set(LABELS)
+
+
+def test_the_page_itself_names_no_option():
+    for path in STATIC.glob("*.*"):
+        if path.suffix in (".js", ".html"):
+            text = path.read_text(encoding="utf-8")
+            assert OPTION.search(text) is None
+            assert "command line" not in re.sub(r"(?m)//.*$", "", text)
+
+
+def test_what_a_job_says_is_in_words_of_the_page(tmp_path):
+    job = Job("a", tmp_path, "run", "one", [["run", "--tail=5s"]], {"column": {"name": "--tail"}})
+    job.sentence, job.warnings, job.results = (
+        "go on with --tail 5s.",
+        ["give --dt 0.01s."],
+        [{"certainty": {"sentence": "--tail"}}],
+    )
+    told = job.to_dict()
+    assert OPTION.search(str([told["sentence"], told["warnings"], told["results"]])) is None
+    assert told["asked"]["column"]["name"] == "--tail"  # what was typed stays
+    assert job.lines() == b"stylobate run --tail=5s\n"
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        {"kind": "harmonic", "text": "1Hz,abc,4s"},
+        {"kind": "pulse", "text": "ricker"},
+        {"kind": "synthetic", "text": "nowhere"},
+        {"kind": "harmonic", "text": "1Hz,0.3g,4s", "azimuth": "xdeg"},
+        {"kind": "harmonic", "text": "1Hz,0.3g,4s", "unit": "g"},
+        {"kind": "harmonic", "text": "1Hz,?g,4s"},
+        {"kind": "pulse", "text": "ricker,1Hz,0.1g", "across": "1Hz,0.1g,90deg"},
+        {"kind": "record"},
+    ],
+)
+def test_no_error_names_an_option(client, motion):
+    if motion["kind"] == "record":
+        motion = motion | {"text": client.post("/api/records", content=b"0 1\n1 2\n2 3\n3 4\n").json()["id"]}
+    error = client.post("/api/motion", json={"motion": motion}).json()["error"]
+    assert OPTION.search(error) is None, error
+
+
+def test_every_request_hears_its_own_warnings():
+    """Many threads at once: none misses one of its warnings or hears another's."""
+    heard = {}
+
+    def ask(number):
+        for _ in range(5):
+            with doubted() as doubts:
+                warnings.warn(f"doubt {number}", OutOfRangeWarning, stacklevel=1)
+                time.sleep(0.001)
+                warnings.warn(f"more {number}", OutOfRangeWarning, stacklevel=1)
+            heard.setdefault(number, []).append(warned(doubts))
+
+    threads = [threading.Thread(target=ask, args=(number,)) for number in range(8)]
+    for one in threads:
+        one.start()
+    for one in threads:
+        one.join()
+    assert heard == {number: [[f"doubt {number}", f"more {number}"]] * 5 for number in range(8)}
+
+
+def lists(name):
+    """Lists by name of an object of lists in the form of a column, with the lists that it takes in."""
+    text = (STATIC / "column.js").read_text(encoding="utf-8")
+    shared = {word: re.findall(r'"(\w+)"', some) for word, some in re.findall(r"\b([A-Z]+) = \[(.*?)\]", text)}
+    body = re.search(rf"const {name} = \{{(.*?)\}};", text, re.DOTALL).group(1)
+    found = {}
+    for kind, some, whole in re.findall(r"(\w+): (?:\[(.*?)\]|([A-Z]+))", body):
+        taken = [key for word in re.findall(r"\.\.\.([A-Z]+)", some) for key in shared[word]]
+        found[kind] = {*re.findall(r'"(\w+)"', some), *taken, *shared.get(whole, ())}
+    return found
+
+
+def test_the_form_of_a_column_knows_every_kind_of_link_by_what_it_has():
+    shown, more = lists("LINKS"), lists("MORE")
+    assert {*shown} == {*more} == {*COLUMN_KINDS}
+    text = (STATIC / "column.js").read_text(encoding="utf-8")
+    words = {*re.findall(r'(\w+): "', re.search(r"const WORDS = \{(.*?)\};", text, re.DOTALL).group(1))}
+    for kind, made in COLUMN_KINDS.items():
+        fields = {one.name for one in dataclasses.fields(made)} - {"between", "numbers", "name"}
+        assert shown[kind] | more[kind] <= fields & words
+        assert not shown[kind] & more[kind]
+
+
+#: Bad input of every kind of job: what it has instead of good input.
+ODD = {
+    "run": [
+        *({"replicates": one} for one in ("x", "-1", "1e9", "0.5")),
+        *({"tail": one} for one in ("x", "-1s", "5", "1e9s")),
+        *({"model": one} for one in ("hausner", "housner", "", "--help")),
+        *({"settings": one} for one in ({"points": "0"}, {"point": "2"}, {"law": "bed"}, {"losses": "wood"})),
+    ],
+    "critical": [
+        {"first": "0.5g", "last": "0.1g", "step": "0.1g"},
+        {"first": "0.1g", "last": "0.5g", "step": "0g"},
+        {"first": "x", "last": "0.5g", "step": "0.1g"},
+        {"first": "0.1", "last": "0.5", "step": "0.1"},
+        {"first": "0.1g", "last": "0.2g", "step": "0.1g"},
+    ],
+    "domain": [
+        {"frequencies": "4:1:5", "amplitudes": "0.1g:0.2g:2", "duration": "1s"},
+        {"frequencies": "1:2:2", "amplitudes": "0.1:0.2:2", "duration": "1s"},
+        {"frequencies": "1:2:2", "amplitudes": "0.1g:0.2g:2", "duration": "x"},
+        {"frequencies": "1:2:2", "amplitudes": "0.1g:0.2g:2", "duration": "-1s"},
+    ],
+    "ida": [
+        {"records": []},
+        *({"records": ["sample:el-centro-1940"], "runs": one} for one in ("x", "2", "1e9")),
+        *({"records": ["sample:el-centro-1940"], "im": one} for one in ("x", "d5_95", "sa:x")),
+        {"records": ["sample:nowhere"]},
+        {"records": ["sample:el-centro-1940", "sample:el-centro-1940"]},
+        {"records": ["sample:el-centro-1940"], "unit": "furlong"},
+    ],
+    "directions": [{"options": {"azimuths": one}} for one in ("x", "0:360:13", "0:330", "0:330:0", "0:330:1000000")],
+    "compare": [
+        *({"options": {"models": one}} for one in ("", "dem2d,dem2d", "dem2d,hausner", "dem2d,housner")),
+        {"options": {"models": "dem2d"}, "tail": "x"},
+    ],
+    "sequence": [
+        *({"options": {"repeat": one}} for one in ("x", "0", "-1", "1000000")),
+        *({"options": {"rest": one}} for one in ("x", "-1", "1e9")),
+        *({"options": {"factors": one}} for one in ("x", "1,,2", "-1", "0")),
+        {"options": {"factors": "1,2,3"}, "records": ["sample:el-centro-1940", "sample:waipukurau-2018"]},
+        {"options": {"unit": "g"}, "records": ["sample:el-centro-1940"]},
+        {"options": {"replicates": "x"}},
+    ],
+    "risk": [
+        *({"hazards": {"a.csv": one}} for one in ("", "x", "im,rate\n1,2\n", HAZARD.replace("pgv_m_s", "pga_g"))),
+        *({"table": one} for one in ("", "x", "record,im\na,1\n", RUNS[:80], RUNS.replace("0.4", "x", 1))),
+        *({"options": one} for one in ({"im": "x"}, {"im": "pga"}, {"state": "x"}, {"state": "top:0.35d"}, {})),
+    ],
+    "survival": [{"options": {"im": "pgv", "age": one}} for one in ("x", "-1", "0", "1e9", "")],
+}  # fmt: skip
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ODD)
+def test_no_job_names_an_option_or_a_command(fresh, asked, tmp_path, monkeypatch, kind):
+    """What the page refuses, and what the process of jobs says of the rest."""
+    good = (
+        {"table": RUNS, "hazards": {"a.csv": HAZARD}, "options": {"im": "pgv"}} if kind in ("risk", "survival") else {}
+    )
+    good |= {"motion": asked["motion"] | {"text": "1Hz,?g,1s"}} if kind == "critical" else {}
+    refused = 0
+    for change in ODD[kind]:
+        answer, told = fresh.post("/api/jobs", json=asked | {"kind": kind} | good | change), []
+        if answer.status_code == 422:
+            told.append(answer.json()["error"])
+        else:
+            folder = tmp_path / "jobs" / answer.json()["id"]
+            commands = json.loads((folder / "job.json").read_text())["commands"]
+            monkeypatch.chdir(folder)
+            worker.work(
+                {"id": "a", "folder": str(folder), "commands": commands}, lambda told=told, **what: told.append(what)
+            )
+            told = [what[key] for what in told if "code" in what for key in ("said", "complained")]
+        said = str(in_page_words(told))
+        refused += bool(told) and "'complained'" not in said
+        assert OPTION.search(said) is None, (change, said)
+        assert COMMAND.search(said) is None, (change, said)
+        assert "`" not in said, (change, said)
+    assert refused

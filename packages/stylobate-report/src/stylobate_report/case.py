@@ -1,0 +1,271 @@
+"""The report of somebody's own cases: one self-contained page for A4 from any folders of results."""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import re
+from collections.abc import Iterable, Sequence
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+from markupsafe import Markup
+
+from stylobate.analysis.difference import NO_MEASURE
+from stylobate.atomic import output_folder
+from stylobate.column.spatial.placing import NUMBERED
+from stylobate.errors import InputError, StylobateError
+from stylobate.results import Kind, Numbers, Result, RunResult, SeveralRuns, read_results
+from stylobate.version import __version__
+
+from . import page
+from .language import Language, language_of, speaking
+from .others import sections_of
+from .pdf import print_pdf
+from .project import Project, front_sections
+from .record import NOTE, SOURCES, files_section
+from .runs import run_sections, several_sections
+
+_log = logging.getLogger("stylobate")
+
+TEMPLATE = Path(__file__).with_name("case.html")
+
+#: Names of the kinds of results.
+TITLES = {
+    "run": "run in time",
+    "runs": "runs in time",
+    "critical": "critical amplitude",
+    "domain": "safe–unsafe domain",
+    "probability": "probability of collapse",
+    "pushover": "pushover",
+    "limit": "limit analysis",
+    "compare": "models compared",
+    "states": "states compared",
+    "suite": "suite of records",
+    "ida": "incremental dynamic analysis",
+    "fragility": "fragility",
+    "risk": "risk",
+    "survival": "survival",
+    "infer": "what shaking it was",
+    "sequence": "earthquakes until it falls",
+    "records": "records chosen",
+    "calibrate": "losses from a measured history",
+    "study": "study",
+}
+
+
+def write_report(
+    results: Iterable[Result | str | Path],
+    out: str | Path,
+    *,
+    title: str | None = None,
+    pdf: bool = False,
+    project: Project | None = None,
+) -> list[Path]:
+    """Write the report of any results as one HTML file; each file appears whole or not at all.
+
+    A file that is there already is replaced only if stylobate wrote it and nobody has changed it since.
+
+    Parameters
+    ----------
+    results : iterable of Result or path
+        Results (:func:`stylobate.results.read_results`), or folders that commands wrote; in the order of the report.
+    out : path
+        The HTML file.
+    title : str, optional
+        The site of the project or what stands, by default.
+    pdf : bool
+        Print it to a PDF file of the same name as well.
+    project : Project, optional
+        Begin with an executive page of this project (:func:`stylobate_report.project.read_project`), which is signed.
+
+    Returns
+    -------
+    list of Path
+        The files.
+
+    Raises
+    ------
+    InputError
+        A folder that holds no result, or a place that cannot be written.
+    StylobateError
+        There is no Chromium to print with, or it fails.
+    """
+    target = Path(out)
+    if target.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"{target} ends in {target.suffix!r}; a report is an HTML file: name it such as report.html.")
+    found = [one for given in results for one in ([given] if isinstance(given, Result) else read_results([given]))]
+    if not found:
+        raise InputError("no result is given to report; give the folder in which a command wrote it.")
+    names = [target.name, *([target.with_suffix(".pdf").name] if pdf else [])]
+    with output_folder(target.parent, names) as folder:
+        return _write(found, folder / target.name, title, pdf, project)
+
+
+def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, project: Project | None) -> list[Path]:
+    shown: dict[bytes, int] = {}
+    own = _names(found) | ({project.site} if project is not None else set())
+    language = language_of("en" if project is None else project.language, own)
+    with speaking(language):
+        cases = []
+        for number, one in enumerate(found, start=1):
+            _log.info("case %d of %d: %s, %s.", number, len(found), one.kind.value, one.folder)
+            cases.append(_case(one, number, shown, found, language))
+    front = []
+    if project is not None:
+        front = [page.part(language.section(section)) for section in front_sections(project, found, cases)]
+    cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
+    end = [files_section(found), page.Section(SOURCES, [page.Points(list(map(page.Own, cited)))])]
+    names = _heading(found, project)
+    kinds = ", ".join(dict.fromkeys(language.say(TITLES[one.kind.value]) for one in found))
+    day = date.today().isoformat()
+    lead = [f"{kinds[:1].upper()}{kinds[1:]}. {language.say(f'Written on {day} by stylobate {__version__}.')}"]
+    notes = _notes([case["notes"] for case in cases]) if len(cases) > 1 else []
+    values = {
+        "notes": page.kinds([language.item(one) for one in notes]),
+        "version": __version__,
+        "day": day,
+        "lead": page.kinds(lead),
+        "cases": cases,
+        "front": front,
+        "end": [page.part(language.section(section)) for section in end],
+        "project": project,
+        "language": language.tag,
+        "say": language.say,
+        "foot": Markup('"' + PAGES.sub(r'" counter(\1) "', re.sub(r'["\\\\<]', "", language.say(FOOT))) + '"'),
+        "spoken": page.kinds(_spoken(language)),
+    }
+    files = [page.write_html(target, TEMPLATE, title=title or language.say(f"Report: {names}"), **values)]
+    if pdf:
+        _log.info("printing %s.", target.name)
+        files.append(print_pdf(target, target.with_suffix(".pdf")))
+    return files
+
+
+#: Foot of a printed page, and the counters of a style sheet in it.
+FOOT, PAGES = "page {page} of {pages}", re.compile(r"\{(pages?)\}")
+
+#: What a report in another language says of itself before anything else.
+SPOKEN_IN = "Names, commands, parameters of the program and what is cited are as they are."
+PARTS_IN_ENGLISH = "Parts in English, because they are not translated or are pictures drawn before: {sections}."
+
+
+def _spoken(language: Language) -> list[page.Item]:
+    """How numbers are written, and which parts of the report stayed English; nothing of a report in English."""
+    if not language.foreign:
+        return []
+    said = [language.say(SPOKEN_IN)]
+    if language.english:
+        words = language.table.get(PARTS_IN_ENGLISH, PARTS_IN_ENGLISH)
+        said.append(words.replace("{sections}", ", ".join(language.english)))
+    return [page.Note(said, "fair" if language.english else "")]
+
+
+def _heading(found: Sequence[Result], project: Project | None) -> str:
+    """What a report is of: the site of its project, or what stands; the name of a result where nothing is known to stand."""
+    if project is not None:
+        return project.site
+    standing = dict.fromkeys(stands.name for one in found for stands in one.structures)
+    return ", ".join(standing or dict.fromkeys(one.name for one in found))
+
+
+def _names(found: Sequence[Result]) -> set[str]:
+    """Names that people gave, of which a report translates nothing."""
+    asked = [one.asked for one in found if one.asked is not None]
+    motions = [str(motion.get(key)) for one in asked for motion in one.motions for key in ("name", "record")]
+    runs = [run for one in found for run in (one.runs if isinstance(one, SeveralRuns) else (one,))]
+    motions += [str(one.response.provenance.get("motion")) for one in runs if isinstance(one, RunResult)]
+    standing = [stands for one in found for stands in one.structures if stands.stack is None]
+    compared = [one for one in found if isinstance(one, Numbers) and one.kind is Kind.STATES]
+    labels = [state["label"] for one in compared for state in one.summary["states"]]
+    bodies = [body.name for stands in standing for body in stands.bodies if not (body.fixed and body.name == "ground")]
+    given = {
+        *motions,
+        *(name for name in bodies if not NUMBERED.fullmatch(name)),
+        *(label for label in labels if label not in NO_MEASURE),
+        *(one.name for one in found),
+        *(stands.name for one in found for stands in one.structures),
+    }
+    return given - {*TITLES.values()}
+
+
+def _case(
+    result: Result, number: int, shown: dict[bytes, int], all_: Sequence[Result], language: Language
+) -> dict[str, Any]:
+    """A case as the template takes it; its verdict is what the verdicts of its first section begin with."""
+    sections = _sections_of(result, all_)
+    notes = [item for item in sections[0].items if isinstance(item, page.Note) and "verdict" in item.look]
+    verdict = " ".join(text for note in notes for text in note.texts[: note.first])
+    said = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
+    known = [text.removeprefix(NOTE) for text in said if text.startswith(NOTE)]
+    sources = [item for part in sections if part.title == SOURCES for item in part.items]
+    rest = [part for part in sections[1:] if part.title != SOURCES]
+    parts = [sections[0], *(_once(part, number, shown) for part in rest)]
+    return {
+        "cited": [text for item in sources if isinstance(item, page.Points) for text in item.texts],
+        "title": _title(result, language),
+        "verdict": "\n".join(map(language.say, verdict.split("\n"))),
+        "notes": known,
+        "parts": [page.part(language.section(section)) for section in parts],
+    }
+
+
+def _once(section: page.Section, number: int, shown: dict[bytes, int]) -> page.Section:
+    """A section of a case with reference to the earlier case that shows the same, of all of it or of a table or picture."""
+
+    def earlier(content: Any) -> int:
+        known = hashlib.sha256(repr(content).encode()).digest()
+        return shown.setdefault(known, number)
+
+    if (case := earlier(section.items)) < number:
+        return page.Section(section.title, [f"As in case {case}."])
+    items: list[page.Item] = []
+    for item in section.items:
+        if isinstance(item, (page.Rows, page.Facts, page.Picture)) and (case := earlier(item)) < number:
+            items += [*filter(None, [item.caption]), f"As in case {case}."]
+        else:
+            items.append(item)
+    return page.Section(section.title, items)
+
+
+def _notes(notes: Sequence[Sequence[str]]) -> list[page.Item]:
+    """Caveats for the reader before relying on any of the results, each once, with the results that it holds for."""
+    told: dict[str, list[int]] = {}
+    for number, texts in enumerate(notes, start=1):
+        for text in dict.fromkeys(texts):
+            told.setdefault(text, []).append(number)
+    each = [
+        f"On {'all of them' if len(numbers) == len(notes) else ', '.join(map(str, numbers))}: {text}"
+        for text, numbers in told.items()
+    ]
+    return [page.Note(each, "fair")] if each else []
+
+
+def _sections_of(result: Result, all_: Sequence[Result]) -> list[page.Section]:
+    """Sections of a result; values that cannot have been written by stylobate are bad input, not a fault of it."""
+    try:
+        return _sections(result, all_)
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        if isinstance(error, StylobateError):
+            raise
+        raise InputError(
+            f"{result.folder} does not hold what 'stylobate {result.kind.value}' of this version writes "
+            f"({type(error).__name__}: {str(error)[:100]}); run again."
+        ) from error
+
+
+def _sections(result: Result, all_: Sequence[Result]) -> list[page.Section]:
+    if isinstance(result, RunResult):
+        return run_sections(result)
+    if isinstance(result, SeveralRuns):
+        return several_sections(result)
+    mine = {structure.digest for structure in result.structures}
+    runs = [one for one in all_ if isinstance(one, RunResult) and one.response.structure.digest in mine]
+    return sections_of(result, next((run for run in runs if run.motion is not None), None))
+
+
+def _title(result: Result, language: Language) -> str:
+    if isinstance(result, RunResult):
+        return f"{result.name}: {result.response.provenance.get('motion', 'run')}, {result.response.model}"
+    return f"{result.name}: {language.say(TITLES[result.kind.value])}"

@@ -1,0 +1,125 @@
+"""The page that a signed report begins with: project, answers, assumptions, limits, sources, and where one signs."""
+
+from __future__ import annotations
+
+import datetime
+import hashlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import field_validator
+
+from stylobate.analysis.design_tables import OPEN
+from stylobate.column.toml import Table, read_table
+from stylobate.errors import InputError
+from stylobate.reading import shown
+from stylobate.results import Result, RunResult, SeveralRuns
+from stylobate.version import __version__
+
+from .design import SHOWN, design_of, governing_rows
+from .language import language_of
+from .page import Facts, Item, Own, Points, Rows, Section
+from .record import files_of, known_model, titled
+
+
+class Project(Table):
+    """Facts that a report is signed with, as a project file (TOML) holds them; texts, and none of them empty."""
+
+    client: str
+    site: str
+    engineer: str
+    role: str | None = None
+    place: str | None = None
+    date: str | None = None
+    reference: str | None = None
+    assumptions: list[str] | None = None
+    language: str = "en"
+
+    @field_validator("date", mode="before")
+    @classmethod
+    def _as_text(cls, value: Any) -> Any:
+        """A date of TOML as it is written; a text stays."""
+        plain = isinstance(value, datetime.date) and not isinstance(value, datetime.datetime)
+        return value.isoformat() if plain else value
+
+
+def read_project(path: str | Path) -> Project:
+    """Read a project file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is not TOML, has an unknown key, lacks one, or has an empty value.
+    """
+    project = read_table(path, Project)
+    for key, value in project:
+        if any(not text.strip() for text in ([value] if isinstance(value, str) else value or [])):
+            raise InputError(f"{shown(path)}: {key} is empty; write it, or leave an optional key out.")
+    if project.language.endswith(".toml"):
+        project = project.model_copy(update={"language": str(Path(path).parent / project.language)})
+    language_of(project.language)
+    return project
+
+
+def front_sections(project: Project, results: Sequence[Result], cases: Sequence[dict[str, Any]]) -> list[Section]:
+    """Sections of the first page.
+
+    Parameters
+    ----------
+    project : Project
+    results : sequence of Result
+    cases : sequence of dict
+        The case of each result, whose ``verdict`` is its answer: it is repeated as it stands there.
+    """
+    apart = ("role", "place", "language")
+    known = [(key, Own(value)) for key, value in project if isinstance(value, str) and key not in apart]
+    answers = [[str(k), Own(case["title"]), Own(case["verdict"])] for k, case in enumerate(cases, start=1)]
+    said = list(map(Own, project.assumptions or ())) or ["None are told in the project file."]
+    return [
+        Section("Project", [Facts(known)]),
+        Section("Answers", [Rows(["case", "result", "answer"], answers)]),
+        *_design_values(results),
+        Section("Assumptions of this report", [Points(said), "What the models assume stands with each case."]),
+        Section("Limits: what is not covered", _limits(results)),
+        Section("Sources of the results", _sources(results)),
+    ]
+
+
+def _design_values(results: Sequence[Result]) -> list[Section]:
+    """Of every state the design value that governs, where there are some."""
+    designed = [(str(k), one) for k, result in enumerate(results, start=1) if (one := design_of(result)) is not None]
+    body = [[k, *row] for k, one in designed for row in governing_rows(one)]
+    caption = (
+        "Of every state the link that is used most, at the level that is told: what 84 % of the motions do not exceed, and "
+        "its 95 % interval. A ductile link at its capacity bears no more; its slip then tells how far it is used. "
+        f"{OPEN} What else bears how much, and at which other levels, stands with each case."
+    )
+    return [Section("Design values that govern", [Rows(["case", *SHOWN], body, caption, numbers=True)])] if body else []
+
+
+def _limits(results: Sequence[Result]) -> list[Item]:
+    """Limits of the models of all results, each model once."""
+    names = dict.fromkeys(name for one in results for name in _models(one))
+    kinds = {name: kind for name in names if (kind := known_model(name)) is not None}
+    items: list[Item] = ["The results are no check against a code. Where models end:"] if kinds else []
+    for name, kind in kinds.items():
+        items += [f"{titled(name)}:", Points(kind.limits)]
+    return items or ["The results are no check against a code; their limits stand with each case."]
+
+
+def _models(result: Result) -> list[str]:
+    if isinstance(result, RunResult):
+        return [result.response.model]
+    if isinstance(result, SeveralRuns):
+        return [one.response.model for one in result.runs]
+    return [str(model["name"]) for model in result.asked.models] if result.asked is not None else []
+
+
+def _sources(results: Sequence[Result]) -> list[Item]:
+    """Programs, and the digest by which the signature holds for the files that are listed at the end."""
+    listed = "".join(f"{file.digest}  {file.name}\n" for _, file in files_of(results))
+    computed = dict.fromkeys(one.asked.version for one in results if one.asked is not None)
+    pairs = [("computed by stylobate", ", ".join(computed) or "not known"), ("written by stylobate", __version__)]
+    pairs.append(("SHA-256 of the list of files", hashlib.sha256(listed.encode()).hexdigest()))
+    return [Facts(pairs), "The files with their digests, and what is cited, stand at the end of the appendix."]

@@ -1,0 +1,386 @@
+"""Runs in a report: verdict, motion, histories, film strip, statics and energy of one; a table of several."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from stylobate import plots
+from stylobate.analysis.directions import harm
+from stylobate.analysis.population import CHANCE, chance_words
+from stylobate.analysis.side_by_side import codes_of, shares
+from stylobate.analysis.verdicts import verdict
+from stylobate.bibliography import cite_run
+from stylobate.constants import g
+from stylobate.outcome import Outcome
+from stylobate.percent import percent
+from stylobate.response import Response
+from stylobate.response.words import doubt_of, each_doubt, opening_words, to_decide
+from stylobate.results import RunResult, SeveralRuns
+
+from . import numbers as n
+from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sentence
+from .page import Facts, Item, Note, Rows, Section
+from .pictures import picture
+from .record import asked_section, model_section, record_section, sources_section, titled, versions_of, warnings_of
+from .sequence import sequence_section
+from .shaking import motion_section
+from .statics import statics_section
+from .structure import structure_section
+
+#: An imbalance of the ledger beyond which a report warns [-].
+IMBALANCE = 0.05
+
+#: Marks of outcomes.
+LOOKS = {"at_rest": "good", "rocked": "good", "displaced": "fair", "collapsed": "bad", "failed": "bad"}
+
+
+#: Caption of the uplift of joints.
+UPLIFT = (
+    "Largest uplift along the rim of the drum above each joint, by direction. Where that rim lies beyond the face below, it "
+    "is larger than the opening, which is measured where faces overlap."
+)
+
+
+def run_sections(run: RunResult) -> list[Section]:
+    """All sections of one run.
+
+    Parameters
+    ----------
+    run : RunResult
+    """
+    r, summary = run.response, run.summary
+    column = r.structure.stack
+    asked = run.asked.motions[0] if run.asked is not None and run.asked.motions else None
+    parts = [Section("Verdict", [_verdict(run), *warnings_of(run, _doubts(run))]), asked_section(run, _asked(r))]
+    parts.append(structure_section(r.structure))
+    parts.append(motion_section(run.motion, r, asked, column))
+    parts += sequence_section(run)
+    parts += _motion_of_what_stood(r, summary)
+    sure = certainty_section(summary)
+    parts += [sure] if sure is not None else []
+    parts += [statics_section(column, run)] if column is not None else []
+    parts.append(_energy(r))
+    parts.append(model_section([r.model]))
+    parts.append(record_section(run, r.provenance.get("parameters", {}), _versions(run)))
+    parts.append(sources_section(cite_run(r.provenance)))
+    return parts
+
+
+# -- parts ---------------------------------------------------------------------------------------------------------
+
+
+def verdict_look(response: Response, doubted: bool = False) -> str:
+    """Words that set a verdict apart; one that most columns like it do not share is no good one."""
+    if response.outcome in (Outcome.COLLAPSED, Outcome.FAILED):
+        return "verdict bad"
+    return "verdict" if response.decided and not doubted else "verdict fair"
+
+
+def _verdict(run: RunResult) -> Note:
+    r = run.response
+    texts = [" ".join([r.sentence, *_how_far(r)])]
+    if r.structure.scattered:
+        if r.outcome is not Outcome.FAILED:
+            texts.append(certainty_sentence(run.summary))
+    else:
+        texts.append(
+            "How sure this verdict is was not computed: only columns and assemblies in space are computed with varied "
+            "properties. It is that of exactly this geometry, these joints and this motion, and near collapse small "
+            "differences decide."
+        )
+    texts += filter(None, [_doubt(run)])
+    return Note(
+        [*texts, _scope(run)],
+        verdict_look(r, bool(beside_them(run.summary) or run.summary.get("law_changes_verdict"))),
+        first=len(texts),
+    )
+
+
+def _doubt(run: RunResult) -> str:
+    """What stands beside its verdict: as told with those like it, whichever the version that wrote it of the run itself."""
+    return str(run.summary.get("doubt") or doubt_of(run.response))
+
+
+def _how_far(r: Response) -> list[str]:
+    """When it fell, or how far it moved and where it rests."""
+    m = r.measures
+    if m.collapsed:
+        return [f"The collapse was certain {m.collapse_time:.2f} s after the start."]
+    width, angle = r.structure.base_width, r.structure.slenderness
+    if r.outcome is Outcome.FAILED or width is None or angle is None:
+        return []
+    share = m.peak_top_displacement / width
+    said = (
+        f"Its top moved by up to {n.length(m.peak_top_displacement)}, {share:.2f} of the width of the base, and "
+        f"{'rests' if r.decided else 'was at the end'} {n.length(m.residual_top_displacement)} from where it stood."
+    )
+    plain = len(r.structure.shapes) == 1 and not (r.structure.as_found or r.structure.links) and r.dims != "xyz"
+    if plain and math.isfinite(m.peak_rotation):
+        said += (
+            f" It turned by up to {m.peak_rotation / angle:.2f} of the slenderness α, at which it is "
+            "balanced on its edge."
+        )
+    return [said]
+
+
+def _scope(run: RunResult) -> str:
+    return (
+        f"This is the verdict of one model, {titled(run.response.model)}, under the one motion below. It is no statement "
+        "about other earthquakes, and no check against a code. What the model leaves out stands under “What the model "
+        "assumes, and where it ends”."
+    )
+
+
+def _doubts(run: RunResult) -> list[str]:
+    r, doubts = run.response, []
+    if not r.decided and r.outcome is not Outcome.FAILED:
+        known, waited = r.provenance, bool(r.provenance.get("until_decided"))
+        cure = to_decide(r.structure, known.get("parameters", {}), float(known.get("tail_s", 0.0)), waited)
+        doubts.append(f"the run ended before the verdict was certain; {cure}: do not rely on it before.")
+    if abs(r.energy_imbalance) > IMBALANCE:
+        doubts.append(
+            f"the energy balance misses {percent(abs(r.energy_imbalance))} of the energy at stake: halve the time step "
+            "(a smaller step factor) and compare."
+        )
+    if left_out := [str(one) for one in r.provenance.get("left_out", ())]:
+        doubts.append(f"left out of the motion, which the model does not take: {'; '.join(left_out)}.")
+    return doubts
+
+
+def _asked(r: Response) -> list[tuple[str, str]]:
+    p = r.provenance
+    pairs = [("structure", r.structure.name), ("motion", str(p.get("motion", n.NONE)))]
+    pairs.append(("model", f"{r.model}, step {r.time_step:.3g} s, {r.steps} steps"))
+    pairs.append(("time computed", f"{float(r.time[-1]):.2f} s from the start of the motion"))
+    if opens := opening_words(p.get("opening")):
+        pairs.append(("largest static acceleration that it stands", opens))
+    if (stepped := r.measures.stepped) is not None:
+        pairs.append(("of which stepped", f"{stepped[2]:.2f} s, without the quiet in which the column lies at rest"))
+    if p.get("until_rest"):
+        pairs.append(("followed", "until everything lies still"))
+    else:
+        pairs.append(("quiet time asked for after the motion", f"{float(p.get('tail_s', 0.0)):g} s"))
+    return pairs
+
+
+def _less_the_fall(r: Response) -> str:
+    if not r.collapsed:
+        return ""
+    return (
+        f". Peaks are those before the fall; the pictures below go on to {r.time[-1]:.2f} s and show the fall itself."
+    )
+
+
+def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]:
+    items: list[Item] = [Facts(_measures(r), f"Measures of the response{_less_the_fall(r)}")]
+    space = r.dims == "xyz"
+    until = f" The dotted line is where the collapse became certain, at {r.collapse_time:.2f} s." if r.collapsed else ""
+    what = (
+        "displacement of top and base relative to the ground"
+        if r.histories.top is not None
+        else "displacement of the blocks"
+    )
+    items.append(
+        picture(plots.draw_histories(r, " "), f"Histories: {what}, over the acceleration of the ground.{until}")
+    )
+    one_draw = ""
+    if r.structure.space_joints is not None and r.collapsed:
+        one_draw = " Where pieces come to lie is one draw of many: take regions over assemblies like it (`replicates`)."
+    which = "its top" if r.histories.top is not None else "the block that moved most"
+    views = ", seen along y (x to the right) and against x (y to the right)" if space else ""
+    items.append(
+        picture(
+            plots.draw_filmstrip(r, title=" "),
+            f"Film strip: what stood, at chosen instants{views}, in true proportion unless the title says a factor. Under "
+            f"each time: how far {which} is from where it was.{one_draw}",
+        )
+    )
+    if r.histories.top is not None:
+        items.append(picture(plots.draw_joints(r, " "), "Opening of every joint over time, each to its own peak."))
+    if space and r.histories.top is not None:
+        items.append(picture(plots.draw_orbit(r, " "), "Orbit of the top in plan, relative to the base."))
+        items.append(picture(plots.draw_uplift(r, " "), UPLIFT))
+        items.append(
+            picture(
+                plots.draw_residuals(r, " "),
+                "Each drum over what it stands on, in plan, at the end or where the collapse became certain. "
+                "Offsets and twists may be drawn larger; the numbers are true.",
+            )
+        )
+    joints = _joints(r, summary)
+    return [Section("What it did", [*items, *joints])]
+
+
+def _measures(r: Response) -> list[tuple[str, str]]:
+    m = r.measures
+    until = "" if not m.collapsed else " before the fall" if m.blocks is None else " until the first block fell"
+    pairs = [("outcome", r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided"))]
+    if m.collapsed:
+        pairs.append(("collapse certain at", f"{m.collapse_time:.2f} s"))
+    if not math.isnan(m.peak_top_displacement):
+        base = r.structure.base_width
+        share = "" if base is None else f" ({m.peak_top_displacement / base:.2f} base widths)"
+        pairs.append((f"peak displacement of the top{until}", n.length(m.peak_top_displacement) + share))
+    if m.blocks is not None:
+        pairs.append((f"peak displacement of a block{until}", n.length(m.blocks.peak_displacement)))
+        if r.fell_at:
+            pairs.append(("fell", ", ".join(f"{name} ({when:.2f} s)" for name, when in r.fell_at.items())))
+    if not m.collapsed:
+        if not math.isnan(m.residual_top_displacement):
+            pairs.append(("residual displacement of the top", n.length(m.residual_top_displacement)))
+        if m.blocks is not None:
+            pairs.append(("residual displacement of a block", n.length(m.blocks.residual_displacement)))
+        pairs.append(("largest residual slip of a joint", n.length(m.residual_joint_slip)))
+    pairs.append((f"peak rotation{until}", n.angle(m.peak_rotation)))
+    pairs.append((f"peak opening of a joint{until}", n.length(m.peak_joint_opening)))
+    if m.space is not None:
+        pairs.append((f"peak tilt{until}", n.angle(m.space.peak_tilt)))
+        pairs.append((f"peak twist of a joint{until}", n.angle(m.space.peak_twist)))
+    return pairs
+
+
+def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
+    opening = summary.get("peak_opening_per_joint_m")
+    if not isinstance(opening, list):
+        return []
+    if r.measures.blocks is not None:
+        return [*_bodies(r), *_joints_of_blocks(r, opening)]
+    slip, twist = summary.get("residual_slip_per_joint_m"), summary.get("residual_twist_per_joint_rad")
+    header = ["joint", "peak opening [mm]", "residual slip [mm]"] + (["residual twist [°]"] if twist else [])
+    body = []
+    for i, gap in enumerate(opening):
+        row = [str(i + 1), n.NONE if gap is None else f"{1000.0 * gap:.2f}"]
+        one = slip[i] if isinstance(slip, list) and i < len(slip) else None
+        row.append(n.NONE if one is None else f"{1000.0 * one:.2f}")
+        if twist:
+            row.append(n.NONE if twist[i] is None else f"{math.degrees(twist[i]):.2f}")
+        body.append(row)
+    fallen = (
+        f" Openings are the largest recorded until the collapse was certain, the beginning of the fall included, which the "
+        f"measures above leave out. Slips and twists are those at the end; {n.NONE}: the joint that failed and all above."
+        if r.collapsed
+        else ""
+    )
+    return [Rows(header, body, f"Joints, from the base up.{fallen}", numbers=True)]
+
+
+def _bodies(r: Response) -> list[Item]:
+    """Each body of an assembly: its tilt, when and to which side it fell, how far it is displaced."""
+    blocks = r.measures.blocks
+    assert blocks is not None
+    header = ["body", "peak tilt [°]", "fell at [s]", "towards azimuth [°]", "residual displacement [mm]"]
+    body = []
+    for one in blocks.bodies:
+        side = n.NONE if one.fall_azimuth is None else f"{math.degrees(one.fall_azimuth):.0f}"
+        far = n.NONE if one.fell_at is not None else f"{1000.0 * math.hypot(*one.moved):.2f}"
+        fell = n.NONE if one.fell_at is None else f"{one.fell_at:.2f}"
+        body.append([one.name, f"{math.degrees(one.peak_tilt):.2f}", fell, side, far])
+    said = "Bodies that can move; tilts over the whole run, the fall included. Azimuths from x towards y."
+    return [Rows(header, body, said, numbers=True)] if body else []
+
+
+def _joints_of_blocks(r: Response, opening: list[float | None]) -> list[Item]:
+    """Joints of an assembly by the bodies that they join."""
+    structure, gone = r.structure, r.collapsed
+    joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    slip = np.linalg.norm(r.slip[-1], axis=-1)
+    header = ["joint", "between", "peak opening [mm]", *([] if gone else ["residual slip [mm]", "residual twist [°]"])]
+    body = []
+    for k, (joint, gap) in enumerate(zip(joints, opening, strict=True)):
+        names = f"{structure.bodies[joint.lower].name} – {structure.bodies[joint.upper].name}"
+        row = [str(k + 1), names, n.NONE if gap is None else f"{1000.0 * gap:.2f}"]
+        row += [] if gone else [f"{1000.0 * slip[k]:.2f}", f"{math.degrees(r.twist[-1, k]):.2f}"]
+        body.append(row)
+    return [Rows(header, body, "Joints" + " until the first body fell" * gone + ".", numbers=True)] if body else []
+
+
+def _energy(r: Response) -> Section:
+    share = abs(r.energy_imbalance)
+    text = (
+        "The energy that the motion put in is found again as kinetic energy, height, elastic energy of the joints and what "
+        f"friction, damping and impacts took. Missing at the end: {100.0 * share:.2g} % of the energy at stake, the "
+        "largest of what was put in, what it takes to overturn, and what a fall sets free. A run that misses more than "
+        f"{percent(IMBALANCE)} is warned of under the verdict."
+    )
+    return Section(
+        "Energy balance",
+        [
+            text,
+            picture(
+                plots.draw_energy(r, " "),
+                "Energy over time (gravity: of height), and below the share that the balance misses.",
+            ),
+        ],
+    )
+
+
+def _versions(run: RunResult) -> dict[str, Any]:
+    p = run.response.provenance
+    known = versions_of(run)
+    return {
+        "stylobate": p.get("version"),
+        "Python": p.get("python"),
+        "machine": p.get("machine"),
+        "digest of what stood": p.get(f"{run.response.structure.kind}_digest") or known.get("digest of what stood"),
+        "digest of the motion": p.get("motion_digest"),
+        "states recorded every": f"{float(p.get('output_interval_s', math.nan)):g} s",
+    }
+
+
+# -- several -------------------------------------------------------------------------------------------------------
+
+
+def worst_of(runs: Sequence[RunResult]) -> int:
+    """Number of the run with the most harm."""
+    return max(range(len(runs)), key=lambda i: harm(runs[i].response.measures.row()))
+
+
+def _record_of(run: RunResult) -> str:
+    """The record that its motion is of; the motion itself where the folder does not tell."""
+    asked = run.asked.motions if run.asked is not None else ()
+    return str((asked[0].get("record") if asked else None) or run.folder.name)
+
+
+def several_sections(found: SeveralRuns) -> list[Section]:
+    """A table of all runs, and the one with the most harm in full."""
+    runs = found.runs
+    codes = codes_of(np.array([verdict(run.response.summary()) for run in runs]))
+    (share,) = shares({runs[0].response.structure.name: codes}, [_record_of(run) for run in runs])
+    header = ["motion", "PGA [g]", "outcome", CHANCE, "peak displacement", "folder"]
+    body = []
+    for run in runs:
+        r, s = run.response, run.summary
+        m = r.measures
+        moved = m.peak_top_displacement if m.blocks is None else m.blocks.peak_displacement
+        peak = n.NONE if run.motion is None else f"{run.motion.horizontal_peak[0] / g:.3f}"
+        outcome = r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided")
+        body.append(
+            [
+                str(r.provenance.get("motion", "")),
+                peak,
+                outcome,
+                chance_words(s) or n.NONE,
+                n.length(moved),
+                run.folder.name,
+            ]
+        )
+    looks = {name.replace("_", " "): look for name, look in LOOKS.items()}
+    worst = worst_of(runs)
+    doubts = each_doubt(_doubt(run) for run in runs)
+    lead = Section(
+        "All runs",
+        [
+            Note([share.collapses, *doubts], "verdict bad" if share.exceeded else "verdict", first=1 + len(doubts)),
+            Rows(header, body, f"One row per motion. {OF_TWINS}", mark=2, looks=looks, numbers=True),
+        ],
+    )
+    title = f"The run with the most harm: {runs[worst].response.provenance.get('motion', '')}"
+    return [
+        lead,
+        Section(title, ["Every other run has a folder of its own, which can be reported by itself."]),
+        *run_sections(runs[worst]),
+    ]

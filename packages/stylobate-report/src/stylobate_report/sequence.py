@@ -1,0 +1,77 @@
+"""A sequence of earthquakes in the report of its run: what had become of the structure after each of them."""
+
+from __future__ import annotations
+
+from stylobate import plots
+from stylobate.motion import Span
+from stylobate.response.events import events_of
+from stylobate.results import Numbers, RunResult
+
+from . import numbers as n
+from .page import Item, Rows, Section
+from .pictures import picture
+from .tables import MOST, table
+
+HEADER = ("", "earthquake", "outcome so far", "largest turn", "slip added", "fell", "links broken", "came to rest")
+
+
+def sequence_section(run: RunResult) -> list[Section]:
+    """The earthquakes of a sequence; nothing of any other run."""
+    told = run.summary.get("events")
+    if not told:
+        return []
+    spans = [Span(*(one[name] for name in ("motion", "begins_s", "quiet_s", "ends_s"))) for one in told]
+    events = events_of(run.response, spans)
+    body = []
+    for one in told[:MOST]:
+        alone = one["alone"]
+        cells = [
+            str(one["earthquake"]),
+            one["motion"],
+            one["outcome"].replace("_", " "),
+            n.angle(alone["peak_rotation_rad"]),
+        ]
+        cells += [
+            n.length(alone["added_slip_m"]),
+            ", ".join(alone["fallen"]) or "–",
+            ", ".join(alone["links_broken"]) or "–",
+        ]
+        body.append([*cells, "yes" if alone["at_rest"] else "no"])
+    caption = "Each earthquake began as the one before had left the structure; slip added is the largest of a joint."
+    if len(told) > MOST:
+        caption += f" The first {MOST} of {len(told)}."
+    items: list[Item] = [
+        str(run.summary.get("sentence", "")),
+        Rows(HEADER, body, caption, mark=2, looks=LOOKS, numbers=True),
+    ]
+    if events:
+        shown = "Displacement and largest tilt over all earthquakes; rest is grey, dots are what each leaves behind."
+        items.append(picture(plots.draw_sequence(run.response, events, " "), shown))
+        items.append(
+            picture(plots.draw_ends(run.response, events, " "), "The structure before, and at the end of each.")
+        )
+    return [Section("Earthquake by earthquake", items)]
+
+
+#: Marks of outcomes, in the words of the table.
+LOOKS = {"at rest": "good", "rocked": "good", "collapsed": "bad"}
+
+
+def until_fall_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    """How many earthquakes of each kind it takes until the structure falls."""
+    s, over = result.summary, result.summary["until_fall"]
+    rows = (
+        result.tables["until_fall"].astype(object).where(result.tables["until_fall"].notna(), None).to_dict("records")
+    )
+    one = rows[0]
+    sentence = f"Earthquakes until it falls, {one['motion']} again and again: {one['earthquakes']}."
+    if len(rows) > 1:
+        sentence = f"Earthquakes until it falls, over {len(rows)} kinds, each again and again: {over['sentence']}."
+    keys = ["motion", "earthquakes", "median_low", "median_high", "interval_low", "interval_high"]
+    keys += ["runs", "not_fallen", "failed", "most"]
+    caption = f"Each kind by itself, with {n.plain(s.get('rest_s'))} s of quiet ground after each earthquake."
+    fell = any(row["runs"] and row["not_fallen"] < row["runs"] for row in rows)
+    return (sentence, " bad" * fell), [
+        table(rows, keys, caption),
+        "Each earthquake finds what the one before has left; the next of a kind is its copy, which no two earthquakes are.",
+    ]

@@ -1,0 +1,47 @@
+"""Tables of many runs in a report: any rows by their keys, shares with their intervals, and runs without a verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from stylobate.analysis.side_by_side import Share
+
+from . import numbers as n
+from .page import Rows
+
+#: Most rows of a table of a result; the CSV file in the folder holds them all.
+MOST = 40
+
+#: Columns of tables of shares, and what they are.
+COUNTED = (
+    "same runs",
+    "records",
+    "collapse",
+    "stand",
+    "undecided",
+    "share that collapses",
+    "95 % interval",
+    "failed or missing",
+)
+COUNTED_HOW = (
+    "The share that collapses is told with none and with all of the undecided counted in; so is its interval, over records, "
+    "each of which counts once."
+)
+
+
+def counts_of(one: Share) -> list[str]:
+    """The cells of a share under :data:`COUNTED`."""
+    counts = [one.runs, one.records, one.exceeded, one.not_exceeded, one.undecided]
+    return [*map(str, counts), one.words or n.NONE, one.interval_words or n.NONE, str(one.failed)]
+
+
+def table(rows: Sequence[Any], keys: Sequence[str], caption: str, mark: str | None = None) -> Rows:
+    """Rows by the keys that any of them has; ``mark`` is the key of a verdict, by which cells are coloured."""
+    there = [key for key in keys if any(row.get(key) not in (None, "") for row in rows)]
+    left_out = f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
+    body = [[n.plain(row.get(key)) for key in there] for row in rows[:MOST]]
+    place = there.index(mark) if mark in there else None
+    looks = {"stands": "good", "collapsed": "bad"}
+    header = [n.named(key) for key in there]
+    return Rows(header, body, caption + left_out, mark=place, looks=looks, numbers=True)

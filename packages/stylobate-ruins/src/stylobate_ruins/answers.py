@@ -1,0 +1,207 @@
+"""What the draws of a table say to what is seen: those that are accepted, and the parameters that they leave."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from . import abc
+from .ruin import Fact
+from .simulations import Simulations
+from .traces import EVENTS, errors, features, left_by, matches
+
+#: Parameters that are told, and their units.
+TOLD = {"pgv_m_s": "m/s", "pga_g": "g", "period_s": "s", "azimuth_deg": "°"}
+
+#: What they are called.
+CALLED = {"pgv_m_s": "PGV", "pga_g": "PGA", "period_s": "period", "azimuth_deg": "azimuth"}
+
+#: Fewest draws that a posterior may rest on, and the share that is accepted of those that match all events.
+FEWEST, SHARE = 100, 0.3
+
+#: Share of them by which an observation is foretold from the others.
+CLOSE = 0.1
+
+#: What is known worse than by so many standard deviations of what draws leave tells nothing: at most log(1 + 1/BADLY²)/2.
+BADLY = 3.0
+
+#: The shapes do not tell a parameter of which they leave this share of the prior's spread.
+UNTOLD = 0.9
+
+#: Probability that a column has fallen without any earthquake, and the largest Bayes factor that is told.
+FALLS_OTHERWISE, MOST_TIMES = 0.01, 1e9
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """A parameter after what is seen.
+
+    Parameters
+    ----------
+    median, low, high : float
+        And the ends of 90 %; of an azimuth counted from the mean direction either way, so that they may lie beyond a turn.
+    spread : float
+        Standard deviation over that of the prior [-]: of normal scores, of an azimuth in degrees.
+    """
+
+    median: float
+    low: float
+    high: float
+    spread: float
+
+    @property
+    def informative(self) -> bool:
+        """Whether the shapes tell it."""
+        return self.spread < UNTOLD
+
+    def summary(self) -> dict[str, Any]:
+        """Plain values."""
+        return {
+            "median": self.median, "low": self.low, "high": self.high, "spread_over_prior": self.spread,
+            "informative": self.informative,
+        }  # fmt: skip
+
+
+class Answers:
+    """What the draws of a table say to facts: to all that are seen, or to some of them.
+
+    Parameters
+    ----------
+    table : Simulations
+    facts : sequence of Fact
+    seed : int
+        Of the errors with which is measured what draws leave.
+    weights : array, optional
+        Of the draws before any of these facts, shape (draws,); all alike by default.
+    """
+
+    def __init__(self, table: Simulations, facts: Sequence[Fact], seed: int, weights: np.ndarray | None = None) -> None:
+        self.table, self.facts, self.seed = table, tuple(facts), seed
+        self.weights = np.ones(len(table)) if weights is None else weights
+        self.scores = {name: abc.Scores(table.parameters[name]) for name in TOLD if name != "azimuth_deg"}
+        directions = abc.vectors(table.parameters["azimuth_deg"], table.prior.turn)
+        self.targets = np.column_stack([*(one.scores for one in self.scores.values()), directions])
+        self.matched = {fact: matches(fact, table) for fact in self.facts if fact.kind in EVENTS}
+        self.exact = {fact: left_by(fact, table) for fact in self.facts if fact.kind not in EVENTS}
+        self.values = {fact: exact + errors(fact, exact.shape, seed) for fact, exact in self.exact.items()}
+
+    def matching(self, facts: Sequence[Fact]) -> np.ndarray:
+        """Numbers of the draws that match all events among facts."""
+        return np.flatnonzero(
+            np.all([self.weights > 0.0, *(self.matched[one] for one in facts if one in self.matched)], axis=0)
+        )
+
+    def of_draws(
+        self, facts: Sequence[Fact], which: np.ndarray, *, sizes: bool = False
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Features of numbers among facts: of draws, shape (draws, features), and of what is seen, shape (features,)."""
+        told = [one for one in facts if one in self.exact and one.sd < BADLY * self.exact[one][which].std(axis=0).max()]
+        if not told:
+            return np.zeros((len(which), 0)), np.zeros(0)
+        values = [np.vstack((self.values[one][which], [one.value])) for one in told]
+        found = features(told, values, sizes=sizes)
+        return found[:-1], found[-1]
+
+    def to(self, facts: Sequence[Fact]) -> abc.Accepted:
+        """Draws that are accepted for facts."""
+        which = self.matching(facts)
+        found, seen = self.of_draws(facts, which)
+        near = abc.accepted(found, self.targets[which], seen, self._count(which, SHARE), self.weights[which])
+        return replace(near, which=which[near.which])
+
+    def _count(self, which: np.ndarray, share: float) -> int:
+        return max(FEWEST, int(share * abc.effective(self.weights[which])))
+
+    def foretold(self, facts: Sequence[Fact], what: np.ndarray) -> abc.Accepted:
+        """Draws in which as much has moved as facts say, with one number of each draw, shape (draws,), to foretell it.
+
+        It is not moved along a line: where next to nothing has moved, lines through rare events lead astray.
+        """
+        which = self.matching(facts)
+        found, seen = self.of_draws(facts, which, sizes=True)
+        away = (found - seen) / (found.std(axis=0) + 1e-12)
+        near = abc.nearest(away, what[which, None], self._count(which, CLOSE), self.weights[which])
+        return replace(near, which=which[near.which])
+
+    def posterior(self, taken: abc.Accepted) -> dict[str, Posterior]:
+        """Parameters after accepted draws."""
+        found = {}
+        for column, (name, scores) in enumerate(self.scores.items()):
+            low, middle, high = scores.value(abc.quantiles(taken.targets[:, column], taken.weights)).tolist()
+            before = float(scores.scores.std())
+            left = abc.spread(taken.targets[:, column], taken.weights) / before if before > 0.0 else 1.0
+            found[name] = Posterior(middle, low, high, left)
+        turn, prior = self.table.prior.turn, self.table.parameters["azimuth_deg"]
+        angles = self.azimuths(taken)
+        low, middle, high = abc.quantiles_around(angles, taken.weights, turn).tolist()
+        before = abc.spread_around(prior, np.ones(len(prior)), turn)
+        left = abc.spread_around(angles, taken.weights, turn) / before if before > 0.0 else 1.0
+        found["azimuth_deg"] = Posterior(middle, low, high, left)
+        return found
+
+    def azimuths(self, taken: abc.Accepted) -> np.ndarray:
+        """Azimuths of accepted draws, not moved [degrees].
+
+        Moved along a line, vectors of directions that are hardly told turn too far: of 966 ruins 90 % intervals held 87 %.
+        """
+        return self.table.parameters["azimuth_deg"][taken.which]
+
+    def spread_of_pgv(self, facts: Sequence[Fact]) -> float:
+        """What facts leave of the prior's spread of ln PGV; NaN where too few draws match them."""
+        if len(self.matching(facts)) < FEWEST:
+            return float("nan")
+        return self.posterior(self.to(facts))["pgv_m_s"].spread
+
+    def without(self, fact: Fact) -> list[Fact]:
+        """All facts but one; without a state also what is seen of that structure or body besides."""
+        if fact.kind == "state":
+            return [one for one in self.facts if one.structure != fact.structure]
+        return [one for one in self.facts if one is not fact and not self._is_body_of(fact, one)]
+
+    @staticmethod
+    def _is_body_of(state: Fact, fact: Fact) -> bool:
+        """Whether a fact is how far a body has moved of which another says that it stands."""
+        same = (state.structure, state.joint) == (fact.structure, fact.joint)
+        return same and state.kind == "body" and fact.kind == "moved"
+
+    def alone(self, fact: Fact) -> list[Fact]:
+        """A fact alone, with the states that it needs."""
+        return [
+            one
+            for one in self.facts
+            if one is fact or (one.kind == "state" and one.structure == fact.structure) or self._is_body_of(one, fact)
+        ]
+
+    def bayes_factor(self) -> tuple[float, bool]:
+        """How many times more probable what is seen is under the prior than without any earthquake; whether at least.
+
+        By likelihoods of what is measured, with the errors of the survey. A mean of few draws is seldom far above what it
+        estimates (Markov), and may be far below.
+        """
+        which = self.matching(self.facts)
+        fallen = sum(fact.kind == "state" and fact.value[0] == 1.0 for fact in self.facts)
+        standing = sum(fact.kind == "state" for fact in self.facts) - fallen
+        logs = np.zeros(len(which) + 1)  # the last: nothing has moved
+        for fact in self.exact:
+            if fact.kind != "fell towards":  # it has any direction either way
+                off = np.vstack((self.exact[fact][which], np.zeros(len(fact.value)))) - fact.value
+                logs -= 0.5 * ((off / fact.sd) ** 2).sum(axis=1)
+        likely = self.weights[which] * np.exp(logs[:-1] - logs[:-1].max())
+        none = fallen * np.log(FALLS_OTHERWISE) + standing * np.log1p(-FALLS_OTHERWISE) + logs[-1] - logs[:-1].max()
+        factor = min(MOST_TIMES, float(np.exp(min(700.0, np.log(likely.sum() / self.weights.sum()) - none))))
+        told = any(fact.kind != "fell towards" for fact in self.exact)
+        return factor, bool(factor == MOST_TIMES or (told and abc.effective(likely) < FEWEST))
+
+
+def words_of(name: str, one: Posterior) -> str:
+    """A posterior with its interval, for people."""
+    unit = f" {TOLD[name]}" if TOLD[name] != "°" else "°"
+    return f"{one.median:.3g}{unit}, {one.low:.3g} to {one.high:.3g}"
+
+
+def listed(words: Sequence[str]) -> str:
+    """Words as an enumeration."""
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"

@@ -1,0 +1,95 @@
+"""``stylobate infer``: what shaking left a ruin as it is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from stylobate.cli import options as o
+
+if TYPE_CHECKING:
+    from ..infer import Inference
+
+RuinName = Annotated[
+    Path, typer.Argument(metavar="RUIN", help="A ruin file (TOML): columns, what is seen of them, a prior.")
+]
+
+
+def infer(
+    ruin: RuinName,
+    *,
+    tail: str = o.option("TIME", "Go on for this long after the motion, such as 5s.", "3s"),
+    pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
+    execution: o.Execution,
+) -> None:
+    """What shaking was it? Past shaking from columns that stand, have fallen and are out of place.
+
+    Shakes the columns of the ruin by motions drawn from its prior, accepts those that leave it as it is seen, and tells
+    their PGV, PGA, period and azimuth. With --out the simulations are kept: the next question to them takes seconds, a
+    stopped command goes on, and a larger number of simulations adds to those that are there.
+    """
+    from stylobate.cli import console
+    from stylobate.cli.risk import hazards_of
+    from stylobate.motion.specs import parse_time
+
+    from ..infer import infer as infer_from
+    from ..ruin_files import read_ruin
+
+    asked, found = read_ruin(ruin), ("infer.json", "draws.csv", "observations.csv")
+    campaign = execution.campaign(tail=parse_time(tail, "tail"))
+    with execution.files("infer", *found, "infer", "observations", "matches") as files:
+        with files.campaign(campaign, "simulations") as kept:
+            answer = infer_from(asked, out=files.folder, campaign=kept)
+        summary = answer.summary() | {"files": []}
+        if files.wanted:
+            import pandas
+
+            files.table(answer.draws, "draws.csv")
+            files.table(pandas.DataFrame(answer.told), "observations.csv")
+            if pictures:
+                from stylobate import plots
+
+                files.picture(plots.draw_posterior(answer), "infer")
+                files.picture(plots.draw_matches(answer), "matches")
+                if answer.told:
+                    files.picture(plots.draw_observations(answer), "observations")
+            what: dict[str, Any] = {
+                "structures": list(asked.structures),
+                "models": [asked.model],
+                "motions": list(asked.prior.records),
+            }
+            if asked.survival is not None:
+                what |= hazards_of([Path(asked.survival.hazard)], None)
+            files.asked(**what, tail_s=campaign.tail, simulations=asked.simulations, seed=asked.seed)
+            files.summary(summary, "infer.json")
+    if not execution.emits(summary):
+        describe(answer)
+        console.print_files(files)
+
+
+def describe(answer: Inference) -> None:
+    """Print what the shapes tell, and which of them."""
+    import pandas
+
+    from stylobate.cli import console
+
+    print(answer.sentence)
+    console.print_table(answer.table.drop(columns="informative").rename(columns=HEADS), digits=3)
+    if answer.told:
+        rows = [one | {"chance": check.chance} for one, check in zip(answer.told, answer.checks, strict=True)]
+        console.print_table(pandas.DataFrame(rows).rename(columns=HEADS), digits=2)
+    if answer.records:
+        console.print_table(pandas.DataFrame(answer.records).rename(columns=HEADS), digits=3)
+    taken, table = answer.taken, answer.answers.table
+    matching = len(answer.answers.matching(answer.answers.facts))
+    failed = f"; {answer.failed} more could not be computed" if answer.failed else ""
+    print(f"{len(taken.which)} accepted of {matching} that match, of {len(table)} simulations{failed}.")
+
+
+#: Headings of tables for people.
+HEADS = {
+    "low": "5 %", "high": "95 %", "spread_over_prior": "spread over prior's", "spread_alone": "PGV with it alone",
+    "spread_without": "PGV without it", "chance": "chance by the rest", "bayes_factor_against_others": "Bayes factor",
+}  # fmt: skip

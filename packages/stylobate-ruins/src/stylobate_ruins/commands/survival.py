@@ -1,0 +1,143 @@
+"""``stylobate survival``: what has stood for long, and what has come down, says about hazard curves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stylobate.cli import options as o
+from stylobate.cli.fragility import Curves
+from stylobate.cli.risk import Site, hazards_of, the_site
+
+if TYPE_CHECKING:
+    from ..weighing import Weighing
+
+Source = Annotated[
+    Path,
+    typer.Argument(
+        metavar="SOURCE",
+        help="Folder or CSV file of runs, as risk takes it; or a file of several sites (TOML) with all that is asked.",
+    ),
+]
+
+
+def survival(
+    source: Source,
+    age: str | None = o.option("AGE", "Years that it has stood as it is, such as 2400y."),
+    hazard: list[Path] | None = o.option("FILE", "Hazard curve; repeat it to compare several."),
+    *,
+    asked: Curves,
+    site: Site = None,
+    execution: o.Plain,
+) -> None:
+    """Survival: the probability that a column would still stand after its age, for each of several hazard curves.
+
+    Of a file of several sites: what all their monuments, standing, damaged and fallen, make of the branches of a logic tree.
+    """
+    if source.suffix.lower() == ".toml":
+        _several(source, age, hazard, execution)
+        return
+    from stylobate.analysis.hazard import read_hazard
+    from stylobate.cli import console
+    from stylobate.errors import InputError
+    from stylobate.results.sources import kept_of
+
+    from ..survival import parse_age
+    from ..survival import survival as survive
+
+    if age is None or not hazard:
+        raise InputError("of runs of one column `age` and `hazard` are needed; give both.", "hazard" if age else "age")
+    years = parse_age(age)
+    hazards = [read_hazard(one, the_site(site)) for one in hazard]
+    names = [one.name for one in hazards]
+    if len(set(names)) < len(names):
+        raise InputError(
+            f"two hazard curves have the same name ({', '.join(names)}); give each file a name of its own.",
+            "hazard",
+        )
+    fragility, used = asked.one(source)
+    found = survive(fragility, years, hazards)
+    result = found.summary()
+    with execution.files("survival", "survival.csv", "survival.json", "survival") as files:
+        if files.wanted:
+            import pandas
+
+            from stylobate import plots
+
+            files.table(pandas.DataFrame(result["hazards"]), "survival.csv")
+            files.picture(plots.draw_survival(found), "survival")
+            files.asked(**kept_of(used), **hazards_of(hazard, site), state=asked.state, age_y=years)
+            files.summary(result, "survival.json")
+    if execution.emits(result):
+        return
+    for one in result["hazards"]:
+        low, high = one["survival_probability_low"], one["survival_probability_high"]
+        statistic = f" ({one['hazard_statistic']})" if one["hazard_statistic"] else ""
+        print(
+            f"{one['hazard']}{statistic}: would still stand after {years:g} years with a probability of "
+            f"{one['survival_probability']:.2g} (95 %: {low:.2g} to {high:.2g}); weight {one['weight']:.2f}."
+        )
+    for text in result["warnings"]:
+        print(text)
+    console.print_files(files)
+
+
+def _several(source: Path, age: str | None, hazard: list[Path] | None, execution: o.Plain) -> None:
+    """Weigh the branches of a file of sites."""
+    from stylobate.cli import console
+    from stylobate.errors import InputError
+    from stylobate.own_files import digest
+
+    from ..site_files import read_sites
+    from ..weighing import weigh
+
+    if age is not None or hazard:
+        raise InputError(f"{source} says ages and hazards itself; leave out `age` and `hazard`.", "age")
+    found = weigh(read_sites(source))
+    result = found.summary() | {"files": []}
+    with execution.files("survival", "survival.csv", "hazard.csv", "survival.json", "survival") as files:
+        if files.wanted:
+            import pandas
+
+            from stylobate import plots
+
+            rows = [{key: value for key, value in one.items() if key != "annual_rates"} for one in result["hazards"]]
+            files.table(pandas.DataFrame(rows), "survival.csv")
+            files.table(pandas.DataFrame(found.table()), "hazard.csv")
+            files.picture(plots.draw_weighing(found), "survival")
+            files.asked(sites=f"{source} (SHA-256 {digest(source)})")
+            files.summary(result, "survival.json")
+    if not execution.emits(result):
+        describe(found)
+        console.print_files(files)
+
+
+def describe(found: Weighing) -> None:
+    """Print what the monuments make of the branches."""
+    import pandas
+
+    from stylobate.cli import console
+
+    summary = found.summary()
+    print(summary["sentence"])
+    branches = pandas.DataFrame(summary["hazards"]).drop(columns="annual_rates")
+    console.print_table(branches.filter(list(HEADS)).rename(columns=HEADS).head(20), digits=2)
+    told = pandas.DataFrame(summary["monuments"]).drop(columns=["weights_without", "monument"])
+    console.print_table(told.rename(columns=HEADS | {"seen": "seen"}), digits=2)
+    unit = "" if summary["unit"] == "-" else f" {summary['unit']}"
+    for one in summary["sites"]:
+        before, after = one["once_in_475_years_before"], one["once_in_475_years"]
+        if before is not None and after is not None:
+            print(f"  {one['site']}: {before:.3g}{unit} once in 475 years before, {after:.3g}{unit} after.")
+    for text in summary["warnings"]:
+        print(text)
+
+
+#: Headings of tables for people.
+HEADS = {
+    "hazard": "branch", "prior_weight": "before", "weight": "after", "weight_if_own": "if none is shared",
+    "weight_if_shared": "if all are shared", "probability": "probability of what is seen", "bits_alone": "bits alone",
+    "bits_beside_others": "bits beside the others",
+}  # fmt: skip

@@ -1,0 +1,1 @@
+"""Pictures of this package, in the style of stylobate's own."""

@@ -1,0 +1,230 @@
+"""What shaking it was: posteriors, what each observation tells, and the ruin beside draws that match it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, SubFigure
+from matplotlib.patches import Circle
+
+from stylobate.plots.style import BLACK, BLUE, GREY, RED, SAND, WIDTH, in_lines, page, styled
+
+from .. import abc
+from ..answers import CALLED, TOLD
+from ..infer import Inference
+from ..ruin import joints_of
+from ..simulations import FELL
+
+if TYPE_CHECKING:
+    from stylobate.column.structure import Structure
+
+    from ..simulations import Left
+
+#: Bars of a marginal.
+BARS = 24
+
+#: Draws beside the ruin, and by how much offsets are drawn too long.
+MATCHES, TIMES = 10, 5.0
+
+
+@styled
+def draw_posterior(
+    inference: Inference, title: str | None = None, *, figure: Figure | SubFigure | None = None
+) -> Figure:
+    """PGV, PGA, period and azimuth after what is seen, the prior grey behind; the line is the median, the band holds 90 %.
+
+    Parameters
+    ----------
+    inference : Inference
+    title : str, optional
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
+    """
+    figure = page(figure, (WIDTH, 4.4))
+    answers, taken = inference.answers, inference.taken
+    for number, (axes, name) in enumerate(zip(figure.subplots(2, 2).flat, TOLD, strict=True)):
+        one, prior = inference.posterior[name], answers.table.parameters[name]
+        if name == "azimuth_deg":
+            turn, middle = answers.table.prior.turn, 0.5 * (one.low + one.high)
+            before, after = (middle + abc.apart(angles, middle, turn) for angles in (prior, answers.azimuths(taken)))
+            bins = np.linspace(middle - 0.5 * turn, middle + 0.5 * turn, BARS + 1)
+        else:
+            before, after = prior, answers.scores[name].value(taken.targets[:, number])
+            bins = np.geomspace(before.min(), max(before.max(), 1.001 * before.min()), BARS + 1)
+            axes.set_xscale("log")
+            _plain_ticks(axes, bins[0], bins[-1])
+        heights = np.ones(len(before)) / len(before)
+        axes.hist(before, bins, weights=heights, color="#dddddd", label="prior")
+        axes.hist(after, bins, weights=taken.weights, color=BLUE, histtype="step", linewidth=1.4, label="posterior")
+        axes.axvspan(one.low, one.high, color=BLUE, alpha=0.08, linewidth=0.0)
+        axes.axvline(one.median, color=BLUE, linewidth=0.9)
+        axes.set_xlim(bins[0], bins[-1])
+        axes.set_yticks([])
+        axes.spines["left"].set_visible(False)
+        axes.set_xlabel(f"{CALLED[name]} [{TOLD[name]}]" + (", from x towards y" if name == "azimuth_deg" else ""))
+        axes.set_title("" if one.informative else "the shapes do not tell", fontsize=8.5, color=GREY)
+        if number == 0:
+            axes.legend(loc="best", fontsize=7.5)
+    figure.suptitle(in_lines(title or _said(inference)), x=0.02, ha="left", fontsize=10.0)
+    return figure
+
+
+@styled
+def draw_observations(
+    inference: Inference, title: str | None = None, *, figure: Figure | SubFigure | None = None
+) -> Figure:
+    """What is left of the prior's spread of ln PGV with each observation alone, and without it; odd ones in red.
+
+    Parameters
+    ----------
+    inference : Inference
+    title : str, optional
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
+    """
+    rows, odd = inference.told, [one.odd for one in inference.checks]
+    figure = page(figure, (WIDTH, 1.3 + 0.24 * len(rows)))
+    axes = figure.subplots()
+    at = np.arange(len(rows))
+    axes.barh(
+        at,
+        [row["spread_alone"] for row in rows],
+        0.62,
+        color=SAND,
+        edgecolor=GREY,
+        linewidth=0.5,
+        label="with it alone",
+    )
+    axes.plot([row["spread_without"] for row in rows], at, "o", color=BLUE, markersize=4.5, label="without it")
+    whole = inference.posterior["pgv_m_s"].spread
+    axes.axvline(whole, color=BLACK, linewidth=0.9, label="with all")
+    axes.set_yticks(at, [row["observation"] for row in rows])
+    for tick, strange in zip(axes.get_yticklabels(), odd, strict=True):
+        tick.set_color(RED if strange else BLACK)
+    axes.invert_yaxis()
+    most = np.nanmax([1.0, *(row[key] for row in rows for key in ("spread_alone", "spread_without"))])
+    axes.set_xlim(0.0, 1.05 * float(most))
+    axes.set_xlabel("spread of ln PGV over the prior's [-]")
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=7.5)
+    axes.set_title(in_lines(title or "Which observation tells what" + "; red: odd beside all others" * any(odd)))
+    return figure
+
+
+@styled
+def draw_matches(inference: Inference, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
+    """The ruin in plan beside the draws that are nearest to it, and the nearest of those that differ in a state.
+
+    Offsets of drums are drawn five times as long as they are; an arrow is a fall.
+
+    Parameters
+    ----------
+    inference : Inference
+    title : str, optional
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
+    """
+    answers, ruin = inference.answers, inference.ruin
+    table, taken = answers.table, inference.taken
+    order = taken.which[np.argsort(taken.distance, kind="stable")][:MATCHES]
+    other = _best_that_differs(inference)
+    panels: list[tuple[str, int | None]] = [("as it is seen", None)]
+    panels += [(_of_draw(inference, int(k)), int(k)) for k in order]
+    panels += [(f"differs: {_of_draw(inference, other)}", other)] if other is not None else []
+    widths = [_width(structure) for structure in ruin.simulated]
+    reach = 1.5 * max(widths, default=1.0)
+    rows = -(-len(panels) // 3)
+    figure = page(figure, (WIDTH, 0.7 + rows * 1.1))
+    grid = figure.subplots(rows, 3, squeeze=False)
+    for axes in grid.flat:
+        axes.set_axis_off()
+    for axes, (said, k) in zip(grid.flat, panels):
+        for i, structure in enumerate(ruin.simulated):
+            left = None if k is None else table.left[i]
+            _column(axes, inference, i, (i * reach * 1.5, 0.0), widths[i], left, k)
+            axes.text(i * reach * 1.5, -0.78 * reach, structure.name, ha="center", va="top", fontsize=6.5, color=GREY)
+        axes.set_xlim(-0.8 * reach, (1.5 * len(widths) - 0.7) * reach)
+        axes.set_ylim(-1.0 * reach, 0.75 * reach)
+        axes.set_aspect("equal")
+        differs = k is not None and k == other
+        axes.set_title(
+            said, fontsize=7.5, color=RED if differs else BLACK, fontweight="bold" if k is None else "normal"
+        )
+    usual = "In plan, x to the right and y upward; offsets times five, an arrow where it fell, what is not seen dashed"
+    figure.suptitle(in_lines(title or usual), x=0.02, ha="left", fontsize=9.0)
+    return figure
+
+
+def _column(
+    axes: Axes, inference: Inference, i: int, at: tuple[float, float], width: float, left: Left | None, k: int | None
+) -> None:
+    """One structure in plan: as it is seen, or as a draw leaves it."""
+    facts = [fact for fact in inference.answers.facts if fact.structure == i]
+    if left is None or k is None:
+        fell = any(fact.kind == "state" and fact.value[0] for fact in facts)
+        towards = next((fact.value[0] for fact in facts if fact.kind == "fell towards"), None)
+        known = {fact.joint: fact.value for fact in facts if fact.kind == "offset"}
+        joints = joints_of(inference.ruin.simulated[i])
+        slips = np.array([known.get(joint, (np.nan, np.nan)) for joint in range(joints)])
+    else:
+        fell, towards, slips = left.verdict[k] == FELL, float(left.towards[k]), left.slip[k]
+    x, y = at
+    if fell:
+        axes.add_patch(Circle(at, 0.5 * width, facecolor="none", edgecolor=RED, linewidth=0.8, linestyle=(0, (3, 2))))
+        if towards is not None and np.isfinite(towards):
+            east, north = np.cos(np.radians(towards)) * width, np.sin(np.radians(towards)) * width
+            arrow = {"arrowstyle": "-|>", "color": RED, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
+            axes.annotate("", (x + 0.9 * east, y + 0.9 * north), at, arrowprops=arrow)
+        else:
+            axes.text(x, y, "fell", ha="center", va="center", color=RED, fontsize=6.5)
+        return
+    axes.add_patch(Circle(at, 0.5 * width, facecolor=SAND, edgecolor=GREY, linewidth=0.5))
+    for slip in slips:
+        seen = bool(np.isfinite(slip).all())
+        if seen:
+            x, y = x + TIMES * float(slip[0]), y + TIMES * float(slip[1])
+        style = "-" if seen else (0, (1, 2))
+        axes.add_patch(Circle((x, y), 0.46 * width, facecolor="none", edgecolor=BLACK, linewidth=0.6, linestyle=style))
+
+
+def _best_that_differs(inference: Inference) -> int | None:
+    """The draw that leaves most events as they are seen, yet not all; among several the one nearest in PGV to the median."""
+    events = list(inference.answers.matched.values())
+    if not events:
+        return None
+    agree = np.sum(events, axis=0)
+    some = np.flatnonzero(agree == max((int(one) for one in agree if one < len(events)), default=-1))
+    if not len(some):
+        return None
+    pgv = np.log(inference.answers.table.parameters["pgv_m_s"][some])
+    return int(some[np.argmin(np.abs(pgv - np.log(inference.posterior["pgv_m_s"].median)))])
+
+
+def _of_draw(inference: Inference, k: int) -> str:
+    p = inference.answers.table.parameters
+    return f"{p['pgv_m_s'][k]:.2g} m/s, {p['period_s'][k]:.2g} s, {p['azimuth_deg'][k]:.0f}°"
+
+
+def _width(structure: Structure) -> float:
+    """Side of a structure in plan [m]."""
+    column = structure.stack
+    return float(max(column.joint_widths)) if column is not None else 1.0
+
+
+def _said(inference: Inference) -> str:
+    one = inference.posterior["pgv_m_s"]
+    if not one.informative:
+        return "What shaking was it? These shapes do not tell the PGV"
+    told = f"PGV {one.median:.2g} m/s ({one.low:.2g} to {one.high:.2g}, 90 %)"
+    if inference.odd:
+        return f"Not as shaking alone leaves it; if it did all of it: {told}"
+    return f"What shaking was it? {told}"
+
+
+def _plain_ticks(axes: Axes, low: float, high: float) -> None:
+    """Ticks of a logarithmic axis as plain numbers."""
+    ticks = [m * 10.0**e for e in range(-5, 4) for m in (1.0, 2.0, 5.0)]
+    some = [one for one in ticks if low <= one <= high]
+    axes.set_xticks(some, [f"{one:g}" for one in some])
+    axes.set_xticks([], minor=True)

@@ -1,0 +1,1 @@
+"""What joints lose, from a measured free rocking or wobbling of a column."""

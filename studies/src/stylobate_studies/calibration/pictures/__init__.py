@@ -1,0 +1,1 @@
+"""The picture of a calibration: the measured motion beside the computed one."""

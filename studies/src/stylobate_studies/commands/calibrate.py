@@ -1,0 +1,91 @@
+"""``stylobate calibrate``: a measured free motion of a column to the losses of its joints."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stylobate.cli import options as o
+from stylobate.percent import whole
+
+if TYPE_CHECKING:
+    from ..calibration.calibration import Calibration
+
+HistoryName = Annotated[
+    Path,
+    typer.Argument(
+        metavar="HISTORY",
+        help="Tilt or displacement over time (CSV), under time_s,tilt_deg or time_s,tilt_x_deg,tilt_y_deg.",
+    ),
+]
+
+
+def calibrate(
+    history: HistoryName,
+    column: str = o.option("COLUMN", "What moved: name of a preset, or a column file (TOML).", ...),
+    model: o.ModelName = "dem3d",
+    *,
+    unit: str | None = o.option(None, "Unit of values where the header names none: deg, rad, mrad, m, cm, mm."),
+    dt: str | None = o.option("TIME", "Step of a history without times, such as 0.005s."),
+    height: str | None = o.option("H", "Height at which a displacement is measured [m]; the top by default."),
+    noise: str | None = o.option("SD", "Noise of the values, in their unit; estimated by default."),
+    confidence: str = o.option("SHARE", "Of intervals.", "0.9"),
+    settings: o.Settings = None,
+    pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
+    execution: o.Plain,
+) -> None:
+    """What joints lose, from a measured free rocking or wobbling of a column.
+
+    Computes the motion with many losses and tells which of them let it die away as it did: β, for round columns in space
+    resistance to rolling and where faces carry too, with intervals. With --out, writes losses.toml, which --losses takes in
+    other commands, and a picture of both histories.
+    """
+    from stylobate.cli import console
+    from stylobate.motion.specs import parse_number, parse_time
+
+    from ..calibration.calibrate import calibrate as calibrated
+    from ..calibration.free_history import read_free_history
+
+    numbers = {
+        name: None if text is None else parse_number(f"--{name}", text)
+        for name, text in (("height", height), ("noise", noise), ("confidence", confidence))
+    }
+    measured = read_free_history(history, unit, None if dt is None else parse_time(dt, "dt"))
+    if numbers["noise"] is not None:
+        numbers["noise"] *= measured.unit
+    stone, how = o.the_column(column), o.the_model(model, settings)
+    with execution.files("calibrate", "losses.toml", "calibrate.json", "calibration") as files:
+        with console.progress("motions") as progress:
+            found = calibrated(measured, stone, how, progress=progress, **numbers)  # type: ignore[arg-type]
+        summary = found.summary() | {"files": []}
+        if files.wanted:
+            if found.after.reached:
+                files.append(found.save(files / "losses.toml"))
+            if pictures:
+                from stylobate import plots
+
+                files.picture(plots.draw_calibration(found), "calibration")
+            files.asked(structures=[stone], models=[how], motions=[], history=str(history))
+            files.summary(summary, "calibrate.json")
+    if not execution.emits(summary):
+        console.say(found.sentence, facts(found), files)
+
+
+def facts(found: Calibration) -> dict[str, str]:
+    """What else the history tells, for people."""
+    begin, summary = found.beginning, found.summary()
+    told = {
+        "history": f"{found.history.name}, from {math.degrees(begin.tilt):.3g}° on, noise {math.degrees(found.noise):.2g}°"
+    }
+    if found.restitution is not None:
+        one, rigid = found.restitution, summary["restitution"]["housner"]
+        told["restitution"] = (
+            f"{one.value:.3f} ({one.low:.3f} to {one.high:.3f}) by successive extremes alone; {rigid:.3f} of a rigid block"
+        )
+    told["decrements"] = f"{summary['decrements']}, which differ from computed ones by {summary['discrepancy']:.1%}"
+    told["scatter"] = "--scatter " + ",".join(f"{name}={whole(size)}%" for name, size in found.scatter().items())
+    told["joint"] = f"normal_stiffness {summary['normal_stiffness']:.3g} N/m³, to which stiffness_damping belongs"
+    return told

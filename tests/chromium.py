@@ -1,0 +1,9 @@
+"""A browser for tests: Chromium, where it is installed."""
+
+import shutil
+
+
+def browser():
+    """Path of Chromium; None where there is none."""
+    found = (shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome"))
+    return next((path for path in found if path), None)
