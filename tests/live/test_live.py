@@ -10,11 +10,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from chromium import browser
 from live.data import COLUMNS
 from live.link import leb, linked
 from live.module import GENERIC
 from live.motions import earthquake, pulse, sine
-from page_server import AA, AA_LARGE, FAINT, browser
+from page_server import AA, AA_LARGE, FAINT
 
 from stylobate.constants import g
 
