@@ -1,4 +1,7 @@
-"""The wheel alone, without the studies: installed into a bare environment, imported without POSIX, put to work."""
+"""The wheel alone, without the studies: installed into a bare environment, imported without POSIX, put to work.
+
+Where it carries compiled kernels for this machine, first verdicts are timed, and nothing may be compiled for them.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +10,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import venv
 from pathlib import Path
 
+from stylobate.kernels.cache import SHIPPED
 from stylobate.kernels.gpu.kinds import kinds, missing
+from stylobate.kernels.levels import levels_here
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -61,6 +67,7 @@ def main() -> int:
         run(python, "-c", IMPORT)
         built = set(kinds()) - set(missing())  # here; the wheel must carry them
         run(python, "-c", f"from stylobate.kernels.gpu.kinds import missing; assert not {built!r} & set(missing())")
+        first_verdicts(command, folder, environment)
         run(command, "--help")
         for name in ("reproduce", "experiments", "bench"):
             done = subprocess.run(
@@ -85,6 +92,23 @@ def main() -> int:
         shutil.rmtree(folder / "run")
     print(f"{wheel.name} works alone")
     return 0
+
+
+def first_verdicts(command: Path, folder: Path, environment: dict[str, str]) -> None:
+    """The first run of a new user, in the plane and in space, with nothing compiled on this machine."""
+    shipped = [name for name in levels_here()[-1:] if (SHIPPED / name).is_dir()]
+    if not shipped:
+        print("no compiled kernels here for this machine (make kernels): they are not tried")
+        return
+    for model in ("dem2d", "dem3d"):
+        cache = folder / f"cache-{model}"
+        line = [command, "run", "paper-12-drums", "--model", model, "--harmonic", "1.0Hz,0.3g,10s", "--json"]
+        started = time.monotonic()
+        subprocess.run(list(map(str, line)), check=True, cwd=folder, stdout=subprocess.DEVNULL,
+                       env=environment | {"STYLOBATE_CACHE": str(cache)})  # fmt: skip
+        print(f"first verdict of {model} by the wheel: {time.monotonic() - started:.1f} s")
+        compiled = sorted(path.name for path in cache.rglob("*.kernel"))
+        assert not compiled, compiled
 
 
 def pinned(folder: Path) -> Path:
