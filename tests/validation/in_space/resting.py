@@ -123,7 +123,9 @@ def rests(number: int) -> dict[str, Any]:
     )
     place, time = response.body_position, response.time
     ends = bool(response.measures.collapsed or time[-1] < LASTS - 0.5)
-    first, last = (place[(time >= a) & (time < b)].mean(axis=0) for a, b in ((SETTLED, HALFWAY), (HALFWAY, LASTS - 0.2)))
+    first, last = (
+        place[(time >= a) & (time < b)].mean(axis=0) for a, b in ((SETTLED, HALFWAY), (HALFWAY, LASTS - 0.2))
+    )
     way = math.inf if ends else float(np.linalg.norm(last - first, axis=1).max())
     return {
         "scene": number, "kind": kind, "losses": options["losses"], "slope": slope, "share": round(share, 3),
