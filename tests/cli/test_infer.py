@@ -56,6 +56,11 @@ def ruin(tmp_path):
     return written
 
 
+def test_twists_of_round_drums_are_doubted(ruin, capsys):
+    assert call(["infer", str(ruin(low="twists = [[1, 1.0, 5.0]]"))]) == 0
+    assert "of low: a drum that wobbles twists 5 to 13 times less" in " ".join(capsys.readouterr().err.split())
+
+
 def test_answer_and_its_files(ruin, tmp_path, capsys):
     out = tmp_path / "out"
     assert call(["infer", str(ruin(low="offsets = [[1, 0.002, 0.001, 0.003]]")), "--out", str(out), "--json"]) == 0
