@@ -272,9 +272,10 @@ def test_a_stack_of_stone_keeps_as_much_of_its_velocity_at_every_impact(drums, l
 
     Slips of joints shift the upright place, so that heights of a swing to the left and to the right alone alternate.
     """
-    width, tilt = 0.8, 0.5 * math.atan(0.2)
-    size = {"height": 4.0, "bottom_width": width, "top_width": width, "density": 2700.0, "depth": width}
-    column = st.Column.tapered(**size, drums=drums, joint=JOINT, name="stack")
+    tilt = 0.5 * math.atan(0.2)
+    column = st.Column.tapered(
+        height=4.0, bottom_width=0.8, top_width=0.8, density=2700.0, depth=0.8, drums=drums, joint=JOINT, name="stack"
+    )
     found = st.simulate(
         column, STILL, st.DistinctElement2D(losses="stone"), start=st.Start(tilt), output_interval=0.002, tail=2.0
     )

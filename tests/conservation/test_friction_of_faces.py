@@ -49,3 +49,10 @@ def test_friction_never_gives_energy_back(rig):
 def test_a_face_that_opens_and_closes_again_keeps_its_shear(rig):
     found = [probe.lost_by_rocking(rig, 47 + k) for k in range(1 if rig.lanes > 1 else POSES)]
     assert np.concatenate(found).max() < CREEPS
+
+
+@pytest.mark.parametrize("degrees", [20.0, 44.0, 46.0])
+def test_a_joint_that_hands_over_to_the_bed_feeds_nothing(degrees):
+    """A box on its edge: between 0.7 and all of the tilt at which the bed acts alone, the share of the joint falls."""
+    for seed in (0, 1):
+        assert probe.tipped(probe.LAWS["space joint, box on ground"](), degrees, seed).max() < ROUND

@@ -245,6 +245,34 @@ def of_bed(assembly: st.SpatialAssembly) -> Rig:
     return rig
 
 
+def of_vertices() -> Rig:
+    """A specimen on its vertices, six below and six above; sixteen lanes."""
+    around = np.arange(6) * math.pi / 3.0 + 0.2
+    corners = np.array([(0.25 * math.cos(a), 0.25 * math.sin(a), z) for a in around for z in (-0.4, 0.4)])
+    stone = st.Specimen(400.0, np.diag([30.0, 30.0, 15.0]), corners, "hexagon", joint_of())
+    model = DistinctElement3D()
+    block = model.block_for(model.kind(stone), RunOptions(until_end=True))
+    for lane in range(block.lanes):
+        block.load(lane, Case(stone, Motion(1.0, np.zeros(2))))
+    records = block.records
+    records.lane["dt"][:] = DT
+    near = records.lane["near"][0]
+    records.lane["count"][:] = 6
+    for n in range(6):  # those at rest come first
+        near[n // near.shape[1], n % near.shape[1]] = n
+
+    def load() -> tuple[np.ndarray, np.ndarray]:
+        return records.load["f"][0], records.load["up"][0]
+
+    rig = Rig(records.state, records.kernel.forces, records.body, records.joint, (0, 1), load, "mu", 0.4, 0.25)
+
+    def rub(mu: float) -> None:
+        records.lane["mu"][:] = mu
+
+    rig.rub = rub  # type: ignore[method-assign]
+    return rig
+
+
 def assemblies_list(state: Any) -> None:
     """List the pairs of shapes that may touch."""
     from stylobate.kernels.space import step
@@ -280,6 +308,7 @@ LAWS: dict[str, Callable[[], Rig]] = {
     "dem3d ring": lambda: of_column(drums(2, ring_width=0.08)),
     "dem3d chipped rim": lambda: of_column(chipped(2)),
     "dem3d corners": lambda: of_column(drums(2, "rectangular")),
+    "dem3d vertices": of_vertices,
     "space joint, box on ground": lambda: of_assembly(stones("box on ground")),
     "space joint, box on box": lambda: of_assembly(stones("box on box")),
     "space joint, drum on drum": lambda: of_assembly(stones("drum on drum")),
@@ -404,6 +433,34 @@ def measured(rig: Rig, seed: int, size: float = 1e-6, turns: int = 3, steps: int
         np.linalg.norm(both(stiffness[0.0], -1.0), axis=(1, 2)) / whole,
         np.diff(done, axis=0, prepend=0.0), stuck,
     )  # fmt: skip
+
+
+def tipped(rig: Rig, degrees: float, seed: int, size: float = 1e-7, turns: int = 3, steps: int = 200) -> np.ndarray:
+    """Work of friction of each turn of a small loop over what its shear stored, of a box that is tipped over an edge so far.
+
+    Where a joint hands over to the bed under an edge its share falls with the tilt; shape (turns,).
+    """
+    rig.state[11]["skin"] = 1.0
+    assemblies_list(rig.state)
+    began, angle, force, path = rig.copy(), np.linspace(0.0, math.radians(degrees), 300)[:, None], {}, np.empty(0)
+    for mu in (MU, 0.0):
+        drawn = np.random.default_rng(seed)
+        rig.back(began)
+        rig.rub(mu)
+        rig.state[10][..., 2] = mu
+        over = np.zeros((300, 1, 6))
+        over[:, :, 0], over[:, :, 4] = rig.radius * (1.0 - np.cos(angle)), angle
+        over[:, :, 2] = rig.radius * np.sin(angle) - 2e-5
+        rig.along(over)
+        end = over[-1:] + np.array([1.0, 2.0, 0.0, 0.0, 0.0, 2.0]) * drawn.uniform(5e-7, 1.5e-6)
+        rig.along(straight(np.concatenate((over[-1:], end)), 40))
+        path = loops(rig, end[0], drawn, size, turns, steps)
+        force[mu] = rig.along(path)
+    rig.state[10][..., 2] = MU
+    rig.back(began)
+    shear = force[MU][0] - force[0.0][0]
+    stored = 0.5 * ((shear[:, :2] ** 2).sum() + (shear[:, 5] / rig.radius) ** 2).sum() / (KS * math.pi * rig.radius**2)
+    return np.diff(work(path, force[MU] - force[0.0])[steps::steps, 0], prepend=0.0) / stored
 
 
 def both(stiffness: np.ndarray, sign: float) -> np.ndarray:
