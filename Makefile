@@ -1,4 +1,4 @@
-# make install | demo | live | test | test-cpus | test-pythons | test-gpu | bench-gpu | test-wheel | wheel | ptx | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
+# make install | demo | live | test | test-cpus | test-pythons | test-gpu | bench-gpu | kernels | wheel | test-wheel | ptx | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
@@ -25,7 +25,7 @@ endif
 # What is imported is compiled when it is first imported, and kept: a tenth of what is installed.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: install demo live test test-cpus test-pythons test-gpu bench-gpu ptx wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
+.PHONY: install demo live test test-cpus test-pythons test-gpu bench-gpu ptx kernels wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
 
 install: $(STAMP)
 	@:
@@ -81,10 +81,15 @@ $(PTX_STAMP): requirements/ptx.lock
 ptx: $(PTX_STAMP)
 	@PYTHONPATH=src:packages/stylobate-gpu/src .venv-ptx/bin/python -m stylobate_gpu.build $(KERNELS)
 
+# Compiled kernels for processors, for this Python, where they are not there from these sources; LEVELS="x86-64-v3" for some.
+kernels: install
+	@$(BIN)/python .ci/kernels.py $(LEVELS)
+
+# With the kernels that `make kernels` and `make ptx` have built; says how large it is.
 wheel: install
 	@rm -rf dist build/wheel
 	@$(BIN)/python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation -w dist . $(BESIDE:%=./%)
-	@ls dist/*.whl
+	@ls -sh dist/*.whl
 
 # The wheel alone, in a bare environment.
 test-wheel: wheel
@@ -161,5 +166,5 @@ lock:
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }
 
 clean:
-	rm -rf .venv .venv-lock .venv-pythons .venv-peers .venv-ptx packages/stylobate-gpu/src/stylobate_gpu/built build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	rm -rf .venv .venv-lock .venv-pythons .venv-peers .venv-ptx packages/stylobate-gpu/src/stylobate_gpu/built src/stylobate/kernels/built build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
 	find src packages studies compas tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

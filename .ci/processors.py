@@ -1,54 +1,35 @@
 """The tests that are sensitive to how a machine rounds, on every machine that this processor can play.
 
-`make test-cpus`: compiled loops for the processor as it is, for any processor of its kind, without and with 512-bit
-vectors; where it is not as it is, linear algebra with the kernels of another one as well. As many at a time as there are
-cores, for the compiler uses one. `--smoke` is the short form for continuous integration: the processor that differs most
-from this one, and short tests of every engine.
+`make test-cpus`: compiled loops for each level of processors that this one can run; below its own, linear algebra with the
+kernels of an older one as well. As many at a time as there are cores, for the compiler uses one. `--smoke` is the short form
+for continuous integration: the lowest level, which differs most from this one, and short tests of every engine.
 """
 
 from __future__ import annotations
 
 import os
-import platform
 import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-import llvmlite.binding as llvm
+from stylobate.kernels.levels import levels_here, settings
 
-#: What is set for the compiler and for linear algebra; an empty value sets the variable to nothing, which numba tells from
-#: not set.
-TARGETS = {
-    "generic": {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "OPENBLAS_CORETYPE": "Nehalem"},
-    "without AVX-512 (haswell)": {
-        "NUMBA_CPU_NAME": "haswell",
-        "NUMBA_CPU_FEATURES": "",
-        "OPENBLAS_CORETYPE": "Haswell",
-    },
-    "with AVX-512 (skylake-avx512)": {"NUMBA_CPU_NAME": "skylake-avx512", "NUMBA_CPU_FEATURES": "-prefer-256-bit"},
-}
-#: The processor that differs most from any of today: no fused products and sums, the shortest vectors.
-FARTHEST = "generic"
+#: Kernels of linear algebra for processors of a level, besides those of this one.
+ALGEBRA = {"x86-64": "Nehalem", "x86-64-v2": "Nehalem", "x86-64-v3": "Haswell"}
 
 #: Tests that run every engine, and compile each once.
 EVERY_ENGINE = ["tests/conservation", "tests/agreement/test_processors.py", "tests/agreement/test_dem2d.py"]
-NEEDS = {"without AVX-512 (haswell)": ("avx2", "fma"), "with AVX-512 (skylake-avx512)": ("avx512f", "avx512vl")}
 
 
 def targets() -> dict[str, dict[str, str]]:
-    """Targets that this processor can run, and what is set for each."""
-    has = llvm.get_host_cpu_features()
-    found: dict[str, dict[str, str]] = {f"as it is ({llvm.get_host_cpu_name()})": {}}
-    for name, settings in TARGETS.items():
-        if all(has.get(feature) for feature in NEEDS.get(name, ())):
-            found[name] = dict(settings)
-        else:
-            print(f"left out, as this processor cannot run it: {name}", flush=True)
-    if platform.machine().lower() not in ("x86_64", "amd64"):
-        for settings in found.values():
-            settings.pop("OPENBLAS_CORETYPE", None)
-    return found
+    """Levels that this processor can run, the lowest first, and what is set for each."""
+    levels = levels_here()
+    return {
+        level: settings(level)
+        | ({"OPENBLAS_CORETYPE": ALGEBRA[level]} if level in ALGEBRA and level != levels[-1] else {})
+        for level in levels
+    } or {"as it is": {}}
 
 
 def main(arguments: list[str]) -> int:
@@ -68,7 +49,8 @@ def main(arguments: list[str]) -> int:
 
     asked = targets()
     if smoke:
-        asked = {FARTHEST: asked[FARTHEST]}
+        lowest = next(iter(asked))
+        asked = {lowest: asked[lowest]}
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         results = list(pool.map(passes, asked, asked.values()))
     failed = [name for name, passed in zip(asked, results, strict=True) if not passed]

@@ -1,4 +1,7 @@
-"""The core's wheel alone: in a bare environment, imported without POSIX, put to work; then the packages with it."""
+"""The core's wheel alone: in a bare environment, imported without POSIX, put to work; then the packages with it.
+
+Where it carries compiled kernels for this machine, first verdicts are timed, and nothing may be compiled for them.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +10,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import venv
 from pathlib import Path
 
 from stylobate.added import PACKAGES
+from stylobate.kernels.cache import SHIPPED
+from stylobate.kernels.levels import levels_here
 from stylobate_gpu.kinds import kinds, missing
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -69,6 +75,7 @@ def main() -> int:
 
         run(python, "-m", "pip", "--disable-pip-version-check", "-qq", "install", "-c", constraints, wheel)
         run(python, "-c", IMPORT)
+        first_verdicts(command, folder, environment)
         run(command, "--help")
         for package in PACKAGES:
             for name in package.commands:
@@ -101,6 +108,23 @@ def main() -> int:
                 run(command, name, "--help")
     print(f"{wheel.name} works alone, and {len(others)} packages with it")
     return 0
+
+
+def first_verdicts(command: Path, folder: Path, environment: dict[str, str]) -> None:
+    """The first run of a new user, in the plane and in space, with nothing compiled on this machine."""
+    shipped = [name for name in levels_here()[-1:] if (SHIPPED / name).is_dir()]
+    if not shipped:
+        print("no compiled kernels here for this machine (make kernels): they are not tried")
+        return
+    for model in ("dem2d", "dem3d"):
+        cache = folder / f"cache-{model}"
+        line = [command, "run", "paper-12-drums", "--model", model, "--harmonic", "1.0Hz,0.3g,10s", "--json"]
+        started = time.monotonic()
+        subprocess.run(list(map(str, line)), check=True, cwd=folder, stdout=subprocess.DEVNULL,
+                       env=environment | {"STYLOBATE_CACHE": str(cache)})  # fmt: skip
+        print(f"first verdict of {model} by the wheel: {time.monotonic() - started:.1f} s")
+        compiled = sorted(path.name for path in cache.rglob("*.kernel"))
+        assert not compiled, compiled
 
 
 def pinned(folder: Path) -> Path:

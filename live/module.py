@@ -2,7 +2,7 @@
 
 Python's way of calling compiled code is left out; in its place stands a function for each that reads its arguments, one
 after the other as words of 64 bits, from one place in memory. Run as ``python -m live.module FILE`` in a process of its own
-(:func:`built`): the compiler shows nothing of what it finds on disk, and must not take this processor's own instructions.
+(:func:`built`), whose compiler must not take this processor's own instructions.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -29,14 +28,9 @@ GENERIC = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""}
 
 
 def built(path: Path) -> bytes:
-    """The module, made in a process of its own with a cache of its own; written to a file as well."""
-    with tempfile.TemporaryDirectory() as cache:
-        subprocess.run(
-            [sys.executable, "-m", "live.module", str(path)],
-            env=os.environ | GENERIC | {"STYLOBATE_CACHE": cache},
-            cwd=Path(__file__).parents[1],
-            check=True,
-        )
+    """The module, made in a process of its own; written to a file as well."""
+    command = [sys.executable, "-m", "live.module", str(path)]
+    subprocess.run(command, env=os.environ | GENERIC, cwd=Path(__file__).parents[1], check=True)
     return path.read_bytes()
 
 
@@ -76,6 +70,7 @@ def functions() -> dict[str, Any]:
 
     result = {"begin": kernel.begin, "advance": step.advance, "judge": kernel.judge}
     for name, function in result.items():
+        function._cache.disable()  # of what is read from disk there is no intermediate code
         function.compile(tuple(numba.typeof(item) for item in arguments(name)))
     return result
 

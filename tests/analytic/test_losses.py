@@ -205,7 +205,7 @@ def rolling(column: st.Column, tilt: float) -> st.Start:
     [{}, {"losses": "stone"}, {"stiffness_damping": 5e-4}, {"stiffness_damping": 1e-4, "rolling_resistance": 0.01}],
 )
 def test_a_wobble_loses_what_rolling_and_the_dashpots_of_its_toe_take(losses):
-    """m g a Ω sin θ (c cos² θ + β Ω) per time (Eqs. E12, E29), and up to 5 % more: the toe turns, and dashpots of shear with it.
+    """m g a Ω sin θ (c cos² θ + β Ω) per time (Eqs. E12, E29), and up to 5 % more, as the toe turns.
 
     Friction takes less than 1 % of what is there in a second.
     """

@@ -1,5 +1,5 @@
 import pytest
-from page_server import browser
+from chromium import browser
 
 
 @pytest.fixture(scope="module")

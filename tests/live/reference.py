@@ -1,6 +1,6 @@
 """The page with its module, and the same runs by the same code compiled for this processor, into a folder: for its tests.
 
-Runs in a process of its own, as ``live.module`` does: for a generic processor and with an empty cache.
+Runs in a process of its own, as ``live.module`` does: for a generic processor.
 """
 
 import json

@@ -2,6 +2,7 @@
 
 import json
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -9,11 +10,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from chromium import browser
 from live.data import COLUMNS
 from live.link import leb, linked
 from live.module import GENERIC
 from live.motions import earthquake, pulse, sine
-from page_server import AA, AA_LARGE, FAINT, browser
+from page_server import AA, AA_LARGE, FAINT
 
 from stylobate.constants import g
 
@@ -38,7 +40,7 @@ MOTIONS = [
 def built(tmp_path_factory):
     """Folder of the page, with what the same code does on a generic processor."""
     folder = tmp_path_factory.mktemp("live")
-    env = os.environ | GENERIC | {"STYLOBATE_CACHE": str(folder / "cache"), "PYTHONPATH": str(ROOT)}
+    env = os.environ | GENERIC | {"PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-W", "ignore", str(HERE / "reference.py"), str(folder)]
     subprocess.run(command, env=env, cwd=ROOT, check=True)
     return folder
@@ -53,6 +55,7 @@ def by_node(built):
 
 
 @needs_node
+@pytest.mark.skipif(platform.machine().lower() not in ("x86_64", "amd64"), reason="others contract products and sums")
 def test_the_module_has_the_bits_of_the_generic_loop(built, by_node):
     assert {item["column"] for item in by_node["cases"]} == set(COLUMNS)
     for number, case in enumerate(by_node["cases"]):
@@ -65,6 +68,7 @@ def test_the_module_has_the_bits_of_the_generic_loop(built, by_node):
 
 
 @needs_node
+@pytest.mark.skipif(platform.machine().lower() not in ("x86_64", "amd64"), reason="others contract products and sums")
 def test_verdicts_are_those_of_python_to_the_last_bit(by_node):
     outcomes = set()
     for case, result in zip(by_node["cases"], by_node["results"], strict=True):

@@ -541,8 +541,8 @@ def joints_from_frequencies(
     Notes
     -----
     All joints have one k_b/J_A and one k_s, each as probable at any order of magnitude; a measurement ±x has a
-    lognormal error of that standard deviation. Ground and columns are drawn (seed), the two stiffnesses are integrated over on
-    a grid for each draw, and the intervals are quantiles of what is left. A side is open where the end of the range,
+    lognormal error of that standard deviation. Ground and columns are drawn (seed), the two stiffnesses are integrated over
+    on a grid for each draw, and the intervals are quantiles of what is left. A side is open where the end of the range,
     1e6 or 1e14 N/m³, is likelier than a 95 % interval allows; the other side is then where the likelihood has fallen
     by as much.
     # Eq. (M4)
