@@ -26,7 +26,7 @@ from .small_vibrations import AROUND, ClosedJoint, Spring, Vibrating, pressed
 FINE = 360
 
 #: Rounds in which the points of an assembly that touch at rest are looked for.
-ROUNDS = 60
+ROUNDS = 100
 
 #: Share of the largest stiffness that holds what nothing holds while that is looked for.
 LOOSE = 1e-9
@@ -459,30 +459,11 @@ def _at_rest(structure: Structure, standing: Vibrating, down: np.ndarray, each: 
                 f"pretensioned; leave its "
                 "pretension out."
             )
-    pressing = [np.ones(len(joint.springs), dtype=bool) for joint in standing.joints]
-    q = np.zeros(6 * len(standing.masses))
-    depths: list[np.ndarray] = []
-    for _ in range(ROUNDS):
-        now = standing.with_joints(
-            [_part(joint, touch) for joint, touch in zip(standing.joints, pressing, strict=True)]
-        )
-        matrix = now.stiffness_matrix[np.ix_(coordinates, coordinates)]
-        soft = LOOSE * float(np.abs(np.diag(matrix)).max())
-        q[coordinates] = np.linalg.solve(
-            matrix + soft * np.diag(standing.mass_matrix.diagonal()[coordinates] > 0.0), load
-        )
-        shape = q.reshape(-1, 6)
-        depths = [_depths(standing, joint, joint.points, shape) for joint in standing.joints]
-        least = BARELY * max(float(one.max()) for one in depths)
-        again = [depth > least for depth in depths]
-        if all((one == other).all() for one, other in zip(again, pressing, strict=True)):
-            break
-        pressing = again
-    else:
-        raise InputError(
-            f"{structure.name!r} finds no equilibrium on closed joints: which of them are pressed at rest changes again and "
-            "again; rest its stones on one another so that each is carried within its faces."
-        )
+    _refuse_loose(structure, standing, standing.joints)
+    q = _balanced(structure, standing, coordinates, load)
+    depths = [_depths(standing, joint, joint.points, q.reshape(-1, 6)) for joint in standing.joints]
+    least = BARELY * max((float(one.max()) for one in depths), default=0.0)
+    pressing = [depth > least for depth in depths]
     joints, notes = [], []
     shape = q.reshape(-1, 6)
     for joint, touch, depth in zip(standing.joints, pressing, depths, strict=True):
@@ -514,15 +495,75 @@ def _at_rest(structure: Structure, standing: Vibrating, down: np.ndarray, each: 
                 closure=closed if len(closed) else closure,
             )
         )
+    _refuse_loose(structure, standing, joints)
+    return replace(standing, joints=tuple(joints), left_out=(*standing.left_out, *notes))
+
+
+def _refuse_loose(structure: Structure, standing: Vibrating, joints: Sequence[ClosedJoint]) -> None:
+    """Refuse a body that can move and has none of these joints."""
     held = {joint.upper for joint in joints} | {joint.lower for joint in joints}
     loose = next((i for i in np.flatnonzero(standing.free) if i not in held), None)
     if loose is not None:
         raise InputError(
-            f"block {standing.names[loose]!r} of {structure.name!r} rests on no closed joint, and what is loose "
-            f"has no natural "
-            "frequency; rest it on another stone, or leave it out."
+            f"block {standing.names[loose]!r} of {structure.name!r} rests on no closed joint, and what is loose has no "
+            "natural frequency; rest it on another stone, or leave it out."
         )
-    return replace(standing, joints=tuple(joints), left_out=(*standing.left_out, *notes))
+
+
+def _balanced(structure: Structure, standing: Vibrating, coordinates: np.ndarray, load: np.ndarray) -> np.ndarray:
+    """Displacements under the weight of what stands on springs that do not pull, shape (6 N,).
+
+    The energy of such springs is convex, and Newton's method with a search along its step finds the one minimum.
+    Joints that are not pressed there hold no slip either: they are left out, and it is looked for again.
+    """
+    size = 6 * len(standing.masses)
+    at = [np.concatenate((6 * joint.upper + np.arange(6), 6 * joint.lower + np.arange(6))) for joint in standing.joints]
+    rows = [standing._rises(joint, joint.points) for joint in standing.joints]
+    kept, q = [True] * len(rows), np.zeros(size)
+    square = np.ix_(coordinates, coordinates)
+    for _ in range(ROUNDS):
+        slips = np.zeros((size, size))
+        for joint, own, keep in zip(standing.joints, at, kept, strict=True):
+            if keep:
+                slips[np.ix_(own, own)] += standing.joint_matrix(replace(joint, springs=0.0 * joint.springs))
+        for spring in standing.springs:
+            own = np.concatenate((6 * spring.bodies[1] + np.arange(6), 6 * spring.bodies[0] + np.arange(6)))
+            slips[np.ix_(own, own)] += standing.spring_matrix(spring)
+
+        def energy(now: np.ndarray, slips: np.ndarray = slips) -> float:
+            total = 0.5 * float(now @ slips @ now) - float(now[coordinates] @ load)
+            for joint, own, row in zip(standing.joints, at, rows, strict=True):
+                total += 0.5 * float(joint.springs @ np.maximum(-row @ now[own], 0.0) ** 2)
+            return total
+
+        for _ in range(ROUNDS):
+            force, matrix = slips @ q, slips.copy()
+            for joint, own, row in zip(standing.joints, at, rows, strict=True):
+                depth = -row @ q[own]
+                force[own] -= row.T @ (joint.springs * np.maximum(depth, 0.0))
+                touching = joint.springs * ((depth > 0.0) if q.any() else 1.0)
+                matrix[np.ix_(own, own)] += row.T @ (touching[:, None] * row)
+            missing = load - force[coordinates]
+            if float(np.abs(missing).max()) < 1e-9 * float(np.abs(load).max()):
+                break
+            inner = matrix[square]
+            soft = LOOSE * float(np.diag(inner).max()) * np.eye(len(coordinates))
+            step, share, before = np.zeros(size), 1.0, energy(q)
+            step[coordinates] = np.linalg.solve(inner + soft, missing)
+            gain = float(step[coordinates] @ missing)
+            while energy(q + share * step) > before - 1e-4 * share * gain and share > 1e-6:
+                share *= 0.5
+            q = q + share * step
+        else:
+            raise InputError(
+                f"{structure.name!r} finds no equilibrium on closed joints; rest its stones on one another so that each is "
+                "carried within its faces."
+            )
+        pressed_now = [bool((row @ q[own] < 0.0).any()) for own, row in zip(at, rows, strict=True)]
+        if all(now or not before for now, before in zip(pressed_now, kept, strict=True)):
+            return q
+        kept = [now and before for now, before in zip(pressed_now, kept, strict=True)]
+    return q
 
 
 def _part(joint: ClosedJoint, touch: np.ndarray) -> ClosedJoint:

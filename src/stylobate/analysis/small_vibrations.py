@@ -335,6 +335,7 @@ class Vibrating:
             slip = float(np.hypot(*(joint.frame[:, :2].T @ self._passing(joint, joint.middle) @ both)))
             turn = joint.torsion * abs(float((both[3:6] - both[9:]) @ joint.normal))
             left = max(joint.friction - float(np.hypot(*(joint.frame[:, :2].T @ joint.force))), 0.0)
+            left = left if left > 0.0 else math.inf  # slid at rest: that is told beside
             opens = _quotient(np.maximum(joint.closure, 0.0), np.abs(rise))
             slides = _quotient(np.array([left]), np.array([joint.shear * slip]))
             twists = _quotient(np.array([left * joint.lever]), np.array([turn]))

@@ -69,7 +69,7 @@ def modes(
         )
     with execution.files("modes", "modes.json", "drops.csv", "modes", "column.toml", "scatter.toml") as files:
         found = modes_of(stone, how)
-        drops = frequency_drops(found, share, many)
+        drops = frequency_drops(found, share, many) if stone.stack is not None else []
         summary = found.summary(many) | {"left": share, "drops": drops}
         joints = None
         if frequencies is not None:
@@ -79,7 +79,8 @@ def modes(
         if files.wanted:
             from .. import plots
 
-            files.table(_table(drops), "drops.csv")
+            if drops:
+                files.table(_table(drops), "drops.csv")
             files.picture(plots.draw_modes(found, stone.name), "modes")
             if joints is not None:
                 _write_joints(files, joints)
@@ -128,8 +129,10 @@ def _facts(found: Modes, number: int, drops: list[dict[str, Any]], left: float) 
         facts["bends as solid stone of"] = f"{solid.min():.3g} to {solid.max():.3g} GPa"
     for doubt in found.doubts:
         facts["mind"] = doubt
-    for note in found.standing.left_out:
-        facts.setdefault("does not act", note)
+    notes = found.standing.left_out
+    if notes:
+        more = f"; and {len(notes) - 3} more, in the JSON" if len(notes) > 3 else ""
+        facts["at rest"] = "; ".join(notes[:3]) + more
     if found.structure.stack is not None:
         for row in drops:
             words = ", ".join(
