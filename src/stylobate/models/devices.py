@@ -14,9 +14,14 @@ class Device(Protocol):
 
     Attributes
     ----------
+    name : str
+        As its maker calls it.
     threads : int
         Threads of the processor that begin and end runs for it.
     """
+
+    @property
+    def name(self) -> str: ...
 
     threads: int
 
