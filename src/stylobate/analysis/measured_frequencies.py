@@ -131,8 +131,7 @@ def parse_measured(text: str) -> tuple[Measured, ...]:
             raise InputError(f"measured frequency {part.strip()!r} is {unit}; give it in Hz, {example}.", "measured")
         if match["spread"] is None:
             raise InputError(
-                f"measured frequency {part.strip()!r} has no spread; give its standard deviation, "
-                f"{example}.",
+                f"measured frequency {part.strip()!r} has no spread; give its standard deviation, {example}.",
                 "measured",
             )
         value, spread = float(match["value"]), float(match["spread"])
@@ -542,10 +541,10 @@ def joints_from_frequencies(
     Notes
     -----
     All joints have one k_b/J_A and one k_s, each as probable at any order of magnitude; a measurement ±x has a
-    lognormal error of that standard deviation. Ground and columns are drawn (seed), the two stiffnesses are integrated over on
-    a grid for each draw, and the intervals are quantiles of what is left. A side is open where the end of the range,
-    1e6 or 1e14 N/m³, is likelier than a 95 % interval allows; the other side is then where the likelihood has fallen
-    by as much.
+    lognormal error of that standard deviation. Ground and columns are drawn (seed), the two stiffnesses are
+    integrated over on a grid for each draw, and the intervals are quantiles of what is left. A side is open where the
+    end of the range, 1e6 or 1e14 N/m³, is likelier than a 95 % interval allows; the other side is then where the
+    likelihood has fallen by as much.
     # Eq. (M4)
     """
     measured = parse_measured(measured) if isinstance(measured, str) else tuple(measured)
@@ -663,7 +662,7 @@ def _box(table: _Table, measured: Sequence[Measured]) -> Box | None:
         return None
     ends = []
     for old, seen in ((table.bending, some), (table.shear, some.T)):
-        at = np.flatnonzero([bool(row.any()) for row in seen])
+        at = np.flatnonzero([bool(np.asarray(seen)[i].any()) for i in range(len(old))])
         ends.append((float(old[max(at[0] - 1, 0)]), float(old[min(at[-1] + 1, len(old) - 1)])))
     return ends[0], ends[1]
 
