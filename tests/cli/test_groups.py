@@ -55,11 +55,16 @@ def test_compare_leaves_the_quiet_of_a_record_out_as_run_does(capsys, folder):
 
 
 def test_losses_go_with_the_model_wherever_one_is_computed():
-    """A command that computes with a model has ``--losses``; not ``cite``, nor ``calibrate``, which finds losses."""
+    """A command that computes with a model has ``--losses``; not ``cite``, nor ``calibrate``, which finds
+    losses, nor ``modes``, in which nothing is lost."""
     names = {
         name: {flag for one in command.params for flag in one.opts} for name, command in commands().commands.items()
     }
-    computing = {name for name, flags in names.items() if flags & {"--model", "--models"}} - {"calibrate", "cite"}
+    computing = {name for name, flags in names.items() if flags & {"--model", "--models"}} - {
+        "calibrate",
+        "cite",
+        "modes",
+    }
     assert {"run", "domain", "compare", "suite", "critical", "ida", "states", "sequence"} <= computing
     assert [name for name in sorted(computing) if "--losses" not in names[name]] == []
 

@@ -67,7 +67,7 @@ def vibrating(structure: Structure, model: Any) -> Vibrating:
     if structure.space_joints is None:
         raise InputError(
             f"modes in space are of columns and of assemblies in space, and {structure.name!r} is {structure.described}; "
-            "use --model dem2d, or write it with shapes in space."
+            "use dem2d, or write it with shapes in space."
         )
     return _assembly_in_space(structure)
 
@@ -267,8 +267,8 @@ def _in_plane(structure: Structure, model: DistinctElement2D) -> Vibrating:
     column = structure.stack
     if column is not None and not column.as_found.in_plane:
         raise InputError(
-            f"dem2d computes the plane of x and z, and {column.name!r} is found out of it; use --model dem3d, or --project "
-            "AZIMUTH."
+            f"dem2d computes the plane of x and z, and {column.name!r} is found out of it; use dem3d, or "
+            "project it onto a plane (`project=AZIMUTH`)."
         )
     kn, ks = joint_stiffnesses(structure, model.block_modulus if column is not None else None)
     if column is None:

@@ -550,7 +550,7 @@ def joints_from_frequencies(
     measured = parse_measured(measured) if isinstance(measured, str) else tuple(measured)
     check_measured(measured)
     check_whole("draws", draws, 1, 100_000)
-    columns = [column] if isinstance(column, Column) else list(column)
+    columns = list(column) if isinstance(column, Sequence) else [column]
     for one in columns:
         check_kind("column", one, Column)
     families = [_Family(one, model) for one in columns]
