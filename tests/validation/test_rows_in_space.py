@@ -87,7 +87,7 @@ def test_a_row_can_be_missed():
 def test_plane_assemblies_in_space_swing_as_in_the_plane():
     """A face 0.9 m long and 1 m deep resists bending with 2.05 k_n J for the plane's 3; 20 m deep with 2.91."""
     flat, square, deep = (plane.swing("portal", depth) for depth in (None, plane.DEPTH, plane.DEEP))
-    assert square.aside < 1e-12
+    assert square.aside < 1e-8  # rounding, which rocking makes grow
     assert square.peak == pytest.approx(flat.peak, rel=0.1)
     assert deep.peak == pytest.approx(flat.peak, rel=0.02)
     assert deep.time == pytest.approx(flat.time, rel=2e-3)

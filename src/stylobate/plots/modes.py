@@ -18,7 +18,7 @@ TALL = 4.6
 
 
 @styled
-def draw_modes(modes: Modes, title: str | None = None) -> Figure:
+def draw_modes(modes: Modes, title: str | None = None, *, figure: Figure | None = None) -> Figure:
     """Lowest modes of every kind: bodies displaced, joints coloured by their share in the elastic energy.
 
     Bending is seen across the direction in which the top moves. Torsion is drawn as the turn of each body, over its height.
@@ -27,9 +27,11 @@ def draw_modes(modes: Modes, title: str | None = None) -> Figure:
     ----------
     modes : Modes
     title : str, optional
+    figure : Figure, optional
+        To be drawn on.
     """
     chosen = _chosen(modes)
-    figure = Figure(figsize=(WIDTH, TALL))
+    figure = figure or Figure(figsize=(WIDTH, TALL))
     axes = np.atleast_1d(figure.subplots(1, len(chosen), sharey=True))
     for ax, mode in zip(axes, chosen, strict=True):
         (_draw_turns if mode.kind == "torsion" else _draw_shape)(ax, modes, mode)

@@ -264,7 +264,7 @@ class _Table:
             "options": [self.options.tail, self.options.quiet],
             "laws": [__version__, *laws()],
             "made by": [digest_of_file(Path(__file__).with_name(name)) for name in ("simulations.py", "prior.py")],
-            "motions by": digest_of_file(Path(__file__).parents[1] / "motion" / "elliptical.py"),
+            "motions by": digest_of_file(Path(__file__).with_name("elliptical.py")),
         }
         return hashlib.sha256(json.dumps(said, sort_keys=True, default=str).encode()).hexdigest()
 

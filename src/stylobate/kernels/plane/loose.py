@@ -27,8 +27,9 @@ import math
 
 import numpy as np
 
-from ..jit import kernel, law, strict
+from ..jit import kernel, strict
 from ..run_codes import CHUNK, FAILED
+from ..shared.handover import handover
 from ..shared.records import BODY, BOND, FEED, GROUND, JOINT, LANE, LINK, LOAD, PAIR, SPAN, TOUCH, WATCH
 from . import clip as near
 from . import contact as ct
@@ -39,9 +40,6 @@ from .point_joint import meeting, press, put, stored
 from .records import ALPHA, BETA, LOCAL
 from .search import place, renew_pairs
 from .step import energies, fill_ground, look_at
-
-#: A joint acts alone as long as the overlap is more than this share of the smaller face, the bed alone below the second.
-OVERLAP_FROM, OVERLAP_TO = 0.05, 0.01
 
 MOST = near.MOST
 
@@ -60,14 +58,6 @@ def search_types():
         np.dtype(fields("width from_c to_c weight") + counts("live")),
         np.dtype(fields("r depth travel") + counts("first count")),
     )
-
-
-@law
-def handover(c, over, h):
-    """Weight of the joint's law: 1 while it acts alone, 0 when the bed does, linear in cosine and overlap between."""
-    turned = (c - h.to_c) / (h.from_c - h.to_c)
-    left = (over - OVERLAP_TO * h.width) / ((OVERLAP_FROM - OVERLAP_TO) * h.width)
-    return min(max(min(turned, left), 0.0), 1.0)
 
 
 @kernel

@@ -4,7 +4,7 @@ import math
 
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
-from ..plane.loose import handover
+from ..shared.handover import handover
 from ..shared.vectors import along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
 from .acting import act_at, add, let_go, mobility, motion_then
 from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, MOMENT, POLAR, PRESS, SECOND, SQUARE, boundary

@@ -7,8 +7,8 @@ import math
 
 from ..dem3d.pose import in_space
 from ..jit import apart, law
-from ..plane.loose import OVERLAP_FROM
 from ..shared.friction import dragged, friction
+from ..shared.handover import OVERLAP_FROM
 from ..shared.vectors import along, cross, dot, length, minus, scaled
 from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, MOMENT, POLAR, PRESS, SECOND, SQUARE
 from .friction import about_middle, at_centroid, turned

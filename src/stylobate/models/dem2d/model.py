@@ -21,7 +21,7 @@ from ...response import Measures, Response
 from ..base import Case, RunOptions
 from ..drums.bodies import Topology, body_fields
 from ..drums.joints import contact_points, damping_rows, joint_stiffnesses
-from ..drums.links import link_stiffness, with_links
+from ..drums.links import acting, link_stiffness, with_links
 from ..drums.losses import LossyDrums
 from ..drums.records import Packed
 from ..plane.assemblies import expected_step, measures_of_assemblies, run_assembly
@@ -227,7 +227,7 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
         state, shear = _settled(column, model)
         drums |= state
     joint = joint_fields(column, kn, ks) | {"fs": shear}
-    types = point_law(model.points, model.damped, 1, bool(column.links))
+    types = point_law(model.points, model.damped, 1, bool(acting(column)))
     damp = damping_rows(model.damped, model.stiffness_damping, model.mass_damping)
     fields = drums, joint, lane_fields(column, damp, model.points)
     return pack_column(column, types, fields, model.step_for(column), point_toes(column, kn, float(share[-1])))

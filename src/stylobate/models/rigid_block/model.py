@@ -15,7 +15,7 @@ from ...motion import Motion
 from ..base import RunOptions
 from ..drums.bodies import Topology, body_fields
 from ..drums.joints import damping_rows
-from ..drums.links import link_stiffness, with_links
+from ..drums.links import acting, link_stiffness, with_links
 from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
 from ..plane.columns import ColumnLanes
@@ -137,7 +137,7 @@ def _pack(column: Column, model: RigidBlock) -> Packed:
         "crush": np.zeros((n, 1)) if strength is None else np.repeat((1.0 / (strength * area))[:, None], 2, 1),
         "chi": np.ones(n),
     }
-    types = interface_law(strength is not None, model.damped, 1, bool(column.links))
+    types = interface_law(strength is not None, model.damped, 1, bool(acting(column)))
     damp = damping_rows(model.damped, model.stiffness_damping, model.mass_damping)
     fields = body_fields(column, column.joint_weights / kn), joint, lane_fields(column, damp)
     return pack_column(column, types, fields, model.step_for(column), _toes(column, strength))
