@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from validation.in_space import plane, populations
 from validation.in_space.random_scenes import FAMILIES, scene, tumble, turned
+from validation.in_space.resting import CREEPS, SCENES, rests
 
 import stylobate as st
 from stylobate.column.presets import PAPER
@@ -39,6 +40,24 @@ def test_collapses_of_the_gallery_account_for_their_energy():
     for row in rows:
         assert not row["failed"], row
         assert row["missed"] < 0.01, row
+
+
+def test_scenes_that_bear_their_load_lie_still_and_others_go():
+    """Under pushes and slopes that last, none falls below what it bears and all go above; few creep, by millimetres."""
+    kinds = populations.stored()["resting"].values()
+    assert sum(told["below"] + told["above"] for told in kinds) == SCENES
+    assert sum(told["fell"] for told in kinds) == sum(told["stood"] for told in kinds) == 0
+    assert sum(told["crept"] for told in kinds) < 0.02 * SCENES
+    assert max(told["farthest"] for told in kinds) < 2e-3
+
+
+@pytest.mark.parametrize("number", [4, 76, 110])
+def test_a_scene_at_rest_again(number):
+    """A drum, a box pushed askew, which slid by decimetres, and a leaning wall, which fell."""
+    found = rests(number)
+    assert found["share"] < 1.0
+    assert not found["fell"]
+    assert found["crept"] < CREEPS
 
 
 def joined(assembly):

@@ -116,8 +116,9 @@ def rests(number: int) -> dict[str, Any]:
     share = rng.uniform(*(ABOVE if above else BELOW))
     borne = st.limit_directions(structure, [azimuth]).limits[0].multiplier
     model = st.DistinctElement3D(**options)
-    if structure.stack is not None:  # what a column bears on joints as soft as these
-        borne = min(borne, model.opening(structure.stack).acceleration / st.g)
+    opens = model.opening(structure.stack) if structure.section == "circular" else None
+    if opens is not None:  # what a column bears on joints as soft as these
+        borne = min(borne, opens.acceleration / st.g)
     response = st.simulate(
         structure, lasting(share * borne, azimuth, slope), model, until_end=True, output_interval=0.1
     )
