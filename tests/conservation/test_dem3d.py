@@ -54,25 +54,22 @@ def places(column, motion, **options):
 
 
 @pytest.mark.parametrize(
-    ("column", "options", "finer"),
-    [(MONOLITH, {}, 1), (MONOLITH, {"stiffness_damping": 1e-4, "mass_damping": 0.2}, 1), (unequal(), {}, 2)],
+    ("column", "options", "limit"),
+    [(MONOLITH, {}, 1e-2), (MONOLITH, {"stiffness_damping": 1e-4, "mass_damping": 0.2}, 1e-2), (unequal(), {}, 1e-2)],
     ids=["monolith", "damped", "unequal, cohesion"],
 )
-def test_ledger_closes_to_second_order(column, options, finer):
-    """Imbalance over 16 amplitudes along one direction, at the default step and halved once.
-
-    Or twice: that of columns of drums near collapse scatters by as much as it falls from one step to its half.
-    """
+def test_ledger_closes_to_second_order(column, options, limit):
+    """Imbalance over 16 amplitudes along one direction, at the default step and at half of it."""
     unit = harmonic(1.0, 1.0 if column is MONOLITH else 1.7, 6.0)
     medians = []
-    for step in (0.4, 0.4 / 2**finer):
+    for step in (0.4, 0.2):
         table = simulate_many(
             column, [unit.scaled(a) for a in AMPLITUDES], DistinctElement3D(step_factor=step, **options)
         )
         assert (table["peak_joint_opening_m"] > 1e-3).all()
         medians.append(np.median(table["energy_imbalance"]))
-    assert medians[0] < 1e-2
-    assert 1.7**finer < medians[0] / medians[1] < 9.0**finer
+    assert medians[0] < limit
+    assert 1.7 < medians[0] / medians[1] < 9.0
 
 
 def test_every_term_of_the_ledger_is_there():
@@ -109,7 +106,7 @@ def test_turned_input_turns_the_response():
     x, y = c * straight[:, 0] - s * straight[:, 1], s * straight[:, 0] + c * straight[:, 1]
     assert np.ptp(straight[:, 0]) > 0.2
     assert np.ptp(straight[:, 1]) > 0.1
-    assert max(np.abs(x - turned[:, 0]).max(), np.abs(y - turned[:, 1]).max()) < 5e-7
+    assert max(np.abs(x - turned[:, 0]).max(), np.abs(y - turned[:, 1]).max()) < 1e-8
 
 
 @pytest.mark.parametrize(("column", "duration"), [(MONOLITH, 5.0), (TWELVE, 1.0)], ids=["monolith", "12 drums"])

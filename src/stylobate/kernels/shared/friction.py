@@ -129,9 +129,10 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     far = k * math.sqrt(dot(away, away) / max(EXTENT * EXTENT * square, NOTHING))
     lost = max(kc - k, far + 0.5 * (kc - k), 0.0)
     each = 1.0 / (max(kc, NOTHING) * max(far, NOTHING))
-    # where nothing is left of it, the fresh layer becomes core
+    # where nothing is left of it, the fresh layer becomes core, with the share of both that touches still
     new = lost >= kc
-    keep, joins = (1.0, 1.0) if new else (1.0 - lost * max(far, NOTHING) * each, 0.0)
+    whole = min(k / max(kc + kf, NOTHING), 1.0)
+    keep, joins, rest = (whole, whole, 0.0) if new else (1.0 - lost * max(far, NOTHING) * each, 0.0, 1.0)
     away = scaled(0.0 if new else 1.0 - min(0.5 * lost * kc * each, 1.0), away)
     s, core_torsion = along(scaled(keep, s), joins, f), keep * core_torsion + joins * torsion
     kc, jc = (k, j) if new else (keep * kc, keep * jc)
@@ -145,7 +146,6 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     # what opened is taken from it
     jc, kf, jf = max(jc, NOTHING), max(kf, NOTHING), max(jf, NOTHING)
     each = 1.0 / (jc * kf * jf)
-    rest = 1.0 - joins
     core_torsion *= most * kf * jf * each
     f = scaled(rest * min(left * jc * jf * each, 1.0), f)
     torsion *= rest * min(turns * jc * kf * each, 1.0)
