@@ -129,9 +129,9 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     far = k * math.sqrt(dot(away, away) / max(EXTENT * EXTENT * square, NOTHING))
     lost = max(kc - k, far + 0.5 * (kc - k), 0.0)
     each = 1.0 / (max(kc, NOTHING) * max(far, NOTHING))
-    # where nothing is left of it, the fresh layer becomes core, with the share of both that touches still
+    # where nothing is left of it, the fresh layer becomes core; what touches nowhere holds nothing
     new = lost >= kc
-    whole = min(k / max(kc + kf, NOTHING), 1.0)
+    whole = 1.0 if k > 0.0 else 0.0
     keep, joins, rest = (whole, whole, 0.0) if new else (1.0 - lost * max(far, NOTHING) * each, 0.0, 1.0)
     away = scaled(0.0 if new else 1.0 - min(0.5 * lost * kc * each, 1.0), away)
     s, core_torsion = along(scaled(keep, s), joins, f), keep * core_torsion + joins * torsion
