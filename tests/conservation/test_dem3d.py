@@ -98,7 +98,7 @@ def test_a_column_that_is_left_alone_stands_still(law):
 
 
 def test_turned_input_turns_the_response():
-    """By 37°: no direction is preferred; what is left of 0.2 m is rounding that impacts and changing layers have made grow."""
+    """By 37°: no direction is preferred; of 0.2 m is left what rounding grows to by impacts and changing layers."""
     angle = math.radians(37.0)
     straight, _ = places(MONOLITH, two_ways(5.0))
     turned, _ = places(MONOLITH, two_ways(5.0, angle))
