@@ -28,7 +28,7 @@ def survey(spread: float, stream=None, **stiffness) -> list[Measured]:
 
 
 def test_what_is_measured_without_error_is_found():
-    found = st.joints_from_frequencies(column(1e9, 1e9), survey(0.01), MODEL)
+    found = st.joints_from_frequencies(column(1e9, 1e9), survey(0.01), MODEL, None)
     assert found.bending.median == pytest.approx(1e10, rel=0.005)
     assert found.shear.median == pytest.approx(2e9, rel=0.005)
     assert found.bending.low < 1e10 < found.bending.high
@@ -39,7 +39,7 @@ def test_what_is_measured_without_error_is_found():
 def test_torsion_alone_tells_of_shear_as_a_square():
     """ω² is k_s times a number on rigid ground: ±x of the frequency is ±2x of k_s, and 95 % are 1.96 of them, to 1 %."""
     torsion = survey(0.03)[2]
-    found = st.joints_from_frequencies(column(), [torsion], MODEL)
+    found = st.joints_from_frequencies(column(), [torsion], MODEL, None)
     ends = [2e9 * math.exp(2.0 * 1.959964 * sign * math.log1p(0.03)) for sign in (-1.0, 1.0)]
     assert (found.shear.low, found.shear.high) == pytest.approx(ends, rel=0.01)
     assert found.shear.median == pytest.approx(2e9, rel=0.005)
@@ -51,7 +51,7 @@ def test_torsion_alone_tells_of_shear_as_a_square():
 
 def test_the_first_frequency_gives_lower_bounds_alone():
     """Rigid joints in bending would give it by slip, and rigid ones in shear by bending."""
-    found = st.joints_from_frequencies(column(), survey(0.03)[:1], MODEL)
+    found = st.joints_from_frequencies(column(), survey(0.03)[:1], MODEL, None)
     assert found.bending.high is found.shear.high is found.bending.median is None
     assert found.bending.low < 1e10
     assert found.shear.low < 2e9
@@ -62,7 +62,7 @@ def test_the_first_frequency_gives_lower_bounds_alone():
 def test_soft_ground_leaves_room_for_stiffer_joints():
     """What the ground yields the joints need not: both ends go up, and the interval is wider."""
     frequencies = [Measured(one.frequency, 0.03, one.kind, one.number) for one in survey(0.03)]
-    rigid = st.joints_from_frequencies(column(), frequencies, MODEL)
+    rigid = st.joints_from_frequencies(column(), frequencies, MODEL, None)
     ground = st.joints_from_frequencies(
         column(), frequencies, MODEL, parse_ground("vs=200:600m/s,half_width=1.5m"), draws=16
     )
@@ -95,7 +95,7 @@ def test_surveys_cover_what_is_true():
     stream, held = np.random.default_rng(7), 0
     for _ in range(40):
         bending, shear = 10.0 ** stream.uniform(9.0, 11.0), 10.0 ** stream.uniform(8.5, 10.5)
-        found = st.joints_from_frequencies(column(drums=2), survey_of_two(stream, bending, shear), MODEL)
+        found = st.joints_from_frequencies(column(drums=2), survey_of_two(stream, bending, shear), MODEL, None)
         for true, interval in ((bending, found.bending), (shear, found.shear)):
             held += (interval.low is None or interval.low <= true) and (interval.high is None or true <= interval.high)
     assert held >= 70
@@ -173,9 +173,9 @@ def test_a_frequency_that_no_stiffness_gives_is_refused_by_name():
     with pytest.raises(
         InputError, match=r"no stiffness of the joints gives these frequencies together; the nearest .* bending 2"
     ):
-        st.joints_from_frequencies(column(), "5Hz±2%,200Hz±2%", MODEL)
+        st.joints_from_frequencies(column(), "5Hz±2%,200Hz±2%", MODEL, None)
     with pytest.raises(InputError, match="bending 9 is measured, and 'column' of 3 drums has 6 modes"):
-        st.joints_from_frequencies(column(), "bending 9 5Hz±2%", MODEL)
+        st.joints_from_frequencies(column(), "bending 9 5Hz±2%", MODEL, None)
     leaning = column().replace(as_found=st.AsFound((st.FoundDrum(2, offset=0.01),)))
     with pytest.raises(InputError, match="leave what is as found"):
-        st.joints_from_frequencies(leaning, "5Hz±2%", MODEL)
+        st.joints_from_frequencies(leaning, "5Hz±2%", MODEL, None)

@@ -507,7 +507,7 @@ def joints_from_frequencies(
     column: Column | Sequence[Column],
     measured: Sequence[Measured] | str,
     model: Any,
-    ground: Ground | None = None,
+    ground: Ground | str | None,
     *,
     draws: int = DRAWS,
     seed: int = 0,
@@ -523,8 +523,8 @@ def joints_from_frequencies(
         As :func:`parse_measured` reads it.
     model : DistinctElement2D or DistinctElement3D
         The law that makes k_b/J_A of k_n.
-    ground : Ground, optional
-        Rigid if left out.
+    ground : Ground, str or None
+        On which it was measured, in words as :func:`parse_ground` reads them; None is rigid.
     draws : int
         Of ground and columns.
     seed : int
@@ -548,6 +548,7 @@ def joints_from_frequencies(
     # Eq. (M4)
     """
     measured = parse_measured(measured) if isinstance(measured, str) else tuple(measured)
+    ground = parse_ground(ground) if isinstance(ground, str) else ground
     check_measured(measured)
     check_whole("draws", draws, 1, 100_000)
     columns = list(column) if isinstance(column, Sequence) else [column]

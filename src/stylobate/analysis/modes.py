@@ -357,7 +357,7 @@ def frequency_drops(found: Modes, left: float = 0.5, number: int = 3) -> list[di
         soft = [other if i != j else joint.softened(left) for i, other in enumerate(found.standing.joints)]
         standing = found.standing.with_joints(soft)
         try:
-            changed = _of(found, standing)
+            changed = _modes_of(found, standing)
         except InputError as error:
             raise InputError(
                 f"with {left:g} of its stiffness left, {joint.name} no longer carries what stands on it; give a "
@@ -381,7 +381,7 @@ def frequency_drops(found: Modes, left: float = 0.5, number: int = 3) -> list[di
     return rows
 
 
-def _of(found: Modes, standing: Vibrating) -> list[Mode]:
+def _modes_of(found: Modes, standing: Vibrating) -> list[Mode]:
     stack = found.structure.stack
     plane = found.model == "dem2d"
     return _of_column(standing, stack, plane) if stack is not None else _of_assembly(standing, plane)
