@@ -319,3 +319,14 @@ def _after(cache, command, damage):
         path.write_bytes(b"")
     environment = os.environ | {"STYLOBATE_CACHE": str(cache)}
     return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
+
+
+def test_a_kernel_of_another_package_is_compiled_in_every_process(tmp_path):
+    """Its sources are not among those that name a file: an edited one would be run as it was."""
+    law = "from stylobate.kernels.jit import kernel\n\n@kernel\ndef rule(x):\n    return {} * x\n"
+    environment = os.environ | {"STYLOBATE_CACHE": str(tmp_path / "cache"), "PYTHONPATH": str(tmp_path)}
+    for factor in ("2.0", "3.0"):
+        (tmp_path / "mine.py").write_text(law.format(factor))
+        line = [sys.executable, "-B", "-c", "import mine; print(mine.rule(1.0))"]
+        done = subprocess.run(line, env=environment, capture_output=True, text=True, check=True)
+        assert done.stdout.strip() == factor

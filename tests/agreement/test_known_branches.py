@@ -1,12 +1,14 @@
 """What the types of records rule out is not compiled, and what is left computes the same."""
 
+import os
+import subprocess
+import sys
+
 import numba
 import numpy as np
 import pytest
 
 from stylobate.kernels.jit import kernel, law
-from stylobate.kernels.plane.records import point_joint, types
-from stylobate.kernels.shared.records import STATE
 
 
 def joint(rows: int) -> np.ndarray:
@@ -64,15 +66,27 @@ def test_what_only_a_run_knows_is_left_to_it(number, expected):
     assert first(joint(1), number) == expected
 
 
-def test_links_and_dashpots_of_columns_without_them_are_not_compiled():
-    # Code for an undamped column in the plane without links: no law of a link, and no dashpot.
-    from stylobate.kernels.plane import links, motion, step
+LINKLESS = """
+import numba
+import numpy as np
+from stylobate.kernels.plane import links, motion, step
+from stylobate.kernels.plane.records import point_joint, types
+from stylobate.kernels.shared.records import STATE
 
-    kinds = types(point_joint(2, False, 1), False, 2, 1, False)
-    counts = {"body": 2, "joint": 1, "load": 2, "link": 0, "bond": 0, "ground": 33, "hold": 0, "touch": 2, "span": 2}
-    state = (*(np.zeros(counts.get(name, 1), kinds[name]) for name in STATE[:-1]), 1)
-    kind = tuple(numba.typeof(one) for one in state)
-    step.gather.compile((numba.types.Tuple(kind),))
-    for one in (links.add_links, links.across, links.straight, links.look_for_slack):
-        assert not any(kinds["link"].names[0] in str(sig) for sig in one.overloads)
-    assert motion.gather.overloads
+kinds = types(point_joint(2, False, 1), False, 2, 1, False)
+counts = {"body": 2, "joint": 1, "load": 2, "link": 0, "bond": 0, "ground": 33, "hold": 0, "touch": 2, "span": 2}
+state = (*(np.zeros(counts.get(name, 1), kinds[name]) for name in STATE[:-1]), 1)
+step.gather.compile((numba.types.Tuple(tuple(numba.typeof(one) for one in state)),))
+for one in (links.add_links, links.across, links.straight, links.look_for_slack):
+    assert not any(kinds["link"].names[0] in str(sig) for sig in one.overloads)
+assert motion.gather.overloads
+"""
+
+
+def test_links_and_dashpots_of_columns_without_them_are_not_compiled(tmp_path):
+    """Code for an undamped column in the plane without links: no law of a link, and no dashpot. Compiled anew, in a process
+    of its own: what is read from disk compiles nothing."""
+    script = f"from stylobate.kernels import cache\ncache.SHIPPED = cache.Path({str(tmp_path)!r})\n{LINKLESS}"
+    environment = os.environ | {"STYLOBATE_CACHE": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr

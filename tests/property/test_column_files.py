@@ -6,7 +6,7 @@ import warnings
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as some
 
 import stylobate as st
@@ -67,6 +67,7 @@ def columns(draw):
 
 
 @pytest.mark.filterwarnings("ignore::stylobate.OutOfRangeWarning")  # sizes are anything
+@settings(deadline=None)
 @given(column=columns())
 def test_a_written_column_is_read_back_equal(column, tmp_path_factory):
     path = write_column(column, tmp_path_factory.getbasetemp() / "round.toml")

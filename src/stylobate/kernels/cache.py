@@ -62,11 +62,13 @@ class KernelCache(caching._Cache):
     Parameters
     ----------
     function : callable
-        What is compiled.
+        What is compiled. A kernel of another package is compiled in every process: what it is compiled from is not known
+        here.
     """
 
     def __init__(self, function: Callable) -> None:
-        self._function, self._enabled = function, True
+        self._function, self._enabled = function, False
+        self.enable()
 
     @property
     def cache_path(self) -> str:
@@ -74,8 +76,8 @@ class KernelCache(caching._Cache):
         return str(cache_folder())
 
     def enable(self) -> None:
-        """Look on disk."""
-        self._enabled = True
+        """Look on disk, for a kernel of this package."""
+        self._enabled = self._function.__module__.startswith(f"{__package__}.")
 
     def disable(self) -> None:
         """Compile without a look on disk."""
