@@ -50,7 +50,7 @@ def compare(
 
     names = [name.strip() for name in models.split(",")]
     if len(set(names)) != len(names):
-        raise InputError(f"--models is {models!r}, with a model given twice; give each once.", "models")
+        raise InputError(f"`models` is {models!r}, with a model given twice; give each once.", "models")
     campaign = execution.campaign(following)
     over_domain = frequencies is not None or amplitudes is not None
     stone: Any = (o.the_column if over_domain else o.the_structure)(column, project)
@@ -61,13 +61,13 @@ def compare(
     what: dict[str, Any] = {"structures": [stone], "models": chosen, "labels": names, "tail_s": campaign.tail}
     if over_domain:
         if frequencies is None or amplitudes is None:
-            raise InputError("a domain needs both --frequencies and --amplitudes; give both.", "frequencies")
+            raise InputError("a domain needs both `frequencies` and `amplitudes`; give both.", "frequencies")
         if motions.harmonic or motions.pulse or motions.synthetic or motions.motion:
             raise InputError(
-                "both a motion and a domain are given; give a motion, or --frequencies and --amplitudes.", "frequencies"
+                "both a motion and a domain are given; give a motion, or `frequencies` and `amplitudes`.", "frequencies"
             )
         if following.whole:
-            raise InputError("--whole is for records, and a domain has none; leave it out.", "whole")
+            raise InputError("`whole` is for records, and a domain has none; leave it out.", "whole")
         grid = frequency_range(frequencies), amplitude_range(amplitudes), parse_time(duration)
         each = [one for name in names for one in (f"domain-{_stem(name)}.nc", f"domain-{_stem(name)}")]
         with execution.files("compare", "comparison.csv", "comparison", *each) as files:
@@ -130,7 +130,7 @@ def _settings_of(name: str, names: list[str], settings: list[str] | None) -> lis
         model, dot, setting = text.partition(".")
         if not dot or model not in names:
             raise InputError(
-                f"--set is {text!r}; write it as model.name=value, the model one of {', '.join(names)}.", "set"
+                f"`set` is {text!r}; write it as model.name=value, the model one of {', '.join(names)}.", "set"
             )
         if model == name:
             mine.append(setting)

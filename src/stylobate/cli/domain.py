@@ -50,9 +50,9 @@ def domain(
     campaign = execution.campaign(population, tail=study.tail)
     likely = population.replicates is not None
     if likely and half_step:
-        raise InputError("--half-step is for a domain without --replicates; give one of the two.", "half_step")
+        raise InputError("`half_step` is for a domain without `replicates`; give one of the two.", "half_step")
     if not likely:
-        o.for_replicates("--motion-scatter", motion_scatter)
+        o.for_replicates("motion_scatter", motion_scatter)
     shaking = None if motion_scatter is None else o.motion_scatter(motion_scatter)
     name, pair = "probability" if likely else "domain", None
     with execution.files("domain", *(f"{name}{end}" for end in (".nc", ".csv", ".json", ""))) as files:
@@ -172,36 +172,32 @@ def _study(
     from ..motion.specs import parse_time
 
     given = {
-        "--model": model,
-        "--frequencies": frequencies,
-        "--amplitudes": amplitudes,
-        "--duration": duration,
-        "--tail": tail,
-        "--set": settings,
-        "--losses": losses,
-        "--project": project,
+        "model": model,
+        "frequencies": frequencies,
+        "amplitudes": amplitudes,
+        "duration": duration,
+        "tail": tail,
+        "set": settings,
+        "losses": losses,
+        "project": project,
     }
     if Path(what).is_file() and is_grid(what):
-        for option, value in given.items():
+        for name, value in given.items():
             if value:
-                raise InputError(
-                    f"{what} is a study file and {option} is given as well; state it in the file.", o.field_of(option)
-                )
+                raise InputError(f"{what} is a study file and `{name}` is given as well; state it in the file.", name)
         return read_grid(what)
     column = o.the_column(what, project)
     return HarmonicGrid(
         column,
         o.the_model(model or "dem2d", settings, losses),
-        frequency_range(_needed("--frequencies", frequencies, "0.33:4:24")),
-        amplitude_range(_needed("--amplitudes", amplitudes, "0.05g:0.6g:32")),
+        frequency_range(_needed("frequencies", frequencies, "0.33:4:24")),
+        amplitude_range(_needed("amplitudes", amplitudes, "0.05g:0.6g:32")),
         parse_time(duration or "10s"),
         parse_time(tail or "0s"),
     )
 
 
-def _needed(option: str, value: str | None, example: str) -> str:
+def _needed(name: str, value: str | None, example: str) -> str:
     if value is None:
-        raise InputError(
-            f"{option} is missing; a domain of a column needs it, e.g. {option} {example}.", o.field_of(option)
-        )
+        raise InputError(f"`{name}` is missing; a domain of a column needs it, e.g. `{name}={example}`.", name)
     return value

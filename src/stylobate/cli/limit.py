@@ -47,8 +47,8 @@ def limit(
     around = in_space or bool(stone.as_found)
     if around and pushing.typed and (in_space or not stone.as_found.in_plane):
         raise InputError(
-            "--pattern, --tilt and --compressive-strength are for one direction in the plane; leave them out, or leave "
-            "--directions out for a column found in the plane.",
+            "`pattern`, `tilt` and `compressive_strength` are for one direction in the plane; leave them out, or leave "
+            "`directions` out for a column found in the plane.",
             "directions",
         )
     with execution.files("limit", "limit.json", "limit", "directions") as files:

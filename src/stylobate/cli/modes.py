@@ -47,17 +47,17 @@ def modes(
     stone: Any = o.the_structure(column, project)
     plane = stone.stack is None and stone.space_joints is None
     how = o.the_model(model or ("dem2d" if plane else "dem3d"), settings)
-    many, share = o.whole_number("--number", number, 3), parse_number("--left", left, "such as 0.5")
+    many, share = o.whole_number("number", number, 3), parse_number("`left`", left, "such as 0.5")
     if many < 1:
-        raise InputError("--number is 0; allowed is a whole number from 1.", "number")
+        raise InputError("`number` is 0; allowed is a whole number from 1.", "number")
     for name, value in (("ground", ground), ("draws", draws)):
         if value is not None and measured is None:
             raise InputError(
-                f"--{name} is for what was measured; give --measured too, such as --measured 1.27Hz±3%.", name
+                f"`{name}` is for what was measured; give `measured` too, such as `measured=1.27Hz±3%`.", name
             )
     if measured is not None and ground is None:
         raise InputError(
-            "--measured needs the ground on which it was measured; give --ground rigid, or --ground "
+            "`measured` needs the ground on which it was measured; give `ground=rigid`, or `ground` "
             "vs=200:400m/s,half_width=4m of the footing.",
             "ground",
         )
@@ -65,7 +65,7 @@ def modes(
     under = None if ground is None else parse_ground(ground)
     if frequencies is not None and stone.stack is None:
         raise InputError(
-            f"--measured is of columns, and {stone.name!r} is {stone.described}; leave it out.", "measured"
+            f"`measured` is of columns, and {stone.name!r} is {stone.described}; leave it out.", "measured"
         )
     with execution.files("modes", "modes.json", "drops.csv", "modes", "column.toml", "scatter.toml") as files:
         found = modes_of(stone, how)
@@ -73,7 +73,7 @@ def modes(
         summary = found.summary(many) | {"left": share, "drops": drops}
         joints = None
         if frequencies is not None:
-            drawn = DRAWS if draws is None else o.whole_number("--draws", draws, 100)
+            drawn = DRAWS if draws is None else o.whole_number("draws", draws, 100)
             joints = joints_from_frequencies(stone, frequencies, how, under, draws=drawn)
             summary["inferred"] = joints.summary()
         if files.wanted:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from collections.abc import Sequence
 from contextlib import closing
-from functools import partial
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -15,7 +14,7 @@ from .run_words import describe
 
 if TYPE_CHECKING:
     from ..analysis.population import Population
-    from ..campaign.campaign import Campaign, Progress
+    from ..campaign.campaign import Campaign
     from ..column.structure import Structure
     from ..models.base import Model
     from ..motion import Motion
@@ -28,6 +27,42 @@ class Drawn(NamedTuple):
 
     all: bool = True
     median: bool = False
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What is run under each motion, and how long: options as for :func:`stylobate.simulate`."""
+
+    stone: Structure
+    model: Model
+    campaign: Campaign
+    output_interval: float
+    until_end: bool
+    until_rest: bool
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """How long it goes on and what is recorded, as keywords of :func:`stylobate.simulate`."""
+        return {name: getattr(self, name) for name in ("output_interval", "until_end", "until_rest")}
+
+    @property
+    def followed(self) -> bool:
+        """Whether a run is followed beyond its tail."""
+        return self.until_end or self.until_rest
+
+    def run(self, motion: Motion) -> tuple[Response, Population | None]:
+        """One run, and what became of columns like it."""
+        from ..analysis.certainty import certainty
+        from ..simulate import simulate
+
+        campaign, options = self.campaign, self.options | {"quiet": self.campaign.quiet}
+        if not campaign.replicates:
+            options |= {"tail": campaign.tail, "until_decided": True, "progress": campaign.progress}
+            return simulate(self.stone, motion, self.model, **options), None
+        kept = None if campaign.ledger is None else Path(campaign.ledger).with_name("response.nc")
+        stone = self.stone.stack or self.stone
+        found = certainty(stone, motion, self.model, kept=kept, campaign=replace(campaign, whole=False), **options)
+        return found.response, found.population
 
 
 #: Pictures of what a model in space computes, besides those of every column.
@@ -62,21 +97,21 @@ def run(
     from ..motion.specs import parse_time
     from . import console
 
-    asked = motions.request()
+    request = motions.request()
     stone = o.the_structure(column, project)
     how = o.the_model(model, settings, losses)
     if until_rest:
         stone = how.as_followed(stone)
-    found = asked.expand(stone.frequency_parameter)
-    options = {"output_interval": parse_time(output_interval), "until_end": until_end, "until_rest": until_rest}
+    found = request.expand(stone.frequency_parameter)
+    interval = parse_time(output_interval)
     campaign, given = execution.campaign(following, population), population.replicates is not None
     if given or not (until_end or until_rest):
         campaign = o.with_twins(stone, how, campaign, given)
     drawn = Drawn(pictures, pictures and given and campaign.replicates > 0)
-    follow = partial(run_one, stone, model=how, campaign=campaign, **options)
+    asked = Settings(stone, how, campaign, interval, until_end, until_rest)
     out = execution.out
-    if asked.several:
-        summaries = each_record(stone, found.motions, how, follow, out, drawn)
+    if request.several:
+        summaries = each_record(asked, found.motions, out, drawn)
         if not execution.as_json:
             console.print_doubt(*summaries)
             console.print_table(table_of_runs(summaries), digits=3)
@@ -84,13 +119,13 @@ def run(
             if out is not None:
                 print(f"{len(summaries)} folders with a run each in {out}")
     else:
-        summaries = [conclude(follow, stone, found.motions[0], how, out, execution.as_json, drawn)]
+        summaries = [conclude(asked, found.motions[0], out, execution.as_json, drawn)]
     several: dict[str, Any] = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
-    if len(asked.azimuths) > 1 or asked.signs == "both":
+    if len(request.azimuths) > 1 or request.signs == "both":
         several["sentence"] = directions(summaries, stone, how, out, campaign.tail)
         if not execution.as_json and several["sentence"]:
             print(several["sentence"])
-    if not execution.emits(several if asked.several else summaries[0]):
+    if not execution.emits(several if request.several else summaries[0]):
         console.print_refused(found.refused)
 
 
@@ -111,31 +146,7 @@ def directions(summaries: Sequence[dict], stone: Structure, model: Model, out: P
     return "" if found is None else harm_words(found, chances)
 
 
-def run_one(
-    stone: Structure, motion: Motion, model: Model, campaign: Campaign, progress: Progress | None = None, **options: Any
-) -> tuple[Response, Population | None]:
-    """One run, and what became of columns like it."""
-    from ..analysis.certainty import certainty
-    from ..simulate import simulate
-
-    options["quiet"] = campaign.quiet
-    if not campaign.replicates:
-        follow: dict[str, Any] = {"tail": campaign.tail, "until_decided": True, "progress": progress}
-        return simulate(stone, motion, model, **follow, **options), None
-    made = dataclasses.replace(campaign, whole=False, progress=progress)
-    kept = None if campaign.ledger is None else Path(campaign.ledger).with_name("response.nc")
-    found = certainty(stone.stack or stone, motion, model, kept=kept, campaign=made, **options)
-    return found.response, found.population
-
-
-def each_record(
-    stone: Structure,
-    motions: Sequence[Motion],
-    model: Model,
-    follow: partial[tuple[Response, Population | None]],
-    out: Path | None,
-    drawn: Drawn,
-) -> list[dict]:
+def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, drawn: Drawn) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     import numpy as np
 
@@ -150,11 +161,10 @@ def each_record(
     places: list[Path | None] = []
     for motion in motions:
         places.append(None if out is None else out / safe_name(motion.name, places))
-    campaign = follow.keywords["campaign"]
-    following = {name: one for name, one in follow.keywords.items() if name not in ("model", "campaign")}
-    options = run_options(campaign.tail, until_decided=True, **following)
+    stone, model, campaign = asked.stone, asked.model, asked.campaign
+    options = run_options(campaign.tail, until_decided=True, **asked.options)
     hasher = Hasher(model, options)
-    made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **following}
+    made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **asked.options}
     each = [
         hasher.of_product(
             {"run": [stone.digest, motion.name, motion.digest, place and place.name], "drawn": drawn, **made}, __file__
@@ -169,7 +179,7 @@ def each_record(
     def make(number: int) -> dict[str, Any]:
         if len(motions) > 1 and wait > console.FIRST_LINE:
             console.note(f"run {number + 1} of {len(motions)}: {motions[number].name}")
-        summary = conclude(follow, stone, motions[number], model, places[number], True, drawn)
+        summary = conclude(asked, motions[number], places[number], True, drawn)
         files = {} if out is None else {"files": [str(Path(file).relative_to(out)) for file in summary["files"]]}
         return {"summary": json.loads(console.as_json(summary)), **files}
 
@@ -177,7 +187,7 @@ def each_record(
     with console.folder(out) as folder:
         ledger = console.ledger(folder)
         twins = f", each with {campaign.replicates} like it," if campaign.replicates else ""
-        wait = wait_for(stone.stack or stone, motions, model, campaign, options, _followed(follow))
+        wait = wait_for(stone.stack or stone, motions, model, campaign, options, asked.followed)
         tell_wait(f"{len(motions)} runs{twins} take", wait, stone)
         try:
             with closing(Runs(Campaign(ledger=ledger))) as runs:
@@ -192,15 +202,7 @@ def each_record(
     return [summaries[number] for number in range(len(motions))]
 
 
-def conclude(
-    follow: partial[tuple[Response, Population | None]],
-    stone: Structure,
-    motion: Motion,
-    model: Model,
-    out: Path | None,
-    quiet: bool,
-    drawn: Drawn,
-) -> dict:
+def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, drawn: Drawn) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..analysis.directions import direction_of
     from ..analysis.other_laws import other_laws
@@ -213,17 +215,17 @@ def conclude(
     with files_of(out, "run", *names, *pictures) as files:
         console.ledger(files.folder)
         with console.progress("seconds of motion") as progress:
-            campaign = follow.keywords["campaign"].kept_in(files.folder)
-            response, population = follow(motion, campaign=campaign, progress=progress)
+            campaign = replace(asked.campaign.kept_in(files.folder), progress=progress)
+            response, population = replace(asked, campaign=campaign).run(motion)
         console.show(response)
-        taken = model.taken(motion)
+        model, taken = asked.model, asked.model.taken(motion)
         summary = response.summary() | o.input_facts(taken) | direction_of(motion)
         if population is not None:
             summary |= population.summary(summary)
         elif response.measures.blocks is not None:  # carried along by no run
             summary["replicates"] = 0
         laws = None
-        if population is not None and not population.drawn.groups and not _followed(follow):
+        if population is not None and not population.drawn.groups and not asked.followed:
             laws = other_laws(response, motion, model, campaign)
         if laws is not None:
             summary |= {
@@ -236,16 +238,11 @@ def conclude(
             files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
             if population is not None:
                 write_population(population, motion, model, response, files, drawn.median)
-            files.asked(structures=[stone], models=[model], motions=[taken])
+            files.asked(structures=[asked.stone], models=[model], motions=[taken])
             files.summary(summary, "run.json")
     if not quiet:
         describe(response, taken, files, population, laws)
     return summary
-
-
-def _followed(follow: partial[tuple[Response, Population | None]]) -> bool:
-    """Whether a run is followed beyond its tail."""
-    return bool(follow.keywords.get("until_end") or follow.keywords.get("until_rest"))
 
 
 def write_population(

@@ -127,7 +127,7 @@ class MotionRequest:
         for name in ("unit", "dt", "columns", "component"):
             if getattr(self, name) is not None and not self.files:
                 raise InputError(
-                    f"`{name}` describes a record, but none is given; leave it out or give `files=FILE`.", name
+                    f"`{name}` describes a record, but none is given; leave it out or give `files`.", name
                 )
         if self.across is not None and self.harmonic is None:
             raise InputError("`across` is the sine along y beside that along x; give `harmonic` as well.", "across")

@@ -80,7 +80,7 @@ def missing(what: str) -> Response:
 def _about(error: Exception | str, code: int, **headers: str) -> Response:
     field = getattr(error, "field", None)
     of_text = field is not None and field.partition(".")[0] in TEXTS
-    return Answer({"error": in_page_words(str(error), of_text), "field": field}, code, headers)
+    return Answer({"error": in_page_words(error, of_text), "field": field}, code, headers)
 
 
 async def _on_input(request: Request, error: Exception) -> Response:

@@ -47,8 +47,8 @@ class Form:
         Of what is on the page: ``column`` (or assembly), ``model``, ``tail``, ``motion`` as it is or ``round`` the compass,
         ``motions`` in an order, ``source`` (a fragility, or a table of runs), ``hazard`` or ``hazards``, ``ruin`` (a file).
     boxes : tuple of Box
-    fixed : tuple of str
-        Options that are always given.
+    fixed : dict
+        Options that are always given, with their values.
     facts, columns : dict
         Labels of what its JSON object tells, and of the columns of its table, by their keys; points lead into an object.
     rows : str
@@ -64,7 +64,7 @@ class Form:
     lead: str
     takes: tuple[str, ...]
     boxes: tuple[Box, ...] = ()
-    fixed: tuple[str, ...] = ()
+    fixed: dict[str, bool] = field(default_factory=dict)
     facts: dict[str, str] = field(default_factory=dict)
     rows: str = ""
     columns: dict[str, str] = field(default_factory=dict)
@@ -106,7 +106,7 @@ FORMS = {
             Box("model", "Model", "dem3d", choices=MODELS),
             REPLICATES,
         ),
-        ("--no-pictures",),
+        {"pictures": False},
         rows="runs",
         columns={"azimuth_deg": "x towards [°]", **MEASURES},
         pictures={"directions": "By direction"},

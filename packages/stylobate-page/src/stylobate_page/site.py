@@ -182,7 +182,7 @@ async def _opened(text: str) -> Response:
     except InputError as error:
         if len(text) > assemblies.LARGEST:
             raise
-        found["error"] = in_page_words(str(error), of_text=True)
+        found["error"] = in_page_words(error, of_text=True)
     return Answer(found)
 
 

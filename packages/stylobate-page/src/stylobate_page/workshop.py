@@ -15,9 +15,9 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
+from stylobate.cli.main import words_of
 from stylobate.errors import InputError
 
-from .asked import ASSEMBLY, COLUMN, RUIN, STUDY
 from .folder import private
 from .job import CANCELLED, DONE, FAILED, REFUSED, RUNNING, WAITING, Job
 from .process import PATIENCE, Process
@@ -93,7 +93,7 @@ class Workshop:
         self,
         kind: str,
         title: str,
-        commands: list[list[str]],
+        requests: list[dict[str, Any]],
         asked: dict[str, Any],
         prepare: Callable[[Path], object] = lambda folder: None,
     ) -> Job:
@@ -101,10 +101,10 @@ class Workshop:
 
         Parameters
         ----------
-        kind, title, commands, asked
+        kind, title, requests, asked
             As for :class:`stylobate_page.job.Job`.
         prepare : callable
-            Writes what the commands need into the job's folder.
+            Writes what the requests need into the job's folder.
 
         Raises
         ------
@@ -114,7 +114,15 @@ class Workshop:
         with self._lock:
             if len(self._queue) >= WAIT:
                 raise InputError(f"{len(self._queue)} jobs are waiting; cancel some, or wait until they are done.")
-            job = Job(secrets.token_hex(6), self.folder, kind, self._unlike(title), commands, asked)
+            job = Job(
+                secrets.token_hex(6),
+                self.folder,
+                kind,
+                self._unlike(title),
+                list(map(words_of, requests)),
+                asked,
+                requests,
+            )
             job.folder = self.folder / job.id
             job.folder.mkdir()
             try:
@@ -133,12 +141,13 @@ class Workshop:
         taken = {job.title for job in self.jobs.values()}
         return next(one for k in count(1) if (one := title if k == 1 else f"{title} ({k})") not in taken)
 
-    def again(self, job: Job, commands: list[list[str]] | None = None) -> None:
+    def again(self, job: Job) -> None:
         """Do a job once more, in its folder: one that was stopped goes on where it was."""
+        if not job.requests:
+            raise InputError("the job is of an earlier version and cannot go on; ask for it anew.")
         with self._lock:
             if job.open:
                 return
-            job.commands = commands or job.commands
             job.state, job.sentence, job.ended, job.started, job.warnings, job.results = WAITING, "", None, None, [], []
             job.field = None
             job.done = job.total = 0.0
@@ -279,7 +288,7 @@ class Workshop:
 
     def _follow(self, job: Job, process: Process) -> None:
         """Hand a job to the process and hear what becomes of it."""
-        process.give({"id": job.id, "folder": str(job.folder), "commands": job.commands})
+        process.give({"id": job.id, "folder": str(job.folder)})
         if job.kind in LONG:
             self._stand_by(process)
         begun = False
@@ -339,8 +348,6 @@ class Workshop:
         sentence = next(
             (complaint for complaint in reversed(complaints) if not complaint.startswith("warning: ")), "It failed."
         )
-        for file in (COLUMN, ASSEMBLY, STUDY, RUIN):  # the job's own, of which the page knows nothing
-            sentence = sentence.removeprefix(f"{file}: ")
         job.field = what.get("field")
         self._end(job, REFUSED if what["code"] == BAD_INPUT else FAILED, sentence)
         return True

@@ -10,7 +10,9 @@ import httpx
 import pytest
 from page_server import ended, served
 
+from stylobate.cli.main import words_of
 from stylobate_page import connections, guard, records
+from stylobate_page.asked import JobAsked, requests
 from stylobate_page.guard import Guard
 from stylobate_page.records import FILE, generated_name
 
@@ -180,13 +182,13 @@ def test_scripts_in_names_stay_text(client, asked):
 
 @pytest.mark.parametrize("value", ["--out=/tmp/elsewhere", "dem2d --out=/tmp", "-x", "--json"])
 def test_values_do_not_become_options(client, asked, value):
-    """Each value stays glued to its own option, and no word of a command line comes from outside."""
+    """Each value stays that of its own option, in the request and on the command line."""
     asked |= {"model": value, "replicates": value, "settings": {"law": value}}
     line = client.post("/api/jobs", json=asked).json()["commands"][0]
     assert "--out=result" in line
-    from stylobate_page.asked import JobAsked, commands
-
-    (words,) = commands(JobAsked(**asked), {})
+    (request,) = requests(JobAsked(**asked), {})
+    assert (request["model"], request["set"], request["out"]) == (value, [f"law={value}"], "result")
+    words = words_of(request)
     assert words[:2] == ["run", "column.toml"]
     assert sum(one.startswith("--out") for one in words) == 1
     assert all(one.startswith("--") for one in words[2:])
@@ -229,6 +231,7 @@ def test_a_job_that_an_earlier_page_kept_is_shown_and_can_be_removed(tmp_path):
         assert page.get("/api/jobs/a1").json()["results"] == [{"x": None, "y": "\ud800"}]
         assert page.get("/api/jobs/a1/zip").status_code == 200
         assert page.get("/api/jobs/a1/commands.txt").text == "stylobate run '\\ud800'\n"
+        assert "is of an earlier version" in page.post("/api/jobs/a1/again").json()["error"]
         assert page.delete("/api/jobs/a1").status_code == 200
         assert [one["id"] for one in page.get("/api/jobs").json()["jobs"]] == ["b2"]
 

@@ -110,7 +110,7 @@ def test_too_little_memory_is_said_in_one_sentence(capsys, monkeypatch):
     def much(*_, **__):
         raise MemoryError
 
-    monkeypatch.setattr("stylobate.cli.run.run_one", much)
+    monkeypatch.setattr("stylobate.cli.run.Settings.run", much)
     assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.1g,0.1s", "--replicates", "0"]) == 1
     assert capsys.readouterr().err == (
         "stylobate: the memory is not enough for this; ask for less at once, such as a shorter motion.\n"

@@ -50,7 +50,7 @@ def calibrate(
     from ..calibration.free_history import read_free_history
 
     numbers = {
-        name: None if text is None else parse_number(f"--{name}", text)
+        name: None if text is None else parse_number(f"`{name}`", text)
         for name, text in (("height", height), ("noise", noise), ("confidence", confidence))
     }
     measured = read_free_history(history, unit, None if dt is None else parse_time(dt, "dt"))
