@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..campaign.campaign import Campaign
-from ..campaign.unknown_laws import UNDAMPED, on_rim_or_bed
+from ..campaign.twins import UNDAMPED, on_rim_or_bed
 from ..column.column import Column
 from ..column.losses import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING

@@ -22,9 +22,8 @@ from ..response.measures import CPU, GPU
 from ..response.rows import Rows
 from ..simulate import check_cases, run_on_card
 from .campaign import Campaign, Progress
-from .cluster import on_cluster
+from .cluster import computed_by, executor, on_cluster
 from .digests import Digests, Hasher
-from .executor import computed_by, executor
 from .ledger import Ledger, finished_runs_in, rows_in
 
 #: Cases that run together: their numbers, their model, and how they are run.

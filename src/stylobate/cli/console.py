@@ -199,8 +199,7 @@ def ledger(folder: Path | None, *, waits: bool = False) -> Path | None:
 
     A command that ``waits`` for that one is not refused.
     """
-    from ..campaign.holding import refuse_held
-    from ..campaign.ledger import RUNS_FILE
+    from ..campaign.ledger import RUNS_FILE, refuse_held
     from . import signals
 
     if folder is None:

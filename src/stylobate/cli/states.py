@@ -181,7 +181,7 @@ def states(
 
 def _twins(columns: dict[str, Structure], model: Model, campaign: Campaign) -> dict[str, Any]:
     """How twins of the columns are drawn, as it is kept beside the results."""
-    from ..campaign.unknown_laws import usual_with_laws
+    from ..campaign.twins import usual_with_laws
 
     sizes = {label: (campaign.scatter or usual_with_laws(one, model)).describe() for label, one in columns.items()}
     same = len(set(sizes.values())) == 1

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from stylobate.atomic import output_folder
-from stylobate.campaign.holding import Holding
+from stylobate.campaign.ledger import Holding
 from stylobate.errors import InputError
 from stylobate.reading import shown
 
