@@ -12,8 +12,8 @@ from starlette.responses import JSONResponse, Response
 from stylobate.column.toml import check_values
 from stylobate.errors import InputError, StylobateError
 
+from .forms import in_page_words
 from .guard import TooLarge, TooSlow
-from .words import in_page_words
 
 #: Headers of what the page itself asks, and of an answer that refuses it: that is no failure, which a browser would note.
 ASKS, REFUSES = "x-page", "x-refused"

@@ -14,8 +14,8 @@ from stylobate.errors import InputError
 from stylobate.motion.ranges import amplitude_range, frequency_range
 from stylobate.motion.specs import parse_time
 
-from .folder import RECORDS
 from .forms import FORMS, Form
+from .records import RECORDS
 
 #: Files of a job: its column or assembly, the study of a domain, and where its commands write; its records lie in a folder
 #: that is called as that of the page.

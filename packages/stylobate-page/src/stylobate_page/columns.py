@@ -21,7 +21,7 @@ from stylobate.response.bodies import bodies_of
 from stylobate.response.poses import PlanePoses
 from stylobate_exchange.convert import SURVEYS, Reading, read_model
 
-from .words import doubted, warned
+from .forms import doubted, warned
 
 #: Name of a column in messages, at first; on the page that goes without saying.
 SOURCE = "the column"

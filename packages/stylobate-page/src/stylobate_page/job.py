@@ -14,7 +14,7 @@ from typing import Any
 from stylobate.atomic import replacing
 from stylobate.own_files import LIST
 
-from .words import in_page_words
+from .forms import in_page_words
 
 #: States of a job: it waits, is computed, has ended well, was refused as bad input, failed, or was stopped.
 WAITING, RUNNING, DONE, REFUSED, FAILED, CANCELLED = "waiting", "running", "done", "refused", "failed", "cancelled"

@@ -41,14 +41,11 @@ from .asked import (
     requests,
     study,
 )
-from .assemblies import assembly_of
-from .cells import new_cells
-from .curves import curves
-from .folder import RECORDS
+from .curves import curves, new_cells
 from .forms import FORMS
 from .job import FILM, Job
-from .records import Records
-from .ruins import ruin_of
+from .records import RECORDS, Records
+from .texts import assembly_of, ruin_of
 from .workshop import Workshop
 
 #: Files of jobs that a browser shows, by the end of their names; it saves the others.

@@ -24,8 +24,8 @@ from stylobate.cli import signals
 from stylobate.errors import StylobateError
 
 from .asked import ASSEMBLY, COLUMN, RUIN, STUDY
+from .forms import in_page_words
 from .job import FILM, GROWING, JOB
-from .words import in_page_words
 
 if TYPE_CHECKING:
     from stylobate.analysis.ida_curves import Ida

@@ -11,7 +11,7 @@ import pytest
 from page_server import ended, served
 
 from stylobate.cli.main import words_of
-from stylobate_page import connections, guard, records
+from stylobate_page import guard, records
 from stylobate_page.asked import JobAsked, requests
 from stylobate_page.guard import Guard
 from stylobate_page.records import FILE, generated_name
@@ -245,7 +245,7 @@ def half_sent(port, head=b"GET / HTTP/1.1\r\nhost: 127"):
 
 def test_half_sent_heads_lock_nobody_out(client, monkeypatch):
     """Those that have been silent for longest are cut off where there are too many."""
-    monkeypatch.setattr(connections, "SILENT", 20)
+    monkeypatch.setattr(guard, "SILENT", 20)
     lines = [half_sent(client.base_url.port) for _ in range(50)]
     try:
         with suppress(ConnectionResetError):
@@ -260,7 +260,7 @@ def test_half_sent_heads_lock_nobody_out(client, monkeypatch):
 
 
 def test_a_head_has_a_limited_time_and_size(client, monkeypatch):
-    monkeypatch.setattr(connections, "PATIENCE", 0.4)
+    monkeypatch.setattr(guard, "PATIENCE", 0.4)
     port, started = client.base_url.port, time.monotonic()
     with half_sent(port) as silent, half_sent(port, b"") as mute, half_sent(port) as slow:
         with suppress(OSError):
@@ -269,7 +269,7 @@ def test_a_head_has_a_limited_time_and_size(client, monkeypatch):
                 time.sleep(0.02)
         assert time.monotonic() - started < 2.0
         assert [one.recv(1) for one in (silent, mute)] == [b"", b""]
-    with half_sent(port, b"GET / HTTP/1.1\r\nhost: 127.0.0.1\r\nx: " + b"y" * (2 * connections.HEAD)) as large:
+    with half_sent(port, b"GET / HTTP/1.1\r\nhost: 127.0.0.1\r\nx: " + b"y" * (2 * guard.HEAD)) as large:
         assert large.recv(12) == b"HTTP/1.1 400"
     with half_sent(
         port, b"GET /api/jobs HTTP/1.1\r\nhost: 127.0.0.1\r\n\r\n"

@@ -11,7 +11,7 @@ import pytest
 
 from stylobate.cli.main import call
 from stylobate.errors import InputError
-from stylobate_page.folder import held
+from stylobate_page.records import held
 
 
 def test_the_address_comes_first_and_the_end_is_clean(tmp_path):

@@ -16,8 +16,8 @@ from stylobate.column.links import COLUMN_KINDS
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning, check_range
 from stylobate_page import worker
+from stylobate_page.forms import LABELS, doubted, in_page_words, warned
 from stylobate_page.job import Job
-from stylobate_page.words import LABELS, doubted, in_page_words, warned
 
 STATIC = Path(stylobate_page.__file__).parent / "static"
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
