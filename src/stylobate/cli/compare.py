@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,6 +12,15 @@ from .design import WRITES, describe_design, write_design
 
 if TYPE_CHECKING:
     from .files import Files
+
+
+@dataclass(frozen=True)
+class Several(o.Modelling):
+    """How what stands is computed by each of several models."""
+
+    settings: list[str] | None = o.option(
+        "MODEL.NAME=VALUE", "Option of one of the models; may be repeated.", flag="--set"
+    )
 
 
 def compare(
@@ -27,11 +36,7 @@ def compare(
     amplitudes: str | None = o.option("A:A:N", "Compare domains: such as 0.05g:0.6g:32."),
     duration: str = o.option("TIME", "Of each motion of a domain.", "10s"),
     following: o.Following,
-    settings: list[str] | None = o.option(
-        "MODEL.NAME=VALUE", "Option of one of the models; may be repeated.", flag="--set"
-    ),
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: Several,
     execution: o.Execution,
 ) -> None:
     """Several models side by side: histories and measures under one motion, or verdicts over a domain.
@@ -53,8 +58,8 @@ def compare(
         raise InputError(f"`models` is {models!r}, with a model given twice; give each once.", "models")
     campaign = execution.campaign(following)
     over_domain = frequencies is not None or amplitudes is not None
-    stone: Any = (o.the_column if over_domain else o.the_structure)(column, project)
-    chosen = o.the_models([_chosen(name, names, settings) for name in names], losses)
+    stone: Any = (modelling.column if over_domain else modelling.structure)(column)
+    chosen = modelling.models([_chosen(name, names, modelling.settings) for name in names])
     result: dict[str, Any] = {"models": names, "doubt": caveat([stone], *chosen)}
     facts: dict[str, str] = {}
     designed = pandas.DataFrame()
@@ -152,5 +157,5 @@ def _write_domains(comparison: Any, files: Files) -> None:
     for label, domain in zip(comparison.labels, comparison.domains, strict=True):
         files.append(domain.save(files / f"domain-{_stem(label)}.nc"))
         files.picture(plots.draw_domain(domain), f"domain-{_stem(label)}")
-    named = [dataclasses.replace(domain, model=label) for label, domain in zip(comparison.labels, comparison.domains)]
+    named = [replace(domain, model=label) for label, domain in zip(comparison.labels, comparison.domains)]
     files.picture(plots.draw_boundaries(named), "comparison")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Annotated, Any
 
 from ..errors import InputError
 from . import options as o
@@ -25,7 +25,7 @@ def limit(
     ),
     *,
     pushing: Loads,
-    project: o.Project = None,
+    modelling: Annotated[o.Modelling, o.But("settings", "losses")],
     execution: o.Plain,
 ) -> None:
     """Collapse multiplier and mechanism of rigid blocks.
@@ -40,7 +40,7 @@ def limit(
     from ..motion.ranges import azimuth_range
     from . import console
 
-    stone: Any = o.the_structure(column, project)
+    stone: Any = modelling.structure(column)
     loads = pushing.arguments
     azimuths = None if directions is None else azimuth_range(directions, "directions").tolist()
     in_space = azimuths is not None or stone.stack is None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
 from . import options as o
@@ -28,8 +28,7 @@ def modes(
         "SHARE", "Of a joint's stiffness, in the table of what its loss takes off each frequency.", "0.5"
     ),
     *,
-    settings: o.Settings = None,
-    project: o.Project = None,
+    modelling: Annotated[o.Modelling, o.But("losses")],
     execution: o.Plain,
 ) -> None:
     """Natural frequencies and shapes on closed joints, about rest.
@@ -44,9 +43,9 @@ def modes(
     from ..motion.specs import parse_number
     from . import console
 
-    stone: Any = o.the_structure(column, project)
+    stone: Any = modelling.structure(column)
     plane = stone.stack is None and stone.space_joints is None
-    how = o.the_model(model or ("dem2d" if plane else "dem3d"), settings)
+    how = modelling.model(model or ("dem2d" if plane else "dem3d"))
     many, share = o.whole_number("number", number, 3), parse_number("`left`", left, "such as 0.5")
     if many < 1:
         raise InputError("`number` is 0; allowed is a whole number from 1.", "number")

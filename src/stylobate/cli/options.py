@@ -52,14 +52,6 @@ ColumnName = Annotated[
     str,
     typer.Argument(metavar="COLUMN", help="Name of a preset, or a column file (TOML).", autocompletion=_columns),
 ]
-Project = Annotated[
-    str | None,
-    typer.Option(
-        "--project",
-        metavar="AZIMUTH",
-        help="What is found out of the plane, projected onto the vertical plane of this azimuth, such as 30deg.",
-    ),
-]
 StructureName = Annotated[
     str,
     typer.Argument(
@@ -75,18 +67,6 @@ ModelName = Annotated[
         metavar="MODEL",
         help="How it is computed: dem2d, dem3d, rigid-block, rigid-beam, housner.",
         autocompletion=_models,
-    ),
-]
-Settings = Annotated[
-    list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Option of the model; may be repeated.")
-]
-
-LossesName = Annotated[
-    str | None,
-    typer.Option(
-        "--losses",
-        metavar="none|stone|FILE",
-        help="What joints lose: as other options say, as measured stone, or as a file of calibrate says (dem2d, dem3d).",
     ),
 ]
 
@@ -122,6 +102,64 @@ class Motions(Group):
         from ..motion.request import MotionRequest
 
         return MotionRequest.typed(**vars(self) | changes)
+
+
+@dataclass(frozen=True)
+class Modelling(Group):
+    """How what stands is computed."""
+
+    settings: list[str] | None = option("NAME=VALUE", "Option of the model; may be repeated.", flag="--set")
+    losses: str | None = option(
+        "none|stone|FILE",
+        "What joints lose: as other options say, as measured stone, or as a file of calibrate says (dem2d, dem3d).",
+    )
+    project: str | None = option(
+        "AZIMUTH", "What is found out of the plane, projected onto the vertical plane of this azimuth, such as 30deg."
+    )
+
+    def column(self, name: str) -> Column:
+        """The preset or the column of a file of that name, in a vertical plane where one is asked for."""
+        from ..column.files import load_column
+
+        return self._in_plane(load_column(name))
+
+    def structure(self, name: str) -> Structure:
+        """The same, or the assembly of a file."""
+        from ..column.assembly_files import load_structure
+
+        return self._in_plane(load_structure(name))
+
+    def _in_plane(self, structure: Any) -> Any:
+        from ..column.projection import projected
+        from ..motion.specs import parse_angle
+
+        if self.project is None:
+            return structure
+        if structure.stack is None:
+            lies = ", which lies in a plane" if structure.space_joints is None else ""
+            raise InputError(
+                f"`project` is for columns, and {structure.name!r} is {structure.described}{lies}.", "project"
+            )
+        try:
+            azimuth = parse_angle(self.project)
+        except InputError:
+            raise InputError(
+                f"`project` is {self.project!r}; write it with its unit, such as 30deg.", "project"
+            ) from None
+        return projected(structure.stack, azimuth)
+
+    def model(self, name: str) -> Model:
+        """The model of that name with its options and losses."""
+        return self.models([(name, self.settings)])[0]
+
+    def models(self, named: Sequence[tuple[str, list[str] | None]]) -> list[Model]:
+        """Models by name with options of their own, and with losses for those that know them; see :func:`make_models`."""
+        from ..models.registry import make_models
+
+        values = [(name, _settings(settings or [])) for name, settings in named]
+        if self.losses is not None and all("losses" in own for _, own in values):
+            raise InputError("losses are given twice, by `losses` and by `set`; give them once.", "losses")
+        return make_models(values, self.losses)
 
 
 #: Options of motions that are not for files which are named as arguments.
@@ -247,51 +285,6 @@ CAMPAIGNS = "dask", "device", "mix_devices"
 
 #: Of commands whose runs are no campaign.
 Plain = Annotated[Execution, But(*CAMPAIGNS)]
-
-
-def the_column(name: str, project: str | None = None) -> Column:
-    """The preset or the column of a file of that name, in a vertical plane where one is asked for."""
-    from ..column.files import load_column
-
-    return _in_plane(load_column(name), project)
-
-
-def the_structure(name: str, project: str | None = None) -> Structure:
-    """As :func:`the_column`, or the assembly of a file."""
-    from ..column.assembly_files import load_structure
-
-    return _in_plane(load_structure(name), project)
-
-
-def _in_plane(structure: Any, project: str | None) -> Any:
-    from ..column.projection import projected
-    from ..motion.specs import parse_angle
-
-    if project is None:
-        return structure
-    if structure.stack is None:
-        lies = ", which lies in a plane" if structure.space_joints is None else ""
-        raise InputError(f"`project` is for columns, and {structure.name!r} is {structure.described}{lies}.", "project")
-    try:
-        azimuth = parse_angle(project)
-    except InputError:
-        raise InputError(f"`project` is {project!r}; write it with its unit, such as 30deg.", "project") from None
-    return projected(structure.stack, azimuth)
-
-
-def the_model(name: str, settings: list[str] | None, losses: str | None = None) -> Model:
-    """The model of that name with its options, and with losses by name or from a file."""
-    return the_models([(name, settings)], losses)[0]
-
-
-def the_models(named: Sequence[tuple[str, list[str] | None]], losses: str | None = None) -> list[Model]:
-    """Models by name with their options, and with losses for those that know them; see :func:`make_models`."""
-    from ..models.registry import make_models
-
-    values = [(name, _settings(settings or [])) for name, settings in named]
-    if losses is not None and all("losses" in own for _, own in values):
-        raise InputError("losses are given twice, by `losses` and by `set`; give them once.", "losses")
-    return make_models(values, losses)
 
 
 def _settings(given: list[str]) -> dict[str, str]:

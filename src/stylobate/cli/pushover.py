@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 from ..errors import InputError
 from . import options as o
@@ -53,7 +53,7 @@ def pushover(
     ),
     *,
     pushing: Loads,
-    project: o.Project = None,
+    modelling: Annotated[o.Modelling, o.But("settings", "losses")],
     execution: o.Plain,
 ) -> None:
     """Pushover curve of a column of rigid blocks.
@@ -67,7 +67,7 @@ def pushover(
     from ..analysis.pushover import pushover as follow
     from . import console
 
-    stone = o.the_column(column, project)
+    stone = modelling.column(column)
     loads = pushing.arguments
     far = None if to is None else number("to", to)
     led = None if at is None else o.whole_number("at", at, 5)

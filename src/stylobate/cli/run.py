@@ -80,9 +80,7 @@ def run(
         None, "Go on until everything lies still, on the ground if need be (dem2d, dem3d).", False
     ),
     output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
     execution: o.Plain,
@@ -98,8 +96,8 @@ def run(
     from . import console
 
     request = motions.request()
-    stone = o.the_structure(column, project)
-    how = o.the_model(model, settings, losses)
+    stone = modelling.structure(column)
+    how = modelling.model(model)
     if until_rest:
         stone = how.as_followed(stone)
     found = request.expand(stone.frequency_parameter)

@@ -54,9 +54,7 @@ def sequence(
     following: Annotated[o.Following, o.But("tail")],
     until_end: bool = o.option(None, "Go on after the collapse of a column (dem2d).", False),
     output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
     execution: o.Execution,
@@ -70,8 +68,8 @@ def sequence(
     from ..motion.specs import parse_time
 
     campaign, given = execution.campaign(following, population), population.replicates is not None
-    stone = o.the_structure(column, project)
-    how = o.the_model(model, settings, losses)
+    stone = modelling.structure(column)
+    how = modelling.model(model)
     kinds = scaled(the_kinds(motions, stone), factors)
     pause, times = parse_time(rest, "rest"), o.whole_number("repeat", repeat, 3)
     if until_fall is not None:

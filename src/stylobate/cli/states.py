@@ -97,9 +97,7 @@ def states(
     population: o.Population,
     motions: Annotated[o.Motions, o.But(*o.SEVERAL)],
     following: o.Following,
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     execution: o.Execution,
 ) -> None:
     """States of one column or assembly side by side: as built, as found, with a measure. Was it worth it?
@@ -120,10 +118,10 @@ def states(
     if not (sources or motions.harmonic or motions.pulse or motions.synthetic):
         raise InputError("no record is given; name a folder of records, or files, before the options.", "records")
     named = the_states(as_built, as_found, strengthened, 1 if vary else 2)
-    how = o.the_model(model, settings, losses)
+    how = modelling.model(model)
     campaign = execution.campaign(following, population)
     request = motions.request(motion=sources, separate=bool(sources))
-    columns = {label: o.the_structure(text, project) for label, text in named.items()}
+    columns = {label: modelling.structure(text) for label, text in named.items()}
     if as_built is not None and getattr(columns["as built"], "as_found", None):
         raise InputError(
             f"`as_built` is {as_built}, and its [as_found] has offsets, tilts or chips; give it with `as_found`, or a file "

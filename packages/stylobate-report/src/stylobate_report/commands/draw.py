@@ -26,8 +26,9 @@ def draw(
     With --paper the sheets are drawn to a scale that they name, to be printed as they are and measured with a ruler.
     """
     from stylobate.cli import console
+    from stylobate.column.assembly_files import load_structure
 
-    structure = o.the_structure(column)
+    structure = load_structure(column)
     if out.suffix.lower() not in KINDS:
         raise InputError(f"`out` is {str(out)!r}; allowed are files that end in {', '.join(KINDS)}.", "out")
     if out.is_dir() or not out.parent.is_dir():
