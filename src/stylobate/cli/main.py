@@ -42,8 +42,7 @@ from . import (
     study,
     suite,
 )
-from .groups import takes
-from .helping import WIDTH, Command
+from .groups import WIDTH, Command, takes
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
 

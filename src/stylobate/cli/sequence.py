@@ -173,7 +173,7 @@ def describe(found: SequenceResult, motion: Motion) -> None:
     """Print what became of the structure, earthquake by earthquake."""
     from ..response.words import doubt_of
     from . import console
-    from .run_words import quiet_facts
+    from .run import quiet_facts
 
     print(found.sentence)
     table = _shown(found.table)

@@ -103,13 +103,13 @@ def warm(tell: Callable[..., None]) -> None:
     import h5netcdf  # noqa: F401
 
     from stylobate import DistinctElement2D, certainty, harmonic, preset
-    from stylobate.cli.main import call
+    from stylobate.cli.main import ask
     from stylobate.motion import writing  # noqa: F401
 
     from .film import film
 
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        call(["run", "paper-12-drums", "--harmonic=1Hz,0.05g,0.1s", "--json"])
+        ask({"command": "run", "column": "paper-12-drums", "harmonic": "1Hz,0.05g,0.1s", "json": True})
         made = certainty(preset("paper-12-drums"), harmonic(1.0, 0.5, 0.1), DistinctElement2D())
         film(made.response)
         made.response.to_xarray()
