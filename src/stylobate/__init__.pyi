@@ -80,7 +80,7 @@ from .motion.readers import read_suite as read_suite
 from .motion.readers import sample_motion as sample_motion
 from .motion.scatter import MotionScatter as MotionScatter
 from .outcome import Outcome as Outcome
-from .plots.inline import Film as Film
+from .plots.film import Film as Film
 from .response import Response as Response
 from .response import load_response as load_response
 from .simulate import simulate as simulate

@@ -16,7 +16,7 @@ from stylobate.column.plausible import unit_doubts
 from stylobate.column.structure import Structure
 from stylobate.constants import g
 from stylobate.plots import draw_elevation, draw_views
-from stylobate.plots.joint_plans import joint_plans
+from stylobate.plots.drawing import joint_plans
 
 from . import numbers as n
 from .page import Facts, Item, Picture, Points, Rows, Section
