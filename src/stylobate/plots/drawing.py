@@ -16,7 +16,7 @@ from matplotlib.figure import Figure, SubFigure
 from ..column import Column
 from ..column.as_found import AS_BUILT, IN_LINE, SIDES, AsFound
 from ..column.block import FAR_AWAY
-from ..column.found_in_space import base_axes, rotation, space_geometry
+from ..column.found_geometry import base_axes, rotation, space_geometry
 from ..column.links.placed import strokes
 from ..column.shapes import cut, hull
 from ..column.spatial.touching import SpaceJoint

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 
-from ..column.found_in_space import base_axes
+from ..column.found_geometry import base_axes
 from ..column.links.placed import Stroke, strokes
 from ..column.shapes import hull
 from ..constants import g

@@ -10,8 +10,8 @@ import numpy as np
 from stylobate.column import Column
 from stylobate.column.as_found import AsFound, FoundDrum
 from stylobate.column.block import FAR_AWAY
-from stylobate.column.found_in_space import weakest_uplift
-from stylobate.column.links.stone import stone_words
+from stylobate.column.found_geometry import weakest_uplift
+from stylobate.column.links.placed import stone_words
 from stylobate.column.plausible import unit_doubts
 from stylobate.column.structure import Structure
 from stylobate.constants import g
