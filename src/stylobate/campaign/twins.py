@@ -6,9 +6,8 @@ import dataclasses
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from ..column.scatter import Scatter, usual_scatter
+from ..column.scatter import Scatter, drawn_twins, usual_scatter
 from ..column.structure import Structure
-from ..column.twins import drawn_twins
 from ..errors import InputError, check_kind
 from ..models.base import Model
 from .campaign import MAX_TWINS, Campaign

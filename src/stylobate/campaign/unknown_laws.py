@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..column.column import Column
-from ..column.losses import LAWS, Losses
+from ..column.joint import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import WITHIN, Scatter, spread_of, usual_scatter
 from ..column.structure import Structure

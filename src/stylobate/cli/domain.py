@@ -168,8 +168,7 @@ def _study(
     project: str | None,
 ) -> HarmonicGrid:
     from ..campaign.grid import HarmonicGrid, is_grid, read_grid
-    from ..motion.ranges import amplitude_range, frequency_range
-    from ..motion.specs import parse_time
+    from ..motion.specs import amplitude_range, frequency_range, parse_time
 
     given = {
         "--model": model,
