@@ -14,9 +14,8 @@ from stylobate.column.assembly_files import read_assembly
 from stylobate.column.files import column_from_dict, load_column, read_column, write_column
 from stylobate.column.plausible import length_doubts, unit_doubts
 from stylobate.column.presets import PRESETS, preset
-from stylobate.column.scatter import Scatter
+from stylobate.column.scatter import Scatter, twins_of
 from stylobate.column.toml import parse_toml, toml_text
-from stylobate.column.twins import twins_of
 from stylobate.errors import InputError
 
 LENGTHS = some.floats(1e-3, 1e3)

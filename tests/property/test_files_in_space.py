@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.column.kinds import FROM_DICT
-from stylobate.column.spatial.mesh_files import read_stones
+from stylobate.column.assembly_files import FROM_DICT
+from stylobate.column.spatial.mesh import read_stones
 
 HEAD = """
 density = 2500.0

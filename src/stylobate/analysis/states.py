@@ -13,7 +13,7 @@ import numpy as np
 
 from ..campaign.campaign import Campaign
 from ..campaign.cases import Study
-from ..column.links.stone import stone_that_breaks
+from ..column.links.placed import stone_that_breaks
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
 from ..models.base import Model

@@ -15,11 +15,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..column.column import Column
-from ..column.losses import LAWS, Losses
+from ..column.joint import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING
-from ..column.scatter import WITHIN, Scatter, spread_of, usual_scatter
+from ..column.scatter import WITHIN, Scatter, drawn_twins, spread_of, usual_scatter
 from ..column.structure import Structure
-from ..column.twins import drawn_twins
 from ..errors import InputError, check_kind
 from ..models.base import Model
 from .campaign import MAX_TWINS, Campaign

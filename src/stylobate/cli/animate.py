@@ -30,9 +30,8 @@ def animate(
     The film is written to --out, or beside the response.
     """
     from ..motion.specs import parse_time
-    from ..plots.animation import write_gif, write_mp4
-    from ..plots.player import write_player
-    from ..plots.view import OBLIQUE, parse_view
+    from ..plots.film import write_gif, write_mp4, write_player
+    from ..plots.solids import OBLIQUE, parse_view
     from ..response import load_response
     from ..response.words import doubt_of
     from . import console

@@ -211,7 +211,7 @@ def _facts(column: Column) -> dict[str, str]:
 
 def _stone(structure: Structure) -> dict[str, str]:
     """What of the stone around links is to be minded; nothing without anchors."""
-    from ..column.links.stone import stone_words
+    from ..column.links.placed import stone_words
 
     words = stone_words(structure.placed_links)
     return {"stone around links": words} if words else {}

@@ -49,8 +49,7 @@ def compare(
     from ..analysis.design_values import design_values
     from ..analysis.difference import caveat
     from ..motion.orientation import keep_axes
-    from ..motion.ranges import amplitude_range, frequency_range
-    from ..motion.specs import parse_time
+    from ..motion.specs import amplitude_range, frequency_range, parse_time
     from . import console
 
     names = [name.strip() for name in models.split(",")]

@@ -29,8 +29,7 @@ class Grid(o.Group):
     def study(self, what: str, modelling: o.Modelling) -> HarmonicGrid:
         """The grid of a study file, or of a column with these options."""
         from ..campaign.grid import HarmonicGrid, is_grid, read_grid
-        from ..motion.ranges import amplitude_range, frequency_range
-        from ..motion.specs import parse_time
+        from ..motion.specs import amplitude_range, frequency_range, parse_time
 
         if Path(what).is_file() and is_grid(what):
             given = {"set" if name == "settings" else name: one for name, one in (vars(self) | vars(modelling)).items()}

@@ -36,8 +36,8 @@ def limit(
     from ..analysis.limit import limit_analysis
     from ..analysis.limit_assemblies import listed
     from ..analysis.limit_directions import limit_directions
-    from ..column.links.stone import stone_at_limit
-    from ..motion.ranges import azimuth_range
+    from ..column.links.placed import stone_at_limit
+    from ..motion.specs import azimuth_range
     from . import console
 
     stone: Any = modelling.structure(column)

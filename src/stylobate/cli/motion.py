@@ -50,7 +50,7 @@ def motion(
 
 
 def _list_samples(execution: o.Execution) -> None:
-    from ..motion.readers.samples import PREFIX, samples
+    from ..motion.readers.source import PREFIX, samples
     from . import console
 
     names = "name", "about", "format", "terms"

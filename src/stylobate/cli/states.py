@@ -38,7 +38,7 @@ def the_candidates(
 ) -> dict[str, Structure]:
     """Columns with numbers as typed, ``kind.field=values``, in place of those of the one measure; none without."""
     from ..analysis.vary import candidates
-    from ..motion.ranges import values_of
+    from ..motion.specs import values_of
 
     if not vary:
         return {}

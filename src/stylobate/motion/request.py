@@ -17,10 +17,10 @@ from .condition_specs import conditioned_alike
 from .conditioning import warn_of_peak, warn_of_scaling
 from .motion import FACTORS, Motion
 from .orientation import keep_axes, rotated, turned
-from .ranges import azimuth_range
 from .readers import Suite, read_motion, read_suite
 from .readers.columns import parse_columns
 from .specs import (
+    azimuth_range,
     parse_acceleration,
     parse_angle,
     parse_harmonic,

@@ -11,8 +11,7 @@ from pydantic import Field
 
 from stylobate.column.toml import Table
 from stylobate.errors import InputError
-from stylobate.motion.ranges import amplitude_range, frequency_range
-from stylobate.motion.specs import parse_time
+from stylobate.motion.specs import amplitude_range, frequency_range, parse_time
 
 from .forms import FORMS, Form
 from .records import RECORDS

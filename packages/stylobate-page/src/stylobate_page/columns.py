@@ -10,7 +10,7 @@ import numpy as np
 
 from stylobate.column import Column
 from stylobate.column.files import tables_of
-from stylobate.column.found_in_space import base_axes, space_geometry
+from stylobate.column.found_geometry import base_axes, space_geometry
 from stylobate.column.links.placed import strokes
 from stylobate.column.presets import PRESETS, preset
 from stylobate.column.shapes import hull

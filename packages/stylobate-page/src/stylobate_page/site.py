@@ -22,7 +22,7 @@ from stylobate.column.assembly_files import is_assembly
 from stylobate.column.files import write_column
 from stylobate.column.toml import checked
 from stylobate.errors import InputError
-from stylobate.motion.readers.samples import samples
+from stylobate.motion.readers.source import samples
 from stylobate.version import __version__
 from stylobate_exchange.convert import SURVEYS
 

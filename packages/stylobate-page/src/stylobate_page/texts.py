@@ -92,8 +92,8 @@ def describe(text: str) -> dict[str, Any]:
     except InputError as error:
         error.args = (str(error).replace(f"{FILE}: ", "").replace(FILE, "the file"),)  # it is the text at hand
         raise
-    from stylobate.plots.view import OBLIQUE  # matplotlib is loaded for those who look at an assembly
-    from stylobate.plots.views import SEEN, solids_of
+    from stylobate.plots.drawing import SEEN, solids_of
+    from stylobate.plots.solids import OBLIQUE  # matplotlib is loaded for those who look at an assembly
 
     bodies = [one for one in assembly.bodies if not (one.fixed and one.size > FAR_AWAY)]
     plane, solids = assembly.space_joints is None, solids_of(assembly)[0]

@@ -16,9 +16,8 @@ from stylobate.atomic import replacing
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.digests import LENGTH, Digests, Hasher, laws
 from stylobate.campaign.runs import Group, Request, run_all
-from stylobate.column.scatter import usual_scatter
+from stylobate.column.scatter import drawn_twin, usual_scatter
 from stylobate.column.structure import Structure
-from stylobate.column.twins import drawn_twin
 from stylobate.errors import InputError
 from stylobate.models.base import Case, Cases, Model
 from stylobate.models.shared.quiet import QUIET

@@ -103,7 +103,7 @@ def _write(results: Results, found: Found, place: Path, films: bool) -> list[Pat
 def _worst(results: Results, found: Found, place: Path, films: bool) -> list[Path]:
     """Strips, and films, of the worst tests as they are computed."""
     from stylobate import plots
-    from stylobate.plots.animation import write_gif
+    from stylobate.plots.film import write_gif
 
     from ..experiments.granite import again
 
