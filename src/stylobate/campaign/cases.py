@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from numbers import Real
-from typing import Any, Unpack
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse
 from ..motion.orientation import record_of
 from ..motion.sequence import spans_of
 from ..version import __version__
-from .campaign import COMPUTING, USUAL, Campaign, Fields, campaigning
+from .campaign import COMPUTING, Campaign
 from .digests import LENGTH, Digests, Hasher, samples_of
 from .plan import Plan
 from .runs import Group, Request
@@ -38,7 +38,6 @@ RELATIVE = ("pga_over_g_tan_alpha", "omega_g_over_p", "uniform_duration_s", "pgv
 KEEP = ("rows", "histories")
 
 
-@campaigning(Fields, but=COMPUTING)
 @dataclass(frozen=True, eq=False, init=False)
 class Study:
     """Columns × motions × levels × models × realisations.
@@ -56,7 +55,7 @@ class Study:
         Such as ``pga``; see :func:`stylobate.motion.intensity_specs.parse_measure`.
     keep : {"rows", "histories"}
         ``histories`` keeps a file of histories per case, not only of the worst and the median one.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         With replicates, twins of each column are run instead of the column itself.
 
     Raises
@@ -88,9 +87,10 @@ class Study:
         im: IntensityMeasure | str | None = None,
         *,
         keep: str = "rows",
-        campaign: Campaign = USUAL,
-        **fields: Unpack[Fields],
+        campaign: Campaign | None = None,
+        **settings: Any,
     ) -> None:
+        campaign = Campaign.of("Study", campaign, settings, COMPUTING)
         im = parse_measure(im) if isinstance(im, str) else im
         given = {"columns": columns, "motions": motions, "models": models, "levels": levels}
         for name, value in (given | {"im": im, "campaign": campaign, "keep": keep}).items():

@@ -84,10 +84,10 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     at = along(velocity, 1.0, vector(spin, minus(centre, c)))
     slip, turning = along(at, -dot(at, n), n), dot(spin, n)
     # friction with one limit for both  # Eq. (E6)
-    limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * math.sqrt(spread)
+    limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * torsion[1] * spread
     pivot = o.pivot[l]
-    square = squares / max(area, NOTHING)
-    own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle, square
+    compact = area / max(squares, NOTHING)
+    own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle, compact
     turning = turning if pivot > 0.0 else 0.0
     core, fresh = layers(e, v, l, pivot, centre)
     before = along(core[0], 1.0, fresh[0])
