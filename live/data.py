@@ -12,8 +12,8 @@ from stylobate.campaign.twins import the_twins
 from stylobate.column.presets import known_column
 from stylobate.kernels.run_codes import CHUNK, LANES
 from stylobate.models.shared.soft_joints import resolving
-from stylobate.motion.harmonic import SAMPLES_PER_CYCLE
-from stylobate.motion.readers.samples import samples
+from stylobate.motion.pulses import SAMPLES_PER_CYCLE
+from stylobate.motion.readers.source import samples
 from stylobate.outcome import Outcome
 
 from .columns import Memory, lanes_of

@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import Any, ClassVar
 
 from ...column import Column
-from ...column.found_in_space import shares_left
+from ...column.found_geometry import shares_left
 from ...column.shapes import DRUMS, ConvexSolid, Glued
 from ...column.spatial.assembly import SpatialAssembly
 from ...column.specimen import Specimen
