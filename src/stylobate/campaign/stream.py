@@ -16,6 +16,7 @@ from typing import Any
 
 from ..kernels.run_codes import LANES
 from ..models.base import Case, Cases, Model, RunOptions
+from ..models.engine import engine_for
 from ..response import Measures
 
 #: Cases that wait for a lane, at least, and how long they last [s]: until the next chunk is here.
@@ -104,7 +105,8 @@ class Stream:
         feed = _Feed(self, first)
         started, finished = time.perf_counter(), 0
         try:
-            for index, measures in first.model.run_many(feed, first.options, 1):
+            engine = engine_for(first.model, first.cases[0].column)
+            for index, measures in engine.run_many(feed, first.options, 1):
                 part, number = feed.given.pop(index)
                 finished += 1
                 self._ended(1)

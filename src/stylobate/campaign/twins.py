@@ -11,6 +11,7 @@ from ..column.structure import Structure
 from ..column.twins import drawn_twins
 from ..errors import InputError, check_kind
 from ..models.base import Model
+from ..models.engine import engine_for
 from .campaign import MAX_TWINS, Campaign
 from .unknown_laws import OF_ROUND, PARTS, drawn_laws, usual_with_laws
 
@@ -118,6 +119,6 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
 
 def _not_taken(stands: Structure, model: Model) -> tuple[str, ...]:
     """Parts of a scatter that change nothing in runs of what stands."""
-    if model.is_plane(model.parameters()) or not model.varies_law:
-        return (*model.not_scattered, *PARTS)
-    return model.not_scattered if stands.section == "circular" else (*model.not_scattered, *OF_ROUND)
+    engine = engine_for(model, stands)
+    laws = PARTS if not engine.draws_laws else () if stands.section == "circular" else OF_ROUND
+    return *engine.not_scattered, *laws

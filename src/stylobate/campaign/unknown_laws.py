@@ -18,6 +18,7 @@ from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import WITHIN, Scatter, spread_of, usual_scatter
 from ..column.structure import Structure
 from ..models.base import Model
+from ..models.engine import engine_for
 
 #: Parts of a scatter that are laws of joints, of models in space; those of round faces alone.
 PARTS = ("stiffness_damping", "rolling_resistance", "law")
@@ -53,7 +54,7 @@ class Laws(NamedTuple):
 def usual_with_laws(structure: Structure, model: Model) -> Scatter:
     """Scatter of what stands where nobody states it: of what a survey does not know, and of the laws of joints in space."""
     usual, column = usual_scatter(structure), structure.stack
-    if column is None or not model.varies_law or model.is_plane(model.parameters()):
+    if not engine_for(model, structure).draws_laws:
         return usual
     laws: dict[str, Any] = {"joint_stiffness": 1.0, "stiffness_damping": 0.8}
     if column.section == "circular":
