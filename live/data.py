@@ -13,8 +13,8 @@ from stylobate.column.presets import known_column
 from stylobate.kernels.run_codes import CHUNK, LANES
 from stylobate.models.engine import engine_for
 from stylobate.models.shared.soft_joints import resolving
-from stylobate.motion.harmonic import SAMPLES_PER_CYCLE
-from stylobate.motion.readers.samples import samples
+from stylobate.motion.pulses import SAMPLES_PER_CYCLE
+from stylobate.motion.readers.source import samples
 from stylobate.outcome import Outcome
 
 from .columns import Memory, lanes_of

@@ -20,14 +20,11 @@ from poison import Poisoning, Poisonous
 
 import stylobate as st
 from stylobate.campaign import cluster as module
-from stylobate.campaign.chunk import Chunk, law, pack, results_of, unpack
-from stylobate.campaign.cluster import on_cluster
+from stylobate.campaign.cluster import HandOut, executor, on_cluster
 from stylobate.campaign.digests import Hasher
-from stylobate.campaign.executor import executor
-from stylobate.campaign.hand_out import HandOut
 from stylobate.campaign.local_workers import started
 from stylobate.campaign.runs import Request, run_all
-from stylobate.campaign.stream import Stream
+from stylobate.campaign.worker import Chunk, Stream, law, pack, results_of, unpack
 from stylobate.cli.main import call
 from stylobate.models.base import Case, Cases, RunOptions
 from stylobate.motion.request import MotionRequest
@@ -250,7 +247,7 @@ class Seen(Poisonous):
 def test_motions_that_are_made_one_by_one_are_not_taken_for_one_another(monkeypatch):
     """Numbers of arrays that are gone are given again: the arrays of a chunk are kept until it is sent."""
 
-    monkeypatch.setattr("stylobate.campaign.hand_out.MOTIONS", 8)
+    monkeypatch.setattr("stylobate.campaign.cluster.MOTIONS", 8)
     cases = Cases(100, lambda n: Case(COLUMN, st.Motion(0.01, np.full(200, float(n)))))
     found = dict(HandOut(Client(), cases, Seen(), RunOptions()).results())
     assert [found[n].peak_top_displacement for n in range(100)] == list(range(100))

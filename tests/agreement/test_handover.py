@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint, preset
-from stylobate.column.as_blocks import of_column
 from stylobate.column.assembly import Assembly, Block
+from stylobate.column.standing import of_column
 from stylobate.constants import g
 from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import RunOptions

@@ -65,7 +65,7 @@ def batch(cases, monkeypatch, model=None, **options):
 
 def handed_over(case, share, model):
     """Measures of a case that rides alone in its block, and is given up there after a share of its run."""
-    block = lanes.IntactLanes(model.spatial_numbers, RunOptions())
+    block = lanes.IntactLanes(lambda one: engine_for(model, one).numbers, RunOptions())
     block.load(3, case)
     for _ in range(int(share * block.chunks[3] / block.every[3])):
         block.kernel.advance(block.state, int(block.every[3]))

@@ -12,8 +12,7 @@ from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import the_twins
 from stylobate.column import Column
 from stylobate.column.files import write_column
-from stylobate.column.found_geometry import uplift_accelerations
-from stylobate.column.found_in_space import inside_overlap, space_geometry, space_load, upward
+from stylobate.column.found_geometry import inside_overlap, space_geometry, space_load, uplift_accelerations, upward
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.engine import engine_for

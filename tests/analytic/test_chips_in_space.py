@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.column.found_in_space import inside_overlap, space_geometry
+from stylobate.column.found_geometry import inside_overlap, space_geometry
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.engine import engine_for

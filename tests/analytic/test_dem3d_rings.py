@@ -8,7 +8,7 @@ from validation import space
 
 from stylobate.column import Column, Joint
 from stylobate.column.files import column_from_dict, read_column, write_column
-from stylobate.column.found_in_space import rotation
+from stylobate.column.found_geometry import rotation
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.kernels.dem3d.bed import settle_ring

@@ -7,7 +7,7 @@ import pytest
 from validation.space import cylinder, round_column
 
 import stylobate as st
-from stylobate.column.found_in_space import rotation
+from stylobate.column.found_geometry import rotation
 from stylobate.kernels.dem3d.chipped import press_chord
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D

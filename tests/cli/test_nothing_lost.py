@@ -6,7 +6,7 @@ import math
 import pandas
 import pytest
 
-from stylobate.campaign.holding import Holding
+from stylobate.campaign.ledger import Holding
 from stylobate.cli.main import call
 from stylobate.models.drums.stepped import LaneEngine
 from stylobate.models.rocking.model import Rocking

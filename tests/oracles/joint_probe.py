@@ -284,7 +284,7 @@ def assemblies_list(state: Any) -> None:
 def of_lanes(assembly: st.SpatialAssembly, beta: float = 0.0) -> Rig:
     """The last joint of an assembly in lanes of assemblies that stand."""
     model = DistinctElement3D(stiffness_damping=beta)
-    block = lanes.IntactLanes(model.spatial_numbers, RunOptions())
+    block = lanes.IntactLanes(lambda one: engine_for(model, one).numbers, RunOptions())
     for lane in range(block.lanes):
         block.load(lane, Case(assembly, Motion(1.0, np.zeros(2))))
     block.lane["last"][:] = block.lane["dt"][:] = DT

@@ -13,7 +13,7 @@ from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.limit_directions import limit_in_space
 from stylobate.column.files import column_from_dict, write_column
 from stylobate.column.links import COLUMN_KINDS, KINDS
-from stylobate.column.links.dowel import shear_limits, shear_stiffness
+from stylobate.column.links.kinds import shear_limits, shear_stiffness
 from stylobate.models.engine import engine_for
 from stylobate.models.registry import MODELS, model_class
 

@@ -19,7 +19,7 @@ from numba.cuda.simulator import kernelapi
 from numba.np.numpy_support import as_dtype
 
 import stylobate as st
-from stylobate.column.twins import twins_of
+from stylobate.column.scatter import twins_of
 from stylobate.kernels.run_codes import LANES
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.engine import engine_for

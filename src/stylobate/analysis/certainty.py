@@ -7,11 +7,11 @@ from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..campaign.digests import Digests, Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import Twins, the_twins
@@ -60,7 +60,6 @@ class Certainty(Shown):
         return own | self.population.summary(own)
 
 
-@campaigning(Fields, but=("whole",), replicates=15)
 def certainty(
     column: Structure,
     motion: Motion,
@@ -71,8 +70,8 @@ def certainty(
     until_rest: bool = False,
     quiet: float | None = None,
     kept: Path | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> Certainty:
     """Shake one column once, and its twins beside it.
 
@@ -87,7 +86,7 @@ def certainty(
     kept : path, optional
         File for the run of the column itself, beside the ledger of the campaign: where both are as they were written, it is
         read, and not made again.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         How many twins, and how; threads, cluster and ledger are for those beyond the first fifteen, and ``progress`` is
         called with times, as in :func:`stylobate.simulate`.
 
@@ -96,6 +95,7 @@ def certainty(
     InputError
         A number that is not allowed, or input that the model refuses.
     """
+    campaign = Campaign.of("certainty", campaign, settings, ("whole",), replicates=15)
     began = time.perf_counter()
     if until_rest:
         column = engine_for(model, column).followed()

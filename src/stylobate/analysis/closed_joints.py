@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..column.column import Column
-from ..column.found_in_space import SpaceGeometry, overlap_edges, space_geometry, space_load
+from ..column.found_geometry import SpaceGeometry, overlap_edges, space_geometry, space_load
 from ..column.shapes import cut
 from ..column.structure import Structure
 from ..constants import DEGREE

@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .. import store
-from ..campaign.campaign import USUAL, Campaign, Computing, Progress, campaigning
+from ..campaign.campaign import RUNS, Campaign, Progress
 from ..campaign.grid import HarmonicGrid
 from ..campaign.runs import Request, Runs, Stopped
 from ..column import Column
@@ -226,7 +226,6 @@ def grid_coordinates(frequencies: np.ndarray, amplitudes: np.ndarray) -> dict[st
     }
 
 
-@campaigning(Computing)
 def collapse_domain(
     column: Column,
     model: Model,
@@ -235,8 +234,8 @@ def collapse_domain(
     duration: float = 10.0,
     *,
     out: str | Path | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Computing],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> Domain:
     """Run a column under harmonic base motions of all frequencies and amplitudes.
 
@@ -253,7 +252,7 @@ def collapse_domain(
     out : path, optional
         Folder that keeps finished runs (``runs.sqlite``), unless the campaign has another ledger. When the domain is
         complete, ``domain.nc`` and ``domain.csv`` are written there.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         How the runs are made.
 
     Returns
@@ -266,6 +265,7 @@ def collapse_domain(
     InputError
         An impossible grid, a folder that cannot be used, or input that the model refuses.
     """
+    campaign = Campaign.of("collapse_domain", campaign, settings, RUNS)
     axes: tuple[Any, Any] = frequencies, amplitudes  # checked there
     grid = HarmonicGrid(column, model, *axes, duration, campaign.tail)
     with closing(Runs(campaign.kept_in(out))) as runs:

@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..campaign.campaign import Campaign
-from ..campaign.unknown_laws import UNDAMPED, on_rim_or_bed
+from ..campaign.twins import UNDAMPED, on_rim_or_bed
 from ..column.column import Column
-from ..column.losses import LAWS, Losses
+from ..column.joint import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import spread_of
 from ..models.base import Case, Model

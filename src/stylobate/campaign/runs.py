@@ -22,10 +22,9 @@ from ..own_files import digest as digest_of_file
 from ..response.measures import CPU, GPU
 from ..response.rows import Rows
 from ..simulate import check_cases, run_on_card
-from .campaign import USUAL, Campaign, Progress
-from .cluster import on_cluster
+from .campaign import Campaign, Progress
+from .cluster import computed_by, executor, on_cluster
 from .digests import Digests, Hasher
-from .executor import computed_by, executor
 from .ledger import Ledger, finished_runs_in, rows_in
 
 #: Cases that run together: their numbers, their model, and how they are run.
@@ -122,8 +121,8 @@ class Runs:
         Runs that were made here, and those of the requests that are finished, these among them.
     """
 
-    def __init__(self, campaign: Campaign = USUAL, waiting: Callable[[], object] | None = None) -> None:
-        self.campaign = campaign
+    def __init__(self, campaign: Campaign | None = None, waiting: Callable[[], object] | None = None) -> None:
+        self.campaign = campaign = campaign or Campaign()
         self.path = None if campaign.ledger is None else Path(campaign.ledger)
         self.made = self.kept = 0
         self._book: Ledger | None = None
@@ -277,7 +276,7 @@ def _some(cases: Sequence[Case], numbers: np.ndarray) -> Cases:
     return Cases(len(numbers), lambda index: cases[int(numbers[index])])
 
 
-def run_all(request: Request, campaign: Campaign = USUAL) -> Rows:
+def run_all(request: Request, campaign: Campaign | None = None) -> Rows:
     """Run what the ledger does not hold yet.
 
     Parameters

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import store
-from ..column.kinds import FROM_DICT
+from ..column.assembly_files import FROM_DICT
 from ..column.structure import Structure
 from ..errors import InputError, OutOfRangeWarning
 from ..outcome import Outcome

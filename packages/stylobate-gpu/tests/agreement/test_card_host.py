@@ -9,7 +9,7 @@ import pytest
 from idle_card import IdleCard
 
 import stylobate as st
-from stylobate.column.twins import twins_of
+from stylobate.column.scatter import twins_of
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.engine import engine_for
 from stylobate.models.shared.lanes import run_lanes

@@ -13,12 +13,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stylobate.atomic import replacing
-from stylobate.campaign.campaign import USUAL, Campaign
+from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.digests import LENGTH, Digests, Hasher, laws
 from stylobate.campaign.runs import Group, Request, run_all
-from stylobate.column.scatter import usual_scatter
+from stylobate.column.scatter import drawn_twin, usual_scatter
 from stylobate.column.structure import Structure
-from stylobate.column.twins import drawn_twin
 from stylobate.errors import InputError
 from stylobate.models.base import Case, Cases, Model
 from stylobate.models.drums.losses import LossyDrums
@@ -165,7 +164,7 @@ def simulations_of(
     seed: int = 0,
     *,
     folder: str | Path | None = None,
-    campaign: Campaign = USUAL,
+    campaign: Campaign | None = None,
 ) -> Simulations:
     """Shake structures by the first draws of a prior; what a folder keeps of that is not computed again.
 
@@ -193,6 +192,7 @@ def simulations_of(
             "(DistinctElement3D).",
             "model",
         )
+    campaign = campaign or Campaign()
     table = _Table(tuple(one.stack or one for one in structures), prior.draws(count, seed), model, campaign)
     kept = None if folder is None else Path(folder) / TABLE_FILE
     if kept is not None and (found := table.read(kept)) is not None:

@@ -8,7 +8,7 @@ from functools import lru_cache
 from typing import Any, ClassVar
 
 from ...column import Column
-from ...column.found_in_space import shares_left
+from ...column.found_geometry import shares_left
 from ...column.spatial.assembly import SpatialAssembly
 from ...column.specimen import Specimen
 from ...errors import InputError, check_choice, check_range

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, Self
 
-from ...column.losses import NAMED, Losses
+from ...column.joint import NAMED, Losses
 from ...column.materials import ROLLING
 from ...errors import InputError, check_choice
 from ...motion import Motion

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...column import Column
-from ...column.losses import Losses
+from ...column.joint import Losses
 from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ..base import Case, RunOptions

@@ -18,8 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.campaign.cluster import LOCAL, on_cluster
-from stylobate.campaign.executor import executor
+from stylobate.campaign.cluster import LOCAL, executor, on_cluster
 from stylobate.column import Column, preset
 from stylobate.constants import g
 from stylobate.errors import StylobateError
