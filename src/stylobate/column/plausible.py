@@ -7,6 +7,7 @@ import statistics
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from ..messages import say
 from .joint import Joint
 from .stack import Stack
 
@@ -31,8 +32,8 @@ class Measure(NamedTuple):
         """
         if self.holds(value):
             return []
-        unit = likely_unit(alike or [Quantity(self, value)])
-        return [f"{name} is {value:g} {self.unit}, and {what} {self.low:g} to {self.high:g} {self.unit}: {unit}"]
+        doubt = say("{name} is {value:g} {m.unit}, and {what} {m.low:g} to {m.high:g} {m.unit}: {unit}")
+        return [doubt.of(name=name, value=value, what=what, m=self, unit=likely_unit(alike or [Quantity(self, value)]))]
 
 
 class Quantity(NamedTuple):
@@ -57,7 +58,7 @@ def likely_unit(alike: Sequence[Quantity]) -> str:
         for name in alike[0].measure.others
         if all(measure.holds(value * measure.others[name]) for measure, value in alike)
     ]
-    return f"was it meant in {min(fits, key=distance)}?" if fits else "is the unit right?"
+    return say("was it meant in {unit}?", unit=min(fits, key=distance)) if fits else say("is the unit right?")
 
 
 #: How much less often stones are measured in inches and feet than in cm, as a factor of how usual the size is [-].
@@ -172,10 +173,11 @@ def decimal_doubts(name: str, values: Sequence[float]) -> list[str]:
         others = [*values[: number - 1], *values[number:]]
         usual = statistics.median(others)
         if max(others) <= ALIKE * min(others) and DECIMAL <= max(value / usual, usual / value) <= DECIMAL * 4.0:
-            return [
-                f"the {name} of drum {number} is {value:g} m, and that of the others {min(others):g} to {max(others):g} m: "
-                "is its decimal point in the right place?"
-            ]
+            doubt = say(
+                "the {name} of drum {number} is {value:g} m, and that of the others {low:g} to {high:g} m: is its decimal "
+                "point in the right place?"
+            )
+            return [doubt.of(name=say(name), number=number, value=value, low=min(others), high=max(others))]
     return []
 
 
@@ -211,7 +213,11 @@ def piece_doubts(pieces: Sequence[Piece], laws: Iterable[Joint], gravity: float)
     return doubts + (
         beyond
         or first(
-            sinking_doubt(f"block {name!r}", density * gravity * sides[-1] / law.normal_stiffness, law.normal_stiffness)
+            sinking_doubt(
+                say("block {name!r}", name=name),
+                density * gravity * sides[-1] / law.normal_stiffness,
+                law.normal_stiffness,
+            )
             for name, sides, density, law in pieces
         )
     )
@@ -265,25 +271,25 @@ def sinking_doubt(name: str, closure: float, stiffness: float) -> list[str]:
     """The doubt about what sinks into its joint by ``closure`` [m] under its weight, on ``stiffness`` [N/m³]; else none."""
     if closure <= CLOSES:
         return []
-    return [
-        f"{name} sinks by {1e3 * closure:.2g} mm into its joint under the weight on it, whose normal_stiffness is "
-        f"{stiffness:g} N/m³, and dry joints of stone close by less than {1e3 * CLOSES:g} mm: "
-        f"{likely_unit([Quantity(STIFFNESS, stiffness)])}"
-    ]
+    doubt = say(
+        "{name} sinks by {depth:.2g} mm into its joint under the weight on it, whose normal_stiffness is {stiffness:g} N/m³, "
+        "and dry joints of stone close by less than {limit:g} mm: {unit}"
+    )
+    unit = likely_unit([Quantity(STIFFNESS, stiffness)])
+    return [doubt.of(name=name, depth=1e3 * closure, stiffness=stiffness, limit=1e3 * CLOSES, unit=unit)]
 
 
 def _sinking(column: Stack) -> list[str]:
     most = int(column.joint_closures.argmax())
     closure, law = float(column.joint_closures[most]), column.joints[most]
-    return sinking_doubt(f"drum {most + 1}", closure, law.normal_stiffness)
+    return sinking_doubt(say("drum {number}", number=most + 1), closure, law.normal_stiffness)
 
 
 def found_doubts(column: Any) -> list[str]:
     """The doubt about the first drum of a column as found that stands near the edge of the one below; else none."""
+    said = say("drum {drum} is found {far:g} m off the one below, {share:.2g} of its width: is the unit right?")
     return first(
-        [
-            f"drum {one.drum} is found {abs(one.offset):g} m off the one below, {often:.2g} of its width: is the unit right?"
-        ]
+        [said.of(drum=one.drum, far=abs(one.offset), share=often)]
         for one in column.as_found.drums
         if (often := abs(one.offset) / column.drums[one.drum - 1].bottom_width) > FARTHEST
     )

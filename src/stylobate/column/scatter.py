@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import check_range
+from ..messages import joined, say
 from .as_found import FoundDrum
 from .column import Column
 from .materials import material
@@ -86,8 +87,9 @@ class Scatter:
 
     def describe(self) -> str:
         """The sizes in words."""
-        words = (f"{name.replace('_', ' ')} {100.0 * value:.3g} %" for name, value in self.given.items())
-        return ", ".join(words) or "nothing"
+        name_and_size = say("{name} {size:.3g} %")
+        words = (name_and_size.of(name=say(key.replace("_", " ")), size=100.0 * one) for key, one in self.given.items())
+        return joined(", ", words) or say("nothing")
 
 
 def usual_scatter(structure: Structure) -> Scatter:

@@ -17,6 +17,7 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 
 from ..errors import InputError, check_range
+from ..messages import say
 from .as_found import AS_BUILT, AsFound
 from .faces import Bed, FacePair
 from .joint import Joint
@@ -250,8 +251,8 @@ class Structure:
     def north_words(self) -> str:
         """What is known of north."""
         if self.north is None:
-            return "not stated; azimuths are from x towards y, and none is a bearing"
-        return f"x points to {self.north:g}° clockwise from north; azimuths are from x towards y"
+            return say("not stated; azimuths are from x towards y, and none is a bearing")
+        return say("x points to {self.north:g}° clockwise from north; azimuths are from x towards y", self=self)
 
     @property
     def height(self) -> float:

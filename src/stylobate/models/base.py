@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from ..column.shapes import DRUMS
 from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, suggest, warn
+from ..messages import joined, say
 from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
 from ..response.words import round_in_the_plane
@@ -159,10 +160,13 @@ class Model:
                 )
         left_out = beyond_axes(motion, self.axes)
         if "y" in left_out and column.section == "circular":
-            said = f"{self.name} leaves out what shakes a round column across. {round_in_the_plane(column)}"
+            left = say("{model} leaves out what shakes a round column across.", model=self.name)
+            said = joined(" ", [left, round_in_the_plane(column)])
             warn(said, PlaneOnlyWarning)
         for one in left_out.values():
-            warn(f"left out of {motion.name!r}: {one}; {self.name} takes {' and '.join(self.axes)}.", LeftOutWarning)
+            takes = say("left out of {motion!r}: {what}; {model} takes {axes}.", motion=motion.name, what=one, model=self.name,
+                        axes=joined(say(" and "), self.axes))  # fmt: skip
+            warn(takes, LeftOutWarning)
 
     @classmethod
     def is_plane(cls, parameters: Mapping[str, Any]) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
+from ..messages import say
 from ..response import ENERGY_TERMS, Response
 from ..response.words import title_of
 from .scene import seen
@@ -39,35 +40,37 @@ def draw_energy(
     for term, line in zip(present, CYCLE * 2):
         width = 1.8 if term == "input" else 1.0
         upper.plot(time, factor * energy[term], label=_NAMES[term], linewidth=width, **line)
-    upper.set_ylabel(f"energy [{unit}]")
+    upper.set_ylabel(say("energy [{unit}]", unit=unit))
     upper.legend(loc="upper left", ncols=3)
     bottom, top = upper.get_ylim()
     upper.set_ylim(bottom, top + 0.25 * (top - bottom))
     upper.set_title(in_lines(title or title_of(response)))
     zero_line(lower)
-    word, largest = "input", float(np.nanmax(np.abs(energy["input"])))
+    word, largest = say("input"), float(np.nanmax(np.abs(energy["input"])))
     if response.followed:  # what falls releases more than what shook it put in
         released = float(np.nanmax(-energy["gravitational"]))
-        word, largest = ("released", released) if released > largest else (word, largest)
+        word, largest = (say("released"), released) if released > largest else (word, largest)
     lower.plot(time, response.imbalance / (largest or 1.0), color=GREY)
-    lower.set_ylabel(f"imbalance\n/ {word}")
-    lower.set_xlabel("time [s]")
+    lower.set_ylabel(say("imbalance\n/ {what}", what=word))
+    lower.set_xlabel(say("time [s]"))
     lower.set_xlim(*seen(time, window))
     lower.set_title(
-        f"missing at the end: {response.energy_imbalance:.1e} of the energy at stake", loc="right", fontsize=8.0
+        say("missing at the end: {r.energy_imbalance:.1e} of the energy at stake", r=response),
+        loc="right",
+        fontsize=8.0,
     )
     figure.align_ylabels()
     return figure
 
 
 _NAMES = {
-    "input": "input",
-    "kinetic": "kinetic",
-    "gravitational": "gravity",
-    "elastic": "elastic",
-    "friction": "friction loss",
-    "viscous": "viscous loss",
-    "impact": "impact loss",
+    "input": say("input"),
+    "kinetic": say("kinetic"),
+    "gravitational": say("gravity"),
+    "elastic": say("elastic"),
+    "friction": say("friction loss"),
+    "viscous": say("viscous loss"),
+    "impact": say("impact loss"),
 }
 
 

@@ -10,12 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..errors import InputError
+from ..messages import digits as number
+from ..messages import say
 from ..response import Response
 from ..response.instants import ASIDE, telling_states
 from ..response.words import title_of
 from .link_marks import draw_links
 from .scene import Scene, draw_bodies
-from .style import GREY, WIDTH, in_lines, page, styled
+from .style import GREY, WIDTH, in_lines, page, signed, styled
 from .view import ALONG_X, ALONG_Y
 
 #: What the picture of one collapse in space is not: debris as such.
@@ -66,20 +68,26 @@ def draw_filmstrip(
     figure, panels = draw(scenes, outlines, frames, figure)
     peak = max(float(np.nanmax(np.abs(one.way[frames]))) for one in scenes)
     unit, size, digits = ("m", 1.0, 2) if peak >= 0.1 else ("mm", 1000.0, 1)
-    sign = "+" if scene.signed else ""
     shown = [(one, i, shapes) for one, strip in zip(scenes, outlines) for i, shapes in zip(frames, strip)]
     for axes, (one, index, shapes) in zip(panels, shown, strict=True):
         draw_bodies(axes, one, shapes)
         draw_links(axes, one, index, factor)
-        far = f"{round(size * one.way[index], digits) + 0.0:{sign}.{digits}f}".replace("-", "−")
+        way = round(size * one.way[index], digits) + 0.0
+        far = signed(way, f".{digits}f") if scene.signed else number(way, f".{digits}f")
         along = ("x ", "y ")[scenes.index(one)] if space and scene.signed else ""
         if space and not scene.signed:
             toward = "xy"[scenes.index(one)]
             axes.text(0.01, 0.0, f"{toward} →", transform=axes.transAxes, fontsize=6.5, color=GREY, ha="left", va="top")
-        axes.set_title(f"{scene.time[index]:.2f} s\n{along}{far} {unit}", fontsize=8.5, loc="center")
-    said = "" if factor == 1.0 else f" (displacements × {factor:g})"
+        words = say("{time:.2f} s\n{along}{far} {unit}", time=scene.time[index], along=along, far=far, unit=unit)
+        axes.set_title(words, fontsize=8.5, loc="center")
+    said = "" if factor == 1.0 else say(" (displacements × {factor:g})", factor=factor)
     said += ONE_DRAW * (response.structure.space_joints is not None and response.collapsed)
-    figure.suptitle(in_lines((title or title_of(response)) + said), x=0.01, ha="left", fontsize=10.0)
+    figure.suptitle(
+        title + said if title == " " else in_lines((title or title_of(response)) + said),
+        x=0.01,
+        ha="left",
+        fontsize=10.0,
+    )
     return figure
 
 

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..constants import g
+from ..messages import say
 from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
 from ..response.words import title_of
@@ -54,10 +55,12 @@ def draw_histories(
     for k, upper in enumerate(uppers):
         zero_line(upper)
         of = (slice(None), k) if space else ...
-        upper.plot(h.time, h.top_displacement[of], color=BLACK, linestyle=(0, (4.5, 1.6)), label="top")
-        upper.plot(h.time, h.base_displacement[of], color=RED, label="base")
+        upper.plot(h.time, h.top_displacement[of], color=BLACK, linestyle=(0, (4.5, 1.6)), label=say("top"))
+        upper.plot(h.time, h.base_displacement[of], color=RED, label=say("base"))
         upper.set_ylabel(
-            f"{'xy'[k]}, relative\nto the ground [m]" if space else "displacement\nrelative to the ground [m]"
+            say("{axis}, relative\nto the ground [m]", axis="xy"[k])
+            if space
+            else say("displacement\nrelative to the ground [m]")
         )
         _mark_collapse(upper, [(response, BLACK)])
         _focus(upper, [response], (begin, end))
@@ -78,9 +81,9 @@ def _draw_blocks(
     farthest = np.nan_to_num(response.displacement[inside]).max(axis=0, initial=0.0)
     named = sorted(moving, key=lambda i: -farthest[i])[:NAMED]
     space = response.dims == "xyz"
-    places = {"x": response.x, "y": response.y, "vertical": response.z}
+    places = {"x": response.x, "y": response.y, say("vertical"): response.z}
     if not space:
-        places = {"horizontal": response.x, "vertical": response.z}
+        places = {say("horizontal"): response.x, say("vertical"): response.z}
     figure = page(figure, (WIDTH, 3.4 + len(places)))
     panels = figure.subplots(len(places) + 1, 1, sharex=True, height_ratios=(*(2.4,) * len(places), 1.0 + 0.3 * space))
     unit, factor = ("m", 1.0) if farthest.max() >= 0.1 else ("mm", 1000.0)
@@ -93,7 +96,7 @@ def _draw_blocks(
                 axes.plot(response.time, values[:, i], color="#c8c8c8", linewidth=0.6)
         for i, line in zip(named, CYCLE):
             axes.plot(response.time, values[:, i], label=names[i], **line)
-        axes.set_ylabel(f"{word}\ndisplacement [{unit}]")
+        axes.set_ylabel(say("{direction}\ndisplacement [{unit}]", direction=word, unit=unit))
     ground = len(places)
     others = len(moving) - len(named)
     handles, labels = panels[0].get_legend_handles_labels()
@@ -105,8 +108,8 @@ def _draw_blocks(
     if window[0] <= first <= window[1]:
         for axes in panels[:ground]:
             axes.axvline(first, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
-    said = f"; in grey the other {others} blocks" if others > 0 else ""
-    panels[1].set_title(f"relative to the ground{said}", loc="right", fontsize=8.0)
+    grey = say("relative to the ground; in grey the other {count} blocks", count=others)
+    panels[1].set_title(grey if others > 0 else say("relative to the ground"), loc="right", fontsize=8.0)
     panels[0].set_title(in_lines(title or title_of(response)))
     _draw_ground(panels[ground], response, window)
     figure.align_ylabels()
@@ -164,8 +167,8 @@ def _draw_ground(axes: Axes, response: Response, window: tuple[float, float]) ->
     if response.dims == "xyz":
         axes.plot(response.time, across, color=BLUE, linewidth=0.8, linestyle=(0, (4, 1.5)), label="y")
         axes.legend(loc="upper right", ncols=2, fontsize=7.5)
-    axes.set_ylabel("ground\n[g]")
-    axes.set_xlabel("time [s]")
+    axes.set_ylabel(say("ground\n[g]"))
+    axes.set_xlabel(say("time [s]"))
     axes.set_xlim(*window)
 
 
@@ -177,7 +180,7 @@ def _mark_collapse(axes: Axes, responses: Sequence[tuple[Response, str]]) -> Non
         axes.axvline(time, color=color, linewidth=0.8, linestyle=(0, (1, 2)))
         early = time < 0.7 * response.histories.time[-1]
         axes.annotate(
-            f"collapse {time:.2f} s",
+            say("collapse {time:.2f} s", time=time),
             (time, 0.04 + 0.09 * i),
             xycoords=("data", "axes fraction"),
             xytext=(3 if early else -3, 0),

@@ -18,6 +18,7 @@ from ..column.shapes import cut
 from ..column.spatial.touching import SpaceJoint
 from ..column.structure import Structure
 from ..constants import DEGREE
+from ..messages import joined, say
 from .elevation import words_of_found
 from .style import BLUE, BROWN, GREY, RED, SAND, page, styled
 from .views import draw_views, sheet_size
@@ -80,7 +81,7 @@ def joint_plans(structure: Structure) -> list[JointPlan]:
         sizes, words, offset = _of_round_faces(joint, on_ground)
         said += f"\n{sizes}" * bool(sizes)
         below = None if on_ground else corners[0]
-        plan = JointPlan(f"joint {number}", below, corners[1], said, words.replace(", ", "\n"), _pairs(crossing))
+        plan = JointPlan(say("joint {number}", number=number), below, corners[1], said, words, _pairs(crossing))
         found.append(replace(plan, offset=offset, marked=bool(words)))
     return found
 
@@ -97,13 +98,19 @@ def _of_round_faces(joint: SpaceJoint, on_ground: bool) -> tuple[str, str, tuple
     if not on_ground:
         moved = joint.above.middle - joint.below.middle
         if math.hypot(*moved[:2]) >= IN_LINE:
-            words.append(f"offset {1000.0 * math.hypot(*moved[:2]):.0f} mm to {_azimuth(moved):.0f}°")
+            words.append(
+                say(
+                    "offset {far:.0f} mm to {azimuth:.0f}°",
+                    far=1000.0 * math.hypot(*moved[:2]),
+                    azimuth=_azimuth(moved),
+                )
+            )
             ((x, y),) = _pairs([((joint.above.middle - joint.origin) @ joint.frame)[:2]])
             off = x, y
     for normal, bound in joint.above.edges.sides:
         lost, towards = radii[1] - bound, joint.above.frame[:, :2] @ normal
-        words.append(f"chip {1000.0 * lost:.0f} mm to {_azimuth(towards):.0f}°")
-    return sizes, ", ".join(words), off
+        words.append(say("chip {far:.0f} mm to {azimuth:.0f}°", far=1000.0 * lost, azimuth=_azimuth(towards)))
+    return sizes, joined("\n", words), off
 
 
 def _azimuth(way: np.ndarray) -> float:
@@ -131,10 +138,10 @@ def _of_column(column: Column) -> list[JointPlan]:
         turn = rotation(np.array([0.0, 0.0, 1.0]), float(at.turned[j]))[:2, :2]
         crossing = [link for link in column.placed_links if link.crosses(j) and link.mark != "sheet"]
         places = [middle + turn @ np.array(link.middle[:2]) for link in crossing]
-        words = words_of_found(column.as_found, j + 1)
+        found = joined("\n", words_of_found(column.as_found, j + 1))
         offset = float(middle[0]), float(middle[1])
-        found = words.replace(", ", "\n")
-        plans.append(JointPlan(f"joint {j + 1}", below, above, said + " m", found, _pairs(places), offset, bool(words)))
+        title = say("joint {number}", number=j + 1)
+        plans.append(JointPlan(title, below, above, said + " m", found, _pairs(places), offset, bool(found)))
     return plans
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
+from ..messages import say
 from ..response import Response
 from ..response.words import title_of
 from .scene import seen
@@ -55,21 +56,23 @@ def draw_joints(
         axes.plot(h.time, trace, color=BROWN, linewidth=0.8, zorder=2)
         axes.axhline(i + 1, color=GREY, linewidth=0.4, zorder=1)
         axes.annotate(
-            f"{1000.0 * peak:.3g} mm",
+            say("{peak:.3g} mm", peak=1000.0 * peak),
             (1.01, i + 1),
             xycoords=("axes fraction", "data"),
             fontsize=8.0,
             va="bottom",
         )
-    axes.annotate("peak", (1.01, n + 1), xycoords=("axes fraction", "data"), fontsize=8.0, va="bottom", color=GREY)
+    axes.annotate(say("peak"), (1.01, n + 1), xycoords=("axes fraction", "data"), fontsize=8.0, va="bottom", color=GREY)
     if begin <= time <= end:
         axes.axvline(time, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
-        axes.annotate(f"collapse {time:.2f} s  ", (time, n + 1), fontsize=8.0, va="bottom", ha="right")
+        axes.annotate(
+            say("collapse {time:.2f} s", time=time) + "  ", (time, n + 1), fontsize=8.0, va="bottom", ha="right"
+        )
     axes.set_xlim(*seen(h.time, window))
     axes.set_ylim(0.85, n + 1.35)
     every = 1 if n <= 30 else math.ceil(n / 25)
     axes.set_yticks(range(1, n + 1, every))
-    axes.set_xlabel("time [s]")
-    axes.set_ylabel("joint, from the base\n(opening, each to its peak)")
+    axes.set_xlabel(say("time [s]"))
+    axes.set_ylabel(say("joint, from the base\n(opening, each to its peak)"))
     axes.set_title(in_lines(title or title_of(response)))
     return figure

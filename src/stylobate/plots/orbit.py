@@ -11,6 +11,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Ellipse, Patch, Rectangle
 
 from ..column.shapes import CircularFrustum
+from ..messages import say
 from ..response import Response
 from ..response.words import title_of
 from .panels import until_collapse
@@ -51,25 +52,27 @@ def draw_orbit(
     base = footprint(response, factor)
     axes.add_patch(base)
     axes.plot(x, y, color=BLACK, linewidth=0.8, zorder=3)
-    axes.plot(x[0], y[0], "s", color=BLUE, markersize=5, zorder=4, label="start")
+    axes.plot(x[0], y[0], "s", color=BLUE, markersize=5, zorder=4, label=say("start"))
     if fallen:
-        axes.plot(x[-1], y[-1], "X", color=RED, markersize=7, zorder=5, label=f"collapse, {time[last]:.2f} s")
+        axes.plot(
+            x[-1], y[-1], "X", color=RED, markersize=7, zorder=5, label=say("collapse, {time:.2f} s", time=time[last])
+        )
     else:
-        axes.plot(x[-1], y[-1], "o", color=RED, markersize=5, zorder=5, label=f"end, {time[last]:.2f} s")
+        axes.plot(x[-1], y[-1], "o", color=RED, markersize=5, zorder=5, label=say("end, {time:.2f} s", time=time[last]))
     handles, labels = axes.get_legend_handles_labels()
     half = 0.5 * factor * base_size(response)
     reach = max(1.12 * float(np.abs((x, y)).max(initial=0.0)), 1e-9)
     if 1.05 * half < 4.0 * reach:  # else the base would leave nothing to see
         reach = max(reach, 1.05 * half)
-        handles, labels = [*handles, base], [*labels, "base"]
+        handles, labels = [*handles, base], [*labels, say("base")]
     else:
         base.remove()
-        axes.set_title(f"base {_length(base_size(response))} across", loc="right", fontsize=8.0)
+        axes.set_title(say("base {length} across", length=_length(base_size(response))), loc="right", fontsize=8.0)
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-reach, reach)
     axes.set_aspect("equal")
-    axes.set_xlabel(f"top, along x [{unit}]")
-    axes.set_ylabel(f"top, along y [{unit}]")
+    axes.set_xlabel(say("top, along x [{unit}]", unit=unit))
+    axes.set_ylabel(say("top, along y [{unit}]", unit=unit))
     words = textwrap.fill(title or title_of(response), 52)
     if ax is not None:
         axes.legend(handles, labels, loc="best", handletextpad=0.4)
@@ -103,4 +106,4 @@ def _ends(response: Response) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _length(value: float) -> str:
-    return f"{value:g} m" if value >= 0.1 else f"{1000.0 * value:g} mm"
+    return say("{value:g} m", value=value) if value >= 0.1 else say("{value:g} mm", value=1000.0 * value)

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
+from ..messages import say
 from ..response import Response
 from .style import page
 
@@ -44,8 +45,8 @@ def panels_for(count: int, figure: Figure | SubFigure | None, **options: Any) ->
 LETTER = 0.07
 
 
-def say(figure: Figure, title: str, left_out: int) -> None:
+def put_title(figure: Figure, title: str, left_out: int) -> None:
     """The title over the panels, and how many joints have none."""
-    more = f" Without {left_out} joints that moved less." if left_out else ""
+    more = say(" Without {left_out} joints that moved less.", left_out=left_out) if left_out else ""
     letters = min(max(int(figure.get_figwidth() / LETTER), 20), 110)
     figure.suptitle(textwrap.fill(title + more, letters), x=0.02, ha="left", fontsize=8.0)

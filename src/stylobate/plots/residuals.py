@@ -9,9 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..column.shapes import Shape
+from ..messages import digits, say
 from ..response import Response
 from ..response.words import title_of
-from .panels import most, panels_for, say, until_collapse
+from .panels import most, panels_for, put_title, until_collapse
 from .style import BLUE, BROWN, GREY, SAND, styled
 from .uplift import face_outline, rim_radius
 
@@ -49,14 +50,16 @@ def draw_residuals(response: Response, title: str | None = None, *, figure: Figu
         axes.set_xlim(-reach, reach)
         axes.set_ylim(-reach, reach)
         offset = 1000.0 * float(np.hypot(*slip[i]))
-        toward = f" to {math.degrees(math.atan2(slip[i, 1], slip[i, 0])) % 360.0:.0f}°" if offset >= 0.05 else ""
+        azimuth = math.degrees(math.atan2(slip[i, 1], slip[i, 0])) % 360.0
+        toward = say(" to {azimuth:.0f}°", azimuth=azimuth) if offset >= 0.05 else ""
         turn = round(math.degrees(twist[i]), 2) + 0.0
-        words = f"drum {i + 1}\n{offset:.1f} mm{toward}\ntwist {turn:.2f}°".replace("-", "−")
+        twisted = ("−" if turn < 0.0 else "") + digits(abs(turn), ".2f")
+        words = say("drum {number}\n{far:.1f} mm{to}\ntwist {turn}°", number=i + 1, far=offset, to=toward, turn=twisted)
         axes.set_title(words, fontsize=7.0, loc="center", pad=1.0)
     when = "At the end" if math.isnan(response.collapse_time) else "Where collapse became certain"
     drawn = "as they are" if far == turned == 1.0 else f"offsets × {far:g}, twists × {turned:g}"
     words = f"{when} ({drawn}; x to the right, y up): {title_of(response)}"
-    say(figure, title or words, len(twist) - len(shown))
+    put_title(figure, title or words, len(twist) - len(shown))
     return figure
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from ..constants import g
+from ..messages import say
 from ..response.events import turns
 from ..response.instants import ASIDE, size_of, way_of
 from ..response.words import title_of
@@ -62,10 +63,12 @@ def draw_sequence(
     if response.collapsed:
         for axes in (upper, middle):
             axes.axvline(response.collapse_time, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
-    upper.set_ylabel(f"{'top' if response.histories.top is not None else 'farthest body'}\n[{unit}]")
-    middle.set_ylabel("largest tilt\n[°]")
-    lower.set_ylabel("ground\n[g]")
-    lower.set_xlabel("time [s]")
+    upper.set_ylabel(
+        (say("top\n[{unit}]") if response.histories.top is not None else say("farthest body\n[{unit}]")).of(unit=unit)
+    )
+    middle.set_ylabel(say("largest tilt\n[°]"))
+    lower.set_ylabel(say("ground\n[g]"))
+    lower.set_xlabel(say("time [s]"))
     lower.set_xlim(0.0, time[-1])
     upper.set_title(in_lines(title or title_of(response)))
     figure.align_ylabels()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure, SubFigure
 
 from ..constants import g
+from ..messages import say
 from ..motion import Motion
 from ..motion.spectra import ResponseSpectrum, response_spectrum
 from .motion import NAMES
@@ -45,9 +46,9 @@ def draw_spectra(
         axes.grid(which="both")
         axes.set_ylim(bottom=0.0)
         axes.margins(x=0.0)
-    upper.set_ylabel("pseudo-acceleration [g]")
-    lower.set_ylabel("relative displacement [m]")
-    lower.set_xlabel("period [s]")
+    upper.set_ylabel(say("pseudo-acceleration [g]"))
+    lower.set_ylabel(say("relative displacement [m]"))
+    lower.set_xlabel(say("period [s]"))
     upper.legend(loc="upper right")
     level = next(iter(found.values())).damping
     upper.set_title(title or f"{motion.name}, {100.0 * level:g} % damping")

@@ -8,10 +8,11 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from ..column.shapes import CircularFrustum, Shape, hull
+from ..messages import say
 from ..response import Response
 from ..response.poses import rotation_matrices
 from ..response.words import title_of
-from .panels import most, panels_for, say, until_collapse
+from .panels import most, panels_for, put_title, until_collapse
 from .style import BROWN, GREY, SAND, styled
 
 #: Directions around a rim.
@@ -108,7 +109,7 @@ def draw_uplift(response: Response, title: str | None = None, *, figure: Figure 
         axes.grid(color="#dddddd", linewidth=0.5)
         axes.spines["polar"].set(color=GREY, linewidth=0.6)
         toward = math.degrees(azimuth[int(peaks[i].argmax())])
-        said = f"{largest:.3g} mm, {toward:.0f}°" if largest > 5e-3 else "closed"
-        axes.set_title(f"joint {i + 1}\n{said}", fontsize=7.0, loc="center", pad=4.0)
-    say(figure, title or f"Largest uplift by direction: {title_of(response)}", len(peaks) - len(shown))
+        said = say("{far:.3g} mm, {azimuth:.0f}°", far=largest, azimuth=toward) if largest > 5e-3 else say("closed")
+        axes.set_title(say("joint {number}\n{said}", number=i + 1, said=said), fontsize=7.0, loc="center", pad=4.0)
+    put_title(figure, title or f"Largest uplift by direction: {title_of(response)}", len(peaks) - len(shown))
     return figure

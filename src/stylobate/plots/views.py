@@ -18,6 +18,7 @@ from ..column.shapes import hull
 from ..column.structure import Body, Structure
 from ..column.turning import matrix_of
 from ..constants import DEGREE
+from ..messages import digits, say
 from .elevation import NAMED, WRITTEN, Sheet, dimension, draw_chain, levels_of
 from .solids import MARK, STONE, Solid, Surface, painted, painting_order, surface_of
 from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, styled
@@ -44,9 +45,9 @@ BESIDE = 5.0
 
 #: Elevations and plan, with what is said of each.
 SEEN = (
-    (ALONG_X, "along y: x to the right"),
-    (ALONG_Y, "against x: y to the right"),
-    (PLAN, "plan: x to the right, y upward"),
+    (ALONG_X, say("along y: x to the right")),
+    (ALONG_Y, say("against x: y to the right")),
+    (PLAN, say("plan: x to the right, y upward")),
 )
 
 
@@ -220,7 +221,7 @@ def _feet(axes: Axes, sheet: Sheet, structure: Structure, view: View, edge: floa
             line = {"arrowstyle": "|-|,widthA=0.2,widthB=0.2", "lw": 0.6, "shrinkA": 0, "shrinkB": 0}
             axes.annotate("", (start, place), (end, place), arrowprops=line)
             paper = {"pad": 0.6, "facecolor": "white", "edgecolor": "none"}
-            said = f"{end - start:.3f}"
+            said = digits(end - start, ".3f")
             axes.text(0.5 * (start + end), place, said, fontsize=6.5, ha="center", va="center", bbox=paper)
 
 

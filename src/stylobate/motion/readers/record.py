@@ -9,6 +9,7 @@ import numpy as np
 
 from ...constants import g
 from ...errors import InputError, warn
+from ...messages import say
 from ...percent import percent
 from ..drift import as_asked, best_of, cures_of
 from ..motion import MAX_SAMPLES, STRONGEST, Motion, integrate
@@ -93,7 +94,7 @@ def oriented(component: Component) -> Component:
     component.azimuth = azimuth if component.azimuth is None and not vertical else component.azimuth
     if sign < 0.0:
         component.values = -component.values
-        component.processing.append("sign turned: the file counts downward as positive, here upward is")
+        component.processing.append(say("sign turned: the file counts downward as positive, here upward is"))
     return component
 
 
@@ -151,9 +152,9 @@ def assemble(
     values, last, note = common_span(used, axes, step)
     if note:
         processing.append(note)
-        warn(f"{name}: {note}.")
+        warn(say("{name}: {note}.", name=name, note=note))
     for axis, one in zip(axes, used):
-        processing += [f"{axis}: {text}" for text in one.processing]
+        processing += [say("{axis}: {text}", axis=axis, text=text) for text in one.processing]
     _warn_of_peak(values, step, name)
     _warn_of_offset(values, name)
     facts = used[0].facts | {key: last.facts[key] for key in ("start_time", "first_time") if key in last.facts}
@@ -225,8 +226,12 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
             )
     if 0.0 < max(peaks.values()) < SMALLEST_PEAK:
         _doubt(
-            f"{name}: the peak is {max(peaks.values()):.3g} g, which shakes no column; check the unit, and whether these "
-            "are accelerations."
+            say(
+                "{name}: the peak is {max:.3g} g, which shakes no column; check the unit, and whether these are "
+                "accelerations.",
+                name=name,
+                max=max(peaks.values()),
+            )
         )
     for axis, array in values.items():
         fastest = float(np.abs(integrate(array, step)).max())
@@ -245,8 +250,15 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
         mean = float(array.mean()) if array.size else 0.0
         if peak > 0.0 and abs(mean) > OFFSET_SHARE * peak:
             _doubt(
-                f"{name}: the mean of component {axis} is {mean / g:.3g} g, {percent(abs(mean) / peak)} of its peak, as "
-                "when an instrument's offset was left in; take it off (`condition='demean'`) unless it is meant."
+                say(
+                    "{name}: the mean of component {axis} is {mean:.3g} g, {share} of its peak, as when an "
+                    "instrument's offset was left in; take it off ({step}) unless it is meant.",
+                    name=name,
+                    axis=axis,
+                    mean=mean / g,
+                    share=percent(abs(mean) / peak),
+                    step="`condition='demean'`",
+                )
             )
 
 

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ...errors import InputError
+from ...messages import say
 from ..motion import MAX_SAMPLES
 from .checks import check_sampling
 from .component import Component
@@ -98,9 +99,14 @@ def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str)
                     break
                 step *= 0.5
         new, departure = at(step)
-    note = (
-        f"resampled linearly from unequal steps ({steps.min():.4g} to {steps.max():.4g} s, median {median:.4g} s) "
-        f"to {step:.6g} s; departs by up to {departure:.2%} of the peak at the original times"
+    note = say(
+        "resampled linearly from unequal steps ({min:.4g} to {max:.4g} s, median {median:.4g} s) to {step:.6g} "
+        "s; departs by up to {departure:.2%} of the peak at the original times",
+        min=steps.min(),
+        max=steps.max(),
+        median=median,
+        step=step,
+        departure=departure,
     )
     return step, new, note
 

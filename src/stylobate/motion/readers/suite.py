@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...errors import InputError, check_all, warn
+from ...messages import say
 from ...reading import shown
 from ..motion import Motion
 from ..recordings import recorded_again
@@ -99,8 +100,8 @@ def read_suite(
             refused[shown(path.name)] = str(error)
             continue
         if motion.digest in names:
-            refused[shown(path.name)] = (
-                f"it holds the motion of {names[motion.digest]!r} once more; a record counts once"
+            refused[shown(path.name)] = say(
+                "it holds the motion of {names!r} once more; a record counts once", names=names[motion.digest]
             )
         elif motion.name in names.values():
             raise InputError(f"two records are called {motion.name!r}; results go by names: rename one of the files.")

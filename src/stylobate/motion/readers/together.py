@@ -8,6 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from ...errors import InputError
+from ...messages import joined, say
 from ..events import moment_of
 from .component import SQUARE, Component, at_right_angles
 
@@ -91,8 +92,13 @@ def common_span(
     if not any(later) and len(set(lengths)) == 1:
         return values, components[0], ""
     told = [f"{axis}: {length}" for axis, length in zip(axes, lengths)]
-    told += [f"{axis} begins {steps * step:g} s later" for axis, steps in zip(axes, later) if steps]
-    note = f"cut to the common {'span' if any(later) else 'length'} of {count} samples ({', '.join(told)})"
+    begins = say("{axis} begins {time:g} s later")
+    told += [begins.of(axis=axis, time=steps * step) for axis, steps in zip(axes, later) if steps]
+    span, length_ = (
+        say("cut to the common span of {count} samples ({names})"),
+        say("cut to the common length of {count} samples ({names})"),
+    )
+    note = (span if any(later) else length_).of(count=count, names=joined(", ", told))
     return values, components[later.index(max(later))], note
 
 
