@@ -11,13 +11,9 @@ from babel.messages.catalog import Catalog
 from babel.messages.pofile import read_po, write_po
 
 from stylobate.models.registry import MODELS, model_class
-from stylobate_report.language import FIELD, LANGUAGES, WORD, file_of
+from stylobate_report.language import LANGUAGES, file_of, has_words
 
 ROOT = Path(__file__).parents[1]
-
-
-#: Symbols of units, which are alike in all languages.
-UNITS = {"mm", "kg", "kN", "Hz", "rad", "MPa", "Pa", "ms", "kJ", "m³"}
 
 
 def found() -> Iterator[tuple[str, str]]:
@@ -32,11 +28,6 @@ def found() -> Iterator[tuple[str, str]]:
         model = model_class(name)
         for text in (model.title, *model.assumptions, *model.limits):
             yield text, "models"
-
-
-def has_words(text: str) -> bool:
-    """Whether a template has anything to translate beside its fields and units."""
-    return any(len(word) > 1 and word not in UNITS for word in WORD.findall(FIELD.sub("", text)))
 
 
 def renewed(tag: str, messages: dict[str, str]) -> Catalog:

@@ -331,7 +331,7 @@ class Fragility(Shown):
         e = self.evidence
         known = {
             "name": e.name,
-            "im": e.measure,
+            "im": say(e.measure),
             "unit": "" if e.unit == "-" else f" {e.unit}",
             "counted": self.counted,
         }
@@ -382,7 +382,7 @@ class Fragility(Shown):
             "beta_low": self.beta_interval[0],
             "beta_high": self.beta_interval[1],
             "correlation": lognormal.correlation(self.samples),
-            "im": e.measure,
+            "im": say(e.measure),
             "unit": e.unit,
             "state": e.state,
             "name": e.name,

@@ -233,7 +233,7 @@ def median_of(summary: Mapping[str, Any]) -> str:
     """
     (half,) = quantiles(map(_capacity, summary["capacities"]), (0.5,))
     unit = "" if summary.get("unit") in (None, "-") else f" {summary['unit']}"
-    known = {"im": summary.get("im"), "low": half.low, "high": half.high, "unit": unit}
+    known = {"im": say(str(summary.get("im"))), "low": half.low, "high": half.high, "unit": unit}
     bound = half.bound()
     if bound is None:
         return say("half of the curves have collapsed between {im} = {low:.3g} and {high:.3g}{unit}", **known)

@@ -17,7 +17,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..campaign.unknown_laws import PER_LAW
+from ..campaign.twins import PER_LAW
 from ..messages import say
 from . import verdicts as v
 

@@ -31,13 +31,22 @@ LANGUAGES = ("it", "el")
 MOST = 10_000_000
 
 #: A word of a text, and a field of a template with its format.
-WORD, FIELD = re.compile(r"[^\W\d_]{2,}"), re.compile(r"\{([^{}:!]+)[^{}]*\}")
+WORD, FIELD = re.compile(r"(?<![\w./-])[^\W\d_]{2,}(?![\w]|\.\w)"), re.compile(r"\{([^{}:!]+)[^{}]*\}")
 
 #: Headers of a catalogue: marks before the decimals of a number, and between groups of three digits.
 DECIMAL, GROUPS = "X-Decimal", "X-Groups"
 
 #: Names that the program gives to parts of what stands, of which the nouns are translated.
 NUMBERED = re.compile(r"(column|drum|capital|architrave|block|tie|dowel|clamp|layer|core|bar)( \d+)?")
+
+
+#: Symbols of units, which are alike in all languages, and the most words that a name has: more are a sentence.
+UNITS, MOST_IN_A_NAME = {"mm", "kg", "kN", "Hz", "rad", "MPa", "Pa", "ms", "kJ"}, 4
+
+
+def has_words(template: str) -> bool:
+    """Whether a template has anything to translate beside its fields, units and names of the program."""
+    return any(word not in UNITS for word in WORD.findall(FIELD.sub("", template)))
 
 
 class Language:
@@ -91,7 +100,7 @@ class Language:
 
     def _template(self, template: str) -> str:
         found = self.catalogue.get(template)
-        if found is None and template not in self.own and WORD.search(FIELD.sub("", template)):
+        if found is None and template not in self.own and has_words(template):
             self.missing.setdefault(str(template))
         return template if found is None else found
 
@@ -101,7 +110,8 @@ class Language:
             return text
         if parts := numbered(text):
             return ", ".join(self._template(noun) + number for noun, number in parts)
-        self.missing.setdefault(text)
+        if len(WORD.findall(text)) > MOST_IN_A_NAME:
+            self.missing.setdefault(text)
         return text
 
     def _written(self, value: Any, form: str) -> str:

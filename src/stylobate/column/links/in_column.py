@@ -13,7 +13,7 @@ from ...errors import InputError
 from ...messages import say
 from ..drum import Drum
 from ..stack import Stack
-from .line import Line
+from .kinds import Line
 from .link import Link, Site
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, place_all, placed
 
