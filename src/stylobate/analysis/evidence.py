@@ -18,6 +18,7 @@ from . import verdicts as v
 from .ida_curves import Ida
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, LimitState, parse_state
 from .lognormal import fit
+from ..messages import say
 
 if TYPE_CHECKING:
     import pandas
@@ -157,7 +158,7 @@ def evidence(
     table: pandas.DataFrame | Ida,
     measure: IntensityMeasure | str | None = None,
     state: LimitState | str = "collapse",
-    name: str = "runs",
+    name: str = say("runs"),
     unit: str = "-",
     doubt: str = "",
     *,

@@ -31,6 +31,7 @@ from .difference import caveat
 from .hunt import next_levels
 from .ida_curves import Ida
 from .record_facts import ABOUT
+from ..messages import say
 
 if TYPE_CHECKING:
     import pandas
@@ -257,11 +258,12 @@ def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
     beyond = {name: factor for name, factor in factors.items() if factor > WARNED}
     if beyond:
         name = max(beyond, key=beyond.__getitem__)
-        warn(
-            f"{len(beyond)} of {len(factors)} records are multiplied by more than {WARNED:g}, {name!r} by "
-            f"{beyond[name]:.3g}: scaled so far, they are no longer those of earthquakes; leave out the weak ones.",
-            OutOfRangeWarning,
+        words = say(
+            "{count} of {all} records are multiplied by more than {most:g}, {name!r} by {factor:.3g}: scaled so far, they are no "
+            "longer those of earthquakes; leave out the weak ones."
         )
+        known = {"count": len(beyond), "all": len(factors), "most": WARNED, "name": name, "factor": beyond[name]}
+        warn(words.of(**known), OutOfRangeWarning)
 
 
 def _table(

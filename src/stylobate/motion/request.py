@@ -13,6 +13,7 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, warn
+from ..messages import say
 from .condition_specs import conditioned_alike
 from .conditioning import warn_of_peak, warn_of_scaling
 from .motion import FACTORS, Motion
@@ -323,12 +324,12 @@ class MotionRequest:
     def _sized(self, motion: Motion, strongest: Motion) -> Motion:
         """The motion as large as asked for; turned ones are that of one record, with the factor of the strongest."""
         if self.scale is not None:
-            said = (*motion.processing, f"multiplied by {self.scale:g}")
+            said = (*motion.processing, say("multiplied by {self.scale:g}", self=self))
             motion = motion.scaled(self.scale).replace(processing=said)
         if self.pga is not None:
             times = strongest.scaled_to_pga(self.pga).factor / strongest.factor
             size = f"{self.pga / g:g} g"
-            text = f"multiplied by {times:.4g}: scaled to a peak of {size} along x"
+            text = say("multiplied by {times:.4g}: scaled to a peak of {size} along x", times=times, size=size)
             if len(self.azimuths) > 1:
                 motion = motion.scaled(times).replace(name=f"{motion.name}, scaled to {size}")
                 text += ", that of the strongest of these directions"

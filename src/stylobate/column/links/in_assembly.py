@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError, suggest
+from ...messages import say
 from ..block import Block, FaceJoint
 from .link import LEAST_LENGTH, Link, in_space, point
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, for_each, place_all, placed
@@ -81,7 +82,8 @@ def placed_between(
         numbers = replace(numbers, lift=math.inf)
     if math.isfinite(numbers.lift):
         where["stroke"] = numbers.lift
-    called = link.name or f"{link.kind} between {link.between[0]} and {link.between[1]}"
+    between = say("{kind} between {l.between[0]} and {l.between[1]}", kind=say(link.kind), l=link)
+    called = link.name or between
     return placed(
         numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark, lower=lower, upper=upper,
         low=low, high=high, **where,
