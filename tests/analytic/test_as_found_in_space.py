@@ -12,10 +12,10 @@ from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import the_twins
 from stylobate.column import Column
 from stylobate.column.files import write_column
-from stylobate.column.found_geometry import uplift_accelerations
-from stylobate.column.found_in_space import inside_overlap, space_geometry, space_load, upward
+from stylobate.column.found_geometry import inside_overlap, space_geometry, space_load, uplift_accelerations, upward
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion
 
 COLUMN = round_column(3)
@@ -34,7 +34,7 @@ def found(turned=0.0, tilt=0.0, azimuth=0.0, **third):
 
 def block_of(column, motion=STILL, **model):
     model = DistinctElement3D(**model)
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     block.load(0, Case(column, motion))
     return block
 

@@ -9,11 +9,11 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from numbers import Real
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..campaign.cases import RELATIVE
 from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
@@ -58,7 +58,6 @@ class Trace:
     rows: list[dict]
 
 
-@campaigning(Fields)
 def ida(
     column: Structure,
     motions: Sequence[Motion],
@@ -70,8 +69,8 @@ def ida(
     largest_factor: float = LARGEST,
     about: Mapping[str, Mapping[str, float]] | None = None,
     watch: Callable[[Callable[[], Ida]], object] | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> Ida:
     """Scale every record over levels of an intensity, and run the column.
 
@@ -93,7 +92,7 @@ def ida(
         By name of a record, or of a motion that is made of one, ``magnitude`` and ``distance_km``.
     watch : callable, optional
         Called after each run with a function that makes the analysis of the runs that are finished.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         With replicates, these are run instead of the column itself; ``progress`` is called with (finished, most that there
         will be).
 
@@ -108,6 +107,7 @@ def ida(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    campaign = Campaign.of("ida", campaign, settings)
     started = time.perf_counter()
     check_kind("column", column, Structure)
     motions = check_all("motions", motions, Motion)

@@ -6,11 +6,11 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..campaign.twins import the_twins
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_kind, check_whole
@@ -219,7 +219,6 @@ class SequenceResult(Shown):
         }
 
 
-@campaigning(Fields, but=("tail",))
 def sequence(
     structure: Structure,
     motions: Motion | Sequence[Motion],
@@ -229,8 +228,8 @@ def sequence(
     repeat: int = 1,
     output_interval: float = 0.01,
     until_end: bool = False,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> SequenceResult:
     """Shake a structure with earthquakes one after another; each begins as the one before has left it.
 
@@ -251,7 +250,7 @@ def sequence(
         Time between recorded states [s], of which the peaks of each earthquake are told.
     until_end : bool
         Go on after the collapse of a column, where the model does.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
 
     Returns
     -------
@@ -262,6 +261,7 @@ def sequence(
     InputError
         The input cannot be used.
     """
+    campaign = Campaign.of("sequence", campaign, settings, ("tail",))
     began = time.perf_counter()
     check_kind("structure", structure, Structure)
     check_kind("model", model, Model)
@@ -330,7 +330,6 @@ class UntilFall(Shown):
         return {"until_fall": self.over_motions.summary(), "motions": each, "wall_s": self.wall_time}
 
 
-@campaigning(Fields, but=("tail",))
 def earthquakes_until_fall(
     structure: Structure,
     motions: Motion | Sequence[Motion],
@@ -338,8 +337,8 @@ def earthquakes_until_fall(
     most: int = 20,
     *,
     rest: float = REST,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> UntilFall:
     """Count how many earthquakes like each of these a structure takes until it falls, each motion coming again and again.
 
@@ -352,7 +351,7 @@ def earthquakes_until_fall(
         Earthquakes after which a run ends; what stands then takes more than that.
     rest : float
         Quiet ground after each of them [s].
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         With replicates, of columns like this one; over them and over motions the median is told with its interval.
 
     Raises
@@ -360,6 +359,7 @@ def earthquakes_until_fall(
     InputError
         The input cannot be used.
     """
+    campaign = Campaign.of("earthquakes_until_fall", campaign, settings, ("tail",))
     began = time.perf_counter()
     check_kind("structure", structure, Structure)
     check_kind("model", model, Model)

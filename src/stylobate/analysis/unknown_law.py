@@ -17,7 +17,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..campaign.unknown_laws import PER_LAW
+from ..campaign.twins import PER_LAW
 from . import verdicts as v
 
 #: Exponents of the density of r before anything is counted, (1 − r)³: its mean 0.2 is about that of the counts of other

@@ -1,17 +1,14 @@
-"""How many runs are made, as one value: of which twins, for how long, where they are computed, kept and told of."""
+"""Settings of a batch of runs: replicates, tail, executor, ledger, progress."""
 
 from __future__ import annotations
 
-import inspect
-import re
-from collections.abc import Callable
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, fields, replace
-from functools import wraps
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar
+from typing import Any
 
 from ..column.scatter import Scatter
-from ..errors import InputError, as_typed, check_choice, check_range, check_whole
+from ..errors import InputError, as_typed, check_choice, check_kind, check_range, check_whole
 from ..models.base import RunOptions
 from ..response.measures import CPU, DEVICES, GPU
 from .ledger import RUNS_FILE
@@ -25,34 +22,18 @@ MAX_TWINS = 100_000
 #: Called with (finished runs, all runs) whenever a run finishes; by a single run with times.
 Progress = Callable[[Any, Any], None]
 
-
-class Computing(TypedDict, total=False):
-    """Fields of a campaign that any runs have, as keywords."""
-
-    tail: float
-    threads: int | None
-    dask: str | None
-    device: str
-    mix_devices: bool
-    progress: Progress | None
-    ledger: str | Path | None
-
-
-class Fields(Computing, total=False):
-    """All fields of a campaign, as keywords."""
-
-    replicates: int
-    scatter: Scatter | None
-    seed: int
-    whole: bool
+#: Fields about replicates, about the runs themselves, and about where runs are computed and kept, and who is told.
+TWINS = ("replicates", "scatter", "seed")
+RUNS = (*TWINS, "whole")
+COMPUTING = ("threads", "dask", "device", "mix_devices", "progress", "ledger")
 
 
 @dataclass(frozen=True)
 class Campaign:
-    """How runs are made: asked for once, the same for the command line, study files, the page and Python.
+    """Settings of a batch of runs, the same for the command line, study files, the page and Python.
 
-    A keyword beside a campaign fills a field that the campaign leaves at its default; where both say something else, they
-    are refused.
+    Functions that make runs take a campaign, its fields as keywords, or both: a keyword fills a field that the campaign
+    leaves at its default; where both say something else, they are refused.
 
     Parameters
     ----------
@@ -126,6 +107,59 @@ class Campaign:
         if self.threads is not None:
             check_range("`threads`", self.threads, 1, 1024, remedy="leave it out to use all cores")
 
+    @classmethod
+    def of(
+        cls,
+        function: str,
+        campaign: Campaign | None,
+        settings: Mapping[str, Any],
+        without: Container[str] = (),
+        **usual: Any,
+    ) -> Campaign:
+        """Settings of a function that takes a campaign, fields of it as keywords, or both.
+
+        Parameters
+        ----------
+        function : str
+            Its name, for messages.
+        campaign : Campaign, optional
+        settings : mapping
+            The keywords.
+        without : container of str
+            Fields that the function does not take.
+        **usual
+            Fields with another default.
+
+        Raises
+        ------
+        TypeError
+            A keyword that the function does not take.
+        InputError
+            A value that is not allowed, or one thing in the campaign and another in a keyword.
+        """
+        standard = cls(**usual)
+        value = (
+            standard
+            if campaign is None
+            else check_kind("campaign", campaign, cls, allowed="a Campaign, such as Campaign(replicates=30)")
+        )
+        names = [one.name for one in fields(cls) if one.name not in without]
+        for name, typed in settings.items():
+            if name not in names:
+                raise TypeError(
+                    f"{function}: there is no keyword {name!r}; settings of its runs are {', '.join(names)}"
+                )
+            stated = getattr(value, name)
+            if stated not in (typed, getattr(cls, name), getattr(standard, name)):
+                raise InputError(
+                    f"`{name}` is {as_typed(typed)}, and {as_typed(stated)} in the campaign; give it in one of the two.",
+                    name,
+                )
+        for one in fields(cls):
+            if one.name not in names and getattr(value, one.name) != one.default:
+                raise InputError(f"{function} takes no {one.name}; leave it out of the campaign.")
+        return replace(value, **settings)
+
     @property
     def options(self) -> RunOptions:
         """How long its runs go on."""
@@ -139,7 +173,7 @@ class Campaign:
     @property
     def of_runs(self) -> Campaign:
         """What it says of the runs themselves."""
-        return replace(self, **{name: getattr(USUAL, name) for name in COMPUTING})
+        return replace(self, **{name: getattr(Campaign, name) for name in COMPUTING})
 
     @property
     def of_computing(self) -> Campaign:
@@ -158,88 +192,3 @@ class Campaign:
         if made.ledger is not None and not Path(made.ledger).parent.is_dir():
             raise InputError(f"folder {Path(made.ledger).parent} does not exist; create it first.")
         return made
-
-
-#: Fields that say where runs are computed and kept, and who is told.
-COMPUTING = ("threads", "dask", "device", "mix_devices", "progress", "ledger")
-
-#: How runs are made where nothing is asked for.
-USUAL = Campaign()
-
-
-Function = TypeVar("Function", bound=Callable[..., Any])
-
-
-def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Callable[[Function], Function]:
-    """For functions of a ``campaign``: its fields are keywords of theirs, with signature, documentation and checks.
-
-    Parameters
-    ----------
-    keywords : type
-        The typed dictionary of the fields, which the function declares for type checkers (``**fields: Unpack[...]``).
-    but : tuple of str
-        Those of them that the function does not take.
-    **usual
-        Fields with another default.
-    """
-    taken = [field for field in fields(Campaign) if field.name in keywords.__annotations__ and field.name not in but]
-    others = [field for field in fields(Campaign) if field not in taken]
-    standard = replace(USUAL, **usual)
-
-    def of(function: Function) -> Function:
-        if isinstance(function, type):
-            function.__init__ = of(function.__init__)  # type: ignore[misc]
-            function.__doc__ = _documented(function.__doc__ or "", [one.name for one in taken])
-            return function  # type: ignore[return-value]
-        named = function.__qualname__.removesuffix(".__init__")
-        own = inspect.signature(function)
-        plain = [
-            parameter for parameter in own.parameters.values() if parameter.kind is not inspect.Parameter.VAR_KEYWORD
-        ]
-        given = own.replace(parameters=plain)
-
-        @wraps(function)
-        def taking(*args: Any, **kwargs: Any) -> Any:
-            changes = {one.name: kwargs.pop(one.name) for one in taken if one.name in kwargs}
-            value = kwargs.pop("campaign", None) or standard
-            if not isinstance(value, Campaign):
-                raise InputError(
-                    f"campaign is {as_typed(value)}; allowed is a Campaign, such as Campaign(replicates=30)."
-                )
-            for name, typed in changes.items():
-                asked = getattr(value, name)
-                if asked not in (typed, getattr(USUAL, name), getattr(standard, name)):
-                    raise InputError(
-                        f"`{name}` is {as_typed(typed)}, and {as_typed(asked)} in the campaign; give it in one of the two.",
-                        name,
-                    )
-            made = replace(value, **changes)
-            for other in others:
-                if getattr(made, other.name) != other.default:
-                    raise InputError(f"{named} takes no {other.name}; leave it out of the campaign.")
-            try:
-                given.bind(*args, **kwargs, campaign=made)
-            except TypeError as error:
-                raise TypeError(f"{named}: {error}") from None
-            return function(*args, **kwargs, campaign=made)
-
-        *before, last = plain
-        assert last.name == "campaign"
-        spread = [
-            inspect.Parameter(one.name, last.KEYWORD_ONLY, default=getattr(standard, one.name), annotation=one.type)
-            for one in taken
-        ]
-        taking.__signature__ = own.replace(parameters=[*before, *spread, last.replace(default=None)])  # type: ignore[attr-defined]
-        taking.__doc__ = _documented(function.__doc__ or "", [one.name for one in taken])
-        return taking  # type: ignore[return-value]
-
-    return of
-
-
-def _documented(text: str, names: list[str]) -> str:
-    """A docstring with the fields of a campaign in front of the campaign, in the words of :class:`Campaign`."""
-    own = inspect.cleandoc(text)
-    before, entry, after = own.partition("\ncampaign : Campaign")
-    entries = re.findall(r"^((\w+) : .*(?:\n {4}.*)+)", inspect.cleandoc(Campaign.__doc__ or ""), re.MULTILINE)
-    told = "".join(f"\n{words}" for words, name in entries if name in names)
-    return f"{before}{told}{entry}{after}" if entry else own

@@ -39,6 +39,10 @@ def in_options(message: object) -> str:
     return reworded(str(message), lambda name: OPTIONS.get(name, f"--{name.replace('_', '-')}"))
 
 
+#: How messages name parameters: as options, unless a command is done for somebody who does not see these.
+WORDING: Callable[[object], str] = in_options
+
+
 #: Time until the first line about progress, where there is no terminal [s].
 FIRST_LINE = 10.0
 
@@ -171,7 +175,7 @@ def print_left_out(inputs: Sequence[Mapping[str, Any]]) -> None:
 def print_refused(refused: Mapping[str, str]) -> None:
     """Say which files of a suite were not used, and why."""
     for name, reason in refused.items():
-        print(f"not used: {name}: {in_options(reason)}")
+        print(f"not used: {name}: {WORDING(reason)}")
 
 
 def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None]:
@@ -195,8 +199,7 @@ def ledger(folder: Path | None, *, waits: bool = False) -> Path | None:
 
     A command that ``waits`` for that one is not refused.
     """
-    from ..campaign.holding import refuse_held
-    from ..campaign.ledger import RUNS_FILE
+    from ..campaign.ledger import RUNS_FILE, refuse_held
     from . import signals
 
     if folder is None:
@@ -209,13 +212,14 @@ def ledger(folder: Path | None, *, waits: bool = False) -> Path | None:
 
 def note(sentence: str) -> None:
     """Say on standard error what a person should know while a command goes on."""
-    print(f"stylobate: {sentence}", file=sys.stderr, flush=True)
+    print(f"stylobate: {WORDING(sentence)}", file=sys.stderr, flush=True)
 
 
 def warn(sentence: str) -> None:
     """Say once what is kept with the results too, and stands in a report of them."""
-    if sentence not in WARNED:
-        WARNED.append(sentence)
+    kept = in_options(sentence)
+    if kept not in WARNED:
+        WARNED.append(kept)
         note(f"warning: {sentence}")
 
 

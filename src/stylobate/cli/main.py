@@ -6,7 +6,7 @@ import errno
 import io
 import sys
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
 from typing import Annotated, Any
@@ -42,8 +42,7 @@ from . import (
     study,
     suite,
 )
-from .groups import takes
-from .helping import WIDTH, Command
+from .groups import WIDTH, Command, takes
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
 
@@ -120,7 +119,81 @@ def call(arguments: Sequence[str]) -> int:
         0 when the command did its work (a collapse is a result), 2 for bad input, 1 for a failure of ours, 130 after
         an interrupt.
     """
-    console.COMMAND[:], console.WARNED[:], console.FIELD = list(map(str, arguments)), [], None
+
+    def do() -> Any:
+        program = commands()
+        name = arguments[0] if arguments else ""
+        if name not in program.commands and (place := missing("commands", name)):
+            raise InputError(f"{name} is a command of {place}")
+        return program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
+
+    return _done(list(map(str, arguments)), do)
+
+
+def parameters(command: str) -> dict[str, Any]:
+    """Arguments and options of a command by their names, as fields of errors and keys of requests call them."""
+    return {
+        one.name if one.param_type_name == "argument" else one.opts[0].strip("-").replace("-", "_"): one
+        for one in commands().commands[command].params
+    }
+
+
+def ask(request: Mapping[str, Any]) -> int:
+    """Do what a request asks, with no command line between.
+
+    Parameters
+    ----------
+    request : mapping
+        The ``command``, and values of its :func:`parameters`: a text, a list of texts, or true or false.
+
+    Returns
+    -------
+    int
+        As :func:`call`.
+    """
+
+    def do() -> None:
+        command, known = commands().commands[request["command"]], parameters(request["command"])
+        unknown = next((name for name in request if name not in known and name != "command"), None)
+        if unknown is not None:
+            raise InputError(f"{request['command']} takes no {unknown!r}; leave it out.", unknown)
+        context = typer.Context(command)
+        values = {}
+        for name, one in known.items():
+            value = request.get(name, one.get_default(context))
+            if value is None and one.required:
+                raise InputError(f"`{name}` is missing; give it.", name)
+            try:
+                values[one.name] = one.process_value(context, value)
+            except _UsageError as error:
+                allowed = _number(error) or "another value"
+                raise InputError(f"`{name}` is {value!r}; allowed is {allowed}.", name) from None
+        with context:
+            command.callback(**values)
+
+    return _done(words_of(request), do)
+
+
+def words_of(request: Mapping[str, Any]) -> list[str]:
+    """The command line that asks the same as a request, without the program's name: what has no flag comes first."""
+    known, named, words = parameters(request["command"]), [], []
+    for name, value in request.items():
+        one = known.get(name)
+        flag = f"--{name.replace('_', '-')}"
+        if name == "command":
+            continue
+        if isinstance(value, bool):
+            words += [flag] if value else getattr(one, "secondary_opts", [])[:1]
+        elif one is not None and one.param_type_name == "argument":
+            named += value if isinstance(value, list) else [value]
+        else:
+            words += [f"{flag}={text}" for text in (value if isinstance(value, list) else [value])]
+    return [request["command"], *named, *words]
+
+
+def _done(words: list[str], do: Callable[[], Any]) -> int:
+    """Do a command, whose command line is that; what goes wrong is said, and its kind returned as a number."""
+    console.COMMAND[:], console.WARNED[:], console.FIELD = words, [], None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", OutOfRangeWarning)
@@ -129,11 +202,7 @@ def call(arguments: Sequence[str]) -> int:
         warnings.simplefilter("always", PlaneOnlyWarning)
         warnings.showwarning = _Warner()
         try:
-            program = commands()
-            name = arguments[0] if arguments else ""
-            if name not in program.commands and (place := missing("commands", name)):
-                raise InputError(f"{name} is a command of {place}")
-            code = program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
+            code = do()
         except InputError as error:
             console.FIELD = error.field
             return _complain(error, BAD_INPUT)
@@ -192,21 +261,23 @@ class _Warner:
     """Prints each warning once, in one line, on standard error."""
 
     def __call__(self, message: Any, *_: Any, **__: Any) -> None:
-        console.warn(console.in_options(message))
+        console.warn(str(message))
 
 
 def _usage(error: Any) -> str:
     context = getattr(error, "ctx", None)
     where = context.command_path if context is not None else "stylobate"
     message = " ".join(error.format_message().split())
-    kind = next((words for said, words in _NUMBERS.items() if said in message), None)
+    kind = _number(error)
     if kind is not None and (typed := _typed(getattr(getattr(error, "param", None), "opts", ()))) is not None:
         return f"{typed[0]} is {typed[1]!r}; allowed is {kind}; see '{where} --help'."
     return f"{message.rstrip('.')}; see '{where} --help'."
 
 
-#: What the library says of an option that is no number, and what it should be, in words.
-_NUMBERS = {"valid integer": "a whole number", "valid number": "a number"}
+def _number(error: Any) -> str | None:
+    """What an option should be, in words, where the library says that it is no number."""
+    kinds = {"valid integer": "a whole number", "valid number": "a number"}
+    return next((words for said, words in kinds.items() if said in error.format_message()), None)
 
 
 def _typed(names: Sequence[str]) -> tuple[str, str] | None:
@@ -220,7 +291,7 @@ def _typed(names: Sequence[str]) -> tuple[str, str] | None:
 
 
 def _complain(what: object, code: int) -> int:
-    print(f"stylobate: {console.in_options(what)}", file=sys.stderr)
+    print(f"stylobate: {console.WORDING(what)}", file=sys.stderr)
     return code
 
 

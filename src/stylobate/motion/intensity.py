@@ -12,7 +12,7 @@ from ..errors import OutOfRangeWarning, check_range, warn
 from .drift import as_asked, cure_of, cured, drift_of
 from .integration import absolute_integral, arias, displacement, square_integral, time_above
 from .motion import Motion, peak_velocity
-from .pulse_match import pulse_match
+from .pulses import pulse_match
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
 
 #: Of a peak velocity, in warnings that results keep and that what rests on them says again.

@@ -17,10 +17,10 @@ from .condition_specs import conditioned_alike
 from .conditioning import warn_of_peak, warn_of_scaling
 from .motion import FACTORS, Motion
 from .orientation import keep_axes, rotated, turned
-from .ranges import azimuth_range
 from .readers import Suite, read_motion, read_suite
 from .readers.columns import parse_columns
 from .specs import (
+    azimuth_range,
     parse_acceleration,
     parse_angle,
     parse_harmonic,
@@ -126,9 +126,7 @@ class MotionRequest:
             raise InputError(f"{what}; give one of `harmonic`, `pulse`, `synthetic` and `files`.", "files")
         for name in ("unit", "dt", "columns", "component"):
             if getattr(self, name) is not None and not self.files:
-                raise InputError(
-                    f"`{name}` describes a record, but none is given; leave it out or give `files=FILE`.", name
-                )
+                raise InputError(f"`{name}` describes a record, but none is given; leave it out or give `files`.", name)
         if self.across is not None and self.harmonic is None:
             raise InputError("`across` is the sine along y beside that along x; give `harmonic` as well.", "across")
         check_choice("`signs`", self.signs, ("+", "both"))

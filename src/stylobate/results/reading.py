@@ -10,8 +10,8 @@ from typing import Any
 from ..analysis.domain import Domain
 from ..analysis.probability import CollapseProbability
 from ..analysis.studies import StudyResult
+from ..campaign.cases import PLAN_FILE
 from ..campaign.ledger import FORMER_FILES, RUNS_FILE, refuse_former
-from ..campaign.plan import PLAN_FILE
 from ..errors import InputError, OutOfRangeWarning
 from ..motion import Motion
 from ..motion.readers import read_motion

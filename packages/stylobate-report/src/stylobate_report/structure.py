@@ -10,13 +10,13 @@ import numpy as np
 from stylobate.column import Column
 from stylobate.column.as_found import AsFound, FoundDrum
 from stylobate.column.block import FAR_AWAY
-from stylobate.column.found_in_space import weakest_uplift
-from stylobate.column.links.stone import stone_words
+from stylobate.column.found_geometry import weakest_uplift
+from stylobate.column.links.placed import stone_words
 from stylobate.column.plausible import unit_doubts
 from stylobate.column.structure import Structure
 from stylobate.constants import g
 from stylobate.plots import draw_elevation, draw_views
-from stylobate.plots.joint_plans import joint_plans
+from stylobate.plots.drawing import joint_plans
 
 from . import numbers as n
 from .page import Facts, Item, Picture, Points, Rows, Section

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stylobate.campaign.campaign import USUAL, Campaign, Computing, campaigning
+from stylobate.campaign.campaign import RUNS, Campaign
 from stylobate.errors import InputError, check_kind
 from stylobate.notebook import Shown
 
@@ -193,13 +193,12 @@ class Inference(Shown):
         }
 
 
-@campaigning(Computing, tail=TAIL)
 def infer(
     ruin: Ruin | str | Path,
     *,
     out: str | Path | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Computing],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> Inference:
     """Infer what shaking left a ruin as it is: approximate Bayesian computation over one table of simulations.
 
@@ -210,7 +209,7 @@ def infer(
     out : path, optional
         Folder that keeps the table (``simulations.npz``) and the finished runs: the next question to the same table takes
         seconds, and more ``simulations`` add to it.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
 
     Returns
     -------
@@ -226,6 +225,7 @@ def infer(
     Barber et al. (2021); Beaumont, Zhang and Balding (2002); Fearnhead and Prangle (2012); of survival, Anderson and Brune
     (1999).
     """
+    campaign = Campaign.of("infer", campaign, settings, RUNS, tail=TAIL)
     began = time.perf_counter()
     if not isinstance(ruin, Ruin):
         ruin = read_ruin(check_kind("ruin", ruin, (str, Path)))

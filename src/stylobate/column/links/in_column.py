@@ -12,7 +12,7 @@ import numpy as np
 from ...errors import InputError
 from ..drum import Drum
 from ..stack import Stack
-from .line import Line
+from .kinds import Line
 from .link import Link, Site
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, place_all, placed
 

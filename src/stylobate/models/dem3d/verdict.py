@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import space_geometry, upward
+from ...column.found_geometry import space_geometry, upward
 from ...constants import DEGREE
 
 

@@ -12,9 +12,20 @@ import numpy as np
 
 from stylobate.constants import g
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import CUT, check_ended, check_length, check_peak, check_peak_time, check_step
 from stylobate.motion.readers.numbers import NUMBER, fortran_width, read_numbers
-from stylobate.motion.readers.record import Component, check_count, check_direction, direction, oriented
+from stylobate.motion.readers.record import (
+    CUT,
+    Component,
+    check_count,
+    check_direction,
+    check_ended,
+    check_length,
+    check_peak,
+    check_peak_time,
+    check_step,
+    direction,
+    oriented,
+)
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 

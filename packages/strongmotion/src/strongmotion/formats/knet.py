@@ -6,9 +6,8 @@ import re
 from datetime import datetime, timedelta
 
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import CUT, check_peak, check_step
 from stylobate.motion.readers.numbers import read_numbers
-from stylobate.motion.readers.record import Component, check_count, oriented
+from stylobate.motion.readers.record import CUT, Component, check_count, check_peak, check_step, oriented
 from stylobate.motion.readers.source import Source
 
 _KEYS = (

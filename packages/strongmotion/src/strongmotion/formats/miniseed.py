@@ -15,8 +15,7 @@ import numpy as np
 
 from stylobate.errors import InputError
 from stylobate.motion.earthquakes import is_station_xml, obspy_for
-from stylobate.motion.readers.checks import CUT
-from stylobate.motion.readers.record import Component, direction
+from stylobate.motion.readers.record import CUT, Component, direction
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import ACCELERATION_UNITS, acceleration_unit
 

@@ -7,9 +7,19 @@ import re
 import numpy as np
 
 from stylobate.errors import InputError, warn
-from stylobate.motion.readers.checks import CUT, check_peak, check_peak_time, check_step, rising_pairs
 from stylobate.motion.readers.numbers import count_numbers, read_numbers
-from stylobate.motion.readers.record import LABEL, Component, check_count, direction, oriented
+from stylobate.motion.readers.record import (
+    CUT,
+    LABEL,
+    Component,
+    check_count,
+    check_peak,
+    check_peak_time,
+    check_step,
+    direction,
+    oriented,
+    rising_pairs,
+)
 from stylobate.motion.readers.source import Source
 
 from .keyed import is_numeric

@@ -7,11 +7,17 @@ import re
 import numpy as np
 
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import check_length, check_peak, check_same_step, check_step
 from stylobate.motion.readers.numbers import NUMBER, read_numbers
-from stylobate.motion.readers.record import Component, oriented
+from stylobate.motion.readers.record import (
+    Component,
+    check_length,
+    check_peak,
+    check_same_step,
+    check_step,
+    oriented,
+    step_of,
+)
 from stylobate.motion.readers.source import Source
-from stylobate.motion.readers.steps import step_of
 from stylobate.motion.specs import acceleration_unit
 
 from .keyed import is_numeric, keyed, number_of
