@@ -122,19 +122,33 @@ def call(arguments: Sequence[str]) -> int:
 
     def do() -> Any:
         program = commands()
-        name = arguments[0] if arguments else ""
-        if name not in program.commands and (place := missing("commands", name)):
-            raise InputError(f"{name} is a command of {place}")
+        if arguments and arguments[0] not in program.commands and missing("commands", arguments[0]):
+            the_command(arguments[0])
         return program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
 
     return _done(list(map(str, arguments)), do)
+
+
+def the_command(name: str) -> Any:
+    """The command of that name.
+
+    Raises
+    ------
+    InputError
+        There is none, or its package is not installed.
+    """
+    known = commands().commands
+    if name not in known:
+        place = missing("commands", name)
+        raise InputError(f"{name} is a command of {place}" if place else f"there is no command {name!r}.")
+    return known[name]
 
 
 def parameters(command: str) -> dict[str, Any]:
     """Arguments and options of a command by their names, as fields of errors and keys of requests call them."""
     return {
         one.name if one.param_type_name == "argument" else one.opts[0].strip("-").replace("-", "_"): one
-        for one in commands().commands[command].params
+        for one in the_command(command).params
     }
 
 
@@ -153,14 +167,14 @@ def ask(request: Mapping[str, Any]) -> int:
     """
 
     def do() -> None:
-        command, known = commands().commands[request["command"]], parameters(request["command"])
+        command, known = the_command(request["command"]), parameters(request["command"])
         unknown = next((name for name in request if name not in known and name != "command"), None)
         if unknown is not None:
             raise InputError(f"{request['command']} takes no {unknown!r}; leave it out.", unknown)
         context = typer.Context(command)
         values = {}
         for name, one in known.items():
-            value = request.get(name, one.get_default(context))
+            value = one.get_default(context) if request.get(name) is None else request[name]
             if value is None and one.required:
                 raise InputError(f"`{name}` is missing; give it.", name)
             try:
@@ -180,7 +194,7 @@ def words_of(request: Mapping[str, Any]) -> list[str]:
     for name, value in request.items():
         one = known.get(name)
         flag = f"--{name.replace('_', '-')}"
-        if name == "command":
+        if name == "command" or value is None:
             continue
         if isinstance(value, bool):
             words += [flag] if value else getattr(one, "secondary_opts", [])[:1]
