@@ -116,24 +116,12 @@ class Campaign:
         without: Container[str] = (),
         **usual: Any,
     ) -> Campaign:
-        """Settings of a function that takes a campaign, fields of it as keywords, or both.
-
-        Parameters
-        ----------
-        function : str
-            Its name, for messages.
-        campaign : Campaign, optional
-        settings : mapping
-            The keywords.
-        without : container of str
-            Fields that the function does not take.
-        **usual
-            Fields with another default.
+        """Settings of a ``function`` that takes a campaign, fields of it as keywords, or both, with ``usual`` defaults.
 
         Raises
         ------
         TypeError
-            A keyword that the function does not take.
+            A keyword that is none, or one of those that the function goes ``without``.
         InputError
             A value that is not allowed, or one thing in the campaign and another in a keyword.
         """
