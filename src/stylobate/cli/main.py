@@ -191,7 +191,7 @@ def _done(words: list[str], do: Callable[[], Any]) -> int:
         warnings.simplefilter("always", DamagedFileWarning)
         warnings.simplefilter("ignore", LeftOutWarning)  # commands say it with the motion, under "left out"
         warnings.simplefilter("always", PlaneOnlyWarning)
-        warnings.showwarning = _Warner()
+        warnings.showwarning = lambda message, *_, **__: console.warn(str(message))
         try:
             code = do()
         except InputError as error:
@@ -246,13 +246,6 @@ def _version(
     if context.invoked_subcommand is None:
         typer.echo(context.get_help())
         raise typer.Exit
-
-
-class _Warner:
-    """Prints each warning once, in one line, on standard error."""
-
-    def __call__(self, message: Any, *_: Any, **__: Any) -> None:
-        console.warn(str(message))
 
 
 def _usage(error: Any) -> str:
