@@ -15,6 +15,7 @@ from stylobate.column.files import write_column
 from stylobate.column.found_geometry import inside_overlap, space_geometry, space_load, uplift_accelerations, upward
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion
 
 COLUMN = round_column(3)
@@ -33,7 +34,7 @@ def found(turned=0.0, tilt=0.0, azimuth=0.0, **third):
 
 def block_of(column, motion=STILL, **model):
     model = DistinctElement3D(**model)
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     block.load(0, Case(column, motion))
     return block
 

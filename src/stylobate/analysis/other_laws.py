@@ -20,6 +20,7 @@ from ..column.joint import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import spread_of
 from ..models.base import Case, Model
+from ..models.engine import engine_for
 from ..motion import Motion
 from ..outcome import Outcome
 from ..response.response import Response
@@ -86,10 +87,10 @@ def other_laws(response: Response, motion: Motion, model: Model, campaign: Campa
     campaign : Campaign
         Its tail, threads and cluster.
     """
-    column = response.structure.stack
-    at_stake = model.varies_law and not model.is_plane(model.parameters())
-    if column is None or not at_stake or response.outcome in (Outcome.AT_REST, Outcome.FAILED):
+    at_stake = engine_for(model, response.structure).draws_laws
+    if not at_stake or response.outcome in (Outcome.AT_REST, Outcome.FAILED):
         return None
+    column = response.structure
     others = dict(_companions(column, model))
     options = run_options(campaign.tail, quiet=response.provenance["quiet_share"], until_decided=True)
     alone = replace(campaign.of_computing, progress=None, ledger=None, tail=campaign.tail)

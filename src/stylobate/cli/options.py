@@ -348,8 +348,9 @@ def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> 
     """What is asked for, with as many columns like this one as cost nothing where no number is ``given``."""
     from ..campaign.twins import the_twins
     from ..column.scatter import usual_scatter
+    from ..models.engine import engine_for
 
-    number = asked.replicates if given else model.carries if model.carried(stone) else 0
+    number = asked.replicates if given else engine_for(model, stone).twins
     # unasked they ride along, and what rides along is of one law
     scatter = asked.scatter if given or not number else asked.scatter or usual_scatter(stone.stack or stone)
     made = dataclasses.replace(asked, replicates=number, scatter=scatter)

@@ -93,6 +93,7 @@ def run(
     several directions, is one run after the other.
     """
     from ..analysis.directions import table_of_runs, worst
+    from ..models.engine import engine_for
     from ..motion.specs import parse_time
     from . import console
 
@@ -100,7 +101,7 @@ def run(
     stone = modelling.structure(column)
     how = modelling.model(model)
     if until_rest:
-        stone = how.as_followed(stone)
+        stone = engine_for(how, stone).followed()
     found = request.expand(stone.frequency_parameter)
     interval = parse_time(output_interval)
     campaign, given = execution.campaign(following, population), population.replicates is not None
@@ -249,6 +250,7 @@ def write_population(
 ) -> None:
     """The table of the columns like this one and, where it is wanted, the strip of the median run, which is run again."""
     from .. import plots
+    from ..models.engine import engine_for
     from ..simulate import simulate
 
     files.table(population.table, "replicates.csv")
@@ -257,11 +259,12 @@ def write_population(
         files.picture(plots.draw_debris(response, population.bodies), "debris")
     if population.median is None or not strip:
         return
+    engine = engine_for(model, response.structure)
     options: dict[str, Any] = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
     options["quiet"] = response.provenance["quiet_share"]
     options["until_decided"] = response.provenance.get("until_decided", False)
-    options["until_rest"] = response.provenance.get("until_rest", False) and not model.carried(response.structure)
-    middle = simulate(population.drawn.columns[population.median], motion, model.paced(response.structure), **options)
+    options["until_rest"] = response.provenance.get("until_rest", False) and not engine.twins
+    middle = simulate(population.drawn.columns[population.median], motion, engine.paced, **options)
     files.picture(plots.draw_filmstrip(middle), "median")
 
 

@@ -263,7 +263,7 @@ class Structure:
 
     Class attributes: ``kind``, its word in sentences and the name of its entry in files; ``counted`` what one and several of
     its bodies are called; ``like``, what several like it are; ``joints_are``, what the joints of its responses are;
-    ``computed_by``, who computes it where not all models do; ``scattered``, by which parts of a scatter its twins vary, none
+    ``computed_by``, who can where not all models do; ``scattered``, by which parts of a scatter its twins vary, none
     of what has no twins; ``first``, the first of ``bodies`` whose poses a run records; ``relative``, whether a model in the
     plane records them from where the bodies stand.
     """
@@ -284,6 +284,7 @@ class Structure:
     ground: float | None = 0.0
     as_found: AsFound = AS_BUILT
     links: tuple[Link, ...] = ()
+    losses: Any = None
 
     # -- what it consists of -------------------------------------------------------------------------------------------
 
@@ -445,16 +446,6 @@ class Structure:
         return dataclasses.replace(fields, name=name)
 
     # -- what asks for less ------------------------------------------------------------------------------------------
-
-    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
-        """Refuse bodies whose shapes ``what`` does not know.
-
-        Raises
-        ------
-        InputError
-        """
-        if not all(isinstance(shape, shapes) for shape in self.shapes):
-            raise InputError(f"{what} computes columns, and {self.name!r} is {self.described}: use {self.computed_by}.")
 
     def must_be_as_built(self, what: str) -> None:
         """Refuse offsets, tilts or chips where ``what`` knows none.

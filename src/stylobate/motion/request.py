@@ -126,9 +126,7 @@ class MotionRequest:
             raise InputError(f"{what}; give one of `harmonic`, `pulse`, `synthetic` and `files`.", "files")
         for name in ("unit", "dt", "columns", "component"):
             if getattr(self, name) is not None and not self.files:
-                raise InputError(
-                    f"`{name}` describes a record, but none is given; leave it out or give `files`.", name
-                )
+                raise InputError(f"`{name}` describes a record, but none is given; leave it out or give `files`.", name)
         if self.across is not None and self.harmonic is None:
             raise InputError("`across` is the sine along y beside that along x; give `harmonic` as well.", "across")
         check_choice("`signs`", self.signs, ("+", "both"))

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...column import Column
 from ...constants import DEGREE
+from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ...response import Collapse
 from ...response.collapse import in_plane
@@ -18,6 +19,7 @@ from ..drums.bodies import Topology
 from ..drums.lane_engine import Left
 from ..drums.records import Packed
 from ..drums.runs import LaneRuns
+from ..drums.stepped import StackEngine
 from ..start import check_in_plane
 from .block import Records, slope_base
 from .laws import Types
@@ -189,3 +191,16 @@ class ColumnLanes(LaneRuns):
         joint = 1 + int(watch["which" if parted else "about"][lane])
         time = float(watch["when"][lane] * self.dt[lane])
         return in_plane(time, joint, float(watch["side"][lane]), slid_off=parted)
+
+
+class PlaneStack(StackEngine):
+    """Base of the engines of columns in the plane; each gives the law of their joints."""
+
+    def record_types(self, linked: bool, lanes: int = LANES) -> Types:
+        """Types of the records by the law of the joints, for columns with links or without."""
+        raise NotImplementedError
+
+    def block_for(self, kind: Topology, options: RunOptions, lanes: int = LANES) -> ColumnLanes:
+        """A block of lanes for columns of a kind."""
+        types = self.record_types(bool(kind.links), lanes)
+        return ColumnLanes(types, self.pack, kind, options, self.model.cost(kind.stack))
