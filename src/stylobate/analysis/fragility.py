@@ -9,13 +9,13 @@ import numpy as np
 
 from ..errors import InputError, check_choice, check_kind
 from . import lognormal
-from .likelihood_region import dispersions, region
 from .evidence import Evidence, independent, intervals, medians_by_law
 from .evidence import evidence as evidence_of
 from .fragility_checks import check_bootstrap, check_number, check_shape
 from .fragility_curve import Fragility
 from .fragility_points import goodness, points_of
 from .ida_curves import Ida
+from .likelihood_region import dispersions, region
 from .limit_states import EXCEEDED, NOT_EXCEEDED
 from .unknown_law import under_another_law
 
