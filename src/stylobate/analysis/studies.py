@@ -13,9 +13,8 @@ import numpy as np
 
 from ..atomic import replacing
 from ..campaign.campaign import RUNS, Campaign
-from ..campaign.cases import Study
+from ..campaign.cases import Plan, Study
 from ..campaign.ledger import RUNS_FILE, finished_runs_in
-from ..campaign.plan import Plan
 from ..campaign.runs import Runs, Stopped, its_turn
 from ..errors import InputError, check_kind
 from ..notebook import Shown

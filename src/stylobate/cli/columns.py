@@ -40,7 +40,7 @@ def columns(
     other = next((one for one in chosen if one.stack is None), None)
     if execution.out is not None and other is not None:
         raise InputError(
-            f"--out writes column files, and {other.name!r} is {other.described}; leave one of the two out.",
+            f"`out` writes column files, and {other.name!r} is {other.described}; leave one of the two out.",
             "out",
         )
     names = [f"{Path(one.name).name or 'column'}.toml" for one in chosen]

@@ -103,7 +103,7 @@ class Assembly(Structure):
 
     kind: ClassVar[str] = "assembly"
     joints_are: ClassVar[str] = "joint, in the assembly's order"
-    computed_by: ClassVar[str] = "dem2d (DistinctElement2D)"
+    computed_by: ClassVar[str] = "dem2d (DistinctElement2D) can"
     first: ClassVar[int] = 0
     relative: ClassVar[bool] = False
 

@@ -14,7 +14,7 @@ from stylobate.plots.solids import OBLIQUE
 from stylobate.response import Response
 from stylobate.response.histories import ENERGY_TERMS
 
-from .words import in_page_words
+from .forms import in_page_words
 
 #: Least width over height of a film: upright, for phones.
 SHAPE = 0.9

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.campaign.unknown_laws import PARTS
+from stylobate.campaign.twins import PARTS
 from stylobate.column.column import Column
 from stylobate.column.joint import LAWS, Losses
 from stylobate.column.scatter import Scatter

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...errors import InputError, suggest
+from ...messages import say
 from ..block import Block, FaceJoint
 from ..joint import Joint
 from ..turning import UPRIGHT, Quaternion
@@ -116,7 +117,7 @@ class Scene:
         where = f"a {link.kind} at {self.shown(found.place)}"
         if found.deep < 0.0:
             raise InputError(f"{where} is outside the section, by {-found.deep:.3g} m; move it inward.", "at")
-        left = found.deep - 0.5 * numbers.diameter
+        left = found.edge - 0.5 * numbers.diameter
         looked_at = numbers.edge < math.inf  # in the column that brings it along
         if numbers.diameter and not looked_at:
             if left < RIM:
@@ -293,7 +294,8 @@ def _placed_between(
         numbers = replace(numbers, lift=math.inf)
     if math.isfinite(numbers.lift):
         where["stroke"] = numbers.lift
-    called = link.name or f"{link.kind} between {link.between[0]} and {link.between[1]}"
+    between = say("{kind} between {l.between[0]} and {l.between[1]}", kind=say(link.kind), l=link)
+    called = link.name or between
     return placed(
         numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark, lower=lower, upper=upper,
         low=low, high=high, **where,

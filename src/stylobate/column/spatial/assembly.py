@@ -20,7 +20,6 @@ from ..links import link_from_dict
 from ..links.in_assembly import in_numbers, place_between
 from ..links.link import Link
 from ..links.placed import PlacedLink
-from ..shapes import Glued
 from ..structure import Bed, Body, Structure
 from .links import SpaceScene
 from .placing import drums_in_space
@@ -65,6 +64,7 @@ class SpatialAssembly(Structure):
 
     kind: ClassVar[str] = "assembly in space"
     joints_are: ClassVar[str] = "joint, in the assembly's order"
+    computed_by: ClassVar[str] = "dem3d can, and its statics are 'stylobate limit'"
     like: ClassVar[str] = "assemblies"
     first: ClassVar[int] = 0
     relative: ClassVar[bool] = False
@@ -324,21 +324,6 @@ class SpatialAssembly(Structure):
             return ""
         gap, name = min(best)
         return f", {length_of(gap)} from {name}"
-
-    # -- what asks for less --------------------------------------------------------------------------------------------
-
-    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
-        """Refuse models that do not know bodies of several parts: they compute a plane, or a stack.
-
-        Raises
-        ------
-        InputError
-        """
-        if Glued not in shapes:
-            raise InputError(
-                f"{what} cannot shake {self.name!r}, which is {self.described}; dem3d can, and its statics are "
-                "'stylobate limit'."
-            )
 
     # -- provenance ----------------------------------------------------------------------------------------------------
 

@@ -46,9 +46,9 @@ def experiments(
     from ..experiments import study
 
     if not realisations.isdecimal() or int(realisations) > MOST:
-        raise InputError(f"--realisations is {realisations!r}; allowed is a whole number from 0 to {MOST}.")
+        raise InputError(f"`realisations` is {realisations!r}; allowed is a whole number from 0 to {MOST}.")
     if calibration not in ("on", "off"):
-        raise InputError(f"--calibration is {calibration!r}; allowed are on, off.")
+        raise InputError(f"`calibration` is {calibration!r}; allowed are on, off.")
     found = study.read(folder)
     with console.folder(execution.out, *WRITES) as place:
         results = study.compute(

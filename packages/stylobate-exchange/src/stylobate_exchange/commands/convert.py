@@ -72,7 +72,7 @@ def _length(text: str) -> float:
     try:
         return factor * float(stem)
     except ValueError:
-        raise InputError(f"--tolerance is {text!r}; allowed is a length such as 1mm.", "tolerance") from None
+        raise InputError(f"`tolerance` is {text!r}; allowed is a length such as 1mm.", "tolerance") from None
 
 
 def _level(text: str | None) -> float | bool | None:
@@ -83,4 +83,4 @@ def _level(text: str | None) -> float | bool | None:
     try:
         return float(text.strip().removesuffix("m"))
     except ValueError:
-        raise InputError(f"--ground is {text!r}; allowed is a level in m, or none.", "ground") from None
+        raise InputError(f"`ground` is {text!r}; allowed is a level in m, or none.", "ground") from None
