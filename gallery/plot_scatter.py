@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 
 import stylobate as st
 from stylobate.analysis.verdicts import wilson_interval
-from stylobate.column.twins import twins_of
+from stylobate.column.scatter import twins_of
 
 # %%
 # Widths, heights, friction and stiffness of each drum and joint differ by 0.4 %; draws end at 2.5

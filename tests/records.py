@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from stylobate.motion.readers.samples import samples
+from stylobate.motion.readers.source import samples
 
 #: The folder beside the project.
 FOLDER = Path(__file__).resolve().parents[2] / "shared" / "records"

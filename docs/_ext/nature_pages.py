@@ -5,7 +5,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from stylobate.errors import InputError
-from stylobate.plots.player import write_player
+from stylobate.plots.film import write_player
 from stylobate_studies.experiments import study
 from stylobate_studies.experiments.choices import CHOICES
 from stylobate_studies.experiments.granite import again

@@ -38,6 +38,7 @@ from .column.assembly import Assembly as Assembly
 from .column.assembly import Block as Block
 from .column.assembly_files import read_assembly as read_assembly
 from .column.files import read_column as read_column
+from .column.joint import Losses as Losses
 from .column.links import Bar as Bar
 from .column.links import Clamp as Clamp
 from .column.links import Core as Core
@@ -47,7 +48,6 @@ from .column.links import Pad as Pad
 from .column.links import Tie as Tie
 from .column.links.anchorage import stone_at_anchor as stone_at_anchor
 from .column.loss_files import read_losses as read_losses
-from .column.losses import Losses as Losses
 from .column.scatter import Scatter as Scatter
 from .column.spatial.assembly import SpatialAssembly as SpatialAssembly
 from .column.spatial.stone import Stone as Stone
@@ -80,7 +80,7 @@ from .motion.readers import read_suite as read_suite
 from .motion.readers import sample_motion as sample_motion
 from .motion.scatter import MotionScatter as MotionScatter
 from .outcome import Outcome as Outcome
-from .plots.inline import Film as Film
+from .plots.film import Film as Film
 from .response import Response as Response
 from .response import load_response as load_response
 from .simulate import simulate as simulate

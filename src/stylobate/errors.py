@@ -7,7 +7,7 @@ import unicodedata
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, NamedTuple
 
 #: Categories of characters that no name holds: control characters and ends of lines and paragraphs.
 NOT_IN_NAMES = ("Cc", "Zl", "Zp")
@@ -24,6 +24,23 @@ class StylobateError(Exception):
     """Base of every error that this package raises on purpose."""
 
 
+class Quantity(NamedTuple):
+    """A number that is not allowed, and the interval that is."""
+
+    value: float
+    low: float
+    high: float
+    open_low: bool = False
+    open_high: bool = False
+    unit: str = ""
+
+    def words(self, unit: str = "", size: float = 1.0) -> tuple[str, str]:
+        """Value and interval as messages say them, in another ``unit`` of that ``size`` if need be: "-1 m", "[0, 2] m"."""
+        unit = unit or (f" {self.unit}" if self.unit else "")
+        ends = "(" if self.open_low else "[", ")" if self.open_high or math.isinf(self.high) else "]"
+        return f"{self.value / size:g}{unit}", f"{ends[0]}{self.low / size:g}, {self.high / size:g}{ends[1]}{unit}"
+
+
 class InputError(StylobateError, ValueError):
     """Input that cannot be used. The message holds the value, the allowed range and the remedy.
 
@@ -37,6 +54,10 @@ class InputError(StylobateError, ValueError):
         What the message says of it, as far as they are known one by one.
     """
 
+    #: The number that is not allowed; words of the message that say where in a file it is, which the field says as well.
+    quantity: Quantity | None = None
+    places: tuple[str, ...] = ()
+
     def __init__(
         self, message: str = "", field: str | None = None, *, value: Any = None, allowed: str = "", remedy: str = ""
     ) -> None:
@@ -47,6 +68,7 @@ class InputError(StylobateError, ValueError):
         """Say where the error is, as :func:`within`."""
         if place:  # a key of a table, a part of a file
             self.args = (_cut(f"{place}: {reworded(str(self), str)}"),)
+            self.places = (f"{place}: ", *self.places)
         self.field = ".".join(map(str, (*path, *([self.field] if self.field else [])))) or None
 
     def without(self, place: str) -> None:
@@ -182,8 +204,6 @@ def check_range(
     field : str, optional
         Of the error; by default the name, where it is that of a parameter.
     """
-    unit_text = f" {unit}" if unit else ""
-    interval = f"{'(' if open_low else '['}{low:g}, {high:g}{')' if open_high or math.isinf(high) else ']'}{unit_text}"
     is_number = not isinstance(value, bool) and hasattr(value, "__float__")
     try:
         number = float(value) if is_number else math.nan
@@ -192,8 +212,12 @@ def check_range(
     too_low = number <= low if open_low else number < low
     too_high = number >= high if open_high else number > high
     if not math.isfinite(number) or too_low or too_high:
-        shown = f"{number:g}{unit_text}" if is_number else f"{as_typed(value)}, not a number"
-        raise _wrong(name, value, shown, f"is {interval}", remedy, of, field)
+        quantity = Quantity(number, low, high, open_low, open_high, unit)
+        shown, interval = quantity.words()
+        shown = shown if is_number else f"{as_typed(value)}, not a number"
+        error = _wrong(name, value, shown, f"is {interval}", remedy, of, field)
+        error.quantity = quantity
+        raise error
     return number
 
 

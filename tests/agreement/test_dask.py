@@ -16,18 +16,15 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from poison import Poisonous
+from poison import Poisoning, Poisonous
 
 import stylobate as st
 from stylobate.campaign import cluster as module
-from stylobate.campaign.chunk import Chunk, law, pack, results_of, unpack
-from stylobate.campaign.cluster import on_cluster
+from stylobate.campaign.cluster import HandOut, executor, on_cluster
 from stylobate.campaign.digests import Hasher
-from stylobate.campaign.executor import executor
-from stylobate.campaign.hand_out import HandOut
 from stylobate.campaign.local_workers import started
 from stylobate.campaign.runs import Request, run_all
-from stylobate.campaign.stream import Stream
+from stylobate.campaign.worker import Chunk, Stream, law, pack, results_of, unpack
 from stylobate.cli.main import call
 from stylobate.models.base import Case, Cases, RunOptions
 from stylobate.motion.request import MotionRequest
@@ -233,7 +230,7 @@ def test_chunks_are_about_as_long_as_they_should_be():
     assert len(few.chunks) >= 20  # as many workers as there are have something to do
 
 
-class Seen(Poisonous):
+class Seeing(Poisoning):
     """Its peaks are the first samples."""
 
     def run_many(self, cases, options, threads):
@@ -241,10 +238,16 @@ class Seen(Poisonous):
             yield index, dataclasses.replace(measures, peak_top_displacement=float(cases[index].motion.samples[0]))
 
 
+class Seen(Poisonous):
+    """The model of these."""
+
+    engines = (Seeing,)
+
+
 def test_motions_that_are_made_one_by_one_are_not_taken_for_one_another(monkeypatch):
     """Numbers of arrays that are gone are given again: the arrays of a chunk are kept until it is sent."""
 
-    monkeypatch.setattr("stylobate.campaign.hand_out.MOTIONS", 8)
+    monkeypatch.setattr("stylobate.campaign.cluster.MOTIONS", 8)
     cases = Cases(100, lambda n: Case(COLUMN, st.Motion(0.01, np.full(200, float(n)))))
     found = dict(HandOut(Client(), cases, Seen(), RunOptions()).results())
     assert [found[n].peak_top_displacement for n in range(100)] == list(range(100))
@@ -291,11 +294,8 @@ def test_the_worker_that_asks_gets_the_next_chunk_and_the_last_ones_are_small(mo
     assert sizes[-1] <= 4
 
 
-@dataclasses.dataclass(frozen=True)
-class Lanes(Poisonous):
+class Twenty(Poisoning):
     """Twenty runs at a time, of which the oldest ends next."""
-
-    name = "lanes"
 
     def run_many(self, cases, options, threads):
         coming, running = enumerate(cases), []
@@ -305,12 +305,20 @@ class Lanes(Poisonous):
             if not running:
                 return
             BESIDE.append(len(running))
-            time.sleep(self.pause)
+            time.sleep(self.model.pause)
             index, case = running.pop(0)
             if case.motion.factor < 0.0:
                 raise ArithmeticError("a fault")
-            for _, measures in Poisonous().run_many([case], options, 1):
+            for _, measures in Poisoning(Poisonous(), COLUMN).run_many([case], options, 1):
                 yield index, measures
+
+
+@dataclasses.dataclass(frozen=True)
+class Lanes(Poisonous):
+    """The model of these."""
+
+    name = "lanes"
+    engines = (Twenty,)
 
 
 BESIDE: list[int] = []

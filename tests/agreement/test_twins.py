@@ -9,7 +9,7 @@ import stylobate as st
 from stylobate.analysis.certainty import batch
 from stylobate.analysis.population import Population
 from stylobate.campaign.twins import Twins, the_twins
-from stylobate.column.twins import twins_of
+from stylobate.column.scatter import twins_of
 from stylobate.models.base import Case, RunOptions
 from stylobate.response.words import to_decide
 

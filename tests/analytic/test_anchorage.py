@@ -6,7 +6,7 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.columns import _held, _link
-from stylobate.column.links.stone import stone_words
+from stylobate.column.links.placed import stone_words
 
 GIVEN = {"diameter": 0.02, "embedment": 0.1, "edge": 0.1, "stone_strength": 25e6, "yield_strength": 4e8}
 

@@ -10,9 +10,8 @@ import pytest
 import stylobate as st
 from stylobate.column.assembly import Assembly, Block
 from stylobate.column.links import Clamp, Link, block_link
-from stylobate.column.links.dowel import shear_limits, shear_stiffness
-from stylobate.column.links.link import Site
-from stylobate.column.links.materials import MATERIALS
+from stylobate.column.links.kinds import shear_limits, shear_stiffness
+from stylobate.column.links.link import MATERIALS, Site
 from stylobate.simulate import simulate
 
 G = 9.80665

@@ -8,8 +8,7 @@ from scipy.integrate import quad
 
 import stylobate as st
 from stylobate.column.presets import preset
-from stylobate.column.scatter import Scatter
-from stylobate.column.twins import twins_of
+from stylobate.column.scatter import Scatter, twins_of
 
 JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
 SHAPES = [(0.82, 1.11, 1.08), (5.0, 0.96, 0.66), (0.3, 2.0, 0.4), (1.0, 0.5, 0.9), (1.0, 1.0, 1.0)]

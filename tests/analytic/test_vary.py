@@ -10,7 +10,7 @@ import pytest
 import stylobate as st
 from stylobate.analysis.vary import best_of, candidates
 from stylobate.cli.main import call
-from stylobate.cli.options import the_structure
+from stylobate.column.assembly_files import load_structure
 from stylobate.column.files import write_column
 
 SMOOTH = st.Joint(1e9, 5e8, friction_coefficient=0.1)
@@ -147,7 +147,7 @@ def test_links_of_an_assembly_are_varied_as_their_file_would_be(tmp_path):
     for diameter in ("0.02", "0.04"):
         path = tmp_path / f"{diameter}.toml"
         path.write_text(SCENE.replace("DIAMETER", diameter))
-        stands[float(diameter)] = the_structure(str(path), None)
+        stands[float(diameter)] = load_structure(str(path))
     tried = candidates(stands[0.02], {"dowel.diameter": [0.02, 0.04], "dowel.at.y": [0.0, 0.2]})
     for one, (diameter, y) in zip(tried.values(), ((0.02, 0.0), (0.02, 0.2), (0.04, 0.0), (0.04, 0.2)), strict=True):
         (link,), (filed,) = one.placed_links, stands[diameter].placed_links

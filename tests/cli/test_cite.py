@@ -15,7 +15,7 @@ from stylobate.bibliography.citation import PACKAGE
 from stylobate.bibliography.references import parse
 from stylobate.cli.main import call
 from stylobate.column import preset
-from stylobate.column.as_blocks import of_column
+from stylobate.column.standing import of_column
 from stylobate.motion import parse_pulse, stochastic_motion
 from stylobate.response import Response
 from stylobate.simulate import simulate

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.column.kinds import FROM_DICT
+from stylobate.column.assembly_files import FROM_DICT
 from stylobate.column.links import block_link
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.5)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from stylobate.column import Joint, preset
-from stylobate.column.as_blocks import of_column
 from stylobate.column.assembly import Assembly, Block
+from stylobate.column.standing import of_column
 from stylobate.constants import g
 from stylobate.kernels.plane import clip as near
 from stylobate.kernels.plane.records import LOCAL

@@ -11,7 +11,7 @@ from matplotlib.patches import Polygon
 
 import stylobate as st
 from stylobate import plots
-from stylobate.plots.elevation import outlines_of
+from stylobate.plots.drawing import outlines_of
 from stylobate.plots.style import BLUE, RED
 
 DRUMS = [

@@ -16,8 +16,7 @@ from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
-from stylobate.plots.animation import draw_frame, frame_indices, write_gif, write_mp4
-from stylobate.plots.player import write_player
+from stylobate.plots.film import draw_frame, frame_indices, write_gif, write_mp4, write_player
 from stylobate.plots.scene import Scene, scale_bar
 from stylobate.response.poses import rotation_matrices
 from stylobate.simulate import simulate

@@ -11,7 +11,7 @@ import stylobate as st
 from stylobate import plots
 from stylobate.column.files import write_column
 from stylobate.column.links import Dowel
-from stylobate.plots.joint_plans import joint_plans
+from stylobate.plots.drawing import joint_plans
 
 FOLDER = Path(__file__).parents[2] / "gallery" / "assemblies"
 

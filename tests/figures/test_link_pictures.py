@@ -8,11 +8,8 @@ import pytest
 import stylobate as st
 from stylobate.column.assembly import Assembly, Block
 from stylobate.column.links import block_link
-from stylobate.plots.animation import draw_frame
-from stylobate.plots.filmstrip import draw_filmstrip
-from stylobate.plots.link_marks import link_marks
-from stylobate.plots.player import film_data
-from stylobate.plots.scene import Scene
+from stylobate.plots.film import draw_filmstrip, draw_frame, film_data
+from stylobate.plots.scene import Scene, link_marks
 from stylobate.simulate import simulate
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.2)

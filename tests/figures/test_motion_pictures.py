@@ -19,7 +19,7 @@ from stylobate.analysis.suite import INTENSITIES, suite_table
 from stylobate.analysis.verdicts import VERDICTS
 from stylobate.column.presets import preset
 from stylobate.errors import InputError
-from stylobate.plots.rocking_spectrum import _FILL, SHADES
+from stylobate.plots.domain import _FILL, SHADES
 
 THREE = st.Motion(0.01, *(np.random.default_rng(i).normal(size=500) for i in range(3)), name="noise")
 

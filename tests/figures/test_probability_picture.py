@@ -11,7 +11,7 @@ from stylobate.analysis.probability import CollapseProbability
 from stylobate.column import preset
 from stylobate.column.scatter import Scatter
 from stylobate.motion.scatter import MotionScatter
-from stylobate.plots.probability import CLASSES
+from stylobate.plots.domain import CLASSES
 
 
 def probability(width=2, top=False):

@@ -19,13 +19,24 @@ from stylobate.column.shapes import CircularFrustum, Glued, Placed, RectangularF
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.plots.animation import draw_frame, film_of, write_gif
-from stylobate.plots.player import write_player
-from stylobate.plots.residuals import round_factor
+from stylobate.plots.film import draw_frame, film_of, write_gif, write_player
+from stylobate.plots.joints import rim_radius, rim_uplift, round_factor
 from stylobate.plots.scene import Scene
-from stylobate.plots.solids import FLUTE, MARK, STONE, Solid, painted, painting_order, surface_of, surfaces_of
-from stylobate.plots.uplift import rim_radius, rim_uplift
-from stylobate.plots.view import ALONG_X, ALONG_Y, OBLIQUE, View, parse_view
+from stylobate.plots.solids import (
+    ALONG_X,
+    ALONG_Y,
+    FLUTE,
+    MARK,
+    OBLIQUE,
+    STONE,
+    Solid,
+    View,
+    painted,
+    painting_order,
+    parse_view,
+    surface_of,
+    surfaces_of,
+)
 from stylobate.response.poses import SpacePoses, exaggerated, quaternions, rotation_matrices
 from stylobate.simulate import simulate
 

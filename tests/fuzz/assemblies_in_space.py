@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from stylobate.analysis.limit_directions import limit_directions
-from stylobate.column.assembly_files import load_structure
-from stylobate.column.kinds import FROM_DICT
+from stylobate.column.assembly_files import FROM_DICT, load_structure
 from stylobate.errors import InputError
 
 from . import odd

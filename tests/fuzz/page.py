@@ -23,7 +23,7 @@ import httpx
 from page_server import FAKE, served
 
 from stylobate_page.columns import presets
-from stylobate_page.keys import Keys
+from stylobate_page.guard import Keys
 
 from . import odd
 from .records import originals

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 
 import stylobate as st
-from stylobate.column.as_blocks import of_column
 from stylobate.column.presets import preset
+from stylobate.column.standing import of_column
 from stylobate.response import Measures, Response, load_response
 from stylobate.response.assembly_measures import recorded_blocks
 

@@ -113,7 +113,7 @@ def test_a_response_in_space_is_read_back(tmp_path):
 
 def test_a_response_in_space_is_drawn(tmp_path):
     from stylobate import plots
-    from stylobate.plots.player import write_player
+    from stylobate.plots.film import write_player
 
     response = spatial()
     for draw in (plots.draw_filmstrip, plots.draw_histories, plots.draw_joints, plots.draw_energy):

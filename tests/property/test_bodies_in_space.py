@@ -7,8 +7,7 @@ import pytest
 
 import stylobate as st
 from stylobate.column.shapes import ConvexSolid, Placed
-from stylobate.column.spatial.moments import mesh_moments
-from stylobate.column.spatial.stone import box_shape, drum_shape
+from stylobate.column.spatial.stone import box_shape, drum_shape, mesh_moments
 
 LAW = st.Joint(5e9, 2.5e9, friction_coefficient=0.7)
 RNG = np.random.default_rng(4)

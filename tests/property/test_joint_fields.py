@@ -11,9 +11,8 @@ import stylobate as st
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.files import column_from_dict, write_column
 from stylobate.column.materials import material
-from stylobate.column.scatter import LARGEST, Scatter
+from stylobate.column.scatter import LARGEST, Scatter, twins_of
 from stylobate.column.tables import JointTable
-from stylobate.column.twins import twins_of
 
 COLUMN = st.Column.tapered(
     height=5.0, bottom_width=0.96, top_width=0.66, drums=12, density=1600.0, section="circular",

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import random
+import re
 from typing import Any
 
 import pytest
@@ -13,7 +15,9 @@ from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.limit_directions import limit_in_space
 from stylobate.column.files import column_from_dict, write_column
 from stylobate.column.links import COLUMN_KINDS, KINDS
-from stylobate.column.links.dowel import shear_limits, shear_stiffness
+from stylobate.column.links.kinds import shear_limits, shear_stiffness
+from stylobate.column.links.link import MATERIALS
+from stylobate.models.engine import engine_for
 from stylobate.models.registry import MODELS, model_class
 
 JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
@@ -171,7 +175,7 @@ def test_a_new_kind_is_refused_by_all_until_one_takes_it(name) -> None:
     motion = st.harmonic(frequency=1.0, amplitude=1.0, duration=1.0)
     refused = r"and '.*' (has a brake, which )?does not; .*leave it out\.$|knows no links"
     with pytest.raises(st.InputError, match=refused):
-        statics[name](column) if name in statics else model_class(name)().check(column, motion)
+        statics[name](column) if name in statics else engine_for(model_class(name)(), column).check(motion)
 
 
 def test_a_kind_lies_where_all_lie_that_act_by_its_law() -> None:
@@ -181,17 +185,18 @@ def test_a_kind_lies_where_all_lie_that_act_by_its_law() -> None:
 
 
 def test_every_kind_acts_by_a_law_that_a_model_knows() -> None:
-    taken = {law for name in MODELS for law in model_class(name).takes_links}
+    taken = {law for name in MODELS for engine in model_class(name).engines for law in engine.links}
     assert {kind.law for kind in KINDS.values()} == taken
 
 
 @pytest.mark.parametrize("model", [st.DistinctElement2D(), st.DistinctElement3D()], ids=lambda model: model.name)
 def test_what_lanes_have_of_their_own_begins_on_lines_of_the_cache(model) -> None:
     """64 bytes, in every row of a record: vectors across two lines made dowels cost a fifth more."""
+    engine = engine_for(model, st.preset("paper-monolithic"))
     types = (
-        model.record_types(linked=True)
+        engine.record_types(linked=True)
         if isinstance(model, st.DistinctElement2D)
-        else model.kind(st.preset("paper-monolithic")).record_types(linked=True)
+        else engine.kind.record_types(linked=True)
     )
     for one in types.values() if isinstance(types, dict) else types:
         if not any(field.subdtype for field, *_ in one.fields.values()):
@@ -199,3 +204,44 @@ def test_what_lanes_have_of_their_own_begins_on_lines_of_the_cache(model) -> Non
         assert one.itemsize % 64 == 0
         lanes = [one.fields[name] for name in one.names if one.fields[name][0].itemsize >= 64]
         assert all(start % 64 == 0 for _, start in lanes)
+
+
+def strengths(kind, at: float, size: dict[str, Any]) -> tuple[float, float, float, str]:
+    """Shear and pull that a link of the column holds [N], its distance from the nearest edge [m], and how it fails."""
+    (link,) = COLUMN.replace(links=[kind(joint=3, at=(at, 0.0), **size)]).placed_links
+    assert link.stone is not None
+    assert link.shear_capacity == min(link.alone.shear_capacity, link.stone.shear)
+    assert link.axial_capacity == min(link.alone.axial_capacity, link.stone.pull)
+    return link.shear_capacity, link.axial_capacity, link.stone.edge, link.failure
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_no_link_bears_more_nearer_to_the_rim_or_in_weaker_stone(seed) -> None:
+    """Every size, place and stone that is allowed, to the ends of their ranges: what the stone limits is never left out."""
+    draw = random.Random(seed)
+    kind, embedment = draw.choice((st.Dowel, st.Bar)), 0.01 * 40.0 ** draw.choice((0.0, draw.random()))
+    size = {"diameter": draw.uniform(0.005, 0.08), "embedment": embedment, "material": draw.choice([*MATERIALS])}
+    rim = 0.5 * min(COLUMN.drums[2].bottom_width, COLUMN.drums[1].top_width) - 0.5 * size["diameter"] - 0.02
+    stone = 1e6 * 500.0 ** draw.choice((0.0, draw.random(), 1.0))
+    far, near = sorted(draw.choice((0.0, rim - 1e-9, draw.uniform(0.0, rim))) for _ in range(2))
+    weak, strong = (strengths(kind, far, size | {"stone_strength": f}) for f in sorted((stone, draw.uniform(1e6, 5e8))))
+    first, last = (strengths(kind, at, size | {"stone_strength": stone}) for at in (far, near))
+    for less, more in ((weak, strong), (last, first)):
+        assert less[0] <= more[0] * (1.0 + 1e-12)
+        assert less[1] <= more[1] * (1.0 + 1e-12)
+    d, h, c = (1e3 * one for one in (size["diameter"], embedment, last[2]))
+    along = min(h, 12.0 * d if d <= 24.0 else max(8.0 * d, 300.0))
+    edge = 1.7 * d ** (0.1 * math.sqrt(along / c)) * along ** (0.1 * (d / c) ** 0.2) * math.sqrt(1e-6 * stone) * c**1.5
+    bar = min(shear_limits(size["material"], size["diameter"], embedment, stone).values())
+    assert last[0] == pytest.approx(min(edge, bar), rel=1e-9)
+    assert (last[3] == "brittle") == (edge < bar)
+
+
+@pytest.mark.parametrize(
+    ("change", "allowed"),
+    [({"stone_strength": 9e5}, "1e+06"), ({"embedment": 0.009}, "0.01"), ({"diameter": 0.3}, "0.2")],
+)
+def test_a_link_whose_stone_no_formula_knows_is_refused(change, allowed) -> None:
+    """It would hold its bar's own capacity, more than in a stone that is a little better."""
+    with pytest.raises(st.InputError, match=re.escape(allowed)):
+        st.Dowel(joint=2, **TITANIUM | change)

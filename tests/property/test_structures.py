@@ -10,11 +10,11 @@ import pytest
 from sources import sources
 
 import stylobate as st
-from stylobate.column.as_blocks import of_column
 from stylobate.column.as_found import AsFound, FoundDrum
+from stylobate.column.assembly_files import FROM_DICT
 from stylobate.column.found_geometry import geometry
-from stylobate.column.kinds import FROM_DICT
 from stylobate.column.presets import preset
+from stylobate.column.standing import of_column
 from stylobate.column.structure import Structure
 
 SOURCES = Path(st.__file__).parent

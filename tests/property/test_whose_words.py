@@ -15,13 +15,8 @@ from stylobate.errors import PARAMETER, InputError, check_range, reworded, withi
 
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 
-#: What makes command lines: of our own commands, and of a browser.
-COMMAND_LINES = {
-    "stylobate_page/asked.py",
-    "stylobate_page/forms.py",
-    "stylobate_page/worker.py",
-    "stylobate_report/pdf.py",
-}
+#: What makes the command line of a browser.
+COMMAND_LINES = {"stylobate_report/pdf.py"}
 
 
 @cache
@@ -29,12 +24,7 @@ def texts():
     """Every text below the command line but docstrings, with its file; names stand for what is filled in."""
     found = []
     for name, path in sources("py"):
-        if (
-            name.startswith("stylobate/cli/")
-            or "/commands/" in name
-            or name == "stylobate_page/worker.py"
-            or name in COMMAND_LINES
-        ):
+        if name.startswith("stylobate/cli/") or "/commands/" in name or name in COMMAND_LINES:
             continue
         nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
         described = {

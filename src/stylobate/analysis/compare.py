@@ -7,11 +7,11 @@ from contextlib import closing
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Computing, Fields, campaigning
+from ..campaign.campaign import RUNS, TWINS, Campaign
 from ..campaign.digests import Digests, Hasher
 from ..campaign.grid import HarmonicGrid
 from ..campaign.runs import Request, Runs, Stopped
@@ -94,7 +94,6 @@ class DomainComparison:
         return pandas.DataFrame(rows)
 
 
-@campaigning(Fields, but=("replicates", "scatter", "seed", "threads", "dask", "device", "mix_devices"))
 def compare_models(
     column: Structure,
     motion: Motion,
@@ -103,8 +102,8 @@ def compare_models(
     labels: Sequence[str] | None = None,
     output_interval: float = 0.01,
     files: Sequence[Path] = (),
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> Comparison:
     """One column, or assembly, and one motion through several models.
 
@@ -119,7 +118,7 @@ def compare_models(
         As in :func:`stylobate.simulate`.
     files : sequence of path
         With a ledger, one per model in its folder: each response is saved there as soon as it is finished.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         How the runs are made.
 
     Raises
@@ -127,6 +126,7 @@ def compare_models(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    campaign = Campaign.of("compare_models", campaign, settings, (*TWINS, "threads", "dask", "device", "mix_devices"))
     check_kind("column", column, Structure)
     check_kind("motion", motion, Motion)
     models = check_all("models", models, Model)
@@ -162,7 +162,6 @@ def compare_models(
     return Comparison([responses[one] for one in same], names)
 
 
-@campaigning(Computing)
 def compare_domains(
     column: Column,
     models: Sequence[Model],
@@ -171,14 +170,15 @@ def compare_domains(
     duration: float = 10.0,
     *,
     labels: Sequence[str] | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Computing],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> DomainComparison:
     """One domain through several models; parameters as in :func:`stylobate.collapse_domain`.
 
     ``labels`` are what the models are called, their names by default. ``progress`` counts the runs of all models. An
     interrupt (Ctrl-C) is passed on, as :class:`~stylobate.campaign.runs.Stopped`: half a comparison is none.
     """
+    campaign = Campaign.of("compare_domains", campaign, settings, RUNS)
     axes: tuple[Any, Any] = frequencies, amplitudes  # checked there
     models = check_all("models", models, Model)
     names = _labels(models, labels)

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..column.found_in_space import Edges
+from ..column.found_geometry import Edges
 
 
 @dataclass(frozen=True, eq=False)

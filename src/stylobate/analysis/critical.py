@@ -12,11 +12,11 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..campaign.digests import Hasher
 from ..campaign.runs import Request, run_all
 from ..campaign.twins import the_twins
@@ -25,6 +25,7 @@ from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError, check_kind, check_range
 from ..models.base import Case, Cases, Model
+from ..models.engine import engine_for
 from ..motion import Motion
 from ..notebook import Shown
 from ..response.rows import Rows
@@ -231,7 +232,6 @@ class CriticalAmplitude(Shown):
         return found | {"sentence": sentence(found, self.column.kind, self.column.like)}
 
 
-@campaigning(Fields)
 def critical_amplitude(
     column: Column,
     motion: Motion,
@@ -242,8 +242,8 @@ def critical_amplitude(
     *,
     nominal: float | None = None,
     twin_amplitudes: int | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> CriticalAmplitude:
     """Run a column under one motion at every amplitude of a grid, and under a record as it is.
 
@@ -259,7 +259,7 @@ def critical_amplitude(
         Amplitude that ``motion`` stands for as it is [m/s²], of a formula; its peak along x by default.
     twin_amplitudes : int, optional
         Most amplitudes of the grid that twins go through, evenly spread; all by default.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         With replicates, twins of the column go through the amplitudes as well.
 
     Returns
@@ -273,6 +273,7 @@ def critical_amplitude(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    campaign = Campaign.of("critical_amplitude", campaign, settings)
     check_kind("column", column, Structure)
     check_kind("motion", motion, Motion)
     check_kind("model", model, Model)
@@ -334,7 +335,7 @@ def sweep(
 
     cases = Cases(int(ends[-1]), case)
     if drawn is not None:
-        model = model.paced(column)
+        model = engine_for(model, column).paced
     started = time.perf_counter()
     request = Request.of(cases, Hasher(model, campaign.options), campaign.quiet)
     finished = run_all(request, campaign)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..column import Column
 from ..constants import g
 from ..errors import InputError
@@ -167,7 +167,6 @@ class CriticalSuite(Shown):
         return found | {"sentence": sentence_of_suite(found, stands.kind, stands.like)}
 
 
-@campaigning(Fields)
 def critical_suite(
     column: Column,
     motions: Sequence[Motion],
@@ -176,8 +175,8 @@ def critical_suite(
     stop: float,
     step: float = 0.005 * g,
     *,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> CriticalSuite:
     """Run a column under every record at every amplitude of a grid.
 
@@ -189,7 +188,7 @@ def critical_suite(
     model : Model
     start, stop, step
         As for :func:`stylobate.analysis.critical.critical_amplitude`.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         As there.
 
     Returns
@@ -201,6 +200,7 @@ def critical_suite(
     InputError
         No motion, one that is zero along x, an impossible grid, or input that the model refuses.
     """
+    campaign = Campaign.of("critical_suite", campaign, settings)
     if not motions:
         raise InputError("the suite holds no motion; give at least one.")
     grid = amplitude_grid(start, stop, step)

@@ -9,11 +9,11 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from numbers import Real
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..campaign.cases import RELATIVE
 from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
@@ -21,6 +21,7 @@ from ..campaign.twins import Twins, the_twins
 from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, suggest, warn
+from ..messages import say
 from ..models.base import Case, Model
 from ..models.shared.quiet import level
 from ..motion import Motion
@@ -58,7 +59,6 @@ class Trace:
     rows: list[dict]
 
 
-@campaigning(Fields)
 def ida(
     column: Structure,
     motions: Sequence[Motion],
@@ -70,8 +70,8 @@ def ida(
     largest_factor: float = LARGEST,
     about: Mapping[str, Mapping[str, float]] | None = None,
     watch: Callable[[Callable[[], Ida]], object] | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> Ida:
     """Scale every record over levels of an intensity, and run the column.
 
@@ -93,7 +93,7 @@ def ida(
         By name of a record, or of a motion that is made of one, ``magnitude`` and ``distance_km``.
     watch : callable, optional
         Called after each run with a function that makes the analysis of the runs that are finished.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         With replicates, these are run instead of the column itself; ``progress`` is called with (finished, most that there
         will be).
 
@@ -108,6 +108,7 @@ def ida(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    campaign = Campaign.of("ida", campaign, settings)
     started = time.perf_counter()
     check_kind("column", column, Structure)
     motions = check_all("motions", motions, Motion)
@@ -257,11 +258,12 @@ def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
     beyond = {name: factor for name, factor in factors.items() if factor > WARNED}
     if beyond:
         name = max(beyond, key=beyond.__getitem__)
-        warn(
-            f"{len(beyond)} of {len(factors)} records are multiplied by more than {WARNED:g}, {name!r} by "
-            f"{beyond[name]:.3g}: scaled so far, they are no longer those of earthquakes; leave out the weak ones.",
-            OutOfRangeWarning,
+        words = say(
+            "{count} of {all} records are multiplied by more than {most:g}, {name!r} by {factor:.3g}: scaled so far, they are no "
+            "longer those of earthquakes; leave out the weak ones."
         )
+        known = {"count": len(beyond), "all": len(factors), "most": WARNED, "name": name, "factor": beyond[name]}
+        warn(words.of(**known), OutOfRangeWarning)
 
 
 def _table(

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..campaign.campaign import Progress
 from ..column import Column
-from ..column.found_in_space import SpaceGeometry, base_axes, inside_overlap, space_geometry, space_load, upward
-from ..column.spatial.prisms import in_space
+from ..column.found_geometry import SpaceGeometry, base_axes, inside_overlap, space_geometry, space_load, upward
+from ..column.spatial.assembly import in_space
 from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError, check_kind

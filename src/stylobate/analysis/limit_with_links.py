@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..column import Column
-from ..column.found_in_space import base_axes, overlap_edges, space_geometry, space_load, upward
+from ..column.found_geometry import base_axes, overlap_edges, space_geometry, space_load, upward
 from ..constants import DEGREE
 from ..errors import InputError
 from ..models.rigid_block.stack_links import APART, LINE, SHEAR, Hold, holds

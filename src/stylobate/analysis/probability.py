@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import store
-from ..campaign.unknown_laws import groups_of
+from ..campaign.twins import groups_of
 from ..column import Column
 from ..column.scatter import Scatter
 from ..constants import g

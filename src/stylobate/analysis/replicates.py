@@ -11,11 +11,11 @@ import time
 from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..campaign.digests import Hasher
 from ..campaign.grid import MAX_CELLS, grid_axis
 from ..campaign.runs import Request, Runs
@@ -32,7 +32,6 @@ from .probability import CollapseProbability
 MAX_RUNS = 20_000_000
 
 
-@campaigning(Fields, but=("whole",), replicates=20)
 def collapse_probability(
     column: Column,
     model: Model,
@@ -43,8 +42,8 @@ def collapse_probability(
     motion_scatter: MotionScatter | None = None,
     confidence: float = 0.95,
     out: str | Path | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> CollapseProbability:
     """Run many slightly different columns under harmonic base motions of all frequencies and amplitudes.
 
@@ -59,7 +58,7 @@ def collapse_probability(
     out : path, optional
         Folder that keeps finished runs (``runs.sqlite``), unless the campaign has another ledger, and when all are there
         holds ``probability.nc`` and ``probability.csv``.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         Each of the replicates goes through every cell; the same seed gives the same columns and motions.
 
     Returns
@@ -78,6 +77,7 @@ def collapse_probability(
     and the upper confidence limit allows for all of them having become one. The interval is for the probability over the
     stated population, and has nothing to say about the model being right.
     """
+    campaign = Campaign.of("collapse_probability", campaign, settings, ("whole",), replicates=20)
     started = time.perf_counter()
     f = grid_axis("frequencies", frequencies, 1e-3, 1e3, "Hz")
     a = grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²")

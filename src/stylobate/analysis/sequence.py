@@ -6,14 +6,15 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..campaign.twins import the_twins
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_kind, check_whole
+from ..messages import joined, say
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -92,20 +93,22 @@ class Count:
 
     def words(self, low: int, high: int) -> str:
         """A number for people, or from which to which."""
-        told = [f"more than {self.most}" if one > self.most else str(one) for one in (low, high)]
-        return " to ".join(dict.fromkeys(told))
+        more = say("more than {most}", most=self.most)
+        low_, *rest = dict.fromkeys(more if one > self.most else str(one) for one in (low, high))
+        return say("{low} to {high}", low=low_, high=rest[0]) if rest else low_
 
     @property
     def sentence(self) -> str:
         """The median with its interval, for people."""
         if self.median is None:
-            return f"none of {self.failed} could be computed"
+            return say("none of {count} could be computed", count=self.failed)
         said = self.words(*self.median)
         if len(self.low) > 1:
-            said = f"median of {len(self.low)}: {said}"
             limits = self.interval
-            said += f" (95 %: {self.words(*limits)})" if limits else f" (no interval of fewer than {FEWEST})"
-        return f"{said}; {self.failed} more failed" if self.failed else said
+            known = {"count": len(self.low), "median": said, "limits": limits and self.words(*limits), "fewest": FEWEST}
+            none = say("median of {count}: {median} (no interval of fewer than {fewest})")
+            said = (say("median of {count}: {median} (95 %: {limits})") if limits else none).of(**known)
+        return joined("; ", [said, say("{count} more failed", count=self.failed) if self.failed else ""])
 
     def summary(self) -> dict[str, Any]:
         """Plain values; None for more than ``most``."""
@@ -190,15 +193,25 @@ class SequenceResult(Shown):
         if not self.events:
             return self.response.sentence
         if fell is not None:
-            which, many = f"earthquake {fell} of {len(spans)} ({spans[fell - 1].motion})", len(self.response.fallen)
-            words = [f"It falls in {which}."]
+            known = {
+                "which": fell,
+                "all": len(spans),
+                "motion": spans[fell - 1].motion,
+                "many": len(self.response.fallen),
+            }
+            words = say("It falls in earthquake {which} of {all} ({motion}).")
             if self.response.measures.blocks is not None:
-                words = [f"{many} bod{'ies fall, the first of them' if many > 1 else 'y falls'} in {which}."]
+                one = say("1 body falls in earthquake {which} of {all} ({motion}).")
+                some = say("{many} bodies fall, the first of them in earthquake {which} of {all} ({motion}).")
+                words = one if known["many"] == 1 else some
+            said = [words.of(**known)]
             if len(self.events) < len(spans):
-                words.append(f"The run ends there: {len(spans) - len(self.events)} more would have come.")
-        else:
-            words = [f"After {len(spans)} earthquake{'s' * (len(spans) > 1)}: {self.response.sentence}"]
-        return " ".join(words)
+                said.append(
+                    say("The run ends there: {count} more would have come.", count=len(spans) - len(self.events))
+                )
+            return joined(" ", said)
+        after = say("After 1 earthquake: {text}") if len(spans) == 1 else say("After {count} earthquakes: {text}")
+        return after.of(count=len(spans), text=self.response.sentence)
 
     @property
     def unsettled(self) -> tuple[int, ...]:
@@ -219,7 +232,6 @@ class SequenceResult(Shown):
         }
 
 
-@campaigning(Fields, but=("tail",))
 def sequence(
     structure: Structure,
     motions: Motion | Sequence[Motion],
@@ -229,8 +241,8 @@ def sequence(
     repeat: int = 1,
     output_interval: float = 0.01,
     until_end: bool = False,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> SequenceResult:
     """Shake a structure with earthquakes one after another; each begins as the one before has left it.
 
@@ -251,7 +263,7 @@ def sequence(
         Time between recorded states [s], of which the peaks of each earthquake are told.
     until_end : bool
         Go on after the collapse of a column, where the model does.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
 
     Returns
     -------
@@ -262,6 +274,7 @@ def sequence(
     InputError
         The input cannot be used.
     """
+    campaign = Campaign.of("sequence", campaign, settings, ("tail",))
     began = time.perf_counter()
     check_kind("structure", structure, Structure)
     check_kind("model", model, Model)
@@ -330,7 +343,6 @@ class UntilFall(Shown):
         return {"until_fall": self.over_motions.summary(), "motions": each, "wall_s": self.wall_time}
 
 
-@campaigning(Fields, but=("tail",))
 def earthquakes_until_fall(
     structure: Structure,
     motions: Motion | Sequence[Motion],
@@ -338,8 +350,8 @@ def earthquakes_until_fall(
     most: int = 20,
     *,
     rest: float = REST,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> UntilFall:
     """Count how many earthquakes like each of these a structure takes until it falls, each motion coming again and again.
 
@@ -352,7 +364,7 @@ def earthquakes_until_fall(
         Earthquakes after which a run ends; what stands then takes more than that.
     rest : float
         Quiet ground after each of them [s].
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         With replicates, of columns like this one; over them and over motions the median is told with its interval.
 
     Raises
@@ -360,6 +372,7 @@ def earthquakes_until_fall(
     InputError
         The input cannot be used.
     """
+    campaign = Campaign.of("earthquakes_until_fall", campaign, settings, ("tail",))
     began = time.perf_counter()
     check_kind("structure", structure, Structure)
     check_kind("model", model, Model)

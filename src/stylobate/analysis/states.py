@@ -7,13 +7,13 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..campaign.cases import Study
-from ..column.links.stone import stone_that_breaks
+from ..column.links.placed import stone_that_breaks
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
 from ..models.base import Model
@@ -150,7 +150,6 @@ class StateComparison(Shown):
         }
 
 
-@campaigning(Fields, but=("ledger",))
 def compare_states(
     states: Mapping[str, Structure],
     motions: Sequence[Motion],
@@ -162,8 +161,8 @@ def compare_states(
     samples: int = SAMPLES,
     confidence: float = 0.95,
     out: str | Path | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> StateComparison:
     """Shake several states of a column with the same motions at the same levels, and compare what becomes of them.
 
@@ -185,7 +184,7 @@ def compare_states(
         Of the bootstrap over records. All states take the same samples of the records, so that differences are paired.
     out : path, optional
         Folder that keeps the runs.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         With replicates, twins of every state are run instead of it; the same seed draws the same deviations for each: of a
         column drum by drum, of an assembly in space stone by stone, by their names.
 
@@ -194,6 +193,7 @@ def compare_states(
     InputError
         Fewer than two states, or input that the model refuses.
     """
+    campaign = Campaign.of("compare_states", campaign, settings, ("ledger",))
     check_bootstrap(samples, campaign.seed, confidence)
     check_kind("states", states, Mapping, allowed="a mapping of columns by their labels, such as {'as built': column}")
     states = {label: states[label] for label in NO_MEASURE if label in states} | dict(states)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Unpack
+from typing import Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Computing, campaigning
+from ..campaign.campaign import RUNS, Campaign
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Model
@@ -48,7 +48,6 @@ class StepComparison:
         }
 
 
-@campaigning(Computing)
 def compare_steps(
     column: Column,
     model: Model,
@@ -56,10 +55,11 @@ def compare_steps(
     amplitudes: Sequence[float] | np.ndarray,
     duration: float = 10.0,
     *,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Computing],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> StepComparison:
     """Run a domain under the model's step and under half of it; parameters as in :func:`compare_domains`."""
+    campaign = Campaign.of("compare_steps", campaign, settings, RUNS)
     finest = harmonic(float(np.max(frequencies)), 1.0, duration)
     models = [model, halved_step(model, column, finest)]
     pair = compare_domains(column, models, frequencies, amplitudes, duration, campaign=campaign)

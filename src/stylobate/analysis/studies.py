@@ -7,15 +7,14 @@ from collections.abc import Callable, Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..atomic import replacing
-from ..campaign.campaign import USUAL, Campaign, Computing, campaigning
-from ..campaign.cases import Study
+from ..campaign.campaign import RUNS, Campaign
+from ..campaign.cases import Plan, Study
 from ..campaign.ledger import RUNS_FILE, finished_runs_in
-from ..campaign.plan import Plan
 from ..campaign.runs import Runs, Stopped, its_turn
 from ..errors import InputError, check_kind
 from ..notebook import Shown
@@ -116,14 +115,13 @@ class StudyResult(Shown):
         return cls(plan, plan.known(Path(folder) / RUNS_FILE))
 
 
-@campaigning(Computing, but=("tail", "ledger"))
 def run_study(
     study: Study,
     out: str | Path | None = None,
     *,
     waiting: Callable[[], None] | None = None,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Computing],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> StudyResult:
     """Run a study; what its folder holds already is not computed again.
 
@@ -138,7 +136,7 @@ def run_study(
         grown computes only what is new. Without it nothing is kept.
     waiting : callable, optional
         Called once if another process is at work in the folder; this one goes on when that one ends, however it ends.
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         Where the study is computed and who is told; the rest is the study's own.
 
     Raises
@@ -148,6 +146,7 @@ def run_study(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    campaign = Campaign.of("run_study", campaign, settings, (*RUNS, "tail", "ledger"))
     check_kind("study", study, Study)
     check_kind("out", out, (str, Path), optional=True)
     folder = None if out is None else Path(out)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.campaign import Campaign
 from ..campaign.cases import RELATIVE, must_be_alike
 from ..campaign.digests import Hasher
 from ..campaign.runs import Request, run_all
@@ -68,14 +68,13 @@ def check_measure(against: str, columns: Sequence[Structure]) -> None:
     check_choice("`against`", against, known)
 
 
-@campaigning(Fields)
 def suite_table(
     columns: Structure | Sequence[Structure],
     motions: Sequence[Motion],
     model: Model,
     *,
-    campaign: Campaign = USUAL,
-    **fields: Unpack[Fields],
+    campaign: Campaign | None = None,
+    **settings: Any,
 ) -> pandas.DataFrame:
     """Shake every column, or every assembly, with every record.
 
@@ -85,7 +84,7 @@ def suite_table(
     motions : sequence of Motion
         E.g. ``read_suite(folder).motions``. The vertical component acts where a motion has one.
     model : Model
-    campaign : Campaign, optional
+    campaign, **settings : Campaign, optional
         With replicates, twins of every column are run under every record as well.
 
     Returns
@@ -106,6 +105,7 @@ def suite_table(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    campaign = Campaign.of("suite_table", campaign, settings)
     import pandas
 
     stands = check_all("columns", columns, Structure)

@@ -1,17 +1,14 @@
-"""How many runs are made, as one value: of which twins, for how long, where they are computed, kept and told of."""
+"""Settings of a batch of runs: replicates, tail, executor, ledger, progress."""
 
 from __future__ import annotations
 
-import inspect
-import re
-from collections.abc import Callable
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, fields, replace
-from functools import wraps
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar
+from typing import Any
 
 from ..column.scatter import Scatter
-from ..errors import InputError, as_typed, check_choice, check_range, check_whole
+from ..errors import InputError, as_typed, check_choice, check_kind, check_range, check_whole
 from ..models.base import RunOptions
 from ..response.measures import CPU, DEVICES, GPU
 from .ledger import RUNS_FILE
@@ -25,34 +22,18 @@ MAX_TWINS = 100_000
 #: Called with (finished runs, all runs) whenever a run finishes; by a single run with times.
 Progress = Callable[[Any, Any], None]
 
-
-class Computing(TypedDict, total=False):
-    """Fields of a campaign that any runs have, as keywords."""
-
-    tail: float
-    threads: int | None
-    dask: str | None
-    device: str
-    mix_devices: bool
-    progress: Progress | None
-    ledger: str | Path | None
-
-
-class Fields(Computing, total=False):
-    """All fields of a campaign, as keywords."""
-
-    replicates: int
-    scatter: Scatter | None
-    seed: int
-    whole: bool
+#: Fields about replicates, about the runs themselves, and about where runs are computed and kept, and who is told.
+TWINS = ("replicates", "scatter", "seed")
+RUNS = (*TWINS, "whole")
+COMPUTING = ("threads", "dask", "device", "mix_devices", "progress", "ledger")
 
 
 @dataclass(frozen=True)
 class Campaign:
-    """How runs are made: asked for once, the same for the command line, study files, the page and Python.
+    """Settings of a batch of runs, the same for the command line, study files, the page and Python.
 
-    A keyword beside a campaign fills a field that the campaign leaves at its default; where both say something else, they
-    are refused.
+    Functions that make runs take a campaign, its fields as keywords, or both: a keyword fills a field that the campaign
+    leaves at its default; where both say something else, they are refused.
 
     Parameters
     ----------
@@ -104,27 +85,59 @@ class Campaign:
     def __post_init__(self) -> None:
         check_whole("`replicates`", self.replicates, 0, MAX_TWINS)
         check_whole("`seed`", self.seed, 0, 2**63 - 1)
-        if not (self.scatter is None or isinstance(self.scatter, Scatter)):
-            raise InputError(
-                f"`scatter` is {as_typed(self.scatter)}; allowed is a Scatter, such as Scatter(friction=0.1).",
-                "scatter",
-            )
+        such = "a Scatter, such as Scatter(friction=0.1)"
+        check_kind("`scatter`", self.scatter, Scatter, allowed=such, optional=True)
         check_range("`tail`", self.tail, 0.0, 1e4, unit="s")
-        if not isinstance(self.whole, bool):
-            raise InputError(f"`whole` is {as_typed(self.whole)}; allowed is True or False.", "whole")
+        check_kind("`whole`", self.whole, bool, allowed="True or False")
         check_choice("`device`", self.device, DEVICES)
         if self.device == GPU and self.dask is not None:
             raise InputError("`dask` and a `device` of gpu are both given; give one of the two.", "device")
-        if not isinstance(self.mix_devices, bool):
-            raise InputError(f"`mix_devices` is {as_typed(self.mix_devices)}; allowed is True or False.", "mix_devices")
-        if not (self.progress is None or callable(self.progress)):
-            raise InputError(
-                f"progress is {as_typed(self.progress)}; allowed is a function of two numbers.", "progress"
-            )
-        if not (self.ledger is None or isinstance(self.ledger, (str, Path))):
-            raise InputError(f"ledger is {as_typed(self.ledger)}; allowed is the path of a file.", "ledger")
+        check_kind("`mix_devices`", self.mix_devices, bool, allowed="True or False")
+        check_kind("progress", self.progress, Callable, allowed="a function of two numbers", optional=True)
+        check_kind("ledger", self.ledger, (str, Path), allowed="the path of a file", optional=True)
         if self.threads is not None:
             check_range("`threads`", self.threads, 1, 1024, remedy="leave it out to use all cores")
+
+    @classmethod
+    def of(
+        cls,
+        function: str,
+        campaign: Campaign | None,
+        settings: Mapping[str, Any],
+        without: Container[str] = (),
+        **usual: Any,
+    ) -> Campaign:
+        """Settings of a ``function`` that takes a campaign, fields of it as keywords, or both, with ``usual`` defaults.
+
+        Raises
+        ------
+        TypeError
+            A keyword that is none, or one of those that the function goes ``without``.
+        InputError
+            A value that is not allowed, or one thing in the campaign and another in a keyword.
+        """
+        standard = cls(**usual)
+        value = (
+            standard
+            if campaign is None
+            else check_kind("campaign", campaign, cls, allowed="a Campaign, such as Campaign(replicates=30)")
+        )
+        names = [one.name for one in fields(cls) if one.name not in without]
+        for name, typed in settings.items():
+            if name not in names:
+                raise TypeError(
+                    f"{function}: there is no keyword {name!r}; settings of its runs are {', '.join(names)}"
+                )
+            stated = getattr(value, name)
+            if stated not in (typed, getattr(cls, name), getattr(standard, name)):
+                raise InputError(
+                    f"`{name}` is {as_typed(typed)}, and {as_typed(stated)} in the campaign; give it in one of the two.",
+                    name,
+                )
+        for one in fields(cls):
+            if one.name not in names and getattr(value, one.name) != one.default:
+                raise InputError(f"{function} takes no {one.name}; leave it out of the campaign.")
+        return replace(value, **settings)
 
     @property
     def options(self) -> RunOptions:
@@ -139,7 +152,7 @@ class Campaign:
     @property
     def of_runs(self) -> Campaign:
         """What it says of the runs themselves."""
-        return replace(self, **{name: getattr(USUAL, name) for name in COMPUTING})
+        return replace(self, **{name: getattr(Campaign, name) for name in COMPUTING})
 
     @property
     def of_computing(self) -> Campaign:
@@ -158,88 +171,3 @@ class Campaign:
         if made.ledger is not None and not Path(made.ledger).parent.is_dir():
             raise InputError(f"folder {Path(made.ledger).parent} does not exist; create it first.")
         return made
-
-
-#: Fields that say where runs are computed and kept, and who is told.
-COMPUTING = ("threads", "dask", "device", "mix_devices", "progress", "ledger")
-
-#: How runs are made where nothing is asked for.
-USUAL = Campaign()
-
-
-Function = TypeVar("Function", bound=Callable[..., Any])
-
-
-def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Callable[[Function], Function]:
-    """For functions of a ``campaign``: its fields are keywords of theirs, with signature, documentation and checks.
-
-    Parameters
-    ----------
-    keywords : type
-        The typed dictionary of the fields, which the function declares for type checkers (``**fields: Unpack[...]``).
-    but : tuple of str
-        Those of them that the function does not take.
-    **usual
-        Fields with another default.
-    """
-    taken = [field for field in fields(Campaign) if field.name in keywords.__annotations__ and field.name not in but]
-    others = [field for field in fields(Campaign) if field not in taken]
-    standard = replace(USUAL, **usual)
-
-    def of(function: Function) -> Function:
-        if isinstance(function, type):
-            function.__init__ = of(function.__init__)  # type: ignore[misc]
-            function.__doc__ = _documented(function.__doc__ or "", [one.name for one in taken])
-            return function  # type: ignore[return-value]
-        named = function.__qualname__.removesuffix(".__init__")
-        own = inspect.signature(function)
-        plain = [
-            parameter for parameter in own.parameters.values() if parameter.kind is not inspect.Parameter.VAR_KEYWORD
-        ]
-        given = own.replace(parameters=plain)
-
-        @wraps(function)
-        def taking(*args: Any, **kwargs: Any) -> Any:
-            changes = {one.name: kwargs.pop(one.name) for one in taken if one.name in kwargs}
-            value = kwargs.pop("campaign", None) or standard
-            if not isinstance(value, Campaign):
-                raise InputError(
-                    f"campaign is {as_typed(value)}; allowed is a Campaign, such as Campaign(replicates=30)."
-                )
-            for name, typed in changes.items():
-                asked = getattr(value, name)
-                if asked not in (typed, getattr(USUAL, name), getattr(standard, name)):
-                    raise InputError(
-                        f"`{name}` is {as_typed(typed)}, and {as_typed(asked)} in the campaign; give it in one of the two.",
-                        name,
-                    )
-            made = replace(value, **changes)
-            for other in others:
-                if getattr(made, other.name) != other.default:
-                    raise InputError(f"{named} takes no {other.name}; leave it out of the campaign.")
-            try:
-                given.bind(*args, **kwargs, campaign=made)
-            except TypeError as error:
-                raise TypeError(f"{named}: {error}") from None
-            return function(*args, **kwargs, campaign=made)
-
-        *before, last = plain
-        assert last.name == "campaign"
-        spread = [
-            inspect.Parameter(one.name, last.KEYWORD_ONLY, default=getattr(standard, one.name), annotation=one.type)
-            for one in taken
-        ]
-        taking.__signature__ = own.replace(parameters=[*before, *spread, last.replace(default=None)])  # type: ignore[attr-defined]
-        taking.__doc__ = _documented(function.__doc__ or "", [one.name for one in taken])
-        return taking  # type: ignore[return-value]
-
-    return of
-
-
-def _documented(text: str, names: list[str]) -> str:
-    """A docstring with the fields of a campaign in front of the campaign, in the words of :class:`Campaign`."""
-    own = inspect.cleandoc(text)
-    before, entry, after = own.partition("\ncampaign : Campaign")
-    entries = re.findall(r"^((\w+) : .*(?:\n {4}.*)+)", inspect.cleandoc(Campaign.__doc__ or ""), re.MULTILINE)
-    told = "".join(f"\n{words}" for words, name in entries if name in names)
-    return f"{before}{told}{entry}{after}" if entry else own

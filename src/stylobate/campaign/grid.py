@@ -17,8 +17,7 @@ from ..errors import InputError, as_typed, check_kind, check_range, within
 from ..models.base import Case, Cases, Model
 from ..models.registry import make_models
 from ..motion import harmonic
-from ..motion.ranges import amplitude_range, frequency_range
-from ..motion.specs import parse_acceleration, parse_frequency
+from ..motion.specs import amplitude_range, frequency_range, parse_acceleration, parse_frequency
 from ..reading import shown
 from .campaign import DECIDED
 from .digests import Hasher

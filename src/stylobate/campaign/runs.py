@@ -16,15 +16,15 @@ import numpy as np
 from ..errors import InputError
 from ..models import devices
 from ..models.base import Case, Cases, Model, RunOptions
+from ..models.engine import engine_for
 from ..models.shared.quiet import share_of
 from ..own_files import digest as digest_of_file
 from ..response.measures import CPU, GPU
 from ..response.rows import Rows
 from ..simulate import check_cases, run_on_card
-from .campaign import USUAL, Campaign, Progress
-from .cluster import on_cluster
+from .campaign import Campaign, Progress
+from .cluster import computed_by, executor, on_cluster
 from .digests import Digests, Hasher
-from .executor import computed_by, executor
 from .ledger import Ledger, finished_runs_in, rows_in
 
 #: Cases that run together: their numbers, their model, and how they are run.
@@ -121,8 +121,8 @@ class Runs:
         Runs that were made here, and those of the requests that are finished, these among them.
     """
 
-    def __init__(self, campaign: Campaign = USUAL, waiting: Callable[[], object] | None = None) -> None:
-        self.campaign = campaign
+    def __init__(self, campaign: Campaign | None = None, waiting: Callable[[], object] | None = None) -> None:
+        self.campaign = campaign = campaign or Campaign()
         self.path = None if campaign.ledger is None else Path(campaign.ledger)
         self.made = self.kept = 0
         self._book: Ledger | None = None
@@ -233,7 +233,7 @@ class Runs:
             return
         if self.campaign.device == GPU:
             model = next(model for numbers, model, _ in request.groups if number in numbers)
-            if not model.on_card(devices.gpu(), request.cases[number].column):
+            if not engine_for(model, request.cases[number].column).on_card(devices.gpu()):
                 return
         raise InputError(
             f"{self.path} keeps finished runs of this request that were computed by {by}, and `device` is "
@@ -276,7 +276,7 @@ def _some(cases: Sequence[Case], numbers: np.ndarray) -> Cases:
     return Cases(len(numbers), lambda index: cases[int(numbers[index])])
 
 
-def run_all(request: Request, campaign: Campaign = USUAL) -> Rows:
+def run_all(request: Request, campaign: Campaign | None = None) -> Rows:
     """Run what the ledger does not hold yet.
 
     Parameters

@@ -19,11 +19,10 @@ from ..models.base import Model
 from ..models.registry import make_models
 from ..motion import Motion, Suite, harmonic
 from ..motion.intensity_specs import IntensityMeasure, parse_measure
-from ..motion.ranges import azimuth_range
-from ..motion.readers.samples import PREFIX
+from ..motion.readers.source import PREFIX
 from ..motion.request import MotionRequest
 from ..motion.sequence import REST, in_sequence
-from ..motion.specs import parse_acceleration, parse_time, parse_velocity
+from ..motion.specs import azimuth_range, parse_acceleration, parse_time, parse_velocity
 from ..reading import shown
 from .campaign import Campaign
 from .cases import Study

@@ -30,22 +30,21 @@ def animate(
     The film is written to --out, or beside the response.
     """
     from ..motion.specs import parse_time
-    from ..plots.animation import write_gif, write_mp4
-    from ..plots.player import write_player
-    from ..plots.view import OBLIQUE, parse_view
+    from ..plots.film import write_gif, write_mp4, write_player
+    from ..plots.solids import OBLIQUE, parse_view
     from ..response import load_response
     from ..response.words import doubt_of
     from . import console
 
     if to not in FORMATS:
-        raise InputError(f"--format is {to!r}; allowed are {', '.join(FORMATS)}.", "format")
-    frames, pace = _number("--fps", rate, 100.0), _number("--speed", speed, 1000.0)
+        raise InputError(f"`format` is {to!r}; allowed are {', '.join(FORMATS)}.", "format")
+    frames, pace = _number("fps", rate, 100.0), _number("speed", speed, 1000.0)
     if response.is_dir():
         response = response / "response.nc"
     loaded = load_response(response)
     if view is not None and loaded.dims != "xyz":
         raise InputError(
-            f"--view is for responses in space, and that of {loaded.model} is in the plane; leave it out.", "view"
+            f"`view` is for responses in space, and that of {loaded.model} is in the plane; leave it out.", "view"
         )
     seen_from = OBLIQUE if view is None else parse_view(view)
     window = None
@@ -75,7 +74,7 @@ def animate(
         console.say(f"{loaded.sentence} {doubt}".rstrip(), {"film": f"{duration:.2f} s, {to}"}, [target])
 
 
-def _number(option: str, text: str, high: float) -> float:
+def _number(name: str, text: str, high: float) -> float:
     from ..motion.specs import parse_number
 
-    return check_range(option, parse_number(option, text, "such as 1"), 0.0, high, open_low=True)
+    return check_range(f"`{name}`", parse_number(f"`{name}`", text, "such as 1"), 0.0, high, open_low=True)

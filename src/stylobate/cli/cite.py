@@ -28,11 +28,11 @@ def cite(
 
     given = [
         name
-        for name, one in (("RESULT", result), ("--model", model), ("--all", everything))
+        for name, one in (("RESULT", result), ("`model`", model), ("`all`", everything))
         if one not in (None, False)
     ]
     if len(given) > 1:
-        raise InputError(f"{' and '.join(given)} are both given; give one of RESULT, --model and --all.", "result")
+        raise InputError(f"{' and '.join(given)} are both given; give one of RESULT, `model` and `all`.", "result")
     found = _citation(result, model, everything)
     with execution.files("cite", "citation.txt", "citation.bib") as files:
         if files.wanted:

@@ -40,7 +40,7 @@ def columns(
     other = next((one for one in chosen if one.stack is None), None)
     if execution.out is not None and other is not None:
         raise InputError(
-            f"--out writes column files, and {other.name!r} is {other.described}; leave one of the two out.",
+            f"`out` writes column files, and {other.name!r} is {other.described}; leave one of the two out.",
             "out",
         )
     names = [f"{Path(one.name).name or 'column'}.toml" for one in chosen]
@@ -211,7 +211,7 @@ def _facts(column: Column) -> dict[str, str]:
 
 def _stone(structure: Structure) -> dict[str, str]:
     """What of the stone around links is to be minded; nothing without anchors."""
-    from ..column.links.stone import stone_words
+    from ..column.links.placed import stone_words
 
     words = stone_words(structure.placed_links)
     return {"stone around links": words} if words else {}

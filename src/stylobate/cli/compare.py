@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,6 +12,15 @@ from .design import WRITES, describe_design, write_design
 
 if TYPE_CHECKING:
     from .files import Files
+
+
+@dataclass(frozen=True)
+class Several(o.Modelling):
+    """How what stands is computed by each of several models."""
+
+    settings: list[str] | None = o.option(
+        "MODEL.NAME=VALUE", "Option of one of the models; may be repeated.", flag="--set"
+    )
 
 
 def compare(
@@ -27,11 +36,7 @@ def compare(
     amplitudes: str | None = o.option("A:A:N", "Compare domains: such as 0.05g:0.6g:32."),
     duration: str = o.option("TIME", "Of each motion of a domain.", "10s"),
     following: o.Following,
-    settings: list[str] | None = o.option(
-        "MODEL.NAME=VALUE", "Option of one of the models; may be repeated.", flag="--set"
-    ),
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: Several,
     execution: o.Execution,
 ) -> None:
     """Several models side by side: histories and measures under one motion, or verdicts over a domain.
@@ -44,30 +49,29 @@ def compare(
     from ..analysis.design_values import design_values
     from ..analysis.difference import caveat
     from ..motion.orientation import keep_axes
-    from ..motion.ranges import amplitude_range, frequency_range
-    from ..motion.specs import parse_time
+    from ..motion.specs import amplitude_range, frequency_range, parse_time
     from . import console
 
     names = [name.strip() for name in models.split(",")]
     if len(set(names)) != len(names):
-        raise InputError(f"--models is {models!r}, with a model given twice; give each once.", "models")
+        raise InputError(f"`models` is {models!r}, with a model given twice; give each once.", "models")
     campaign = execution.campaign(following)
     over_domain = frequencies is not None or amplitudes is not None
-    stone: Any = (o.the_column if over_domain else o.the_structure)(column, project)
-    chosen = o.the_models([_chosen(name, names, settings) for name in names], losses)
+    stone: Any = (modelling.column if over_domain else modelling.structure)(column)
+    chosen = modelling.models([_chosen(name, names, modelling.settings) for name in names])
     result: dict[str, Any] = {"models": names, "doubt": caveat([stone], *chosen)}
     facts: dict[str, str] = {}
     designed = pandas.DataFrame()
     what: dict[str, Any] = {"structures": [stone], "models": chosen, "labels": names, "tail_s": campaign.tail}
     if over_domain:
         if frequencies is None or amplitudes is None:
-            raise InputError("a domain needs both --frequencies and --amplitudes; give both.", "frequencies")
+            raise InputError("a domain needs both `frequencies` and `amplitudes`; give both.", "frequencies")
         if motions.harmonic or motions.pulse or motions.synthetic or motions.motion:
             raise InputError(
-                "both a motion and a domain are given; give a motion, or --frequencies and --amplitudes.", "frequencies"
+                "both a motion and a domain are given; give a motion, or `frequencies` and `amplitudes`.", "frequencies"
             )
         if following.whole:
-            raise InputError("--whole is for records, and a domain has none; leave it out.", "whole")
+            raise InputError("`whole` is for records, and a domain has none; leave it out.", "whole")
         grid = frequency_range(frequencies), amplitude_range(amplitudes), parse_time(duration)
         each = [one for name in names for one in (f"domain-{_stem(name)}.nc", f"domain-{_stem(name)}")]
         with execution.files("compare", "comparison.csv", "comparison", *each) as files:
@@ -130,7 +134,7 @@ def _settings_of(name: str, names: list[str], settings: list[str] | None) -> lis
         model, dot, setting = text.partition(".")
         if not dot or model not in names:
             raise InputError(
-                f"--set is {text!r}; write it as model.name=value, the model one of {', '.join(names)}.", "set"
+                f"`set` is {text!r}; write it as model.name=value, the model one of {', '.join(names)}.", "set"
             )
         if model == name:
             mine.append(setting)
@@ -152,5 +156,5 @@ def _write_domains(comparison: Any, files: Files) -> None:
     for label, domain in zip(comparison.labels, comparison.domains, strict=True):
         files.append(domain.save(files / f"domain-{_stem(label)}.nc"))
         files.picture(plots.draw_domain(domain), f"domain-{_stem(label)}")
-    named = [dataclasses.replace(domain, model=label) for label, domain in zip(comparison.labels, comparison.domains)]
+    named = [replace(domain, model=label) for label, domain in zip(comparison.labels, comparison.domains)]
     files.picture(plots.draw_boundaries(named), "comparison")

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import reworded
+from ..messages import MESSAGES, Message, kept
 
 if TYPE_CHECKING:
     import pandas
@@ -36,7 +37,16 @@ OPTIONS = {"files": "--motion", "hazards": "--hazard"}
 
 def in_options(message: object) -> str:
     """The message of an error or a warning, with the options that give the parameters in it."""
-    return reworded(str(message), lambda name: OPTIONS.get(name, f"--{name.replace('_', '-')}"))
+
+    def words(text: str) -> str:
+        return reworded(text, lambda name: OPTIONS.get(name, f"--{name.replace('_', '-')}"))
+
+    text = str(message)
+    return text.changed(words) if isinstance(text, Message) else words(text)
+
+
+#: How messages name parameters: as options, unless a command is done for somebody who does not see these.
+WORDING: Callable[[object], str] = in_options
 
 
 #: Time until the first line about progress, where there is no terminal [s].
@@ -86,8 +96,9 @@ def as_json(value: Any, indent: int | None = None) -> str:
 
 
 def write_json(path: Path, value: Any) -> Path:
-    """Write a JSON file, whole or not at all."""
-    return write_text(path, as_json(value, indent=2))
+    """Write a JSON file, whole or not at all; what its messages are made of stands in it, for reports in other languages."""
+    messages = kept(value)
+    return write_text(path, as_json(value | {MESSAGES: messages} if messages else value, indent=2))
 
 
 def write_text(path: Path, text: str) -> Path:
@@ -171,7 +182,7 @@ def print_left_out(inputs: Sequence[Mapping[str, Any]]) -> None:
 def print_refused(refused: Mapping[str, str]) -> None:
     """Say which files of a suite were not used, and why."""
     for name, reason in refused.items():
-        print(f"not used: {name}: {in_options(reason)}")
+        print(f"not used: {name}: {WORDING(reason)}")
 
 
 def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None]:
@@ -195,8 +206,7 @@ def ledger(folder: Path | None, *, waits: bool = False) -> Path | None:
 
     A command that ``waits`` for that one is not refused.
     """
-    from ..campaign.holding import refuse_held
-    from ..campaign.ledger import RUNS_FILE
+    from ..campaign.ledger import RUNS_FILE, refuse_held
     from . import signals
 
     if folder is None:
@@ -209,13 +219,14 @@ def ledger(folder: Path | None, *, waits: bool = False) -> Path | None:
 
 def note(sentence: str) -> None:
     """Say on standard error what a person should know while a command goes on."""
-    print(f"stylobate: {sentence}", file=sys.stderr, flush=True)
+    print(f"stylobate: {WORDING(sentence)}", file=sys.stderr, flush=True)
 
 
 def warn(sentence: str) -> None:
     """Say once what is kept with the results too, and stands in a report of them."""
-    if sentence not in WARNED:
-        WARNED.append(sentence)
+    kept = in_options(sentence)
+    if kept not in WARNED:
+        WARNED.append(kept)
         note(f"warning: {sentence}")
 
 

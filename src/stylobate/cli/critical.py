@@ -43,9 +43,7 @@ def critical(
     *,
     motions: Annotated[Shapes, o.But("scale", "pga")],
     following: o.Following,
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     population: o.Population,
     execution: o.Execution,
 ) -> None:
@@ -63,8 +61,8 @@ def critical(
     request = motions.request()
     grid = [parse_acceleration(text) for text in (start, stop, step)]
     amplitude_grid(*grid)
-    stone: Any = o.the_structure(column, project)
-    how = o.the_model(model, settings, losses)
+    stone: Any = modelling.structure(column)
+    how = modelling.model(model)
     campaign, given = execution.campaign(following, population), population.replicates is not None
     suite = request.expand(stone.frequency_parameter, amplitude_open=True)
     taken = [how.taken(motion) for motion in suite.motions]

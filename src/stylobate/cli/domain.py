@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,22 +16,49 @@ if TYPE_CHECKING:
     from .files import Files
 
 
+@dataclass(frozen=True)
+class Grid(o.Group):
+    """Motions of a domain, by frequency and amplitude, and the model."""
+
+    model: str | None = o.option("MODEL", "How it is computed; dem2d by default.")
+    frequencies: str | None = o.option("F:F:N", "First, last and number, such as 0.33:4:24.")
+    amplitudes: str | None = o.option("A:A:N", "Likewise, such as 0.05g:0.6g:32.")
+    duration: str | None = o.option("TIME", "Of each motion; 10s.")
+    tail: str | None = o.option("TIME", "Go on for this long after each motion; 0s.")
+
+    def study(self, what: str, modelling: o.Modelling) -> HarmonicGrid:
+        """The grid of a study file, or of a column with these options."""
+        from ..campaign.grid import HarmonicGrid, is_grid, read_grid
+        from ..motion.specs import amplitude_range, frequency_range, parse_time
+
+        if Path(what).is_file() and is_grid(what):
+            given = {"set" if name == "settings" else name: one for name, one in (vars(self) | vars(modelling)).items()}
+            if (name := next((name for name, one in given.items() if one), None)) is not None:
+                raise InputError(f"{what} is a study file and `{name}` is given as well; state it in the file.", name)
+            return read_grid(what)
+        for name, example in (("frequencies", "0.33:4:24"), ("amplitudes", "0.05g:0.6g:32")):
+            if getattr(self, name) is None:
+                raise InputError(f"`{name}` is missing; a domain of a column needs it, e.g. `{name}={example}`.", name)
+        return HarmonicGrid(
+            modelling.column(what),
+            modelling.model(self.model or "dem2d"),
+            frequency_range(self.frequencies or ""),
+            amplitude_range(self.amplitudes or ""),
+            parse_time(self.duration or "10s"),
+            parse_time(self.tail or "0s"),
+        )
+
+
 def domain(
     what: str = o.argument("STUDY|COLUMN", "A study file (TOML), or a column: preset or column file."),
-    model: str | None = o.option("MODEL", "How it is computed; dem2d by default."),
-    frequencies: str | None = o.option("F:F:N", "First, last and number, such as 0.33:4:24."),
-    amplitudes: str | None = o.option("A:A:N", "Likewise, such as 0.05g:0.6g:32."),
-    duration: str | None = o.option("TIME", "Of each motion; 10s."),
-    tail: str | None = o.option("TIME", "Go on for this long after each motion; 0s."),
     *,
+    motions: Grid,
     population: o.Population,
     motion_scatter: str | None = o.option(
         "NAME=SIZE,…", "How the motions of a cell differ then; amplitude=1%,phase=0.1,across=1%, nothing by default."
     ),
     half_step: bool = o.option(None, "Run it again with half of the time step and count what differs.", False),
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     execution: o.Execution,
 ) -> None:
     """Safe-unsafe domain over frequency and amplitude.
@@ -45,14 +73,14 @@ def domain(
     from ..campaign.runs import Stopped
     from . import console
 
-    study = _study(what, model, frequencies, amplitudes, duration, tail, settings, losses, project)
+    study = motions.study(what, modelling)
     grid: tuple[Any, ...] = study.column, study.model, study.frequencies, study.amplitudes, study.duration
     campaign = execution.campaign(population, tail=study.tail)
     likely = population.replicates is not None
     if likely and half_step:
-        raise InputError("--half-step is for a domain without --replicates; give one of the two.", "half_step")
+        raise InputError("`half_step` is for a domain without `replicates`; give one of the two.", "half_step")
     if not likely:
-        o.for_replicates("--motion-scatter", motion_scatter)
+        o.for_replicates("motion_scatter", motion_scatter)
     shaking = None if motion_scatter is None else o.motion_scatter(motion_scatter)
     name, pair = "probability" if likely else "domain", None
     with execution.files("domain", *(f"{name}{end}" for end in (".nc", ".csv", ".json", ""))) as files:
@@ -154,54 +182,3 @@ def describe(result: Domain, files: list[Path]) -> None:
         "time": f"{result.wall_time:.1f} s",
     }
     console.say(sentence, facts, files)
-
-
-def _study(
-    what: str,
-    model: str | None,
-    frequencies: str | None,
-    amplitudes: str | None,
-    duration: str | None,
-    tail: str | None,
-    settings: list[str] | None,
-    losses: str | None,
-    project: str | None,
-) -> HarmonicGrid:
-    from ..campaign.grid import HarmonicGrid, is_grid, read_grid
-    from ..motion.ranges import amplitude_range, frequency_range
-    from ..motion.specs import parse_time
-
-    given = {
-        "--model": model,
-        "--frequencies": frequencies,
-        "--amplitudes": amplitudes,
-        "--duration": duration,
-        "--tail": tail,
-        "--set": settings,
-        "--losses": losses,
-        "--project": project,
-    }
-    if Path(what).is_file() and is_grid(what):
-        for option, value in given.items():
-            if value:
-                raise InputError(
-                    f"{what} is a study file and {option} is given as well; state it in the file.", o.field_of(option)
-                )
-        return read_grid(what)
-    column = o.the_column(what, project)
-    return HarmonicGrid(
-        column,
-        o.the_model(model or "dem2d", settings, losses),
-        frequency_range(_needed("--frequencies", frequencies, "0.33:4:24")),
-        amplitude_range(_needed("--amplitudes", amplitudes, "0.05g:0.6g:32")),
-        parse_time(duration or "10s"),
-        parse_time(tail or "0s"),
-    )
-
-
-def _needed(option: str, value: str | None, example: str) -> str:
-    if value is None:
-        raise InputError(
-            f"{option} is missing; a domain of a column needs it, e.g. {option} {example}.", o.field_of(option)
-        )
-    return value

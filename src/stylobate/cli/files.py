@@ -123,7 +123,7 @@ class Files(list[Path]):
         if others and not any(Path(one["path"]).resolve() == self.folder.resolve() for one in found.sources):
             console.note(
                 f"{self.folder} holds the result of {' and '.join(others)} too, and a report of the folder tells all of "
-                "them; give each result an --out of its own to keep them apart."
+                "them; give each result an `out` of its own to keep them apart."
             )
         found = dataclasses.replace(found, warnings=(*earlier, *console.WARNED))
         self.json(found.to_dict(), asked_file(self.command))
@@ -156,7 +156,7 @@ def files(out: Path | None, command: str, *writes: str) -> Iterator[Files]:
             if names:
                 console.warn(
                     f"{folder} holds the result of {' and '.join(others)}, and its {', '.join(names)} may be replaced; "
-                    "give another --out to keep both."
+                    "give another `out` to keep both."
                 )
         found = Files(command, folder, before)
         if before is not None and found.replaces:
@@ -186,5 +186,5 @@ def _replaced(folder: Path, before: Asked, held: str = "") -> str:
     line = shlex.join(("stylobate", *before.command))
     return (
         f"{folder} held the result of another question, asked on {before.day}{held}: '{line}'. The new result replaces "
-        "it; give another --out to keep both (finished runs in the folder serve either)."
+        "it; give another `out` to keep both (finished runs in the folder serve either)."
     )

@@ -49,9 +49,9 @@ class Curves(o.Group):
         from ..results.fragilities import fitted
 
         if method not in (None, "runs", "records"):
-            raise InputError(f"--method is {method!r}; allowed is runs or records.", "method")
+            raise InputError(f"`method` is {method!r}; allowed is runs or records.", "method")
         if not 0 <= self.seed < 2**63:
-            raise InputError(f"--seed is {self.seed}; allowed is a whole number from 0.", "seed")
+            raise InputError(f"`seed` is {self.seed}; allowed is a whole number from 0.", "seed")
         how = {"method": method, "seed": self.seed, "records_are_one": self.records_are_one}
         found, used = fitted(sources, self.im, self.state, self.of, single=single, **how)
         told = [text for source in used if source.asked is not None for text in source.asked.warnings if DRIFTS in text]

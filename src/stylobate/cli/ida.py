@@ -24,9 +24,7 @@ def ida(
     population: o.Population,
     motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, "azimuths", "scale", "pga")],
     following: o.Following,
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     execution: o.Execution,
 ) -> None:
     """Incremental dynamic analysis: the response over the intensity, each record scaled until the column collapses.
@@ -42,7 +40,7 @@ def ida(
     from . import console
 
     campaign = execution.campaign(following, population)
-    measure, stone, how = parse_measure(im), o.the_structure(column, project), o.the_model(model, settings, losses)
+    measure, stone, how = parse_measure(im), modelling.structure(column), modelling.model(model)
     edp = ("peak_displacement_m" if stone.base_width is None else "peak_top_displacement_m") if edp is None else edp
     check_response(edp, stone, how)
     stripes = None if levels is None else parse_levels(levels, measure)

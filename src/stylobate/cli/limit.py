@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Annotated, Any
 
 from ..errors import InputError
 from . import options as o
@@ -25,7 +25,7 @@ def limit(
     ),
     *,
     pushing: Loads,
-    project: o.Project = None,
+    modelling: Annotated[o.Modelling, o.But("settings", "losses")],
     execution: o.Plain,
 ) -> None:
     """Collapse multiplier and mechanism of rigid blocks.
@@ -36,19 +36,19 @@ def limit(
     from ..analysis.limit import limit_analysis
     from ..analysis.limit_assemblies import listed
     from ..analysis.limit_directions import limit_directions
-    from ..column.links.stone import stone_at_limit
-    from ..motion.ranges import azimuth_range
+    from ..column.links.placed import stone_at_limit
+    from ..motion.specs import azimuth_range
     from . import console
 
-    stone: Any = o.the_structure(column, project)
+    stone: Any = modelling.structure(column)
     loads = pushing.arguments
     azimuths = None if directions is None else azimuth_range(directions, "directions").tolist()
     in_space = azimuths is not None or stone.stack is None
     around = in_space or bool(stone.as_found)
     if around and pushing.typed and (in_space or not stone.as_found.in_plane):
         raise InputError(
-            "--pattern, --tilt and --compressive-strength are for one direction in the plane; leave them out, or leave "
-            "--directions out for a column found in the plane.",
+            "`pattern`, `tilt` and `compressive_strength` are for one direction in the plane; leave them out, or leave "
+            "`directions` out for a column found in the plane.",
             "directions",
         )
     with execution.files("limit", "limit.json", "limit", "directions") as files:

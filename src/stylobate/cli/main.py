@@ -6,7 +6,7 @@ import errno
 import io
 import sys
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cache
 from typing import Annotated, Any
@@ -42,8 +42,7 @@ from . import (
     study,
     suite,
 )
-from .groups import takes
-from .helping import WIDTH, Command
+from .groups import WIDTH, Command, takes
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
 
@@ -120,20 +119,81 @@ def call(arguments: Sequence[str]) -> int:
         0 when the command did its work (a collapse is a result), 2 for bad input, 1 for a failure of ours, 130 after
         an interrupt.
     """
-    console.COMMAND[:], console.WARNED[:], console.FIELD = list(map(str, arguments)), [], None
+
+    def do() -> Any:
+        if arguments and arguments[0] not in commands().commands and missing("commands", arguments[0]):
+            parameters(arguments[0])
+        return commands().main(list(arguments), prog_name="stylobate", standalone_mode=False)
+
+    return _done(list(map(str, arguments)), do)
+
+
+def parameters(name: str) -> dict[str, Any]:
+    """Arguments and options of a command by their names, as fields of errors and keys of requests call them.
+
+    Raises
+    ------
+    InputError
+        There is no such command, or its package is not installed.
+    """
+    if (command := commands().commands.get(name)) is None:
+        place = missing("commands", name)
+        raise InputError(f"{name} is a command of {place}" if place else f"there is no command {name!r}.")
+    return {one.opts[0].strip("-").replace("-", "_"): one for one in command.params}
+
+
+def ask(request: Mapping[str, Any]) -> int:
+    """Do what a request asks, with no command line between, and return what :func:`call` does.
+
+    Parameters
+    ----------
+    request : mapping
+        The ``command``, and values of its :func:`parameters`: a text, a list of texts, or true or false.
+    """
+
+    def do() -> None:
+        known, command = parameters(request["command"]), commands().commands[request["command"]]
+        for name in request.keys() - known.keys() - {"command"}:
+            raise InputError(f"{request['command']} takes no {name!r}; leave it out.", name)
+        values, context = {}, typer.Context(command)
+        for name, one in known.items():
+            value = one.get_default(context) if request.get(name) is None else request[name]
+            if value is None and one.required:
+                raise InputError(f"`{name}` is missing; give it.", name)
+            values[one.name] = one.process_value(context, value)
+        with context:
+            command.callback(**values)
+
+    return _done(words_of(request), do)
+
+
+def words_of(request: Mapping[str, Any]) -> list[str]:
+    """The command line that asks the same as a request, without the program's name: what has no flag comes first."""
+    named, words, known = [request["command"]], [], parameters(request["command"])
+    for name, value in request.items():
+        one, values = known.get(name), value if isinstance(value, list) else [value]
+        flag = f"--{name.replace('_', '-')}"
+        if isinstance(value, bool):
+            words += [flag] if value else getattr(one, "secondary_opts", [])[:1]
+        elif getattr(one, "param_type_name", "") == "argument":
+            named += values
+        elif name != "command" and value is not None:
+            words += [f"{flag}={text}" for text in values]
+    return named + words
+
+
+def _done(words: list[str], do: Callable[[], Any]) -> int:
+    """Do a command, whose command line is that; what goes wrong is said, and its kind returned as a number."""
+    console.COMMAND[:], console.WARNED[:], console.FIELD = words, [], None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", OutOfRangeWarning)
         warnings.simplefilter("always", DamagedFileWarning)
         warnings.simplefilter("ignore", LeftOutWarning)  # commands say it with the motion, under "left out"
         warnings.simplefilter("always", PlaneOnlyWarning)
-        warnings.showwarning = _Warner()
+        warnings.showwarning = lambda message, *_, **__: console.warn(str(message))
         try:
-            program = commands()
-            name = arguments[0] if arguments else ""
-            if name not in program.commands and (place := missing("commands", name)):
-                raise InputError(f"{name} is a command of {place}")
-            code = program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
+            code = do()
         except InputError as error:
             console.FIELD = error.field
             return _complain(error, BAD_INPUT)
@@ -188,39 +248,22 @@ def _version(
         raise typer.Exit
 
 
-class _Warner:
-    """Prints each warning once, in one line, on standard error."""
-
-    def __call__(self, message: Any, *_: Any, **__: Any) -> None:
-        console.warn(console.in_options(message))
-
-
 def _usage(error: Any) -> str:
-    context = getattr(error, "ctx", None)
+    """What the library says of an option; of one that is no number, what was typed and what is allowed."""
+    context, message = getattr(error, "ctx", None), " ".join(error.format_message().split()).rstrip(".")
     where = context.command_path if context is not None else "stylobate"
-    message = " ".join(error.format_message().split())
-    kind = next((words for said, words in _NUMBERS.items() if said in message), None)
-    if kind is not None and (typed := _typed(getattr(getattr(error, "param", None), "opts", ()))) is not None:
-        return f"{typed[0]} is {typed[1]!r}; allowed is {kind}; see '{where} --help'."
-    return f"{message.rstrip('.')}; see '{where} --help'."
-
-
-#: What the library says of an option that is no number, and what it should be, in words.
-_NUMBERS = {"valid integer": "a whole number", "valid number": "a number"}
-
-
-def _typed(names: Sequence[str]) -> tuple[str, str] | None:
-    """Name and value of an option as typed; None where it has no value."""
-    words = console.COMMAND
-    for place, word in enumerate(words):
-        name, sign, value = word.partition("=")
-        if name in names and (sign or place + 1 < len(words)):
-            return name, value if sign else words[place + 1]
-    return None
+    kinds = {"valid integer": "a whole number", "valid number": "a number"}
+    for kind in (kinds[said] for said in kinds if said in message):
+        for place, word in enumerate(console.COMMAND):
+            name, sign, value = word.partition("=")
+            if name in error.param.opts and (sign or place + 1 < len(console.COMMAND)):
+                value = value if sign else console.COMMAND[place + 1]
+                message = f"`{name.strip('-').replace('-', '_')}` is {value!r}; allowed is {kind}"
+    return f"{message}; see '{where} --help'." if where else f"{message}."
 
 
 def _complain(what: object, code: int) -> int:
-    print(f"stylobate: {console.in_options(what)}", file=sys.stderr)
+    print(f"stylobate: {console.WORDING(what)}", file=sys.stderr)
     return code
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
 from . import options as o
@@ -28,8 +28,7 @@ def modes(
         "SHARE", "Of a joint's stiffness, in the table of what its loss takes off each frequency.", "0.5"
     ),
     *,
-    settings: o.Settings = None,
-    project: o.Project = None,
+    modelling: Annotated[o.Modelling, o.But("losses")],
     execution: o.Plain,
 ) -> None:
     """Natural frequencies and shapes on closed joints, about rest.
@@ -44,20 +43,20 @@ def modes(
     from ..motion.specs import parse_number
     from . import console
 
-    stone: Any = o.the_structure(column, project)
+    stone: Any = modelling.structure(column)
     plane = stone.stack is None and stone.space_joints is None
-    how = o.the_model(model or ("dem2d" if plane else "dem3d"), settings)
-    many, share = o.whole_number("--number", number, 3), parse_number("--left", left, "such as 0.5")
+    how = modelling.model(model or ("dem2d" if plane else "dem3d"))
+    many, share = o.whole_number("number", number, 3), parse_number("`left`", left, "such as 0.5")
     if many < 1:
-        raise InputError("--number is 0; allowed is a whole number from 1.", "number")
+        raise InputError("`number` is 0; allowed is a whole number from 1.", "number")
     for name, value in (("ground", ground), ("draws", draws)):
         if value is not None and measured is None:
             raise InputError(
-                f"--{name} is for what was measured; give --measured too, such as --measured 1.27Hz±3%.", name
+                f"`{name}` is for what was measured; give `measured` too, such as `measured=1.27Hz±3%`.", name
             )
     if measured is not None and ground is None:
         raise InputError(
-            "--measured needs the ground on which it was measured; give --ground rigid, or --ground "
+            "`measured` needs the ground on which it was measured; give `ground=rigid`, or `ground` "
             "vs=200:400m/s,half_width=4m of the footing.",
             "ground",
         )
@@ -65,7 +64,7 @@ def modes(
     under = None if ground is None else parse_ground(ground)
     if frequencies is not None and stone.stack is None:
         raise InputError(
-            f"--measured is of columns, and {stone.name!r} is {stone.described}; leave it out.", "measured"
+            f"`measured` is of columns, and {stone.name!r} is {stone.described}; leave it out.", "measured"
         )
     with execution.files("modes", "modes.json", "drops.csv", "modes", "column.toml", "scatter.toml") as files:
         found = modes_of(stone, how)
@@ -73,7 +72,7 @@ def modes(
         summary = found.summary(many) | {"left": share, "drops": drops}
         joints = None
         if frequencies is not None:
-            drawn = DRAWS if draws is None else o.whole_number("--draws", draws, 100)
+            drawn = DRAWS if draws is None else o.whole_number("draws", draws, 100)
             joints = joints_from_frequencies(stone, frequencies, how, under, draws=drawn)
             summary["inferred"] = joints.summary()
         if files.wanted:

@@ -28,7 +28,7 @@ def motion(
 
     if samples == bool(files):
         raise InputError(
-            "give the file of a record, sample:NAME, or --samples for the list of samples, one of them.", "files"
+            "give the file of a record, sample:NAME, or `samples` for the list of samples, one of them.", "files"
         )
     if samples:
         return _list_samples(execution)
@@ -50,7 +50,7 @@ def motion(
 
 
 def _list_samples(execution: o.Execution) -> None:
-    from ..motion.readers.samples import PREFIX, samples
+    from ..motion.readers.source import PREFIX, samples
     from . import console
 
     names = "name", "about", "format", "terms"

@@ -52,14 +52,6 @@ ColumnName = Annotated[
     str,
     typer.Argument(metavar="COLUMN", help="Name of a preset, or a column file (TOML).", autocompletion=_columns),
 ]
-Project = Annotated[
-    str | None,
-    typer.Option(
-        "--project",
-        metavar="AZIMUTH",
-        help="What is found out of the plane, projected onto the vertical plane of this azimuth, such as 30deg.",
-    ),
-]
 StructureName = Annotated[
     str,
     typer.Argument(
@@ -75,18 +67,6 @@ ModelName = Annotated[
         metavar="MODEL",
         help="How it is computed: dem2d, dem3d, rigid-block, rigid-beam, housner.",
         autocompletion=_models,
-    ),
-]
-Settings = Annotated[
-    list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Option of the model; may be repeated.")
-]
-
-LossesName = Annotated[
-    str | None,
-    typer.Option(
-        "--losses",
-        metavar="none|stone|FILE",
-        help="What joints lose: as other options say, as measured stone, or as a file of calibrate says (dem2d, dem3d).",
     ),
 ]
 
@@ -122,6 +102,64 @@ class Motions(Group):
         from ..motion.request import MotionRequest
 
         return MotionRequest.typed(**vars(self) | changes)
+
+
+@dataclass(frozen=True)
+class Modelling(Group):
+    """How what stands is computed."""
+
+    settings: list[str] | None = option("NAME=VALUE", "Option of the model; may be repeated.", flag="--set")
+    losses: str | None = option(
+        "none|stone|FILE",
+        "What joints lose: as other options say, as measured stone, or as a file of calibrate says (dem2d, dem3d).",
+    )
+    project: str | None = option(
+        "AZIMUTH", "What is found out of the plane, projected onto the vertical plane of this azimuth, such as 30deg."
+    )
+
+    def column(self, name: str) -> Column:
+        """The preset or the column of a file of that name, in a vertical plane where one is asked for."""
+        from ..column.files import load_column
+
+        return self._in_plane(load_column(name))
+
+    def structure(self, name: str) -> Structure:
+        """The same, or the assembly of a file."""
+        from ..column.assembly_files import load_structure
+
+        return self._in_plane(load_structure(name))
+
+    def _in_plane(self, structure: Any) -> Any:
+        from ..column.projection import projected
+        from ..motion.specs import parse_angle
+
+        if self.project is None:
+            return structure
+        if structure.stack is None:
+            lies = ", which lies in a plane" if structure.space_joints is None else ""
+            raise InputError(
+                f"`project` is for columns, and {structure.name!r} is {structure.described}{lies}.", "project"
+            )
+        try:
+            azimuth = parse_angle(self.project)
+        except InputError:
+            raise InputError(
+                f"`project` is {self.project!r}; write it with its unit, such as 30deg.", "project"
+            ) from None
+        return projected(structure.stack, azimuth)
+
+    def model(self, name: str) -> Model:
+        """The model of that name with its options and losses."""
+        return self.models([(name, self.settings)])[0]
+
+    def models(self, named: Sequence[tuple[str, list[str] | None]]) -> list[Model]:
+        """Models by name with options of their own, and with losses for those that know them; see :func:`make_models`."""
+        from ..models.registry import make_models
+
+        values = [(name, _settings(settings or [])) for name, settings in named]
+        if self.losses is not None and all("losses" in own for _, own in values):
+            raise InputError("losses are given twice, by `losses` and by `set`; give them once.", "losses")
+        return make_models(values, self.losses)
 
 
 #: Options of motions that are not for files which are named as arguments.
@@ -164,14 +202,14 @@ class Population(Group):
         from ..column.scatter import LARGEST, Scatter
 
         if self.replicates is None:
-            for flag, value in {"--scatter": self.scatter, "--seed": self.seed}.items():
-                for_replicates(flag, value)
+            for name in ("scatter", "seed"):
+                for_replicates(name, getattr(self, name))
             return {}
-        example = "--scatter friction=10%,joint_stiffness=20%"
+        example = "friction=10%,joint_stiffness=20%"
         return {
-            "replicates": whole_number("--replicates", self.replicates, 30),
-            "scatter": None if self.scatter is None else Scatter(**_sizes("--scatter", self.scatter, LARGEST, example)),
-            "seed": 0 if self.seed is None else whole_number("--seed", self.seed, 1),
+            "replicates": whole_number("replicates", self.replicates, 30),
+            "scatter": None if self.scatter is None else Scatter(**_sizes("scatter", self.scatter, LARGEST, example)),
+            "seed": 0 if self.seed is None else whole_number("seed", self.seed, 1),
         }
 
 
@@ -197,7 +235,7 @@ class Execution(Group):
 
         if self.threads is not None and not self.threads.isdecimal():
             raise InputError(
-                f"--threads is {self.threads!r}; allowed is a whole number from 1; leave it out to use all cores.",
+                f"`threads` is {self.threads!r}; allowed is a whole number from 1; leave it out to use all cores.",
                 "threads",
             )
         for group in groups:
@@ -209,7 +247,7 @@ class Execution(Group):
         """Refuse what computes many runs beside threads where there is one; ``why`` in words that follow the option."""
         for name, wanted in (("dask", self.dask is not None), ("device", self.device != "cpu")):
             if wanted:
-                raise InputError(f"--{name} {why}", name)
+                raise InputError(f"`{name}` {why}", name)
 
     @property
     def count(self) -> int:
@@ -229,7 +267,7 @@ class Execution(Group):
         if self.out is None:
             return file
         if self.out.exists() and not self.out.is_dir():
-            raise InputError(f"--out is {str(self.out)!r}, which is a file; name a folder.", "out")
+            raise InputError(f"`out` is {str(self.out)!r}, which is a file; name a folder.", "out")
         self.out.mkdir(parents=True, exist_ok=True)
         return self.out / file
 
@@ -249,60 +287,15 @@ CAMPAIGNS = "dask", "device", "mix_devices"
 Plain = Annotated[Execution, But(*CAMPAIGNS)]
 
 
-def the_column(name: str, project: str | None = None) -> Column:
-    """The preset or the column of a file of that name, in a vertical plane where one is asked for."""
-    from ..column.files import load_column
-
-    return _in_plane(load_column(name), project)
-
-
-def the_structure(name: str, project: str | None = None) -> Structure:
-    """As :func:`the_column`, or the assembly of a file."""
-    from ..column.assembly_files import load_structure
-
-    return _in_plane(load_structure(name), project)
-
-
-def _in_plane(structure: Any, project: str | None) -> Any:
-    from ..column.projection import projected
-    from ..motion.specs import parse_angle
-
-    if project is None:
-        return structure
-    if structure.stack is None:
-        lies = ", which lies in a plane" if structure.space_joints is None else ""
-        raise InputError(f"--project is for columns, and {structure.name!r} is {structure.described}{lies}.", "project")
-    try:
-        azimuth = parse_angle(project)
-    except InputError:
-        raise InputError(f"--project is {project!r}; write it with its unit, such as 30deg.", "project") from None
-    return projected(structure.stack, azimuth)
-
-
-def the_model(name: str, settings: list[str] | None, losses: str | None = None) -> Model:
-    """The model of that name with its options, and with losses by name or from a file."""
-    return the_models([(name, settings)], losses)[0]
-
-
-def the_models(named: Sequence[tuple[str, list[str] | None]], losses: str | None = None) -> list[Model]:
-    """Models by name with their options, and with losses for those that know them; see :func:`make_models`."""
-    from ..models.registry import make_models
-
-    values = [(name, _settings(settings or [])) for name, settings in named]
-    if losses is not None and all("losses" in own for _, own in values):
-        raise InputError("losses are given twice, by --losses and by --set; give them once.", "losses")
-    return make_models(values, losses)
-
-
 def _settings(given: list[str]) -> dict[str, str]:
     """Options of a model as typed after ``--set``."""
     values: dict[str, str] = {}
     for text in given:
         key, sign, value = text.partition("=")
         if not sign or not key.strip():
-            raise InputError(f"--set is {text!r}; write it as name=value, e.g. --set points=3.", "set")
+            raise InputError(f"`set` is {text!r}; write it as name=value, e.g. `set=points=3`.", "set")
         if key.strip() in values:
-            raise InputError(f"--set {key.strip()} is given twice; give it once.", "set")
+            raise InputError(f"`set` {key.strip()} is given twice; give it once.", "set")
         values[key.strip()] = value.strip()
     return values
 
@@ -335,17 +328,10 @@ def input_lines(motion: Motion) -> dict[str, str]:
     return found
 
 
-def field_of(option: str) -> str:
-    """Field of an error about an option: its name as a parameter."""
-    return option.strip("-").replace("-", "_")
-
-
-def whole_number(option: str, text: str, example: int) -> int:
-    """A whole number as typed after an option."""
+def whole_number(name: str, text: str, example: int) -> int:
+    """A whole number as typed for the parameter of that name."""
     if not text.isdecimal():
-        raise InputError(
-            f"{option} is {text!r}; allowed is a whole number from 0 on, such as {example}.", field_of(option)
-        )
+        raise InputError(f"`{name}` is {text!r}; allowed is a whole number from 0 on, such as {example}.", name)
     return int(text)
 
 
@@ -362,8 +348,9 @@ def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> 
     """What is asked for, with as many columns like this one as cost nothing where no number is ``given``."""
     from ..campaign.twins import the_twins
     from ..column.scatter import usual_scatter
+    from ..models.engine import engine_for
 
-    number = asked.replicates if given else model.carries if model.carried(stone) else 0
+    number = asked.replicates if given else engine_for(model, stone).twins
     # unasked they ride along, and what rides along is of one law
     scatter = asked.scatter if given or not number else asked.scatter or usual_scatter(stone.stack or stone)
     made = dataclasses.replace(asked, replicates=number, scatter=scatter)
@@ -377,11 +364,11 @@ def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> 
     return made
 
 
-def for_replicates(option: str, value: str | None) -> None:
+def for_replicates(name: str, value: str | None) -> None:
     """Refuse an option that is for columns like one, where none are asked for."""
     if value is not None:
         raise InputError(
-            f"{option} is for columns like this one; give --replicates as well, e.g. --replicates 30.", field_of(option)
+            f"`{name}` is for columns like this one; give `replicates` as well, e.g. `replicates=30`.", name
         )
 
 
@@ -389,17 +376,17 @@ def motion_scatter(text: str) -> MotionScatter:
     """Sizes of the scatter of a motion as typed, likewise."""
     from ..motion.scatter import LARGEST_OF_MOTION, MotionScatter
 
-    example = "--motion-scatter amplitude=1%,phase=0.1"
-    return MotionScatter(**_sizes("--motion-scatter", text, LARGEST_OF_MOTION, example))
+    example = "amplitude=1%,phase=0.1"
+    return MotionScatter(**_sizes("motion_scatter", text, LARGEST_OF_MOTION, example))
 
 
-def _sizes(option: str, text: str, names: Iterable[str], example: str) -> dict[str, float]:
+def _sizes(name: str, text: str, names: Iterable[str], example: str) -> dict[str, float]:
     sizes = dict.fromkeys(names, 0.0)
     for part in text.split(","):
-        name, _, size = part.partition("=")
-        if name.strip() not in sizes:
+        key, _, size = part.partition("=")
+        if key.strip() not in sizes:
             raise InputError(
-                f"{option} names {name.strip()!r}; names are {', '.join(sizes)}, e.g. {example}.", field_of(option)
+                f"`{name}` names {key.strip()!r}; names are {', '.join(sizes)}, e.g. `{name}={example}`.", name
             )
-        sizes[name.strip()] = _share(size, example)
+        sizes[key.strip()] = _share(size, f"`{name}={example}`")
     return sizes

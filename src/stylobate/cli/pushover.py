@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 from ..errors import InputError
 from . import options as o
@@ -33,8 +33,8 @@ class Loads(o.Group):
 
         shares, strength = self.pattern, self.compressive_strength
         return {
-            "pattern": None if shares is None else [number("--pattern", part) for part in shares.split(",")],
-            "base_tilt": number("--tilt", self.tilt),
+            "pattern": None if shares is None else [number("pattern", part) for part in shares.split(",")],
+            "base_tilt": number("tilt", self.tilt),
             "compressive_strength": None if strength is None else parse_pressure(strength),
         }
 
@@ -53,7 +53,7 @@ def pushover(
     ),
     *,
     pushing: Loads,
-    project: o.Project = None,
+    modelling: Annotated[o.Modelling, o.But("settings", "losses")],
     execution: o.Plain,
 ) -> None:
     """Pushover curve of a column of rigid blocks.
@@ -67,15 +67,15 @@ def pushover(
     from ..analysis.pushover import pushover as follow
     from . import console
 
-    stone = o.the_column(column, project)
+    stone = modelling.column(column)
     loads = pushing.arguments
-    far = None if to is None else number("--to", to)
-    led = None if at is None else o.whole_number("--at", at, 5)
+    far = None if to is None else number("to", to)
+    led = None if at is None else o.whole_number("at", at, 5)
     site = None if check is None else CodeSite.typed(check)
     if site is not None and led is not None:
         raise InputError("a check by a code is of the top, and `at` names a drum; leave one of them out.", "at")
     if direction is not None:
-        loads["direction"] = number("--direction", direction)
+        loads["direction"] = number("direction", direction)
     elif stone.as_found and stone.as_found.in_plane:
         loads["direction"] = limit_directions(stone, **loads).weakest.azimuth
     with execution.files("pushover", "pushover.csv", "pushover.json", "pushover") as files:
@@ -123,8 +123,8 @@ def pushover(
     console.say(sentence, facts, files)
 
 
-def number(option: str, text: str) -> float:
-    """A number in SI units as typed after an option."""
+def number(name: str, text: str) -> float:
+    """A number in SI units as typed for the parameter of that name."""
     from ..motion.specs import parse_number
 
-    return parse_number(option, text, "in SI units, such as 0.5")
+    return parse_number(f"`{name}`", text, "in SI units, such as 0.5")

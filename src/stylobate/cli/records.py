@@ -53,8 +53,8 @@ def records(
     from . import console
 
     aim = target_spectrum(target)
-    between = _pair("--periods", periods, parse_time, "0.2s:3s")
-    limits = _pair("--factors", factors, lambda text: parse_number("--factors", text), "0.5:2")
+    between = _pair("periods", periods, parse_time, "0.2s:3s")
+    limits = _pair("factors", factors, lambda text: parse_number("`factors`", text), "0.5:2")
     ranges = [_wanted(text) for text in where or ()]
     scaling = next((step for step in motions.condition or () if scales(step)), None)
     if scaling is not None:
@@ -84,7 +84,7 @@ def records(
             if others:
                 raise InputError(
                     f"{place} holds {others[0]}, which is not of these records and would be read with them; choose another "
-                    "folder for --out.",
+                    "folder for `out`.",
                     "out",
                 )
             with output_folder(place, names):
@@ -110,15 +110,14 @@ def records(
     console.print_files(files)
 
 
-def _pair(option: str, text: str, parse: Callable[[str], float], example: str) -> tuple[float, float]:
+def _pair(name: str, text: str, parse: Callable[[str], float], example: str) -> tuple[float, float]:
     """Two values as typed, the smaller first."""
     low, colon, high = text.partition(":")
-    field = o.field_of(option)
     if not colon or ":" in high:
-        raise InputError(f"{option} is {text!r}; write it as {example}.", field)
+        raise InputError(f"`{name}` is {text!r}; write it as {example}.", name)
     first, last = parse(low.strip()), parse(high.strip())
     if not first < last:
-        raise InputError(f"{option} is {text!r}; the first value must be below the second, such as {example}.", field)
+        raise InputError(f"`{name}` is {text!r}; the first value must be below the second, such as {example}.", name)
     return first, last
 
 
@@ -131,11 +130,11 @@ def _wanted(text: str) -> Wanted:
 
     name, sign, span = (part.strip() for part in text.partition("="))
     if not sign:
-        raise InputError(f"--where is {text!r}; write it as pgv=0.1m/s:0.8m/s.", "where")
+        raise InputError(f"`where` is {text!r}; write it as pgv=0.1m/s:0.8m/s.", "where")
     if name in ABOUT:
-        return Wanted(name, *_pair("--where", span, lambda one: parse_number(name, one), f"{name}=6:7"))
+        return Wanted(name, *_pair("where", span, lambda one: parse_number(name, one), f"{name}=6:7"))
     measure = parse_measure(name)
-    return Wanted(measure, *_pair("--where", span, lambda one: parse_level(one, measure), "pgv=0.1m/s:0.8m/s"))
+    return Wanted(measure, *_pair("where", span, lambda one: parse_level(one, measure), "pgv=0.1m/s:0.8m/s"))
 
 
 def _file_names(names: list[str]) -> list[str]:

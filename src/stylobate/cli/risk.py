@@ -81,5 +81,5 @@ def the_site(text: str | None) -> tuple[float, float] | None:
     try:
         lon, lat = (float(part) for part in text.split(","))
     except ValueError:
-        raise InputError(f"--site is {text!r}; write it as longitude,latitude, such as 21.9,37.4.", "site") from None
+        raise InputError(f"`site` is {text!r}; write it as longitude,latitude, such as 21.9,37.4.", "site") from None
     return lon, lat

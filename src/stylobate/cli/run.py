@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from collections.abc import Sequence
 from contextlib import closing
-from functools import partial
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ..outcome import Outcome
 from . import options as o
-from .run_words import describe
 
 if TYPE_CHECKING:
+    from ..analysis.other_laws import OtherLaws
     from ..analysis.population import Population
-    from ..campaign.campaign import Campaign, Progress
+    from ..campaign.campaign import Campaign
     from ..column.structure import Structure
     from ..models.base import Model
     from ..motion import Motion
@@ -28,6 +28,43 @@ class Drawn(NamedTuple):
 
     all: bool = True
     median: bool = False
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What is run under each motion, and how long: options as for :func:`stylobate.simulate`."""
+
+    stone: Structure
+    model: Model
+    campaign: Campaign
+    output_interval: float
+    until_end: bool
+    until_rest: bool
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """How long it goes on and what is recorded, as keywords of :func:`stylobate.simulate`."""
+        return {name: getattr(self, name) for name in ("output_interval", "until_end", "until_rest")}
+
+    @property
+    def followed(self) -> bool:
+        """Whether a run is followed beyond its tail."""
+        return self.until_end or self.until_rest
+
+    def run(self, motion: Motion) -> tuple[Response, Population | None]:
+        """One run, and what became of columns like it."""
+        from ..analysis.certainty import certainty
+        from ..simulate import simulate
+
+        campaign = self.campaign
+        options: dict[str, Any] = self.options | {"quiet": campaign.quiet}
+        if not campaign.replicates:
+            options |= {"tail": campaign.tail, "until_decided": True, "progress": campaign.progress}
+            return simulate(self.stone, motion, self.model, **options), None
+        kept = None if campaign.ledger is None else Path(campaign.ledger).with_name("response.nc")
+        stone = self.stone.stack or self.stone
+        found = certainty(stone, motion, self.model, kept=kept, campaign=replace(campaign, whole=False), **options)
+        return found.response, found.population
 
 
 #: Pictures of what a model in space computes, besides those of every column.
@@ -45,9 +82,7 @@ def run(
         None, "Go on until everything lies still, on the ground if need be (dem2d, dem3d).", False
     ),
     output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
     execution: o.Plain,
@@ -59,24 +94,25 @@ def run(
     several directions, is one run after the other.
     """
     from ..analysis.directions import table_of_runs, worst
+    from ..models.engine import engine_for
     from ..motion.specs import parse_time
     from . import console
 
-    asked = motions.request()
-    stone = o.the_structure(column, project)
-    how = o.the_model(model, settings, losses)
+    request = motions.request()
+    stone = modelling.structure(column)
+    how = modelling.model(model)
     if until_rest:
-        stone = how.as_followed(stone)
-    found = asked.expand(stone.frequency_parameter)
-    options = {"output_interval": parse_time(output_interval), "until_end": until_end, "until_rest": until_rest}
+        stone = engine_for(how, stone).followed()
+    found = request.expand(stone.frequency_parameter)
+    interval = parse_time(output_interval)
     campaign, given = execution.campaign(following, population), population.replicates is not None
     if given or not (until_end or until_rest):
         campaign = o.with_twins(stone, how, campaign, given)
     drawn = Drawn(pictures, pictures and given and campaign.replicates > 0)
-    follow = partial(run_one, stone, model=how, campaign=campaign, **options)
+    asked = Settings(stone, how, campaign, interval, until_end, until_rest)
     out = execution.out
-    if asked.several:
-        summaries = each_record(stone, found.motions, how, follow, out, drawn)
+    if request.several:
+        summaries = each_record(asked, found.motions, out, drawn)
         if not execution.as_json:
             console.print_doubt(*summaries)
             console.print_table(table_of_runs(summaries), digits=3)
@@ -84,13 +120,13 @@ def run(
             if out is not None:
                 print(f"{len(summaries)} folders with a run each in {out}")
     else:
-        summaries = [conclude(follow, stone, found.motions[0], how, out, execution.as_json, drawn)]
+        summaries = [conclude(asked, found.motions[0], out, execution.as_json, drawn)]
     several: dict[str, Any] = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
-    if len(asked.azimuths) > 1 or asked.signs == "both":
+    if len(request.azimuths) > 1 or request.signs == "both":
         several["sentence"] = directions(summaries, stone, how, out, campaign.tail)
         if not execution.as_json and several["sentence"]:
             print(several["sentence"])
-    if not execution.emits(several if asked.several else summaries[0]):
+    if not execution.emits(several if request.several else summaries[0]):
         console.print_refused(found.refused)
 
 
@@ -111,31 +147,7 @@ def directions(summaries: Sequence[dict], stone: Structure, model: Model, out: P
     return "" if found is None else harm_words(found, chances)
 
 
-def run_one(
-    stone: Structure, motion: Motion, model: Model, campaign: Campaign, progress: Progress | None = None, **options: Any
-) -> tuple[Response, Population | None]:
-    """One run, and what became of columns like it."""
-    from ..analysis.certainty import certainty
-    from ..simulate import simulate
-
-    options["quiet"] = campaign.quiet
-    if not campaign.replicates:
-        follow: dict[str, Any] = {"tail": campaign.tail, "until_decided": True, "progress": progress}
-        return simulate(stone, motion, model, **follow, **options), None
-    made = dataclasses.replace(campaign, whole=False, progress=progress)
-    kept = None if campaign.ledger is None else Path(campaign.ledger).with_name("response.nc")
-    found = certainty(stone.stack or stone, motion, model, kept=kept, campaign=made, **options)
-    return found.response, found.population
-
-
-def each_record(
-    stone: Structure,
-    motions: Sequence[Motion],
-    model: Model,
-    follow: partial[tuple[Response, Population | None]],
-    out: Path | None,
-    drawn: Drawn,
-) -> list[dict]:
+def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, drawn: Drawn) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     import numpy as np
 
@@ -150,11 +162,10 @@ def each_record(
     places: list[Path | None] = []
     for motion in motions:
         places.append(None if out is None else out / safe_name(motion.name, places))
-    campaign = follow.keywords["campaign"]
-    following = {name: one for name, one in follow.keywords.items() if name not in ("model", "campaign")}
-    options = run_options(campaign.tail, until_decided=True, **following)
+    stone, model, campaign = asked.stone, asked.model, asked.campaign
+    options = run_options(campaign.tail, until_decided=True, **asked.options)
     hasher = Hasher(model, options)
-    made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **following}
+    made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **asked.options}
     each = [
         hasher.of_product(
             {"run": [stone.digest, motion.name, motion.digest, place and place.name], "drawn": drawn, **made}, __file__
@@ -169,7 +180,7 @@ def each_record(
     def make(number: int) -> dict[str, Any]:
         if len(motions) > 1 and wait > console.FIRST_LINE:
             console.note(f"run {number + 1} of {len(motions)}: {motions[number].name}")
-        summary = conclude(follow, stone, motions[number], model, places[number], True, drawn)
+        summary = conclude(asked, motions[number], places[number], True, drawn)
         files = {} if out is None else {"files": [str(Path(file).relative_to(out)) for file in summary["files"]]}
         return {"summary": json.loads(console.as_json(summary)), **files}
 
@@ -177,7 +188,7 @@ def each_record(
     with console.folder(out) as folder:
         ledger = console.ledger(folder)
         twins = f", each with {campaign.replicates} like it," if campaign.replicates else ""
-        wait = wait_for(stone.stack or stone, motions, model, campaign, options, _followed(follow))
+        wait = wait_for(stone.stack or stone, motions, model, campaign, options, asked.followed)
         tell_wait(f"{len(motions)} runs{twins} take", wait, stone)
         try:
             with closing(Runs(Campaign(ledger=ledger))) as runs:
@@ -192,15 +203,7 @@ def each_record(
     return [summaries[number] for number in range(len(motions))]
 
 
-def conclude(
-    follow: partial[tuple[Response, Population | None]],
-    stone: Structure,
-    motion: Motion,
-    model: Model,
-    out: Path | None,
-    quiet: bool,
-    drawn: Drawn,
-) -> dict:
+def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, drawn: Drawn) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..analysis.directions import direction_of
     from ..analysis.other_laws import other_laws
@@ -213,17 +216,17 @@ def conclude(
     with files_of(out, "run", *names, *pictures) as files:
         console.ledger(files.folder)
         with console.progress("seconds of motion") as progress:
-            campaign = follow.keywords["campaign"].kept_in(files.folder)
-            response, population = follow(motion, campaign=campaign, progress=progress)
+            campaign = replace(asked.campaign.kept_in(files.folder), progress=progress)
+            response, population = replace(asked, campaign=campaign).run(motion)
         console.show(response)
-        taken = model.taken(motion)
+        model, taken = asked.model, asked.model.taken(motion)
         summary = response.summary() | o.input_facts(taken) | direction_of(motion)
         if population is not None:
             summary |= population.summary(summary)
         elif response.measures.blocks is not None:  # carried along by no run
             summary["replicates"] = 0
         laws = None
-        if population is not None and not population.drawn.groups and not _followed(follow):
+        if population is not None and not population.drawn.groups and not asked.followed:
             laws = other_laws(response, motion, model, campaign)
         if laws is not None:
             summary |= {
@@ -236,16 +239,11 @@ def conclude(
             files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
             if population is not None:
                 write_population(population, motion, model, response, files, drawn.median)
-            files.asked(structures=[stone], models=[model], motions=[taken])
+            files.asked(structures=[asked.stone], models=[model], motions=[taken])
             files.summary(summary, "run.json")
     if not quiet:
         describe(response, taken, files, population, laws)
     return summary
-
-
-def _followed(follow: partial[tuple[Response, Population | None]]) -> bool:
-    """Whether a run is followed beyond its tail."""
-    return bool(follow.keywords.get("until_end") or follow.keywords.get("until_rest"))
 
 
 def write_population(
@@ -253,6 +251,7 @@ def write_population(
 ) -> None:
     """The table of the columns like this one and, where it is wanted, the strip of the median run, which is run again."""
     from .. import plots
+    from ..models.engine import engine_for
     from ..simulate import simulate
 
     files.table(population.table, "replicates.csv")
@@ -261,11 +260,12 @@ def write_population(
         files.picture(plots.draw_debris(response, population.bodies), "debris")
     if population.median is None or not strip:
         return
+    engine = engine_for(model, response.structure)
     options: dict[str, Any] = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
     options["quiet"] = response.provenance["quiet_share"]
     options["until_decided"] = response.provenance.get("until_decided", False)
-    options["until_rest"] = response.provenance.get("until_rest", False) and not model.carried(response.structure)
-    middle = simulate(population.drawn.columns[population.median], motion, model.paced(response.structure), **options)
+    options["until_rest"] = response.provenance.get("until_rest", False) and not engine.twins
+    middle = simulate(population.drawn.columns[population.median], motion, engine.paced, **options)
     files.picture(plots.draw_filmstrip(middle), "median")
 
 
@@ -293,3 +293,141 @@ def write(response: Response, motion: Motion, folder: Path, figures: bool = True
     for name, figure in pictures.items():
         files += plots.save(figure, folder / name)
     return files
+
+
+#: Most bodies that are told one by one.
+MOST_BODIES = 6
+
+#: What losses of stone, which are chosen for one body, do not promise for a stack.
+SLIPPING_STACK = "; impacts keep up to 5 % less velocity than those of one body, as joints slip"
+
+
+def describe(
+    response: Response,
+    motion: Motion,
+    files: list[Path],
+    population: Population | None = None,
+    laws: OtherLaws | None = None,
+) -> None:
+    """Print the verdict for people."""
+    from ..response.words import doubt_of, opening_words
+    from . import console
+
+    found = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
+    sentence, what, facts = found
+    if population is not None:
+        sentence = f"{sentence} {population.sentence} {population.beside(response.summary())}".rstrip()
+        facts |= population_facts(population)
+    elif response.structure.scattered and response.measures.blocks is not None:
+        facts["certainty"] = "one run, of exactly these stones; --replicates 15 runs assemblies like it as well"
+    doubt = doubt_of(response) if population is None else population.doubt_about(response)
+    if laws is not None:
+        doubt = laws.sentence or doubt
+        facts["under other laws"] = laws.words
+    sentence = f"{sentence} {doubt}".rstrip()
+    if opens := opening_words(response.provenance.get("opening")):
+        what["rocks at"] = opens
+    what |= quiet_facts(response)
+    computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
+    console.say(
+        sentence, {**what, **o.input_lines(motion), "model": computed, **losses_facts(response), **facts}, files
+    )
+
+
+def losses_facts(response: Response) -> dict[str, str]:
+    """What joints lost by name, in numbers."""
+    told = response.summary()
+    if told["losses"] in (None, "none") or "steps_over_undamped" not in response.provenance:
+        return {}
+    acting, more = told["losses_acting"], response.provenance["steps_over_undamped"]
+    words = ", ".join(f"{name.replace('_', ' ')} {value:.2g}" for name, value in acting.items())
+    stack = response.structure.stack
+    slips = "" if stack is None or stack.n == 1 or told["losses"] != "stone" else SLIPPING_STACK
+    return {"losses": f"{told['losses']}: {words}; {more:.2g} times as many steps as undamped{slips}"}
+
+
+def quiet_facts(response: Response) -> dict[str, str]:
+    """Stepped share of a record, where its quiet was left out."""
+    stepped = response.measures.stepped
+    if stepped is None:
+        return {}
+    ends = response.time[-1]
+    return {"stepped": f"{stepped[2]:.3g} of {ends:.3g} s, without what is quiet (--whole steps all)"}
+
+
+def population_facts(population: Population) -> dict[str, str]:
+    """Columns like this one, or assemblies, and their displacements; of an assembly where its bodies lie."""
+    from ..analysis.debris import OVER_ALL, not_safe, not_yet_debris, only_as_seen
+    from ..percent import percents
+    from . import console
+
+    facts = {f"{population.like} like this": population.drawn.words}
+    spreads = {name.split("_")[0]: spread for name, spread in population.spread.items() if "displacement" in name}
+    for name, words in (("peak", "their peak, 16/50/84 %"), ("residual", "their residual, 16/50/84 %")):
+        if (spread := spreads[name]) is not None:
+            facts[words] = ", ".join("collapse" if one == float("inf") else console.length(one) for one in spread)
+    listed = not_safe(population.bodies)
+    for body in listed[:MOST_BODIES]:
+        half, most = (console.length(one) for one in body.radii)
+        x, y = (console.length(one) for one in body.middle)
+        open_ = f", {body.open} undecided" * bool(body.open)
+        facts[f"body {body.name}"] = (
+            f"fell in {body.fell} of {body.runs}{open_} ({percents(*body.interval(population.confidence))}); at the end, "
+            f"{OVER_ALL}, {x} along x and {y} along y from where it stood (medians), half of the runs within {half} of "
+            f"that and 90 % within {most}"
+        )
+    if len(listed) > MOST_BODIES:
+        facts["other bodies"] = (
+            f"{len(listed) - MOST_BODIES} more fell or are undecided in some (bodies.csv with --out)"
+        )
+    if listed and (seen := only_as_seen(listed[0].runs)):
+        facts["regions"] = seen
+    if listed and (moving := not_yet_debris(population.bodies)):
+        facts["debris"] = f"{moving}: where bodies were is not yet where they lie"
+    return facts
+
+
+def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str]]:
+    """Verdict on a column, what it is, and its measures."""
+    m, column = response.measures, response.column
+    drums = f"{column.n} {'drum' if column.n == 1 else 'drums'}"
+    shown = f"histories and films show the fall, to {response.time[-1]:.2f} s"
+    facts = {"collapse": f"certain at {m.collapse_time:.2f} s; {shown}"} if m.collapsed else {}
+    facts |= measure_facts(response, ", before the fall")
+    return response.sentence, {"column": f"{column.name}, {drums}, {column.height:g} m high"}, facts
+
+
+def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str]]:
+    """Verdict on an assembly, what it is, and its measures."""
+    from ..response.block_words import moving_at_end
+
+    structure: Any = response.structure
+    sentence = response.sentence
+    if response.at_rest:
+        sentence += " Everything lies still."
+    elif response.outcome is not Outcome.FAILED:
+        change = "" if response.decided else " and the verdict may change"
+        waited = response.provenance.get("until_rest", False)
+        damping = "mass_damping=0.5" if structure.space_joints is None else "stiffness_damping=1e-4"
+        remedy = f"; damp it with --set {damping}" if waited else "; go on with --until-rest"
+        rolls = waited and structure.space_joints is not None and moving_at_end(response)  # which no damping stops
+        sentence += f" Not everything lies still{change}{'' if rolls else remedy}."
+    fixed = sum(block.fixed for block in structure.bodies[-structure.n :])
+    supports = f", {fixed} of them fixed" if fixed else ""
+    joined = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    joints = f"{len(joined)} {'joint' if len(joined) == 1 else 'joints'}"
+    what = f"{structure.name}, {structure.n} blocks{supports}, {joints}"
+    return sentence, {"assembly": what}, measure_facts(response, ", until the first block fell")
+
+
+def measure_facts(response: Response, until: str) -> dict[str, str]:
+    """Measures that are declared with a label, in lines; ``until`` says where peaks end that a collapse has ended."""
+    from ..response.measures import TOP
+    from . import console
+
+    m, facts, base = response.measures, {}, response.structure.base_width
+    for one, value in m.shown():
+        when = "" if not m.collapsed else until if one.peak else ", at the end"
+        share = f" ({value / base:.2f} base widths)" if one.peak and one.of == TOP and base is not None else ""
+        facts[one.label + when] = (console.length(value) if one.unit == "m" else f"{value:.4f} {one.unit}") + share
+    return facts | {"energy imbalance": f"{m.energy_imbalance:.1e} of the energy at stake"}

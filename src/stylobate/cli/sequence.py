@@ -54,9 +54,7 @@ def sequence(
     following: Annotated[o.Following, o.But("tail")],
     until_end: bool = o.option(None, "Go on after the collapse of a column (dem2d).", False),
     output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
     execution: o.Execution,
@@ -70,16 +68,16 @@ def sequence(
     from ..motion.specs import parse_time
 
     campaign, given = execution.campaign(following, population), population.replicates is not None
-    stone = o.the_structure(column, project)
-    how = o.the_model(model, settings, losses)
+    stone = modelling.structure(column)
+    how = modelling.model(model)
     kinds = scaled(the_kinds(motions, stone), factors)
-    pause, times = parse_time(rest, "rest"), o.whole_number("--repeat", repeat, 3)
+    pause, times = parse_time(rest, "rest"), o.whole_number("repeat", repeat, 3)
     if until_fall is not None:
         if times != 1:
-            raise InputError("--repeat and --until-fall are both given; give one of the two.", "repeat")
+            raise InputError("`repeat` and `until_fall` are both given; give one of the two.", "repeat")
         from ..analysis.sequence import earthquakes_until_fall
 
-        most = o.whole_number("--until-fall", until_fall, 20)
+        most = o.whole_number("until_fall", until_fall, 20)
         with execution.files("sequence", "until_fall.csv", "sequence.json") as files:
             with files.campaign(campaign) as asked:
                 told = earthquakes_until_fall(stone, kinds, how, most, rest=pause, campaign=asked)
@@ -92,7 +90,7 @@ def sequence(
         if not execution.emits(summary):
             describe_counts(told)
         return
-    execution.refuse_for_one("computes many runs, and this is one; leave it out, or give --until-fall.")
+    execution.refuse_for_one("computes many runs, and this is one; leave it out, or give `until_fall`.")
     options: dict[str, Any] = {"rest": pause, "repeat": times, "until_end": until_end}
     options["output_interval"] = parse_time(output_interval)
     if given or not until_end:
@@ -105,7 +103,7 @@ def the_kinds(motions: o.Motions, stone: Structure) -> list[Motion]:
     frequency = stone.frequency_parameter
     if motions.component == "all":
         raise InputError(
-            "--component all makes a motion of each component, and earthquakes come with all of theirs; name one, or leave "
+            "`component` all makes a motion of each component, and earthquakes come with all of theirs; name one, or leave "
             "it out.",
             "component",
         )
@@ -175,7 +173,7 @@ def describe(found: SequenceResult, motion: Motion) -> None:
     """Print what became of the structure, earthquake by earthquake."""
     from ..response.words import doubt_of
     from . import console
-    from .run_words import quiet_facts
+    from .run import quiet_facts
 
     print(found.sentence)
     table = _shown(found.table)

@@ -38,24 +38,24 @@ def spectrum(
     from . import console
 
     if kind not in ("response", "rocking"):
-        raise InputError(f"--kind is {kind!r}; allowed is response or rocking.", "kind")
-    _only_for(kind, "response", {"--damping": damping, "--periods": periods})
-    _only_for(kind, "rocking", {"--p": sizes, "--alpha": slendernesses, "--restitution": restitution, "--tail": tail})
+        raise InputError(f"`kind` is {kind!r}; allowed is response or rocking.", "kind")
+    _only_for(kind, "response", {"damping": damping, "periods": periods})
+    _only_for(kind, "rocking", {"p": sizes, "alpha": slendernesses, "restitution": restitution, "tail": tail})
     vertical = motions.vertical if kind == "rocking" else "on"
     motion = motions.request(motion=files, vertical=vertical).motion()
     if kind == "rocking":
         motion = HousnerBlock().taken(motion)
         blocks = {
-            "frequency_parameters": _values("--p", sizes, geometric=True),
-            "slendernesses": _values("--alpha", slendernesses),
-            "restitution": None if restitution is None else parse_number("--restitution", restitution),
+            "frequency_parameters": _values("p", sizes, geometric=True),
+            "slendernesses": _values("alpha", slendernesses),
+            "restitution": None if restitution is None else parse_number("`restitution`", restitution),
             "tail": parse_time(tail or "0s"),
             "threads": execution.count,
         }
         compute = partial(rocking, motion, blocks)
     else:
-        share = 0.05 if damping is None else parse_number("--damping", damping)
-        compute = partial(response, motion, _values("--periods", periods, geometric=True), share)
+        share = 0.05 if damping is None else parse_number("`damping`", damping)
+        compute = partial(response, motion, _values("periods", periods, geometric=True), share)
     with execution.files("spectrum", "spectrum.csv", "spectrum.json", "spectrum") as written:
         result, facts = compute(written)
         result = {"kind": kind, **o.input_facts(motion), **result}
@@ -120,14 +120,12 @@ def rocking(motion: Motion, blocks: dict[str, Any], files: Files) -> tuple[dict[
 
 
 def _only_for(kind: str, needed: str, given: dict[str, str | None]) -> None:
-    for option, value in given.items():
+    for name, value in given.items():
         if value is not None and kind != needed:
-            raise InputError(
-                f"{option} belongs to --kind {needed}, and --kind is {kind}; leave it out.", o.field_of(option)
-            )
+            raise InputError(f"`{name}` belongs to `kind` {needed}, and `kind` is {kind}; leave it out.", name)
 
 
-def _values(option: str, text: str | None, *, geometric: bool = False) -> np.ndarray | None:
+def _values(name: str, text: str | None, *, geometric: bool = False) -> np.ndarray | None:
     """Numbers as typed: first:last:number, evenly spaced, or in equal ratios."""
     import numpy as np
 
@@ -137,12 +135,8 @@ def _values(option: str, text: str | None, *, geometric: bool = False) -> np.nda
         return None
     parts = text.split(":")
     if len(parts) != 3 or not parts[2].isdecimal() or not 1 <= int(parts[2]) <= 1000:
-        raise InputError(
-            f"{option} is {text!r}; write first:last:number with a number from 1 to 1000.", o.field_of(option)
-        )
-    low, high, count = parse_number(option, parts[0]), parse_number(option, parts[1]), int(parts[2])
+        raise InputError(f"`{name}` is {text!r}; write first:last:number with a number from 1 to 1000.", name)
+    low, high, count = parse_number(f"`{name}`", parts[0]), parse_number(f"`{name}`", parts[1]), int(parts[2])
     if not 0.0 < low <= high < np.inf or (count > 1 and low == high):
-        raise InputError(
-            f"{option} is {text!r}; both ends must be positive and the first below the last.", o.field_of(option)
-        )
+        raise InputError(f"`{name}` is {text!r}; both ends must be positive and the first below the last.", name)
     return np.geomspace(low, high, count) if geometric else np.linspace(low, high, count)

@@ -29,7 +29,7 @@ def the_states(
         found[label] = text
     if len(found) < fewest:
         given = f"only the state {next(iter(found))!r} is given" if found else "no state is given"
-        raise InputError(f"{given}; give two or more of --as-built, --as-found and --with.", "states")
+        raise InputError(f"{given}; give two or more of `as_built`, `as_found` and `with`.", "states")
     return found
 
 
@@ -38,12 +38,12 @@ def the_candidates(
 ) -> dict[str, Structure]:
     """Columns with numbers as typed, ``kind.field=values``, in place of those of the one measure; none without."""
     from ..analysis.vary import candidates
-    from ..motion.ranges import values_of
+    from ..motion.specs import values_of
 
     if not vary:
         return {}
     if len(strengthened) != 1:
-        raise InputError(f"--vary is for one measure, and {len(strengthened)} are given; give one --with.", "vary")
+        raise InputError(f"`vary` is for one measure, and {len(strengthened)} are given; give one `with`.", "vary")
 
     def number(text: str) -> float:
         try:
@@ -56,7 +56,7 @@ def the_candidates(
         name, equals, values = text.partition("=")
         if not equals or name in asked:
             why = "is given twice" if equals else "has no values"
-            raise InputError(f"{name!r} of --vary {why}; write each once, such as dowel.diameter=0.02:0.06:5.", "vary")
+            raise InputError(f"{name!r} of `vary` {why}; write each once, such as dowel.diameter=0.02:0.06:5.", "vary")
         asked[name] = values_of("vary", values, number, "0.02:0.06:5").tolist()
     return candidates(columns[Path(strengthened[0]).stem], asked)
 
@@ -66,12 +66,12 @@ def the_design_level(text: str, im: str | None, levels: list[float]) -> float:
     from ..campaign.study_files import levels_of
 
     if im is None:
-        raise InputError("--design-level is one of --levels; give --im and --levels with it.", "design_level")
+        raise InputError("`design_level` is one of `levels`; give `im` and `levels` with it.", "design_level")
     level = levels_of(im, text)[1][0]
     found = next((one for one in levels if abs(one - level) < 1e-6 * level), None)
     if found is None:
         known = ", ".join(f"{one:g}" for one in levels)
-        raise InputError(f"--design-level is {text}; allowed is one of --levels: {known}.", "design_level")
+        raise InputError(f"`design_level` is {text}; allowed is one of `levels`: {known}.", "design_level")
     return found
 
 
@@ -97,9 +97,7 @@ def states(
     population: o.Population,
     motions: Annotated[o.Motions, o.But(*o.SEVERAL)],
     following: o.Following,
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     execution: o.Execution,
 ) -> None:
     """States of one column or assembly side by side: as built, as found, with a measure. Was it worth it?
@@ -115,25 +113,25 @@ def states(
     from . import console
 
     if records and motions.motion:
-        raise InputError("records are given before the options and after --motion; give them once.", "records")
+        raise InputError("records are given before the options and after `motion`; give them once.", "records")
     sources = records or motions.motion
     if not (sources or motions.harmonic or motions.pulse or motions.synthetic):
         raise InputError("no record is given; name a folder of records, or files, before the options.", "records")
     named = the_states(as_built, as_found, strengthened, 1 if vary else 2)
-    how = o.the_model(model, settings, losses)
+    how = modelling.model(model)
     campaign = execution.campaign(following, population)
     request = motions.request(motion=sources, separate=bool(sources))
-    columns = {label: o.the_structure(text, project) for label, text in named.items()}
+    columns = {label: modelling.structure(text) for label, text in named.items()}
     if as_built is not None and getattr(columns["as built"], "as_found", None):
         raise InputError(
-            f"--as-built is {as_built}, and its [as_found] has offsets, tilts or chips; give it with --as-found, or a file "
+            f"`as_built` is {as_built}, and its [as_found] has offsets, tilts or chips; give it with `as_found`, or a file "
             "without them.",
             "as_built",
         )
     tried = the_candidates(vary, strengthened or [], columns)
     columns = {label: one for label, one in columns.items() if not tried or label in NO_MEASURE} | tried
     if (im is None) != (levels is None):
-        raise InputError("records are scaled by --im and --levels together; give both, such as --im pgv --levels "
+        raise InputError("records are scaled by `im` and `levels` together; give both, such as `im` pgv `levels` "
                          "0.2m/s:1.6m/s:8.", "im")  # fmt: skip
     parse_state(state)
     measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
@@ -181,7 +179,7 @@ def states(
 
 def _twins(columns: dict[str, Structure], model: Model, campaign: Campaign) -> dict[str, Any]:
     """How twins of the columns are drawn, as it is kept beside the results."""
-    from ..campaign.unknown_laws import usual_with_laws
+    from ..campaign.twins import usual_with_laws
 
     sizes = {label: (campaign.scatter or usual_with_laws(one, model)).describe() for label, one in columns.items()}
     same = len(set(sizes.values())) == 1

@@ -60,8 +60,8 @@ def run(
 def status(directory: StudyFolder, *, execution: o.Plain) -> None:
     """State of a study, which may be running."""
     from ..analysis.studies import StudyResult
+    from ..campaign.cases import PLAN_FILE
     from ..campaign.ledger import RUNS_FILE
-    from ..campaign.plan import PLAN_FILE
     from . import console
 
     result = StudyResult.in_folder(directory)

@@ -36,9 +36,7 @@ def suite(
     *,
     motions: Annotated[o.Motions, o.But(*o.FILES_NAMED)],
     following: o.Following,
-    settings: o.Settings = None,
-    losses: o.LossesName = None,
-    project: o.Project = None,
+    modelling: o.Modelling,
     population: o.Population,
     execution: o.Execution,
 ) -> None:
@@ -58,12 +56,12 @@ def suite(
     from . import console
 
     campaign = execution.campaign(following, population)
-    stones: list[Any] = [o.the_structure(name, project) for name in (column, *(also or ()))]
+    stones: list[Any] = [modelling.structure(name) for name in (column, *(also or ()))]
     check_measure(against, stones)
     names = [stone.name for stone in stones]
     if len(set(names)) < len(names):
         raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.", "also")
-    how = o.the_model(model, settings, losses)
+    how = modelling.model(model)
     records = motions.request(motion=sources, separate=True).expand()
     with execution.files("suite", "suite.csv", "suite.json", "suite", "directions", *WRITES) as files:
         with files.campaign(campaign) as asked:

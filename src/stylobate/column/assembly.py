@@ -1,4 +1,4 @@
-"""An assembly: any set of convex blocks in the plane, with dry joints where faces touch, on a ground or fixed blocks."""
+"""Assemblies of blocks in the plane, such as portals, lintels and arches: made, checked, as models and statics want them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,12 @@ import json
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, check_range, warn
-from .assembly_fields import check_fields
+from ..errors import InputError, as_typed, check_all, check_kind, check_name, check_range, warn
 from .block import (
     FAR_AWAY,
     TOUCHING,
@@ -25,12 +24,41 @@ from .block import (
     touching_faces,
 )
 from .column import GRAVITIES
-from .faces import Bed, FacePair, face_between
 from .joint import Joint, given
 from .links.in_assembly import in_numbers, place_between
 from .links.link import Link
 from .links.placed import PlacedLink
-from .structure import Structure
+from .structure import Bed, FacePair, Structure, face_between
+
+
+def check_fields(assembly: Any, bodies: str, kind: type) -> None:
+    """Refuse what is no body, link, override or law; bodies, links and overrides are tuples afterwards.
+
+    Parameters
+    ----------
+    assembly : Assembly or SpatialAssembly
+    bodies : str
+        Name of the field of its bodies.
+    kind : type
+        Of these.
+
+    Raises
+    ------
+    InputError
+    """
+    for name, each in ((bodies, kind), ("links", Link)):
+        object.__setattr__(assembly, name, tuple(check_all(name, getattr(assembly, name), each)))
+    object.__setattr__(assembly, "overrides", tuple(check_kind("overrides", assembly.overrides, (tuple, list))))
+    for one in assembly.overrides:
+        kinds = (str, str, Joint)
+        if not isinstance(one, (tuple, list)) or len(one) != 3 or not all(map(isinstance, one, kinds)):
+            raise InputError(f"an override is {as_typed(one)}; allowed is (name, name, Joint), of two blocks.")
+    check_kind("joint", assembly.joint, Joint)
+    check_name("the name of an assembly", assembly.name)
+
+
+# -- An assembly ------------------------------------------------------------------------------------------------------
+
 
 MAX_BLOCKS = 400
 
@@ -75,7 +103,7 @@ class Assembly(Structure):
 
     kind: ClassVar[str] = "assembly"
     joints_are: ClassVar[str] = "joint, in the assembly's order"
-    computed_by: ClassVar[str] = "dem2d (DistinctElement2D)"
+    computed_by: ClassVar[str] = "dem2d (DistinctElement2D) can"
     first: ClassVar[int] = 0
     relative: ClassVar[bool] = False
 

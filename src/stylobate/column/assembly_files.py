@@ -1,8 +1,8 @@
-"""Assembly files (TOML): blocks by their vertices, columns from their files with beams on them, materials, supports."""
+"""Assemblies from files (TOML), of the plane and in space, and structures from the plain values that they give."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ from ..errors import InputError, warn, within
 from ..reading import shown
 from .assembly import Assembly, Block
 from .column import Column
-from .files import load_column
+from .files import column_from_dict, load_column
 from .joint import Joint
 from .links import link_from_dict
 from .links.tables import BlockLinkTable, links_between
@@ -21,7 +21,9 @@ from .presets import ASSEMBLIES, PRESETS
 from .spatial.assembly import SpatialAssembly
 from .spatial.files import spatial_assembly
 from .spatial.tables import SpatialTable, describes_space, refuse_mixed
+from .specimen import Specimen
 from .standing import BeamTable, ColumnsTable, lay, stand
+from .structure import Structure
 from .tables import JointTable, density_of, describes_assembly, joint_fields
 from .toml import Table, checked, parse_toml
 
@@ -180,3 +182,15 @@ def _piece(block: Block, law: Joint) -> Piece:
     """A block as it is doubted."""
     across, upward = block.sides
     return Piece(block.name, (across, block.depth, upward), block.density, law)
+
+
+# -- Kinds of structures by their word --------------------------------------------------------------------------------
+
+
+#: Makers of a structure from what its ``to_dict`` gives, by its kind.
+FROM_DICT: dict[str, Callable[[Any], Structure]] = {
+    Column.kind: column_from_dict,
+    Assembly.kind: assembly_from_dict,
+    Specimen.kind: Specimen.from_dict,
+    SpatialAssembly.kind: SpatialAssembly.from_dict,
+}

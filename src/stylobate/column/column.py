@@ -18,20 +18,24 @@ from ..errors import InputError, check_all, check_kind, check_name, check_range,
 from .as_found import AS_BUILT, AsFound
 from .block import FAR_AWAY, ground_block
 from .drum import Drum
-from .drum_stack import DrumStack
-from .faces import Face, FacePair
-from .found_geometry import StandingDrum, check_as_found, geometry, uplift_accelerations
-from .found_in_space import base_axes, smallest_uplift, space_geometry
-from .joint import Joint, given
+from .found_geometry import (
+    DrumStack,
+    StandingDrum,
+    base_axes,
+    check_as_found,
+    geometry,
+    smallest_uplift,
+    space_geometry,
+    uplift_accelerations,
+)
+from .joint import Joint, Losses, given
 from .links.in_column import ends_on_bodies, place_in_column
 from .links.link import Link
-from .links.loads import pulls_in_plane
-from .links.placed import PlacedLink
-from .losses import Losses
+from .links.placed import PlacedLink, pulls_in_plane
 from .materials import material
 from .plausible import shape_doubts, size_doubts
 from .shapes import Shape, shape_of
-from .structure import Body
+from .structure import Body, Face, FacePair
 
 MAX_DRUMS = 200
 

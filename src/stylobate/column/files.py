@@ -13,9 +13,8 @@ from ..errors import InputError, suggest
 from .as_found import AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
-from .joint import Joint, given
+from .joint import Joint, Losses, given
 from .links import link_from_dict
-from .losses import Losses
 from .presets import PRESETS, preset
 from .toml import toml_text
 

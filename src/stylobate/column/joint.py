@@ -1,4 +1,4 @@
-"""One joint: the dry contact under a drum."""
+"""Joints: the law of contact between two faces, and what a rocking joint loses."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..constants import DEGREE
-from ..errors import InputError, as_typed, check_range, no_field, warn
+from ..errors import InputError, as_typed, check_choice, check_range, no_field, warn
 from .drum import LENGTHS
 
 #: A friction angle below this looks like a coefficient [degrees]; without friction both are 0.
@@ -113,3 +113,38 @@ def given(described: Any) -> dict[str, Any]:
     """
     values = ((field, getattr(described, field.name)) for field in dataclasses.fields(described))
     return {field.name: value for field, value in values if value is not None or field.default is not None}
+
+
+# -- What a rocking joint loses ---------------------------------------------------------------------------------------
+
+
+#: Losses of a model by name; those of stone are in the table of materials.
+NAMED = ("none", "stone")
+
+#: Laws of round joints in space.
+LAWS = ("rim", "bed")
+
+
+@dataclass(frozen=True)
+class Losses:
+    """Losses and law of the joints of one column, in place of its model's (models in space).
+
+    Parameters
+    ----------
+    stiffness_damping : float
+        β [s].
+    rolling_resistance : float
+        c [-]; of round faces.
+    law : {"rim", "bed"}, optional
+        Of round faces; None for the model's.
+    """
+
+    stiffness_damping: float
+    rolling_resistance: float = 0.0
+    law: str | None = None
+
+    def __post_init__(self) -> None:
+        check_range("stiffness_damping of losses", self.stiffness_damping, 0.0, 1.0, unit="s")
+        check_range("rolling_resistance of losses", self.rolling_resistance, 0.0, 1.0)
+        if self.law is not None:
+            check_choice("law of losses", self.law, LAWS)

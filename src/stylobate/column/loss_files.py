@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal
 from ..atomic import replacing
 from ..errors import InputError, suggest, within
 from ..reading import shown
-from .losses import NAMED, Losses
+from .joint import NAMED, Losses
 from .toml import Table, read_table
 
 #: Number of the format that is written, and read.

@@ -9,8 +9,7 @@ import numpy as np
 
 from .column import Column
 from .drum import Drum
-from .faces import Bed
-from .structure import Structure
+from .structure import Bed, Structure
 
 #: Joints whose normals rise less than this carry nothing.
 LEVEL = 1e-6

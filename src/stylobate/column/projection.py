@@ -13,8 +13,7 @@ from ..errors import InputError, check_range, warn, within
 from .as_found import AS_BUILT, AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
-from .found_geometry import geometry, joint_load
-from .found_in_space import Edges, overlap_edges, space_geometry, space_load
+from .found_geometry import Edges, geometry, joint_load, overlap_edges, space_geometry, space_load
 from .links import Line, Link
 
 #: Lengths [m], angles [degrees] and shares of a direction below this are rounding.

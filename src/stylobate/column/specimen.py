@@ -13,10 +13,9 @@ from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_name, check_range
 from .block import ground_block
-from .faces import Bed
 from .joint import Joint, given
 from .shapes import ConvexSolid
-from .structure import Body, Standing, Structure
+from .structure import Bed, Body, Standing, Structure
 
 #: Farthest that a body is turned to lie on a face that carries it [degrees].
 FARTHEST_TURN = 10.0
@@ -61,7 +60,7 @@ class Specimen(Structure):
 
     kind: ClassVar[str] = "specimen"
     joints_are: ClassVar[str] = "contact with the base"
-    computed_by: ClassVar[str] = "dem3d (DistinctElement3D)"
+    computed_by: ClassVar[str] = "dem3d (DistinctElement3D) can"
 
     mass: float
     inertia: Any

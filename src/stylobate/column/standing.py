@@ -1,23 +1,71 @@
-"""Columns from their files that stand in an assembly, and the beams that lie on them."""
+"""Columns from their files that stand in an assembly, their links, and the beams that lie on them."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..errors import InputError, check_range, suggest
-from .as_blocks import ends_in_plane, links_of_column, of_column
+from .assembly import Assembly
 from .block import TOUCHING, Block
 from .column import Column
 from .drum import LENGTHS
 from .files import load_column
 from .joint import Joint
 from .links.link import Link
+from .links.placed import PlacedLink, Point, stands_at
 from .tables import JointTable
 from .toml import Table
+
+
+def of_column(column: Column) -> Assembly:
+    """A column as it stands as an assembly: the base is body 0, drum i is body i; in axes along and normal to the base."""
+    column.must_carry_on_whole_faces("an assembly of blocks")
+    drums = []
+    for drum, body, surface in zip(column.drums, column.bodies[1:], column.joints, strict=True):
+        corners = tuple((float(x), float(z)) for x, z in body.outline)
+        solid = (body.mass, body.inertia, *body.place)
+        drums.append(Block(corners, drum.density, body.name, body.shape.depth, surface=surface, solid=solid))
+    return Assembly(tuple(drums), column.joints[0], column.name, column.gravity, 0.0)
+
+
+def links_of_column(
+    column: Column, ends: Callable[[PlacedLink], Sequence[Point]], names: Mapping[str, str], prefix: str = ""
+) -> list[Link]:
+    """Links of a column that stands in an assembly.
+
+    Parameters
+    ----------
+    column : Column
+    ends : callable
+        Where the ends of a link of it are there: on its lower body and on its upper one [m].
+    names : mapping of str to str
+        What ``ground`` and ``drum 1`` … are called there.
+    prefix : str
+        Of the names of the links.
+    """
+    links = []
+    for link, one in zip(column.links, column.placed_links, strict=True):
+        between: Any = tuple(names[f"drum {body}" if body else "ground"] for body in (one.lower, one.upper))
+        places = ends(one)
+        crossing = places[1:]  # what crosses a joint lies on the lower face of its upper drum
+        where = dict(zip(("at", "to"), places if one.straight else crossing, strict=False))
+        links.append(type(link)(between=between, name=prefix + one.name, numbers=one.alone, **where))
+    return links
+
+
+def ends_in_plane(column: Column, link: PlacedLink, place: tuple[float, float]) -> list[Point]:
+    """Ends of a link of a column in the plane, the middle of whose base is at a place x, z [m]."""
+    stand = (column.bodies[link.lower], column.bodies[link.upper])
+    arms = column.link_ends(link)[:2]
+    ends = [stands_at(body.place, body.lean, arm) for body, arm in zip(stand, arms, strict=True)]
+    return [(x + place[0], y, z + place[1]) for x, y, z in ends]
+
+
+# -- Columns from their files that stand in an assembly, and the beams that lie on them -------------------------------
 
 
 class ColumnsTable(Table):

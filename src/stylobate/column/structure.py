@@ -1,7 +1,4 @@
-"""Structures that can be shaken: bodies on a ground, the faces at which they are joined, and links between them.
-
-Columns, assemblies and specimens are ways to write one down; whoever computes, draws or keeps one asks the structure.
-"""
+"""What stands, whatever it was written down as: bodies, the faces at which they are joined, and what is around them."""
 
 from __future__ import annotations
 
@@ -12,19 +9,134 @@ import math
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
+from .. import notebook
+from ..constants import g
 from ..errors import InputError, check_range
+from ..messages import say
 from .as_found import AS_BUILT, AsFound
-from .faces import Bed, FacePair
 from .joint import Joint
 from .links.link import Link, Numbers
 from .links.placed import PlacedLink
 from .shapes import Glued, Outlined, Placed, Shape, hull
 from .turning import about, quaternion_of
-from .words import as_html, described
+
+
+class Face(NamedTuple):
+    """A face, in axes along the lower face of its body if that is a drum, in those in which it is drawn if it is a block.
+
+    ``direction`` (cosine and sine) runs to the right with the joint's normal upward, ``height`` is from the body's centroid
+    along that normal, without its sign; ``left`` and ``right`` are how far the ends are from the centroid's foot [m].
+    """
+
+    direction: tuple[float, float]
+    height: float
+    left: float
+    right: float
+
+    @property
+    def width(self) -> float:
+        """[m]"""
+        return self.left + self.right
+
+
+class FacePair(NamedTuple):
+    """A joint: the upper face of the body ``lower`` and the lower face of the body ``upper``, by their numbers.
+
+    ``area`` [m²] is that of the contact over a ``width`` [m] of it, so that stiffnesses per area become those per width.
+    ``sides`` are the faces among the sides of the polygons of the two bodies, by the number of the corner they start at.
+    """
+
+    lower: int
+    upper: int
+    below: Face
+    above: Face
+    law: Joint
+    area: float
+    width: float
+    sides: tuple[int, int]
+
+
+def face_between(left: np.ndarray, right: np.ndarray, origin: tuple[float, float], *, upper: bool) -> Face:
+    """The face between two points of a body as it stands [m], shape (2,), from the left to the right one.
+
+    Parameters
+    ----------
+    left, right : array
+    origin : (float, float)
+        Of the body [m].
+    upper : bool
+        Whether it is the upper face of its body.
+    """
+    length = math.hypot(*(right - left))
+    t, foot = (right - left) / length, left - origin
+    height, before = float(foot[1] * t[0] - foot[0] * t[1]), -float(foot @ t)
+    return Face((float(t[0]), float(t[1])), height if upper else -height, before, length - before)
+
+
+class Bed(NamedTuple):
+    """Faces that lie on one another.
+
+    Parameters
+    ----------
+    lower, upper : int
+        Bodies by number.
+    rise : float
+        Upward component of the unit normal from the one into the other [-].
+    corners : array
+        In plan; of a plane along it [m], shape (k, 1 or 2).
+    level : float
+        Height of the faces [m].
+    area : float
+        [m²]
+    law : Joint
+    round : bool
+        Whether a circle bounds it.
+    """
+
+    lower: int
+    upper: int
+    rise: float
+    corners: np.ndarray
+    level: float
+    area: float
+    law: Joint
+    round: bool = False
+
+
+# -- What a structure says of itself ----------------------------------------------------------------------------------
+
+
+def described(structure: Any) -> str:
+    """What a structure is, in a sentence or two: bodies, size and mass."""
+    moving = [body for body in structure.bodies if not body.fixed]
+    mass = sum(body.mass for body in moving)
+    links = f" with {_number(len(structure.placed_links), ('link', 'links'))}" if structure.placed_links else ""
+    found = ", as found" if structure.as_found else ""
+    said = f"{structure.name}: {structure.described} of {_number(len(moving), structure.counted)}{links}{found}, "
+    said += f"{structure.height:g} m high, {mass / 1e3:.4g} t."
+    if structure.slenderness is not None and structure.frequency_parameter is not None:
+        said += f" Slenderness {structure.slenderness:.3f} rad, p = {structure.frequency_parameter:.3f} rad/s."
+    if structure.uplift_acceleration is not None:
+        said += f" A steady {structure.uplift_acceleration / g:.3f} g opens the first joint."
+    return said
+
+
+def as_html(structure: Any) -> str:
+    """The same with its silhouette, as HTML."""
+    shapes = [(body.corners, False) for body in structure.bodies if not body.fixed]
+    return notebook.page(structure.name, described(structure), {}, notebook.silhouettes([shapes], [""]))
+
+
+def _number(count: int, of: tuple[str, str]) -> str:
+    return f"{count} {of[count != 1]}"
+
+
+# -- Structures that can be shaken ------------------------------------------------------------------------------------
+
 
 #: Corners by which round faces are measured.
 AROUND = 720
@@ -152,7 +264,7 @@ class Structure:
 
     Class attributes: ``kind``, its word in sentences and the name of its entry in files; ``counted`` what one and several of
     its bodies are called; ``like``, what several like it are; ``joints_are``, what the joints of its responses are;
-    ``computed_by``, who computes it where not all models do; ``scattered``, by which parts of a scatter its twins vary, none
+    ``computed_by``, who can where not all models do; ``scattered``, by which parts of a scatter its twins vary, none
     of what has no twins; ``first``, the first of ``bodies`` whose poses a run records; ``relative``, whether a model in the
     plane records them from where the bodies stand.
     """
@@ -173,6 +285,7 @@ class Structure:
     ground: float | None = 0.0
     as_found: AsFound = AS_BUILT
     links: tuple[Link, ...] = ()
+    losses: Any = None
 
     # -- what it consists of -------------------------------------------------------------------------------------------
 
@@ -250,8 +363,8 @@ class Structure:
     def north_words(self) -> str:
         """What is known of north."""
         if self.north is None:
-            return "not stated; azimuths are from x towards y, and none is a bearing"
-        return f"x points to {self.north:g}° clockwise from north; azimuths are from x towards y"
+            return say("not stated; azimuths are from x towards y, and none is a bearing")
+        return say("x points to {self.north:g}° clockwise from north; azimuths are from x towards y", self=self)
 
     @property
     def height(self) -> float:
@@ -334,16 +447,6 @@ class Structure:
         return dataclasses.replace(fields, name=name)
 
     # -- what asks for less ------------------------------------------------------------------------------------------
-
-    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
-        """Refuse bodies whose shapes ``what`` does not know.
-
-        Raises
-        ------
-        InputError
-        """
-        if not all(isinstance(shape, shapes) for shape in self.shapes):
-            raise InputError(f"{what} computes columns, and {self.name!r} is {self.described}: use {self.computed_by}.")
 
     def must_be_as_built(self, what: str) -> None:
         """Refuse offsets, tilts or chips where ``what`` knows none.

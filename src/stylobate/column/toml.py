@@ -175,7 +175,11 @@ def checked(data: dict[str, Any], schema: type[T], source: str) -> T:
         found = error.errors()
     # A misspelt key is also a missing one: the spelling is what helps.
     first = next((item for item in found if item["type"] == "extra_forbidden"), found[0])
-    raise InputError(f"{source}: {_sentence(first, schema, found)}", _path(data, schema, first["loc"]))
+    sentence, place = _sentence(first, schema, found)
+    error = InputError(sentence, _path(data, schema, first["loc"]))
+    error.places = (place,)
+    error.place(source)
+    raise error
 
 
 def _path(data: Any, schema: type[Table], where: Sequence[str | int]) -> str:
@@ -192,7 +196,8 @@ def _path(data: Any, schema: type[Table], where: Sequence[str | int]) -> str:
     return ".".join(filter(None, path))
 
 
-def _sentence(item: Any, schema: type[Table], others: list[Any]) -> str:
+def _sentence(item: Any, schema: type[Table], others: list[Any]) -> tuple[str, str]:
+    """What is wrong with a key, and the words in it that say where."""
     *where, key = item["loc"] or ("",)
     kind, value, alternatives = item["type"], item["input"], [_EXPECTED.get(item["type"])]
     if isinstance(key, str) and key not in _keys(schema, where) and where and kind != "extra_forbidden":
@@ -205,20 +210,21 @@ def _sentence(item: Any, schema: type[Table], others: list[Any]) -> str:
     place = _place(where)
     if kind == "extra_forbidden":
         keys = _keys(schema, where)
-        return f"unknown key {key!r}{place}; " + (
-            suggest(repr(key), map(repr, keys)).strip() or f"allowed are {', '.join(keys)}."
-        )
+        near = suggest(repr(key), map(repr, keys)).strip()
+        return f"unknown key {key!r}{place}; " + (near or f"allowed are {', '.join(keys)}."), place
     if kind == "missing":
-        return f"key {key!r} is missing{place}; add it."
+        return f"key {key!r} is missing{place}; add it.", place
     if kind == "literal_error":
         expected = item["ctx"]["expected"]
     else:
         expected = " or ".join(dict.fromkeys(alternative for alternative in alternatives if alternative)) or None
     if expected is None:
-        return f"{position}{key!r}{place} is {value!r}: {item['msg'].lower()}."
+        return f"{position}{key!r}{place} is {value!r}: {item['msg'].lower()}.", place
     if isinstance(value, dict) and expected == "a list":
         expected = f"a list: write [[{key}]], with two brackets"
-    return f"{position}{key!r}{place} is {_short(value)}; it must be {expected}."
+    if expected == "a number" and isinstance(value, str) and value.replace(",", "", 1).lstrip("+-").isdecimal():
+        expected += f", with a point: {value.replace(',', '.')}"
+    return f"{position}{key!r}{place} is {_short(value)}; it must be {expected}.", place
 
 
 def _place(where: Sequence[str | int]) -> str:

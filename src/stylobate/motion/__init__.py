@@ -13,7 +13,6 @@ from .conditioning import (
     taper,
     trim,
 )
-from .harmonic import harmonic
 from .integration import displacement
 from .intensity import (
     arias_intensity,
@@ -26,12 +25,14 @@ from .intensity import (
 )
 from .motion import MAX_SAMPLES, Motion, integrate
 from .orientation import along, beyond_axes, keep_axes, principal, rotated, strongest, turned
-from .pulse_match import PulseMatch, pulse_match
 from .pulses import (
+    PulseMatch,
     cosine_pulse,
     gabor,
     half_sine_pulse,
+    harmonic,
     mavroeidis_papageorgiou,
+    pulse_match,
     rectangular_pulse,
     ricker,
     sine_pulse,

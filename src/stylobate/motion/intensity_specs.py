@@ -20,9 +20,9 @@ from .intensity import (
     warn_of_velocity,
 )
 from .motion import Motion
-from .pulse_match import pulse_match
-from .ranges import values_of as _values
+from .pulses import pulse_match
 from .specs import ACCELERATION_UNITS, parse_time
+from .specs import values_of as _values
 from .spectra import pseudo_acceleration
 
 #: Periods of an average spectral acceleration by default [s], and how many of them, evenly spaced in their logarithm: a

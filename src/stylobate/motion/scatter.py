@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import check_range
-from .harmonic import harmonic
 from .motion import Motion
+from .pulses import harmonic
 
 #: Largest half width of each part.
 LARGEST_OF_MOTION = {"amplitude": 0.5, "phase": 0.5, "across": 1.0}

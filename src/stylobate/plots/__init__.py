@@ -1,4 +1,4 @@
-"""Pictures in one style, one file per picture. Every function returns a figure; ``save`` writes it as PNG and SVG.
+"""Pictures in one style, a file for each subject. Every function returns a figure; ``save`` writes it as PNG and SVG.
 
 The names are those of ``__init__.pyi``; each is loaded when it is first used, with what its results are made of.
 """

@@ -1,24 +1,26 @@
-"""Scene of films and film strips: bodies from their shapes and poses, the ground, and the words."""
+"""Scene of films and film strips: bodies from their shapes and poses, links, the ground, and the words."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
 
-from ..column.found_in_space import base_axes
+from ..column.found_geometry import base_axes
+from ..column.links.placed import Stroke, strokes
 from ..column.shapes import hull
 from ..constants import g
 from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
 from ..response.poses import exaggerated, rotation_matrices
-from .solids import Solid, Surface, surfaces_of
-from .style import BLACK, BROWN, GREY, SAND
-from .view import View
+from .solids import Solid, Surface, View, painted, surfaces_of
+from .style import BLACK, BLUE, BROWN, GREY, RED, SAND
 
 #: A picture goes no farther below what stood at first than by this share of its size, and no farther aside than ``ASIDE``:
 #: what flies off, or falls where there is no ground, is let go.
@@ -229,3 +231,95 @@ def scale_bar(width: float) -> float:
     """A round length of at most a fifth of a picture's width [m]."""
     decade = 10.0 ** math.floor(math.log10(0.2 * width))
     return max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= 0.2 * width)
+
+
+# -- Marks of links in pictures ---------------------------------------------------------------------------------------
+
+
+class Mark(NamedTuple):
+    """The mark of a link: a body by its number and a place in its axes for either end, or no body and a place in space [m].
+
+    ``broken`` is when it broke [s], infinite if it is whole.
+    """
+
+    lower: tuple[int | None, np.ndarray]
+    upper: tuple[int | None, np.ndarray]
+    broken: float
+
+
+def marks_of(scene: Scene) -> list[Mark]:
+    """Marks of every link but layers."""
+    structure = scene.response.structure
+    broken = {link.name: link.broken_at for link in scene.response.measures.links if link.broken}
+
+    def body(number: int, place: np.ndarray) -> tuple[int | None, np.ndarray]:
+        recorded = number - structure.first
+        return (recorded, place) if recorded >= 0 else (None, scene.base @ place)
+
+    def mark(one: Stroke) -> Mark:
+        return Mark(body(*one.lower[:2]), body(*one.upper[:2]), broken.get(one.link.name, math.inf))
+
+    return [mark(stroke) for stroke in strokes(structure.placed_links)]
+
+
+def link_marks(scene: Scene, index: int, factor: float = 1.0) -> list[tuple[np.ndarray, bool]]:
+    """Ends of every link but layers as seen at a recorded state [m], shape (2, 2), and whether it is broken."""
+    marks = marks_of(scene)
+    if not marks:
+        return []
+    poses = exaggerated(scene.response.poses, index, factor)
+    turns, places = scene.upright @ rotation_matrices(poses.orientation), poses.position @ scene.upright.T
+
+    def seen(body: int | None, place: np.ndarray) -> np.ndarray:
+        point = place if body is None else places[body] + turns[body] @ place
+        return point[[0, 2]] if scene.seen_from is None else scene.seen_from.across(point)
+
+    now = scene.response.time[index]
+    return [(np.array([seen(*mark.lower), seen(*mark.upper)]), now >= mark.broken) for mark in marks]
+
+
+def draw_links(axes: Axes, scene: Scene, index: int, factor: float = 1.0) -> None:
+    """Mark the links of a state, over the bodies: whole ones in blue, broken ones in red and dotted."""
+    for line in [one for one in axes.lines if one.get_gid() == "link"]:
+        line.remove()
+    for ends, broken in link_marks(scene, index, factor):
+        (line,) = axes.plot(
+            ends[:, 0], ends[:, 1], color=RED if broken else BLUE, linestyle=":" if broken else "-", linewidth=1.1,
+            zorder=900, scalex=False, scaley=False,
+        )  # fmt: skip
+        line.set_gid("link")
+
+
+# -- Bodies in space in a frame of a film -----------------------------------------------------------------------------
+
+
+def draw_solids(axes: Axes, scene: Scene, index: int) -> None:
+    """The ground, the directions of x and y on it, and all bodies at a recorded state, in true proportion."""
+    view = scene.seen_from
+    assert view is not None
+    axes.fill(*view.across(scene.plate).T, facecolor="#f4f4f4", edgecolor=GREY, linewidth=0.7, zorder=1)
+    for name, (start, end) in zip("xy", scene.directions, strict=True):
+        axes.annotate(
+            "",
+            tuple(view.across(end)),
+            xytext=tuple(view.across(start)),
+            arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 0.9},
+            zorder=2,
+        )
+        right, up = 1.08 * view.across(end)
+        axes.text(float(right), float(up), name, fontsize=8.5, ha="center", va="center", zorder=2)
+    axes.add_collection(PolyCollection([], zorder=3), autolim=False)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    paint(axes, scene, index)
+
+
+def paint(axes: Axes, scene: Scene, index: int) -> None:
+    """Paint the bodies as they are at another recorded state."""
+    assert scene.seen_from is not None
+    polygons, colours, outlines = painted(scene.solids(index), scene.seen_from)
+    faces = next(collection for collection in axes.collections if isinstance(collection, PolyCollection))
+    faces.set_verts(polygons)
+    faces.set_facecolor([tuple(colour) for colour in colours])
+    faces.set_edgecolor([BROWN if outline else tuple(colour) for outline, colour in zip(outlines, colours)])
+    faces.set_linewidth([1.4 if outline else 0.3 for outline in outlines])

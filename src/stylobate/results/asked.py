@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..analysis.directions import direction_of
-from ..column.kinds import FROM_DICT
+from ..column.assembly_files import FROM_DICT
 from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError

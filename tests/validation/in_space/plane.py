@@ -14,7 +14,7 @@ import numpy as np
 
 import stylobate as st
 from stylobate.column.assembly_files import read_assembly
-from stylobate.column.spatial.prisms import as_prisms
+from stylobate.column.spatial.assembly import as_prisms
 
 GALLERY = Path(__file__).resolve().parents[3] / "gallery" / "assemblies"
 

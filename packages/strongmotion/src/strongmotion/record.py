@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from stylobate.errors import InputError, check_all
-from stylobate.motion.readers.component import Component
+from stylobate.motion.readers.record import Component
 from stylobate.motion.readers.registry import components_of
 from stylobate.motion.readers.source import Source
 

@@ -16,8 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stylobate.column.shapes import Mesh
-from stylobate.column.spatial.mesh_files import check_closed
-from stylobate.column.spatial.mesh_formats import LARGEST, MeshPart
+from stylobate.column.spatial.mesh import LARGEST, MeshPart, check_closed
 from stylobate.errors import InputError
 from stylobate.reading import read_bytes, shown
 

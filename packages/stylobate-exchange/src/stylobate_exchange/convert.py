@@ -18,8 +18,7 @@ from stylobate.column.block import FAR_AWAY, length_of
 from stylobate.column.files import tables_of
 from stylobate.column.shapes import Mesh
 from stylobate.column.spatial.files import spatial_assembly
-from stylobate.column.spatial.mesh_files import check_closed, read_stones, unit_of, upward
-from stylobate.column.spatial.mesh_formats import MESHES, UPWARD, MeshPart
+from stylobate.column.spatial.mesh import MESHES, UPWARD, MeshPart, check_closed, read_stones, unit_of, upward
 from stylobate.column.spatial.tables import SpatialTable
 from stylobate.column.structure import Structure
 from stylobate.column.tables import made_of

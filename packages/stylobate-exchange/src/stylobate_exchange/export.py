@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from stylobate.atomic import refuse_existing, replacing
-from stylobate.column.found_in_space import base_axes
+from stylobate.column.found_geometry import base_axes
 from stylobate.column.shapes import Mesh
 from stylobate.errors import InputError
 from stylobate.response import Response

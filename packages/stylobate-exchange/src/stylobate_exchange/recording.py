@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from stylobate.column.found_in_space import base_axes, space_geometry
+from stylobate.column.found_geometry import base_axes, space_geometry
 from stylobate.column.links.placed import strokes
 from stylobate.column.shapes import Glued, Mesh, Placed
 from stylobate.errors import InputError, check_range

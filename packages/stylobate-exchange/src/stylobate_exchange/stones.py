@@ -11,9 +11,9 @@ import numpy as np
 from stylobate.column import Column
 from stylobate.column.block import length_of
 from stylobate.column.drum import Drum
-from stylobate.column.found_in_space import space_geometry
+from stylobate.column.found_geometry import space_geometry
 from stylobate.column.materials import material
-from stylobate.column.spatial.mesh_formats import MeshPart
+from stylobate.column.spatial.mesh import MeshPart
 from stylobate.column.turning import about
 from stylobate.constants import DEGREE
 from stylobate.errors import InputError

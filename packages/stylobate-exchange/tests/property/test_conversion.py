@@ -19,10 +19,9 @@ from hypothesis import strategies as some
 
 import stylobate as st
 from stylobate.column.as_found import AsFound, FoundDrum
-from stylobate.column.assembly_files import load_structure
+from stylobate.column.assembly_files import FROM_DICT, load_structure
 from stylobate.column.files import write_column
-from stylobate.column.found_in_space import space_geometry
-from stylobate.column.kinds import FROM_DICT
+from stylobate.column.found_geometry import space_geometry
 from stylobate.column.links import Dowel
 from stylobate.column.presets import preset
 from stylobate.column.projection import project
@@ -447,9 +446,10 @@ HEAD = "drum,height_m,bottom_width_m,top_width_m"
         (f"# material: marble\n{HEAD}\n1,-1,1,1", "height in row 1 of .* is -1 m; give a length above 0 m"),
         (
             "# material: marble\ndrum;height;bottom_width;top_width\n1;74,2;120,4;117,2\n2;73,1;117,2;114,1",
-            r"147.3 m, and columns have 0.05 to 60 m: was it meant in cm\? Lengths in .* are in m unless .* height_cm",
+            r"height of drum 1 is 74.2 m, and drums have 0.005 to 30 m: check it and its unit. "
+            r"Lengths in .* are in m unless .* height_cm",
         ),
-        (f"# material: marble\n{HEAD}\n1,0.8,90,1", r"lower face of drum 1 is 90 m.*meant in cm\?"),
+        (f"# material: marble\n{HEAD}\n1,0.8,90,1", r"lower face of drum 1 is 90 m, and stones have"),
         (f"# material: marble\n{HEAD},tilt_deg\n1,1,1,1,80", "tilt"),
     ],
 )

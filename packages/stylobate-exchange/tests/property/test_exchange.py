@@ -328,7 +328,7 @@ def test_nothing_is_written_over(in_plane, tmp_path):
 
 
 def test_without_trimesh_one_sentence_says_what_to_install(tmp_path, monkeypatch):
-    from stylobate.column.spatial.mesh_files import read_stones
+    from stylobate.column.spatial.mesh import read_stones
 
     real = builtins.__import__
 

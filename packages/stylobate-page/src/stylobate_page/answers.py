@@ -12,8 +12,8 @@ from starlette.responses import JSONResponse, Response
 from stylobate.column.toml import check_values
 from stylobate.errors import InputError, StylobateError
 
+from .forms import in_page_words
 from .guard import TooLarge, TooSlow
-from .words import in_page_words
 
 #: Headers of what the page itself asks, and of an answer that refuses it: that is no failure, which a browser would note.
 ASKS, REFUSES = "x-page", "x-refused"
@@ -80,7 +80,7 @@ def missing(what: str) -> Response:
 def _about(error: Exception | str, code: int, **headers: str) -> Response:
     field = getattr(error, "field", None)
     of_text = field is not None and field.partition(".")[0] in TEXTS
-    return Answer({"error": in_page_words(str(error), of_text), "field": field}, code, headers)
+    return Answer({"error": in_page_words(error, of_text), "field": field}, code, headers)
 
 
 async def _on_input(request: Request, error: Exception) -> Response:

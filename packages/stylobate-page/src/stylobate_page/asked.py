@@ -1,4 +1,4 @@
-"""Requests of the page, checked, and the command lines that do them."""
+"""What the page asks for, checked, and the requests to commands that do it."""
 
 from __future__ import annotations
 
@@ -11,11 +11,10 @@ from pydantic import Field
 
 from stylobate.column.toml import Table
 from stylobate.errors import InputError
-from stylobate.motion.ranges import amplitude_range, frequency_range
-from stylobate.motion.specs import parse_time
+from stylobate.motion.specs import amplitude_range, frequency_range, parse_time
 
-from .folder import RECORDS
 from .forms import FORMS, Form
+from .records import RECORDS
 
 #: Files of a job: its column or assembly, the study of a domain, and where its commands write; its records lie in a folder
 #: that is called as that of the page.
@@ -104,8 +103,8 @@ class JobAsked(Table):
     state: str | None = None
 
 
-def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list[str]]:
-    """The command lines, without the program's name; paths from the folder of the job.
+def requests(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[dict[str, Any]]:
+    """Requests to commands, as :func:`stylobate.cli.main.ask` takes them; paths from the folder of the job.
 
     Parameters
     ----------
@@ -120,35 +119,28 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
     """
     if asked.kind in FORMS:
         return [_of_form(asked, FORMS[asked.kind], records)]
-    common = [COLUMN if asked.assembly is None else ASSEMBLY, *_model(asked.model, asked.settings)]
-    end = [*_options(tail=asked.tail), f"--out={RESULT}"]
-    if asked.kind in ("run", "critical"):
-        given = [*common, *_motion(_the_motion(asked), records), *_options(replicates=asked.replicates)]
-        if asked.kind == "run":
-            return [["run", *given, "--no-pictures", *end]]
-        steps = {"from": asked.first, "to": asked.last, "step": asked.step}
-        return [["critical", *given, *_options(**steps), *end]]
     if asked.kind == "domain":
-        return [["domain", STUDY, f"--out={RESULT}"]]
+        return [{"command": "domain", "what": STUDY, "out": RESULT}]
+    made = {"command": asked.kind, "column": _stands(asked)}
+    end = _given(tail=asked.tail) | {"out": RESULT}
+    if asked.kind in ("run", "critical"):
+        more = (
+            {"pictures": False} if asked.kind == "run" else {"from": asked.first, "to": asked.last, "step": asked.step}
+        )
+        made |= _model(asked.model, asked.settings) | _motion(_the_motion(asked), records)
+        return [made | _given(replicates=asked.replicates, **more) | end]
     from stylobate.analysis.fragility_checks import FEWEST
 
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
-    files = _each(asked.records, records)
-    analysis = [
-        "ida",
-        *common,
-        *files,
-        *_options(unit=asked.unit, columns=asked.columns, im=asked.im, runs=asked.runs),
-        *end,
-    ]
-    if len(asked.records) < FEWEST:
-        return [analysis]
-    return [analysis, ["fragility", RESULT, *_options(state=asked.state), f"--out={FRAGILITY}"]]
+    made |= {"sources": _each(asked.records, records)} | _model(asked.model, asked.settings)
+    made |= _given(unit=asked.unit, columns=asked.columns, im=asked.im, runs=asked.runs) | end
+    curve = {"command": "fragility", "sources": [RESULT], **_given(state=asked.state), "out": FRAGILITY}
+    return [made] if len(asked.records) < FEWEST else [made, curve]
 
 
-def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) -> list[str]:
-    """The command line of an analysis: what it takes of the page, and what its fields hold."""
+def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) -> dict[str, Any]:
+    """The request of an analysis: what it takes of the page, and what its fields hold."""
     takes, boxes = form.takes, {box.option: box for box in form.boxes}
     unknown = next((name for name in asked.options if name not in boxes), None)
     if unknown is not None:
@@ -156,25 +148,25 @@ def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) 
     given = {name: asked.options.get(name, box.start).strip() for name, box in boxes.items()}
     empty = next((box for name, box in boxes.items() if box.start and not given[name]), None)
     if empty is not None:
-        raise InputError(f"“{empty.label}” is empty; give it, such as {empty.start}.", empty.option.replace("-", "_"))
-    line = [form.command]
+        raise InputError(f"“{empty.label}” is empty; give it, such as {empty.start}.", empty.option)
+    made: dict[str, Any] = {"command": form.command}
     if "ruin" in takes:
-        line.append(RUIN)
+        made["ruin"] = RUIN
     elif "column" in takes:
-        line.append(COLUMN if asked.assembly is None else ASSEMBLY)
+        made["column"] = _stands(asked)
     if "source" in takes:
-        line.append(RUNS if asked.table is None else TABLE)
+        made["source"] = RUNS if asked.table is None else TABLE
     if "model" in takes:
         model = given.pop("model", asked.model)
-        line += _model(model, asked.settings if model == asked.model else {})
+        made |= _model(model, asked.settings if model == asked.model else {})
     if "motions" in takes and asked.records:
-        line += [f"--motion={path}" for path in _each(asked.records, records)]
+        made["motion"] = _each(asked.records, records)
     elif {"motion", "motions", "round"} & {*takes}:
         given = {
             name: text for name, text in given.items() if name not in ("unit", "columns")
         }  # the page's motion has its own
         motion = _the_motion(asked)
-        line += _motion(motion.model_copy(update={"azimuth": None}) if "round" in takes else motion, records)
+        made |= _motion(motion.model_copy(update={"azimuth": None}) if "round" in takes else motion, records)
     if {"hazard", "hazards"} & {*takes}:
         number = len(asked.hazards)
         if not number or (number > 1 and "hazard" in takes):
@@ -182,9 +174,10 @@ def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) 
             raise InputError(
                 f"{number} hazard curves are open; {form.title.lower()} takes {wanted}: open its file.", "hazard"
             )
-        line += [f"--hazard={HAZARDS}/{name}" for name in hazard_files(asked)]
-    line += _options(**{name: text and text + boxes[name].unit for name, text in given.items()})
-    return [*line, *form.fixed, *_options(tail=asked.tail if "tail" in takes else None), f"--out={RESULT}"]
+        files = [f"{HAZARDS}/{name}" for name in hazard_files(asked)]
+        made["hazard"] = files if "hazards" in takes else files[0]
+    made |= _given(**{name: text and text + boxes[name].unit for name, text in given.items()}) | form.fixed
+    return made | _given(tail=asked.tail if "tail" in takes else None) | {"out": RESULT}
 
 
 def hazard_files(asked: JobAsked) -> dict[str, str]:
@@ -215,8 +208,12 @@ def _the_motion(asked: JobAsked) -> MotionAsked:
     return asked.motion
 
 
-def _model(model: str, settings: Mapping[str, str]) -> list[str]:
-    return [*_options(model=model), *(f"--set={name}={value}" for name, value in settings.items() if value)]
+def _stands(asked: JobAsked) -> str:
+    return COLUMN if asked.assembly is None else ASSEMBLY
+
+
+def _model(model: str, settings: Mapping[str, str]) -> dict[str, Any]:
+    return _given(model=model, set=[f"{name}={value}" for name, value in settings.items() if value])
 
 
 def _each(chosen: Sequence[str], records: Mapping[str, Sequence[str]]) -> list[str]:
@@ -248,8 +245,8 @@ def study(asked: JobAsked) -> dict[str, Any]:
     return found | ({"set": settings} if settings else {})
 
 
-def report_of(folder: Path) -> list[list[str]]:
-    """The command line of a report on what lies in the folder of a job.
+def report_of(folder: Path) -> list[dict[str, Any]]:
+    """The request for a report on what lies in the folder of a job.
 
     Raises
     ------
@@ -259,26 +256,15 @@ def report_of(folder: Path) -> list[list[str]]:
     found = [name for name in (RESULT, FRAGILITY) if (folder / name).is_dir()]
     if not found:
         raise InputError("there is no result to report on; run the job first.")
-    return [["report", *found, f"--out={REPORT}"]]
+    return [{"command": "report", "folders": found, "out": REPORT}]
 
 
-def shown(command: Sequence[str]) -> str:
-    """A command line as a person types it."""
-    return " ".join(["stylobate", *(one if re.fullmatch(r"[\w./:=,@?+-]+", one) else _quoted(one) for one in command)])
+def _given(**values: Any) -> dict[str, Any]:
+    return {name: value for name, value in values.items() if value or value is False}
 
 
-def _quoted(text: str) -> str:
-    return "'" + text.replace("'", "'\"'\"'") + "'"
-
-
-def _options(**values: str | None) -> list[str]:
-    return [f"--{name}={value}" for name, value in values.items() if value]
-
-
-def _motion(motion: MotionAsked, records: Mapping[str, Sequence[str]]) -> list[str]:
-    words = motion.words(_files(motion.text, records) if motion.kind == "record" else ())
-    files = [f"--motion={path}" for path in words.pop("motion", ())]
-    return files + _options(**words)
+def _motion(motion: MotionAsked, records: Mapping[str, Sequence[str]]) -> dict[str, Any]:
+    return motion.words(_files(motion.text, records) if motion.kind == "record" else ())
 
 
 def _files(record: str, records: Mapping[str, Sequence[str]]) -> list[str]:

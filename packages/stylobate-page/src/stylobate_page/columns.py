@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ import numpy as np
 
 from stylobate.column import Column
 from stylobate.column.files import tables_of
-from stylobate.column.found_in_space import base_axes, space_geometry
+from stylobate.column.found_geometry import base_axes, space_geometry
 from stylobate.column.links.placed import strokes
 from stylobate.column.presets import PRESETS, preset
 from stylobate.column.shapes import hull
@@ -22,29 +21,20 @@ from stylobate.response.bodies import bodies_of
 from stylobate.response.poses import PlanePoses
 from stylobate_exchange.convert import SURVEYS, Reading, read_model
 
-from .words import doubted, warned
+from .forms import doubted, warned
 
 #: Name of a column in messages, at first; on the page that goes without saying.
 SOURCE = "the column"
 
-#: How a file is spoken of, and how its reader sees the same in the fields of the page, in this order.
-_IN_FIELDS = [
-    (re.compile(said), seen)
-    for said, seen in (
-        (r"\[\[drum\]\] number (\d+)", r"drum \1"),
-        (r"\[\[joint_override\]\] with index (\d+)", r"the joint under drum \1"),
-        (r"\[\[link\]\] number (\d+)", r"link \1"),
-        (r"\[joint\]", "all joints"),
-        (r"\[as_found\]", "the base"),
-        (r"key ('\w+') is missing in ([^;]+); add it", r"\1 of \2 is empty; give it"),
-        (r"('\w+') in ([^;]+) is ", r"\1 of \2 is "),
-        (r"(drum \d+|the joint under drum \d+): (\w+) of a (?:drum|joint) is ", r"\2 of \1 is "),
-        (r" is '([+-]?\d+),(\d+)'; it must be a number", r" is '\1,\2'; it must be a number, with a point: \1.\2"),
-        (r", or (?:a common one at the top|name a material)\b", ""),
-    )
-]
-#: Rows of a list, by their place in it.
-_ROWS = re.compile(r"\[\[(as_found\.drum|joint_override)\]\] number (\d+)")
+#: How the page calls what the path of a field begins with; rows by their number or index.
+_PLACES = {
+    "drum": "drum {}",
+    "found": "drum {}",
+    "override": "the joint under drum {}",
+    "link": "link {}",
+    "joint": "all joints",
+    "base_tilt": "the base",
+}
 
 
 def column_of(table: Mapping[str, Any]) -> Column:
@@ -58,28 +48,15 @@ def column_of(table: Mapping[str, Any]) -> Column:
     try:
         return made_of(Column, dict(table), SOURCE)
     except InputError as error:
-        error.without(f"{SOURCE}: ")
-        error.args = (_in_fields(str(error), table),)
+        for words in error.places:  # in a file, which its reader does not see
+            error.without(words)
         group, _, rest = (error.field or "").partition(".")
         own = [str(one.get("index")) for one in table.get("joint_override") or ()]
         if group == "override" and rest.partition(".")[0] not in own:  # what is wrong there is that of all joints
             error.field = f"joint.{rest.partition('.')[2]}"
+        if group in _PLACES and len(error.places) > 1:
+            error.args = (f"{_PLACES[group].format(rest.partition('.')[0])}: {error}",)
         raise
-
-
-def _in_fields(said: str, table: Mapping[str, Any]) -> str:
-    """A message about a column file, for somebody who sees the fields of the page."""
-
-    def row(found: re.Match[str]) -> str:
-        rows = table["as_found"]["drum"] if found[1] == "as_found.drum" else table["joint_override"]
-        one = rows[int(found[2]) - 1]
-        drum = f"drum {one['index']}" if isinstance(one, Mapping) and "index" in one else f"row {found[2]}"
-        return drum if found[1] == "as_found.drum" else f"the joint under {drum}"
-
-    said = _ROWS.sub(row, said)
-    for pattern, seen in _IN_FIELDS:
-        said = pattern.sub(seen, said)
-    return said
 
 
 def presets() -> dict[str, dict[str, Any]]:

@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 
 from stylobate.atomic import replacing
-from stylobate.plots.animation import film_of, frame_indices
-from stylobate.plots.player import film_data
-from stylobate.plots.view import OBLIQUE
+from stylobate.plots.film import film_data, film_of, frame_indices
+from stylobate.plots.solids import OBLIQUE
 from stylobate.response import Response
 from stylobate.response.histories import ENERGY_TERMS
 
-from .words import in_page_words
+from .forms import in_page_words
 
 #: Least width over height of a film: upright, for phones.
 SHAPE = 0.9

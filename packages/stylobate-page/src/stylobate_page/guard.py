@@ -1,15 +1,17 @@
-"""Guard of the page: keys, names of hosts, origins, sizes of bodies, and the headers of every answer."""
+"""Guard of the page: keys, names of hosts, origins, sizes of bodies, headers of answers, connections that stay silent."""
 
 from __future__ import annotations
 
 import asyncio
 import ipaddress
-from collections.abc import Awaitable, Callable, MutableMapping
+import secrets
+from collections.abc import Awaitable, Callable, Mapping, MutableMapping
 from typing import Any
+from urllib.parse import parse_qs
 
+from starlette.requests import cookie_parser
 from starlette.responses import JSONResponse, PlainTextResponse
-
-from .keys import CLOSED, Keys
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 Message = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Message]]
@@ -145,3 +147,133 @@ class Guard:
 def too_large(most: int) -> str:
     """The sentence about a body that is larger than so many bytes."""
     return f"more than {most / 1e6:g} MB are sent at once; that is the largest size allowed: send less."
+
+
+#: Names in an address: of the token, which lets in until the page ends, and of a ticket, which lets in once.
+TOKEN, TICKET = "token", "ticket"
+
+#: Answer to everybody else.
+CLOSED = (
+    "the page opens by the address that was printed when it was started; open that one: every start makes a new one."
+)
+
+
+class Keys:
+    """A token for the address, which a browser keeps as a cookie after its first visit.
+
+    The address that a browser is started with can be read by every user of the machine, in the list of its processes. It
+    holds a ticket instead, which is worth nothing once the page has been opened.
+    """
+
+    def __init__(self) -> None:
+        self.token = secrets.token_hex(16)
+        self._tickets: set[str] = set()
+
+    def printed(self, address: str) -> str:
+        """The address with the token."""
+        return f"{address}?{TOKEN}={self.token}"
+
+    def once(self, address: str) -> str:
+        """The address with a ticket."""
+        ticket = secrets.token_hex(16)
+        self._tickets.add(ticket)
+        return f"{address}?{TICKET}={ticket}"
+
+    def admits(self, scope: Mapping[str, Any], headers: Mapping[str, str]) -> bool | None:
+        """Whether a request may come in: True with the cookie, None where it has yet to be given one, False if not."""
+        cookies = cookie_parser(headers.get("cookie", ""))
+        if self._is_token(cookies.get(_cookie(scope), "")):
+            return True
+        try:
+            asked = parse_qs(scope["query_string"].decode("latin-1"), max_num_fields=20)
+        except ValueError:
+            return False
+        if self._is_token(asked.get(TOKEN, [""])[-1]):
+            return None
+        ticket = asked.get(TICKET, [""])[-1]
+        if ticket in self._tickets:
+            self._tickets.discard(ticket)
+            return None
+        return False
+
+    def cookie(self, scope: Mapping[str, Any]) -> str:
+        """The cookie that is set at the first visit; browsers share them among ports, hence its name."""
+        return f"{_cookie(scope)}={self.token}; Path=/; HttpOnly; SameSite=Strict"
+
+    def _is_token(self, text: str) -> bool:
+        return secrets.compare_digest(text.encode("utf-8", "surrogatepass"), self.token.encode())
+
+
+def _cookie(scope: Mapping[str, Any]) -> str:
+    return f"stylobate-{(scope.get('server') or ('', 0))[1]}"
+
+
+#: Time for the whole head of a request [s]; largest head [bytes]; most connections that have not sent theirs.
+PATIENCE, HEAD, SILENT = 10.0, 32_768, 160
+
+#: Most connections that wait to be taken: what comes in one go must not crowd out those who are about to ask.
+BACKLOG = 64
+
+
+class Connection(H11Protocol):
+    """A connection that has a limited time for the head of each request.
+
+    Where too many are silent, the one that has been so for longest is cut off: an honest one asks at once.
+    """
+
+    def __init__(self, *given: Any, **named: Any) -> None:
+        super().__init__(*given, **named)
+        self._since = 0.0
+        self._end: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: Any) -> None:
+        """Begin to wait for the first request."""
+        super().connection_made(transport)
+        self._look()
+
+    def data_received(self, data: bytes) -> None:
+        """Stop waiting where a head is whole."""
+        super().data_received(data)
+        self._look()
+
+    def on_response_complete(self) -> None:
+        """Begin to wait for the next request."""
+        super().on_response_complete()
+        self._look()
+
+    def send_400_response(self, msg: str) -> None:
+        """Refuse what is no HTTP; a request whose body it was is given up, and not answered as well."""
+        cycle = self.cycle
+        if cycle is not None and not cycle.response_complete:
+            cycle.disconnected = True
+            cycle.message_event.set()
+            if cycle.response_started:
+                self.transport.close()
+                return
+        super().send_400_response(msg)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Stop waiting."""
+        super().connection_lost(exc)
+        self._cease()
+
+    def _look(self) -> None:
+        if self.transport.is_closing() or (self.cycle is not None and not self.cycle.response_complete):
+            self._cease()
+        elif self._end is None:
+            self._since = self.loop.time()
+            self._end = self.loop.call_later(PATIENCE, self.transport.close)
+            silent = [
+                connection
+                for connection in self.connections
+                if isinstance(connection, Connection) and connection._end is not None
+            ]
+            if len(silent) > SILENT:
+                longest = min(silent, key=lambda one: one._since)
+                longest._cease()  # it is lost a moment later: until then the next one is not to find it again
+                longest.transport.abort()
+
+    def _cease(self) -> None:
+        if self._end is not None:
+            self._end.cancel()
+            self._end = None

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import shlex
 import time
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -12,8 +14,7 @@ from typing import Any
 from stylobate.atomic import replacing
 from stylobate.own_files import LIST
 
-from .asked import shown
-from .words import in_page_words
+from .forms import in_page_words
 
 #: States of a job: it waits, is computed, has ended well, was refused as bad input, failed, or was stopped.
 WAITING, RUNNING, DONE, REFUSED, FAILED, CANCELLED = "waiting", "running", "done", "refused", "failed", "cancelled"
@@ -35,9 +36,12 @@ class Job:
     title : str
         What it computes, in a line.
     commands : list of list of str
-        Without the program's name.
+        Command lines that do it, without the program's name: for people.
     asked : dict
         What the page asked for, so that it can be asked again.
+    requests : list of dict
+        What commands are asked for it, one after the other, as :func:`stylobate.cli.main.ask` takes it; none in jobs of
+        earlier versions.
     """
 
     id: str
@@ -46,6 +50,7 @@ class Job:
     title: str
     commands: list[list[str]]
     asked: dict[str, Any]
+    requests: list[dict[str, Any]] = dataclasses.field(default_factory=list)
     state: str = WAITING
     created: float = dataclasses.field(default_factory=time.time)
     started: float | None = None
@@ -82,9 +87,9 @@ class Job:
 
     def to_dict(self, whole: bool = True) -> dict[str, Any]:
         """For the page; less what was asked and what came of it, unless all of it is wanted."""
-        left_out = ("folder", "_files") if whole else ("folder", "_files", "asked", "results")
+        left_out = ("folder", "_files", "requests", *(() if whole else ("asked", "results")))
         plain = {field.name: getattr(self, field.name) for field in fields(self) if field.name not in left_out}
-        plain |= {key: in_page_words(plain[key]) for key in ("sentence", "warnings", "results") if key in plain}
+        plain |= {"results": in_page_words(plain["results"])} if whole else {}
         plain["commands"] = [shown(command) for command in self.commands]
         plain["files"] = [] if self.open else self.files()
         plain["film"] = (self.filmed or not self.open) and (self.folder / FILM).is_file()
@@ -115,3 +120,8 @@ class Job:
                 "The page was ended meanwhile; what is finished is kept: go on with it.",
             )
         return job
+
+
+def shown(command: Sequence[str]) -> str:
+    """A command line as a person types it."""
+    return shlex.join(("stylobate", *command))

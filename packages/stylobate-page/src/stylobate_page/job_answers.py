@@ -36,19 +36,16 @@ from .asked import (
     STUDY,
     TABLE,
     JobAsked,
-    commands,
     hazard_files,
     report_of,
+    requests,
     study,
 )
-from .assemblies import assembly_of
-from .cells import new_cells
-from .curves import curves
-from .folder import RECORDS
+from .curves import curves, new_cells
 from .forms import FORMS
 from .job import FILM, Job
-from .records import Records
-from .ruins import ruin_of
+from .records import RECORDS, Records
+from .texts import assembly_of, ruin_of
 from .workshop import Workshop
 
 #: Files of jobs that a browser shows, by the end of their names; it saves the others.
@@ -119,7 +116,7 @@ class JobAnswers:
         if asked.motion is not None and asked.motion.kind == "record":
             wanted.append(asked.motion.text)
         names = {one: self.records.names(one) for one in wanted}
-        lines = commands(asked, names)
+        needed = requests(asked, names)
 
         def prepare(folder: Path) -> None:
             _write(asked, stone, folder)
@@ -131,7 +128,7 @@ class JobAnswers:
 
         stands = _called(stone) if stone is not None else source.title if source is not None else "table of runs"
         title = _title(asked, stands, self.records)
-        job = await run_in_threadpool(self.workshop.submit, asked.kind, title, lines, body, prepare)
+        job = await run_in_threadpool(self.workshop.submit, asked.kind, title, needed, body, prepare)
         return Answer(self._shown(job), 201)
 
     def _source(self, asked: JobAsked) -> Job | None:
@@ -162,14 +159,14 @@ class JobAnswers:
         """A job that makes the report of another one, of copies of its results."""
         if job.open:
             raise InputError("the job is not over; its report comes after it.")
-        lines = report_of(job.folder)
+        needed = report_of(job.folder)
 
         def prepare(folder: Path) -> None:
             for name in (RESULT, FRAGILITY, RUNS):
                 if (job.folder / name).is_dir():
                     _copy_result(job.folder / name, folder / name)
 
-        return self.workshop.submit("report", f"report: {job.title}", lines, {}, prepare)
+        return self.workshop.submit("report", f"report: {job.title}", needed, {}, prepare)
 
     async def remove(self, request: Request) -> Response:
         """Cancel and forget a job."""

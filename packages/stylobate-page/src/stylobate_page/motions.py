@@ -14,7 +14,7 @@ from stylobate.motion import Motion, MotionRequest
 from stylobate.motion.intensity import motion_summary, rocking_measures, warn_of_drift
 
 from .asked import MotionAsked
-from .words import doubted, warned
+from .forms import doubted, warned
 
 #: Most points of a plotted line, and of the path in plan.
 POINTS, PATH = 2400, 1500

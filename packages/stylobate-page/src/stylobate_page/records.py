@@ -1,22 +1,22 @@
-"""Records that were uploaded: kept under generated names, as many and as large as allowed, over restarts."""
+"""Records that were uploaded, kept under generated names over restarts; and the folder of the page, its owner's alone."""
 
 from __future__ import annotations
 
 import json
+import os
 import re
 import secrets
 import shutil
 import threading
 from collections.abc import AsyncIterator, Iterable, Iterator, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
-from stylobate.atomic import replacing
+from stylobate.atomic import output_folder, replacing
+from stylobate.campaign.ledger import Holding
 from stylobate.errors import InputError
 from stylobate.reading import shown
-
-from .folder import FOLDER, private, private_file
 
 #: Largest file, and all together [bytes]; most records. Three components of an hour at 200 Hz take some 30 MB.
 FILE, ALL, MOST = 32_000_000, 600_000_000, 1000
@@ -196,7 +196,7 @@ class Records:
             neighbour = self.kept.get(beside)
             place = token if neighbour is None else neighbour.place
             record = Record(token, self._unlike(called), place, (file,), upload.size)
-        (self.folder / record.place).mkdir(mode=FOLDER, exist_ok=True)
+        (self.folder / record.place).mkdir(mode=PRIVATE_FOLDER, exist_ok=True)
         upload.path.rename(self.folder / record.place / file)
         self._note(record)
         self.kept[record.id] = record
@@ -225,7 +225,7 @@ class Records:
             left.unlink()
         for file in _plain(self.folder):  # as earlier versions kept them
             token = _token(file.name) or secrets.token_hex(4)
-            (self.folder / token).mkdir(mode=FOLDER, exist_ok=True)
+            (self.folder / token).mkdir(mode=PRIVATE_FOLDER, exist_ok=True)
             file.rename(self.folder / token / file.name)
         for place in sorted(path for path in self.folder.iterdir() if path.is_dir() and not path.is_symlink()):
             files = {one.name: one.stat().st_size for one in _plain(place)}
@@ -268,3 +268,65 @@ def generated_name(name: str, token: str) -> str:
     plain = re.sub(r"[^A-Za-z0-9]+", "-", stem).strip("-")[:40] or "record"
     end = f".{ending.lower()}" if re.fullmatch(r"[A-Za-z0-9]{1,6}", ending) else ""
     return f"{plain}-{token}{end}"
+
+
+#: Rights of a folder, and of a file, that nobody else on this machine may look into.
+PRIVATE_FOLDER, PRIVATE_FILE = 0o700, 0o600
+
+#: Folders of the page in it.
+RECORDS, JOBS = "records", "jobs"
+
+#: Lock while a page is served; an empty file of that name and ``-lock`` lies in the folder meanwhile.
+HELD = "page"
+
+
+@contextmanager
+def held(folder: Path) -> Iterator[Path]:
+    """Hold a folder for one page; it is made if it is not there, and then it is its owner's alone.
+
+    Raises
+    ------
+    InputError
+        It cannot be written to, another page is served from it, or a part of it is somebody else's.
+    """
+    new = not folder.exists()
+    with output_folder(folder):
+        pass
+    if new:
+        folder.chmod(PRIVATE_FOLDER)
+    try:
+        holding = Holding(folder / HELD)
+    except InputError:
+        raise InputError(
+            f"{shown(folder)} is not free: a page is served from it already; use or end that one, or choose another `out`."
+        ) from None
+    try:
+        for name in (RECORDS, JOBS):
+            private(folder / name)
+        yield folder
+    finally:
+        holding.release()
+
+
+def private(folder: Path) -> Path:
+    """A folder of the page's own, made if it is not there; nobody else may read it, whoever made it.
+
+    Raises
+    ------
+    InputError
+        It is a link, or somebody else's.
+    """
+    if folder.is_symlink():
+        raise InputError(
+            f"{shown(folder)} is a link, behind which nothing is kept; remove it, or choose another `out`."
+        )
+    folder.mkdir(mode=PRIVATE_FOLDER, parents=True, exist_ok=True)
+    if hasattr(os, "geteuid") and folder.stat().st_uid != os.geteuid():
+        raise InputError(f"{shown(folder)} belongs to another user; choose another `out`.")
+    folder.chmod(PRIVATE_FOLDER)
+    return folder
+
+
+def private_file(path: str, flags: int) -> int:
+    """Opens a file that nobody else may read; an ``opener`` for :func:`open`."""
+    return os.open(path, flags, PRIVATE_FILE)

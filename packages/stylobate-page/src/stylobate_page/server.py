@@ -15,10 +15,8 @@ import uvicorn
 
 from stylobate.errors import InputError
 
-from .connections import BACKLOG, HEAD, Connection
-from .folder import held
-from .guard import is_loopback
-from .keys import Keys
+from .guard import BACKLOG, HEAD, Connection, Keys, is_loopback
+from .records import held
 from .site import create_app
 
 #: Most connections at a time, silent ones included.

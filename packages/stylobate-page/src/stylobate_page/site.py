@@ -22,20 +22,18 @@ from stylobate.column.assembly_files import is_assembly
 from stylobate.column.files import write_column
 from stylobate.column.toml import checked
 from stylobate.errors import InputError
-from stylobate.motion.readers.samples import samples
+from stylobate.motion.readers.source import samples
+from stylobate.response.measures import MEASURES
 from stylobate.version import __version__
 from stylobate_exchange.convert import SURVEYS
 
-from . import assemblies, columns, motions
+from . import columns, motions, texts
 from .answers import HANDLERS, Answer, found_wrong, json_object, missing
 from .asked import COLUMN, MotionAsked, safe_name
-from .folder import JOBS, RECORDS
-from .forms import FORMS
-from .guard import Guard
+from .forms import FORMS, LABELS, in_page_words
+from .guard import Guard, Keys
 from .job_answers import LINES, JobAnswers
-from .keys import Keys
-from .records import FILE, Record, Records
-from .words import LABELS, in_page_words
+from .records import FILE, JOBS, RECORDS, Record, Records
 from .workshop import Workshop
 
 STATIC = Path(__file__).with_name("static")
@@ -92,6 +90,7 @@ class Site:
                 "samples": listed,
                 "labels": LABELS,
                 "forms": FORMS_SHOWN,
+                "measures": [{"key": one.key, "label": one.label, "unit": one.unit} for one in MEASURES if one.label],
             }
         )
 
@@ -135,7 +134,7 @@ class Site:
         """Summary of an assembly."""
         text = (await json_object(request)).get("assembly")
         try:
-            return Answer(await run_in_threadpool(assemblies.describe, str(text)))
+            return Answer(await run_in_threadpool(texts.describe, str(text)))
         except InputError as error:
             return found_wrong(error)
 
@@ -178,11 +177,11 @@ async def _opened(text: str) -> Response:
     """An assembly file with its model, and what is wrong in it."""
     found: dict[str, Any] = {"assembly": text, "model": "dem2d"}
     try:
-        found["model"] = assemblies.model_of(await run_in_threadpool(assemblies.assembly_of, text))
+        found["model"] = texts.model_of(await run_in_threadpool(texts.assembly_of, text))
     except InputError as error:
-        if len(text) > assemblies.LARGEST:
+        if len(text) > texts.LARGEST:
             raise
-        found["error"] = in_page_words(str(error), of_text=True)
+        found["error"] = in_page_words(error, of_text=True)
     return Answer(found)
 
 

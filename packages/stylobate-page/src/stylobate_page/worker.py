@@ -1,7 +1,7 @@
-"""The process of the page's jobs: it takes command lines from standard input, one job after the other, and runs them.
+"""The process of the page's jobs: it hears of them on standard input, one after the other, and does what they request.
 
-A job is a line of JSON: ``id``, ``folder`` and ``commands``. What becomes of it goes to standard output, in lines of JSON
-as well: ``progress``, the end of each command with its JSON object and its complaints, and ``done``.
+A job is a line of JSON: ``id`` and ``folder``, whose file holds the requests. What becomes of it goes to standard output,
+in lines of JSON as well: ``progress``, the end of each command with its JSON object and its complaints, and ``done``.
 """
 
 from __future__ import annotations
@@ -22,6 +22,10 @@ from typing import TYPE_CHECKING, Any
 
 from stylobate.cli import signals
 from stylobate.errors import StylobateError
+
+from .asked import ASSEMBLY, COLUMN, RUIN, STUDY
+from .forms import in_page_words
+from .job import FILM, GROWING, JOB
 
 if TYPE_CHECKING:
     from stylobate.analysis.ida_curves import Ida
@@ -54,7 +58,8 @@ def main() -> None:
         while not signals.TOLD.is_set():
             job = jobs.get()
             console.LISTENER = listener(job["id"], tell)
-            work(job, tell)
+            requests = json.loads((Path(job["folder"]) / JOB).read_text(encoding="utf-8"))["requests"]
+            work(job, requests, tell)
             console.LISTENER = None
     signals.said()
     signals.end_now(signals.INTERRUPTED)
@@ -98,13 +103,13 @@ def warm(tell: Callable[..., None]) -> None:
     import h5netcdf  # noqa: F401
 
     from stylobate import DistinctElement2D, certainty, harmonic, preset
-    from stylobate.cli.main import call
+    from stylobate.cli.main import ask
     from stylobate.motion import writing  # noqa: F401
 
     from .film import film
 
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        call(["run", "paper-12-drums", "--harmonic=1Hz,0.05g,0.1s", "--json"])
+        ask({"command": "run", "column": "paper-12-drums", "harmonic": "1Hz,0.05g,0.1s", "json": True})
         made = certainty(preset("paper-12-drums"), harmonic(1.0, 0.5, 0.1), DistinctElement2D())
         film(made.response)
         made.response.to_xarray()
@@ -112,19 +117,20 @@ def warm(tell: Callable[..., None]) -> None:
     tell(ready=True)
 
 
-def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
-    """Run the commands of a job; the film of a run is told of as soon as there is one."""
+def work(job: dict[str, Any], requests: Sequence[dict[str, Any]], tell: Callable[..., None]) -> None:
+    """Do the requests of a job; the film of a run is told of as soon as there is one."""
     from stylobate.cli import console
-    from stylobate.cli.main import call
+    from stylobate.cli.main import ask
 
     tell(id=job["id"], begun=True)
     os.chdir(job["folder"])
-    for number, command in enumerate(job["commands"]):
+    state = next((one["state"] for one in requests if "state" in one), "collapse")
+    for number, request in enumerate(requests):
         said, complained = io.StringIO(), io.StringIO()
-        console.VIEWER = viewer(job, command, tell)
+        console.VIEWER, console.WORDING = viewer(job["id"], request, state, tell), worded
         with redirect_stdout(said), redirect_stderr(complained):
-            code = call([*command, "--json"])
-        console.VIEWER = None
+            code = ask(request | {"json": True})
+        console.VIEWER, console.WORDING = None, console.in_options
         lines = [line.removeprefix("stylobate: ") for line in complained.getvalue().splitlines()]
         tell(id=job["id"], number=number, code=code, said=said.getvalue(), complained=lines, field=console.FIELD)
         if code:
@@ -132,17 +138,20 @@ def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
     tell(id=job["id"], done=True)
 
 
-def viewer(job: dict[str, Any], command: Sequence[str], tell: Callable[..., None]) -> Callable[[Any], None] | None:
+def worded(said: object) -> str:
+    """What a command says, in words of the page, which knows nothing of the files of the job."""
+    sentence = str(in_page_words(said))
+    for file in (COLUMN, ASSEMBLY, STUDY, RUIN):
+        sentence = sentence.removeprefix(f"{file}: ")
+    return sentence
+
+
+def viewer(job: str, request: dict[str, Any], state: str, tell: Callable[..., None]) -> Callable[[Any], None] | None:
     """What sees what a command has come to: a film is made of one run, and of an analysis its points so far."""
-    if command[0] == "ida":
-        states = (
-            one.removeprefix("--state=") for line in job["commands"] for one in line if one.startswith("--state=")
-        )
-        return growing(job["id"], next(states, "collapse"), tell)
-    one = command[0] == "sequence" or (
-        command[0] == "run" and not any(word.startswith("--azimuths") for word in command)
-    )
-    return partial(make_film, job["id"], tell) if one else None
+    if request["command"] == "ida":
+        return growing(job, state, tell)
+    one = request["command"] == "sequence" or (request["command"] == "run" and "azimuths" not in request)
+    return partial(make_film, job, tell) if one else None
 
 
 def growing(job: str, state: str, tell: Callable[..., None]) -> Callable[[Callable[[], Ida]], None]:
@@ -151,7 +160,6 @@ def growing(job: str, state: str, tell: Callable[..., None]) -> Callable[[Callab
 
     def see(so_far: Callable[[], Ida]) -> None:
         from .curves import write_points
-        from .job import GROWING
 
         if time.monotonic() - last[0] >= LOOK:
             write_points(so_far(), state, Path(GROWING))
@@ -164,7 +172,6 @@ def growing(job: str, state: str, tell: Callable[..., None]) -> Callable[[Callab
 def make_film(job: str, tell: Callable[..., None], response: Response) -> None:
     """Make the film of a run, in the folder of its job."""
     from .film import write_film
-    from .job import FILM
 
     try:
         write_film(response, Path(FILM))

@@ -1,26 +1,28 @@
-"""Workshop of jobs: one process, one job at a time, the others in a visible queue."""
+"""Workshop of jobs: one process, which hears of them in lines of JSON and answers so; the others wait in a visible queue."""
 
 from __future__ import annotations
 
 import json
+import os
+import queue
 import secrets
 import shutil
 import signal
+import subprocess
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from itertools import count
 from pathlib import Path
 from typing import Any
 
+from stylobate.cli.main import words_of
 from stylobate.errors import InputError
 
-from .asked import ASSEMBLY, COLUMN, RUIN, STUDY
-from .folder import private
 from .job import CANCELLED, DONE, FAILED, REFUSED, RUNNING, WAITING, Job
-from .process import PATIENCE, Process
+from .records import private, private_file
 
 #: Most jobs that wait, and that are kept.
 WAIT, KEEP = 50, 300
@@ -93,7 +95,7 @@ class Workshop:
         self,
         kind: str,
         title: str,
-        commands: list[list[str]],
+        requests: list[dict[str, Any]],
         asked: dict[str, Any],
         prepare: Callable[[Path], object] = lambda folder: None,
     ) -> Job:
@@ -101,10 +103,10 @@ class Workshop:
 
         Parameters
         ----------
-        kind, title, commands, asked
+        kind, title, requests, asked
             As for :class:`stylobate_page.job.Job`.
         prepare : callable
-            Writes what the commands need into the job's folder.
+            Writes what the requests need into the job's folder.
 
         Raises
         ------
@@ -114,7 +116,15 @@ class Workshop:
         with self._lock:
             if len(self._queue) >= WAIT:
                 raise InputError(f"{len(self._queue)} jobs are waiting; cancel some, or wait until they are done.")
-            job = Job(secrets.token_hex(6), self.folder, kind, self._unlike(title), commands, asked)
+            job = Job(
+                secrets.token_hex(6),
+                self.folder,
+                kind,
+                self._unlike(title),
+                list(map(words_of, requests)),
+                asked,
+                requests,
+            )
             job.folder = self.folder / job.id
             job.folder.mkdir()
             try:
@@ -133,12 +143,13 @@ class Workshop:
         taken = {job.title for job in self.jobs.values()}
         return next(one for k in count(1) if (one := title if k == 1 else f"{title} ({k})") not in taken)
 
-    def again(self, job: Job, commands: list[list[str]] | None = None) -> None:
+    def again(self, job: Job) -> None:
         """Do a job once more, in its folder: one that was stopped goes on where it was."""
+        if not job.requests:
+            raise InputError("the job is of an earlier version and cannot go on; ask for it anew.")
         with self._lock:
             if job.open:
                 return
-            job.commands = commands or job.commands
             job.state, job.sentence, job.ended, job.started, job.warnings, job.results = WAITING, "", None, None, [], []
             job.field = None
             job.done = job.total = 0.0
@@ -279,7 +290,7 @@ class Workshop:
 
     def _follow(self, job: Job, process: Process) -> None:
         """Hand a job to the process and hear what becomes of it."""
-        process.give({"id": job.id, "folder": str(job.folder), "commands": job.commands})
+        process.give({"id": job.id, "folder": str(job.folder)})
         if job.kind in LONG:
             self._stand_by(process)
         begun = False
@@ -339,8 +350,6 @@ class Workshop:
         sentence = next(
             (complaint for complaint in reversed(complaints) if not complaint.startswith("warning: ")), "It failed."
         )
-        for file in (COLUMN, ASSEMBLY, STUDY, RUIN):  # the job's own, of which the page knows nothing
-            sentence = sentence.removeprefix(f"{file}: ")
         job.field = what.get("field")
         self._end(job, REFUSED if what["code"] == BAD_INPUT else FAILED, sentence)
         return True
@@ -374,3 +383,103 @@ class Workshop:
         process = self._process
         if process is not None:
             process.stop()
+
+
+#: Time that a process has to stop by itself when it is told to [s].
+PATIENCE = 3.0
+
+#: Priority of a process that is to stop: another one has taken over, and somebody waits for that.
+LAST = 19
+
+
+class Process:
+    """A process that does jobs, heard by a thread of its own.
+
+    Parameters
+    ----------
+    command : sequence of str
+        Its command line.
+    log : Path
+        Takes what it says beside its lines.
+    heard : callable
+        Called when it has become ready.
+    """
+
+    def __init__(self, command: Sequence[str], log: Path, heard: Callable[[], None]) -> None:
+        with open(log, "ab", opener=private_file) as file:
+            self._process = subprocess.Popen(
+                list(command), stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=file, text=True, encoding="utf-8",
+                bufsize=1, start_new_session=True,
+            )  # fmt: skip
+        self.ready = False
+        self._told = False
+        self._heard = heard
+        self._said: queue.SimpleQueue[dict[str, Any] | None] = queue.SimpleQueue()
+        self._thread = threading.Thread(target=self._listen, name="process", daemon=True)
+        self._thread.start()
+
+    @property
+    def over(self) -> bool:
+        """Whether it has ended, or has been told to: it takes no more jobs."""
+        return self._told or self._process.poll() is not None
+
+    def give(self, job: dict[str, Any]) -> None:
+        """Hand it a job; where it has ended meanwhile, :meth:`says` ends at once."""
+        assert self._process.stdin is not None
+        with suppress(OSError):
+            self._process.stdin.write(json.dumps(job) + "\n")
+
+    def says(self) -> Iterator[dict[str, Any]]:
+        """Words of the process, until it ends or is told to."""
+        while (what := self._said.get()) is not None:
+            yield what
+
+    def end(self) -> int:
+        """Its code, when it has ended."""
+        return self._process.wait()
+
+    def tell(self) -> None:
+        """Tell it to stop, and let it stand back meanwhile; nothing more is heard of it."""
+        self._told = True
+        self._process.terminate()
+        with suppress(OSError, AttributeError):  # it has ended, or this system has no such thing
+            os.setpriority(os.PRIO_PGRP, self._process.pid, LAST)
+        self._said.put(None)
+
+    def stop(self) -> None:
+        """Tell it to stop, and wait until it has."""
+        self.tell()
+        try:
+            self._process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+
+    def put_away(self) -> None:
+        """Stop it, and close what leads to it."""
+        self.stop()
+        self._thread.join()
+        for pipe in (self._process.stdin, self._process.stdout):
+            if pipe is not None:
+                with suppress(OSError):
+                    pipe.close()
+
+    def _listen(self) -> None:
+        assert self._process.stdout is not None
+        with suppress(ValueError):  # its lines are closed
+            for line in self._process.stdout:
+                self._take(line)
+        self._said.put(None)
+
+    def _take(self, line: str) -> None:
+        try:
+            what = json.loads(line)
+        except ValueError:
+            return
+        if not isinstance(what, dict):
+            return
+        if what.get("ready"):
+            self.ready = True
+            self._heard()
+        else:
+            self._said.put(what)

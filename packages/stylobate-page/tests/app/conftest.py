@@ -3,7 +3,7 @@ from chromium import browser
 from page_server import FAKE, REAL, served
 
 from stylobate_page.columns import presets
-from stylobate_page.keys import Keys
+from stylobate_page.guard import Keys
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,8 @@ def said_late(job, *_):
 print(json.dumps({"ready": True}), flush=True)
 for line in sys.stdin:
     job = json.loads(line)
-    how = next((one for one in job["commands"][0] if one.startswith("--model=")), "").removeprefix("--model=")
+    requests = json.loads((pathlib.Path(job["folder"]) / "job.json").read_text())["requests"]
+    how = requests[0].get("model", "")
     gone = pathlib.Path(job["folder"]).parents[1] / "gone"
     if how == "gone" and gone.read_text():  # as if it had been killed while it had nothing to do
         gone.write_text(gone.read_text()[1:])

@@ -6,8 +6,7 @@ import tomllib
 import pytest
 from page_server import HAZARD, RUNS, ended
 
-from stylobate.cli.main import call
-from stylobate.cli.options import field_of
+from stylobate.cli.main import call, parameters
 from stylobate_page.forms import FORMS
 
 RUIN = """
@@ -177,7 +176,6 @@ def test_every_field_and_answer_of_a_form_is_one_of_its_command(tmp_path, capsys
         assert set(form.pictures) - drawn <= {"design", "matches", "observations"}, kind  # of links, and of some ruins
 
 
-def test_fields_are_marked_by_the_names_of_their_options():
-    assert all(
-        field_of(f"--{box.option}") == box.option.replace("-", "_") for form in FORMS.values() for box in form.boxes
-    )
+def test_fields_are_marked_by_the_names_of_parameters():
+    for form in FORMS.values():
+        assert {box.option for box in form.boxes} | {*form.fixed} <= {*parameters(form.command)}

@@ -4,7 +4,7 @@ import numpy as np
 
 import stylobate as st
 from stylobate_page.asked import RESULT, STUDY
-from stylobate_page.cells import new_cells
+from stylobate_page.curves import new_cells
 
 DOMAIN = """
 column = "paper-monolithic"

@@ -124,7 +124,7 @@ def test_a_missing_value_finds_its_field(client, table):
     del table["drum"][1]["height"]
     found = client.post("/api/column", json=table).json()
     assert found == {
-        "error": "'height' of drum 2 is empty; give it.",
+        "error": "drum 2: key 'height' is missing; add it.",
         "field": "drum.2.height",
     }
 
@@ -150,8 +150,7 @@ def test_a_survey_opens_as_convert_opens_it(client, tmp_path):
     answer = client.post("/api/column/file", content=text, headers={"x-name": "survey.csv"})
     assert answer.status_code == 422
     assert answer.json()["field"] == "columns"
-    assert 'Columns” "drum, height [cm], bottom width [cm], top width [cm], -"' in answer.json()["error"]
-    columns = columns.replace("_", " ")  # as the page has it
+    assert 'Columns” "drum, height [cm], bottom_width [cm], top_width [cm], -"' in answer.json()["error"]
     stated = {"x-name": "survey.csv", "x-columns": columns}
     assert client.post("/api/column/file", content=text, headers=stated).json()["field"] == "material"
     opened = client.post("/api/column/file", content=text, headers=stated | {"x-material": "marble"}).json()["table"]
@@ -375,7 +374,8 @@ def test_an_error_in_the_text_of_an_assembly_is_of_its_line(client, old, new, li
 
 
 @pytest.mark.parametrize(
-    ("key", "value", "says"), [("height", 850.0, "was it meant in mm?"), ("bottom_width", 0.001, "is the unit right?")]
+    ("key", "value", "says"),
+    [("height", 850.0, "drums have 0.005 to 30 m: check"), ("bottom_width", 0.001, "stones have 0.005 to 10 m: check")],
 )
 def test_a_size_that_no_drum_has_is_marked_and_not_the_slope_on_which_it_falls(client, table, key, value, says):
     """A column of such a drum stands on no slope; what was typed last is what is wrong."""

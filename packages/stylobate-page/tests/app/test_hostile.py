@@ -10,7 +10,9 @@ import httpx
 import pytest
 from page_server import ended, served
 
-from stylobate_page import connections, guard, records
+from stylobate.cli.main import words_of
+from stylobate_page import guard, records
+from stylobate_page.asked import JobAsked, requests
 from stylobate_page.guard import Guard
 from stylobate_page.records import FILE, generated_name
 
@@ -180,13 +182,13 @@ def test_scripts_in_names_stay_text(client, asked):
 
 @pytest.mark.parametrize("value", ["--out=/tmp/elsewhere", "dem2d --out=/tmp", "-x", "--json"])
 def test_values_do_not_become_options(client, asked, value):
-    """Each value stays glued to its own option, and no word of a command line comes from outside."""
+    """Each value stays that of its own option, in the request and on the command line."""
     asked |= {"model": value, "replicates": value, "settings": {"law": value}}
     line = client.post("/api/jobs", json=asked).json()["commands"][0]
     assert "--out=result" in line
-    from stylobate_page.asked import JobAsked, commands
-
-    (words,) = commands(JobAsked(**asked), {})
+    (request,) = requests(JobAsked(**asked), {})
+    assert (request["model"], request["set"], request["out"]) == (value, [f"law={value}"], "result")
+    words = words_of(request)
     assert words[:2] == ["run", "column.toml"]
     assert sum(one.startswith("--out") for one in words) == 1
     assert all(one.startswith("--") for one in words[2:])
@@ -229,6 +231,7 @@ def test_a_job_that_an_earlier_page_kept_is_shown_and_can_be_removed(tmp_path):
         assert page.get("/api/jobs/a1").json()["results"] == [{"x": None, "y": "\ud800"}]
         assert page.get("/api/jobs/a1/zip").status_code == 200
         assert page.get("/api/jobs/a1/commands.txt").text == "stylobate run '\\ud800'\n"
+        assert "is of an earlier version" in page.post("/api/jobs/a1/again").json()["error"]
         assert page.delete("/api/jobs/a1").status_code == 200
         assert [one["id"] for one in page.get("/api/jobs").json()["jobs"]] == ["b2"]
 
@@ -242,7 +245,7 @@ def half_sent(port, head=b"GET / HTTP/1.1\r\nhost: 127"):
 
 def test_half_sent_heads_lock_nobody_out(client, monkeypatch):
     """Those that have been silent for longest are cut off where there are too many."""
-    monkeypatch.setattr(connections, "SILENT", 20)
+    monkeypatch.setattr(guard, "SILENT", 20)
     lines = [half_sent(client.base_url.port) for _ in range(50)]
     try:
         with suppress(ConnectionResetError):
@@ -257,7 +260,7 @@ def test_half_sent_heads_lock_nobody_out(client, monkeypatch):
 
 
 def test_a_head_has_a_limited_time_and_size(client, monkeypatch):
-    monkeypatch.setattr(connections, "PATIENCE", 0.4)
+    monkeypatch.setattr(guard, "PATIENCE", 0.4)
     port, started = client.base_url.port, time.monotonic()
     with half_sent(port) as silent, half_sent(port, b"") as mute, half_sent(port) as slow:
         with suppress(OSError):
@@ -266,7 +269,7 @@ def test_a_head_has_a_limited_time_and_size(client, monkeypatch):
                 time.sleep(0.02)
         assert time.monotonic() - started < 2.0
         assert [one.recv(1) for one in (silent, mute)] == [b"", b""]
-    with half_sent(port, b"GET / HTTP/1.1\r\nhost: 127.0.0.1\r\nx: " + b"y" * (2 * connections.HEAD)) as large:
+    with half_sent(port, b"GET / HTTP/1.1\r\nhost: 127.0.0.1\r\nx: " + b"y" * (2 * guard.HEAD)) as large:
         assert large.recv(12) == b"HTTP/1.1 400"
     with half_sent(
         port, b"GET /api/jobs HTTP/1.1\r\nhost: 127.0.0.1\r\n\r\n"

@@ -49,10 +49,13 @@ def test_ten_jobs_wait_in_a_row_and_can_be_cancelled(fresh, asked):
 def test_the_field_of_an_error_comes_from_the_process_of_jobs(tmp_path, monkeypatch):
     told = []
     monkeypatch.chdir(tmp_path)
-    for more in ("--tail=-1s", "--harmonic=1Hz,0.3g,-1s", "--model=hausner", "--replicates=0"):
-        command = ["run", "paper-monolithic", "--model=housner", "--harmonic=1Hz,0.01g,0.1s", more]
-        worker.work({"id": "a", "folder": str(tmp_path), "commands": [command]}, lambda **what: told.append(what))
-    assert [one["field"] for one in told if "code" in one] == ["tail", "duration", "model", None]
+    for more in (
+        {"tail": "-1s"}, {"harmonic": "1Hz,0.3g,-1s"}, {"model": "hausner"}, {"taill": "1s"}, {"column": None},
+        {"replicates": "0"},
+    ):  # fmt: skip
+        request = {"command": "run", "column": "paper-monolithic", "model": "housner", "harmonic": "1Hz,0.01g,0.1s"}
+        worker.work({"id": "a", "folder": str(tmp_path)}, [request | more], lambda **what: told.append(what))
+    assert [one["field"] for one in told if "code" in one] == ["tail", "duration", "model", "taill", "column", None]
 
 
 def test_more_jobs_than_can_wait_are_refused(fresh, asked, monkeypatch):

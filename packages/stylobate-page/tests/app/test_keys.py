@@ -7,7 +7,7 @@ import httpx
 import pytest
 from page_server import FAKE, served
 
-from stylobate_page.keys import CLOSED, Keys
+from stylobate_page.guard import CLOSED, Keys
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ import pytest
 
 from stylobate.cli.main import call
 from stylobate.errors import InputError
-from stylobate_page.folder import held
+from stylobate_page.records import held
 
 
 def test_the_address_comes_first_and_the_end_is_clean(tmp_path):
@@ -110,7 +110,7 @@ def test_too_little_memory_is_said_in_one_sentence(capsys, monkeypatch):
     def much(*_, **__):
         raise MemoryError
 
-    monkeypatch.setattr("stylobate.cli.run.run_one", much)
+    monkeypatch.setattr("stylobate.cli.run.Settings.run", much)
     assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.1g,0.1s", "--replicates", "0"]) == 1
     assert capsys.readouterr().err == (
         "stylobate: the memory is not enough for this; ask for less at once, such as a shorter motion.\n"

@@ -13,10 +13,11 @@ from page_server import HAZARD, RUNS
 
 import stylobate_page
 from stylobate.column.links import COLUMN_KINDS
-from stylobate.errors import OutOfRangeWarning
+from stylobate.constants import g
+from stylobate.errors import InputError, OutOfRangeWarning, check_range
 from stylobate_page import worker
+from stylobate_page.forms import LABELS, doubted, in_page_words, warned
 from stylobate_page.job import Job
-from stylobate_page.words import LABELS, doubted, in_page_words, warned
 
 STATIC = Path(stylobate_page.__file__).parent / "static"
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
@@ -29,22 +30,24 @@ COMMAND = re.compile(r"\bstylobate [a-z]|command line|same command")
         ("a states no unit: `unit='g'`, or gal.", "a states no unit: “Unit” g, or gal."),
         ("state it: `dt=0.01`.", "state it: “Step” 0.01s."),
         ("`scale` and `pga` are both given.", "“scale” and “Scale to a peak of” are both given."),
-        ("give `files=FILE`, or several `azimuths`.", "give “Record”, or several “Directions”."),
-        ("take it off (`condition='baseline'`).", "take it off."),
-        ("bottom_width of a drum is -1 m.", "bottom width of a drum is -1 m."),
-        ("far from rest; go on with --tail 5s.", "far from rest; go on with “Tail after the motion” 5s."),
-        ("--azimuth is 'x'; write it with its unit.", "“Azimuth” is 'x'; write it with its unit."),
-        ("leave it out or give --motion FILE.", "leave it out or give “Record”."),
-        ("choose another --until-rest, or --tail", "choose another “until rest”, or “Tail after the motion”"),
-        ("Missing option '--models'; see 'stylobate compare --help'.", "Missing option “Models”."),
-        ("`pga` is -9.81 m/s²; allowed is [0, 981] m/s².", "“Scale to a peak of” is -1 g; allowed is [0, 100] g."),
-        ("gravity is 100 m/s²; allowed is [0.1, 30] m/s².", "gravity is 100 m/s²; allowed is [0.1, 30] m/s²."),
+        ("give `files`, or several `azimuths`.", "give “Record”, or several “Directions”."),
+        ("go on with `tail=5`, or `until_rest`.", "go on with “Tail after the motion” 5s, or “until rest”."),
         ("a drum -- or two--three - is -1 m; <!-- no -->", "a drum -- or two--three - is -1 m; <!-- no -->"),
     ],
 )  # fmt: skip
 def test_parameters_and_options_become_fields(said, shown):
     assert in_page_words(said) == shown
     assert in_page_words({"a": [said, 1, None]}) == {"a": [shown, 1, None]}
+
+
+def test_an_error_is_about_a_field_in_its_unit():
+    with pytest.raises(InputError) as caught:
+        check_range("`pga`", -g, 0.0, 100.0 * g, unit="m/s²")
+    assert in_page_words(caught.value) == "“Scale to a peak of” is -1 g; allowed is [0, 100] g."
+    with pytest.raises(InputError) as caught:
+        check_range("bottom_width", -1.0, 0.0, 2.0, unit="m", of="a drum")
+    assert in_page_words(caught.value) == "bottom width of a drum is -1 m; allowed is [0, 2] m."
+    assert in_page_words(caught.value, of_text=True) == str(caught.value)
 
 
 def test_the_scripts_take_the_names_of_fields_from_one_list():
@@ -63,13 +66,9 @@ def test_the_page_itself_names_no_option():
 
 def test_what_a_job_says_is_in_words_of_the_page(tmp_path):
     job = Job("a", tmp_path, "run", "one", [["run", "--tail=5s"]], {"column": {"name": "--tail"}})
-    job.sentence, job.warnings, job.results = (
-        "go on with --tail 5s.",
-        ["give --dt 0.01s."],
-        [{"certainty": {"sentence": "--tail"}}],
-    )
+    job.results = [{"certainty": {"sentence": "give `tail=5`"}}]
     told = job.to_dict()
-    assert OPTION.search(str([told["sentence"], told["warnings"], told["results"]])) is None
+    assert told["results"] == [{"certainty": {"sentence": "give “Tail after the motion” 5s"}}]
     assert told["asked"]["column"]["name"] == "--tail"  # what was typed stays
     assert job.lines() == b"stylobate run --tail=5s\n"
 
@@ -142,7 +141,7 @@ ODD = {
     "run": [
         *({"replicates": one} for one in ("x", "-1", "1e9", "0.5")),
         *({"tail": one} for one in ("x", "-1s", "5", "1e9s")),
-        *({"model": one} for one in ("hausner", "housner", "", "--help")),
+        *({"model": one} for one in ("hausner", "housner", "")),
         *({"settings": one} for one in ({"points": "0"}, {"point": "2"}, {"law": "bed"}, {"losses": "wood"})),
     ],
     "critical": [
@@ -203,14 +202,12 @@ def test_no_job_names_an_option_or_a_command(fresh, asked, tmp_path, monkeypatch
             told.append(answer.json()["error"])
         else:
             folder = tmp_path / "jobs" / answer.json()["id"]
-            commands = json.loads((folder / "job.json").read_text())["commands"]
+            requests = json.loads((folder / "job.json").read_text())["requests"]
             monkeypatch.chdir(folder)
-            worker.work(
-                {"id": "a", "folder": str(folder), "commands": commands}, lambda told=told, **what: told.append(what)
-            )
-            told = [what[key] for what in told if "code" in what for key in ("said", "complained")]
-        said = str(in_page_words(told))
-        refused += bool(told) and "'complained'" not in said
+            worker.work({"id": "a", "folder": str(folder)}, requests, lambda told=told, **what: told.append(what))
+            told = [in_page_words(what[key]) for what in told if "code" in what for key in ("said", "complained")]
+        said = str(told)
+        refused += bool(told)
         assert OPTION.search(said) is None, (change, said)
         assert COMMAND.search(said) is None, (change, said)
         assert "`" not in said, (change, said)

@@ -11,10 +11,20 @@ from matplotlib.figure import Figure
 
 from stylobate.column.structure import Structure
 from stylobate.errors import InputError, check_choice, check_whole
-from stylobate.plots.joint_plans import LINE, JointPlan, draw_plan, joint_plans, lines_under, plan_axes, plan_reach
+from stylobate.plots.drawing import (
+    LINE,
+    PLAN,
+    SEEN,
+    JointPlan,
+    Seen,
+    draw_plan,
+    joint_plans,
+    lines_under,
+    plan_axes,
+    plan_reach,
+)
+from stylobate.plots.solids import ALONG_X, ALONG_Y, View
 from stylobate.plots.style import BLACK, GREY, styled
-from stylobate.plots.view import ALONG_X, ALONG_Y, View
-from stylobate.plots.views import PLAN, SEEN, Seen
 from stylobate.version import __version__
 
 #: Sheets of ISO 216, upright [mm].

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.campaign.unknown_laws import PARTS
+from stylobate.campaign.twins import PARTS
 from stylobate.column.column import Column
-from stylobate.column.losses import LAWS, Losses
+from stylobate.column.joint import LAWS, Losses
 from stylobate.column.scatter import Scatter
 from stylobate.constants import g
 from stylobate.errors import InputError, as_typed, check_all, check_choice, check_range, check_whole

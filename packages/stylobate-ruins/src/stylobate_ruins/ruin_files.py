@@ -8,7 +8,7 @@ from typing import Any
 
 from stylobate.campaign.study_files import ColumnScatterTable, listed
 from stylobate.column.assembly_files import load_structure
-from stylobate.column.losses import LAWS
+from stylobate.column.joint import LAWS
 from stylobate.column.presets import PRESETS
 from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.column.structure import Structure

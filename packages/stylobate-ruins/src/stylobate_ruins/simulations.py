@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stylobate.atomic import replacing
-from stylobate.campaign.campaign import USUAL, Campaign
+from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.digests import LENGTH, Digests, Hasher, laws
 from stylobate.campaign.runs import Group, Request, run_all
-from stylobate.column.scatter import usual_scatter
+from stylobate.column.scatter import drawn_twin, usual_scatter
 from stylobate.column.structure import Structure
-from stylobate.column.twins import drawn_twin
 from stylobate.errors import InputError
 from stylobate.models.base import Case, Cases, Model
+from stylobate.models.drums.losses import LossyDrums
 from stylobate.models.shared.quiet import QUIET
 from stylobate.own_files import digest as digest_of_file
 from stylobate.response.rows import Rows
@@ -164,7 +164,7 @@ def simulations_of(
     seed: int = 0,
     *,
     folder: str | Path | None = None,
-    campaign: Campaign = USUAL,
+    campaign: Campaign | None = None,
 ) -> Simulations:
     """Shake structures by the first draws of a prior; what a folder keeps of that is not computed again.
 
@@ -186,12 +186,13 @@ def simulations_of(
     InputError
         A model in the plane, or one whose losses do not vary; a structure that it does not take.
     """
-    if model.is_plane(model.parameters()) or not model.varies_law:
+    if model.is_plane(model.parameters()) or not isinstance(model, LossyDrums):
         raise InputError(
             f"{model.name} is no model in space whose losses vary, and ruins have directions; use dem3d "
             "(DistinctElement3D).",
             "model",
         )
+    campaign = campaign or Campaign()
     table = _Table(tuple(one.stack or one for one in structures), prior.draws(count, seed), model, campaign)
     kept = None if folder is None else Path(folder) / TABLE_FILE
     if kept is not None and (found := table.read(kept)) is not None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.column.losses import Losses
+from stylobate.column.joint import Losses
 from stylobate_ruins.elliptical import elliptical_pulse
 from stylobate_ruins.prior import peaks
 

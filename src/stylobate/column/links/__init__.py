@@ -7,15 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...errors import InputError, check_choice, suggest
-from .bar import Bar
-from .clamp import Clamp
-from .core import Core
-from .dowel import Dowel
-from .layer import Layer
-from .line import Line
+from .kinds import Bar, Clamp, Core, Dowel, Layer, Line, Pad, Tie
 from .link import Link, Numbers, point
-from .pad import Pad
-from .tie import Tie
 
 #: Kinds of links by their name in files.
 KINDS: dict[str, type[Link]] = {one.kind: one for one in (Dowel, Bar, Tie, Core, Layer, Pad, Clamp)}

@@ -1,4 +1,4 @@
-"""A link where it is, in numbers: the one value that kernels, statics, pictures, loads and responses read."""
+"""Links where they are, in numbers: what kernels, statics and pictures read, their pull, and the stone around them."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from ...errors import InputError, within
+from ...messages import joined, say
 from ..turning import UPRIGHT, Quaternion, matrix_of
 from . import COLUMN_KINDS
 from .anchorage import StoneAround, in_stone
@@ -232,3 +233,119 @@ def _check(link: PlacedLink, others: Sequence[PlacedLink]) -> None:
         raise InputError(f"{where} has two layers with a friction_coefficient; keep one.", "joint")
     if link.bed_stiffness < math.inf and any(other.bed_stiffness < math.inf for other in beside):
         raise InputError(f"{where} has two {link.kind}s; keep one.", "joint")
+
+
+# -- Force of pretensioned links on the part of a column above a joint, as it stands ----------------------------------
+
+
+def pulls_in_plane(links: Sequence[PlacedLink]) -> bool:
+    """Whether what pretensioned links pull has no part across the plane of x and z."""
+    return not any(link.low[1] or link.high[1] for link in links if link.pretension)
+
+
+def pull_on_part(
+    links: Sequence[PlacedLink], centroids: np.ndarray, axes: np.ndarray, joint: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Force [N] of pretensioned links on the part above a joint, and its moment about the origin of the axes [N m].
+
+    Parameters
+    ----------
+    links : sequence of PlacedLink
+        Of a column.
+    centroids : array
+        Of the drums [m], shape (n, 3).
+    axes : array
+        Of the drums, as columns, shape (n, 3, 3).
+    joint : int
+        0 … n−1.
+
+    Returns
+    -------
+    force, moment : array
+        Each of shape (3,).
+    """
+    force, moment = np.zeros(3), np.zeros(3)
+    for link in links:
+        if not link.pretension or not link.crosses(joint):
+            continue
+        low, high = link.arms
+        upper = centroids[link.upper - 1] + axes[link.upper - 1] @ high
+        if link.straight:
+            lower = low if link.lower == 0 else centroids[link.lower - 1] + axes[link.lower - 1] @ low
+            way = (lower - upper) / np.linalg.norm(lower - upper)
+        else:
+            way = -(np.eye(3) if link.lower == 0 else axes[link.lower - 1])[:, 2]
+        force += link.pretension * way
+        moment += np.cross(upper, link.pretension * way)
+    return force, moment
+
+
+# -- Where the stone around the links of a structure gives way before they do, in words -------------------------------
+
+
+#: What follows where the stone gives way first: of capacities that are computed, and of those that are given.
+BREAKS = say("Computed is that the stone breaks there, and the link then holds nothing.")
+GIVEN = say("That capacity is given, and taken as it is: it has to be known of the link in this stone.")
+
+
+#: What limit analysis does not see of it.
+LATE = say(
+    "A limit analysis lets all links hold their capacity together: stone that breaks one by one bears less (pushover)."
+)
+
+
+def stone_words(links: Sequence[PlacedLink]) -> str:
+    """Where the stone gives way before links do, and where that was not looked at, in sentences; empty without anchors."""
+    anchors = [link for link in links if link.law in ("dowel", "clamp") and link.mark != "sheet" and link.acts]
+    known = [(link, link.alone, link.stone) for link in anchors if link.alone and link.stone]
+    ways = [
+        (bears / holds, link, how, bears, holds, stone, f"{name}_capacity" in alone.stated)
+        for link, alone, stone in known
+        for how, name, bears, holds in (
+            ("shear", "shear", stone.shear, alone.shear_capacity),
+            ("tension", "axial", stone.pull, alone.axial_capacity),
+        )
+        if bears < holds
+    ]
+    told = []
+    for given, words in ((False, BREAKS), (True, GIVEN)):
+        weak = [way for way in ways if way[-1] == given]
+        if weak:
+            _, link, how, bears, holds, stone, _ = min(weak, key=lambda way: way[0])
+            bar = say("the bar holds {force:.4g} kN", force=1e-3 * holds)
+            bar = bar if math.isfinite(holds) else say("the bar is without a limit")
+            said = say(
+                "The stone gives way before {number} of {all} links do, first around {link}: at {force:.4g} kN in {how}, where "
+                "{bar} ({source}).",
+                number=len({one.name for _, one, *_ in weak}), all=len(anchors), link=link.name, force=1e-3 * bears,
+                how=say(how), bar=bar, source=stone.source,
+            )  # fmt: skip
+            told += [said, words]
+    if known and not told:
+        more = say(
+            "The stone around {number} of {all} links bears more than they hold, by EN 1992-4 carried over from concrete."
+        )
+        told.append(more.of(number=len(known), all=len(anchors)))
+    if len(known) < len(anchors):
+        unknown = say(
+            "The stone around {number} of {all} links was not checked, for want of an edge, a diameter or an embedment: "
+            "stone_at_anchor tells what it bears."
+        )
+        told.append(unknown.of(number=len(anchors) - len(known), all=len(anchors)))
+    return joined(" ", told)
+
+
+def stone_at_limit(links: Sequence[PlacedLink]) -> str:
+    """The same beside a limit analysis, which takes all links as ductile."""
+    late = any(link.breaks_stone for link in links)
+    return joined(" ", [stone_words(links), LATE if late else ""])
+
+
+def stone_that_breaks(links: Sequence[PlacedLink]) -> str:
+    """Links whose capacity is what the stone around them bears, in a sentence beside an answer; empty without."""
+    anchors = [link for link in links if link.acts and link.mark != "sheet"]
+    weak = [link for link in anchors if link.breaks_stone]
+    if not weak:
+        return ""
+    said = say("The stone gives way before {number} of {all} links do: their capacity here is that of the stone.")
+    return said.of(number=len(weak), all=len(anchors))

@@ -1,7 +1,8 @@
-"""An assembly in space: bodies of convex parts, dry joints where faces touch, a ground or fixed bodies under them."""
+"""Assemblies of stones in space: made, checked, and as models and statics want them."""
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
@@ -11,17 +12,15 @@ import numpy as np
 
 from ...constants import g as STANDARD_GRAVITY
 from ...errors import InputError, check_kind, check_range
-from ..assembly_fields import check_fields
-from ..block import FAR_AWAY, ground_block, length_of
+from ..assembly import Assembly, check_fields
+from ..block import FAR_AWAY, Block, ground_block, length_of
 from ..column import GRAVITIES, Column
-from ..faces import Bed
 from ..joint import Joint, given
 from ..links import link_from_dict
 from ..links.in_assembly import in_numbers
 from ..links.link import Link
 from ..links.placed import PlacedLink
-from ..shapes import Glued
-from ..structure import Body, Structure
+from ..structure import Bed, Body, Structure
 from .links import place_in_space
 from .placing import drums_in_space
 from .stone import Stone
@@ -65,6 +64,7 @@ class SpatialAssembly(Structure):
 
     kind: ClassVar[str] = "assembly in space"
     joints_are: ClassVar[str] = "joint, in the assembly's order"
+    computed_by: ClassVar[str] = "dem3d can, and its statics are 'stylobate limit'"
     like: ClassVar[str] = "assemblies"
     first: ClassVar[int] = 0
     relative: ClassVar[bool] = False
@@ -324,21 +324,6 @@ class SpatialAssembly(Structure):
         gap, name = min(best)
         return f", {length_of(gap)} from {name}"
 
-    # -- what asks for less --------------------------------------------------------------------------------------------
-
-    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
-        """Refuse models that do not know bodies of several parts: they compute a plane, or a stack.
-
-        Raises
-        ------
-        InputError
-        """
-        if Glued not in shapes:
-            raise InputError(
-                f"{what} cannot shake {self.name!r}, which is {self.described}; dem3d can, and its statics are "
-                "'stylobate limit'."
-            )
-
     # -- provenance ----------------------------------------------------------------------------------------------------
 
     def to_dict(self) -> dict:
@@ -404,3 +389,47 @@ def _check_parts(stone: Stone) -> None:
         raise InputError(
             f"part {apart + 1} of block {stone.name!r} touches no other part of it; make it a block of its own."
         )
+
+
+# -- An assembly of the plane in space --------------------------------------------------------------------------------
+
+
+def in_space(structure: Structure) -> Structure:
+    """What stands in space: an assembly of the plane as prisms, anything else itself."""
+    return as_prisms(structure) if isinstance(structure, Assembly) else structure
+
+
+def as_prisms(assembly: Assembly, depth: float | None = None) -> SpatialAssembly:
+    """The same blocks in space, x along the plane and z up.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    depth : float, optional
+        Of all blocks, along y [m]; each its own by default.
+
+    Raises
+    ------
+    InputError
+        It has links, or blocks that are no prisms; or the stones cannot stand in space.
+    """
+    if assembly.links:
+        raise InputError(
+            f"{assembly.name!r} has links, which are placed in the plane; write it in space, its blocks as box = [x, y, z]."
+        )
+    stones = tuple(_prism(block, depth) for block in assembly.blocks)
+    return SpatialAssembly(
+        stones, assembly.joint, assembly.name, assembly.gravity, assembly.ground, overrides=assembly.overrides
+    )
+
+
+def _prism(block: Block, depth: float | None) -> Stone:
+    prism = dataclasses.replace(block, solid=None)
+    if not np.allclose((prism.mass, *prism.place), (block.mass, *block.place), rtol=1e-9, atol=1e-9):
+        raise InputError(
+            f"{block.name!r} is no prism of its outline, as a round drum is none; write the assembly in space, where "
+            "columns are round."
+        )
+    half = 0.5 * (block.depth if depth is None else depth)
+    corners = [(x, y, z) for x, z in block.vertices for y in (-half, half)]
+    return Stone.hull(corners, block.density, name=block.name, fixed=block.fixed, surface=block.surface)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
-from ..found_in_space import inside
+from ..found_geometry import inside
 from ..links.in_assembly import BESIDE, BRACKET, LOOKS, bodies_named, placed_between
 from ..links.link import Link
 from ..links.placed import GROOVE, RIM, STROKE, PlacedLink, Point, place_all

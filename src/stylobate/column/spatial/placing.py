@@ -13,17 +13,16 @@ import numpy as np
 
 from ...constants import DEGREE
 from ...errors import InputError, as_typed, check_range, suggest
-from ..as_blocks import links_of_column
 from ..column import Column
 from ..drum import LENGTHS
-from ..found_in_space import SpaceGeometry, space_geometry
+from ..found_geometry import SpaceGeometry, space_geometry
 from ..joint import Joint
 from ..links.link import Link
 from ..links.placed import PlacedLink, Point
 from ..shapes import Placed
-from ..standing import standing_column
+from ..standing import links_of_column, standing_column
 from ..turning import UPRIGHT, Quaternion, about, matrix_of, product, quaternion_of
-from .mesh_files import read_mesh
+from .mesh import read_mesh
 from .stone import Stone, box_shape, centre_of, drum_shape, hull_shape, triple, unit_quaternion
 from .tables import PartTable, SpaceBeamTable, SpaceBlockTable, SpaceColumnsTable
 from .touching import TOUCHING, Solid, separation

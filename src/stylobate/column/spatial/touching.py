@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..found_in_space import Edges
+from ..found_geometry import Edges
 from ..joint import Joint
 from ..shapes import Chipped, CircularFrustum, Placed, cut
 from ..turning import matrix_of

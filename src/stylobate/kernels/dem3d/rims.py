@@ -183,11 +183,12 @@ def on_rims(remains, upper_still, lower_still, upper, lower, e, o, u, v, l, lean
         first, second, pressure = resultant(pu, cu, su, pl, cl, sl, c, d, h, t, z, n)
     # normal resultant, its middle P and its spread about P
     pressing = pu + pl
-    each = 1.0 / max(pressing, NOTHING)
+    least, most_u, most_l = max(pressing, NOTHING), max(pu, NOTHING), max(pl, NOTHING)
+    inverse = 1.0 / (least * most_u * most_l)
+    each, eu, el = inverse * most_u * most_l, inverse * least * most_l, inverse * least * most_u
     ux, uy, uz = first
     wx, wy, wz = second
     middle = (ux + wx) * each, (uy + wy) * each, (uz + wz) * each
-    eu, el = 1.0 / max(pu, NOTHING), 1.0 / max(pl, NOTHING)
     gx, gy, gz = ux * eu - wx * el, uy * eu - wy * el, uz * eu - wz * el
     spread = (
         qu

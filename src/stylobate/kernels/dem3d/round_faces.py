@@ -84,10 +84,10 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     at = along(velocity, 1.0, vector(spin, minus(centre, c)))
     slip, turning = along(at, -dot(at, n), n), dot(spin, n)
     # friction with one limit for both  # Eq. (E6)
-    limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * math.sqrt(spread)
+    limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * torsion[1] * spread
     pivot = o.pivot[l]
-    square = squares / max(area, NOTHING)
-    own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle, square
+    compact = area / max(squares, NOTHING)
+    own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle, compact
     turning = turning if pivot > 0.0 else 0.0
     core, fresh = layers(e, v, l, pivot, centre)
     before = along(core[0], 1.0, fresh[0])
@@ -105,7 +105,8 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
         drag = along((fx - ex, fy - ey, fz - ez), 1.0, g)
         m = along(along((mx - ix, my - iy, mz - iz), 1.0, vector(centre, g)), pivot * turn, n)
         if o.roll.shape[0] > 1:
-            a = minus(middle, c)
+            # towards the middle of elastic pressure: that of all pressure is a quotient of velocities in a flat impact
+            a = minus(scaled(1.0 / max(dot((ex, ey, ez), n), NOTHING), vector(n, (ix, iy, iz))), c)
             a = along(a, -dot(a, n), n)
             a = resistance(o.roll[0, l], pressing, a[0], a[1], a[2], spin[0], spin[1], spin[2], u, v, l, dt)
             mx, my, mz = mx + a[0], my + a[1], mz + a[2]

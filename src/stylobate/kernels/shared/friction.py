@@ -40,59 +40,53 @@ EXTENT = 3.0
 SLIPPED = 1e3
 
 
-@law
-def limit_distance(x, y):
-    """Distance of a shear force and a torsion from the origin, over that of the limit surface; 1 on it and inside.
-
-    √(X + Y + 0.57 X Y / (X + Y)) with X and Y the squares of their shares of the two limits: pure sliding and pure
-    spinning are exact.
-    """
-    both = x + y
-    return math.sqrt(max(both + COUPLING * x * y / max(both, NOTHING), 1.0))
-
-
-@long_law
-def slipped(force, moment, before, turning, k, j, arm, n, surface):
-    """A shear force and the moment about P after a step towards the limit surface, and how far they were beyond it.
-
-    ``surface``: one over the squares of both limits; ``before``, ``turning``: force and moment a step ago. The face slips
-    along the surface's normal (associated flow), where the forces are in the end: F' = F − λ K H F' with the stiffness K
-    about P, in closed form, takes stored energy away however large the step. H hangs on how the shares of both limits stand
-    to each other, which a face that slips on hardly changes in a step.
-    """
-    a, b = surface
-    x, y = dot(before, before) * a, turning * turning * b
-    each = 1.0 / max(x + y, NOTHING)
-    u, v = x * each, y * each
-    distance = limit_distance(dot(force, force) * a, moment * moment * b)
-    a, b = a * (1.0 + COUPLING * v * v), b * (1.0 + COUPLING * u * u)
-    w = cross(n, arm)
-    slip, spin = along(scaled(a, force), b * moment, w), b * moment
-    size = (distance - 1.0) * distance * distance / max(k * dot(slip, slip) + j * spin * spin, NOTHING)
-    each = 1.0 / (1.0 + size * k * a)
-    twist = dot(cross(arm, force), n)
-    moment = (moment - twist * (1.0 - each)) / (1.0 + size * b * (j + k * dot(arm, arm) * each))
-    return scaled(each, along(force, -size * k * b * moment, w)), moment, distance - 1.0
-
-
 @long_law
 def limited(force, torsion, before, turning, k, j, arm, n, limits):
     """Shear force at the centroid and torsion about it, brought back to the limit surface if they are beyond it.
 
+    The surface is X + Y + 0.57 X Y / (X + Y) = 1, with X and Y the squares of the shares of the two limits: pure sliding and
+    pure spinning are exact. The face slips along its normal (associated flow), where the forces are in the end:
+    F' = F − λ K H F' with the stiffness K about P, in closed form, takes stored energy away however large the step. H hangs
+    on how the shares of both limits stand to each other, which a face that slips on hardly changes in a step. Quotients
+    share their divisions, and are exactly 1 or 0 where nothing slips.
+
     ``limits`` as of :func:`friction`; that of torsion is about the middle of pressure P, from which ``arm`` goes to the
-    centroid. ``before`` and ``turning`` are force and torsion a step ago. Also how far they were beyond it, over its
-    distance.
+    centroid. ``before`` and ``turning`` are force and torsion a step ago. The third result is how far they were beyond the
+    surface, over its distance.
     """
     square = max(limits[0] * limits[0], NO_LIMIT)
-    other = max(limits[0] * limits[0] * limits[1] * limits[1], NO_LIMIT)
+    other = max(limits[0] * limits[0] * limits[1], NO_LIMIT)
     each = 1.0 / (square * other)
-    surface = each * other, each * square
-    moment = torsion + dot(cross(arm, force), n)
+    one, two = each * other, each * square
+    twist = dot(cross(arm, force), n)
+    moment = torsion + twist
     turning += dot(cross(arm, before), n)
-    force, moment, beyond = slipped(force, moment, before, turning, k, j, arm, n, surface)
-    less = 1.0 / limit_distance(dot(force, force) * surface[0], moment * moment * surface[1])
+    # shares of both limits a step ago, and now
+    u, v = dot(before, before) * one, turning * turning * two
+    x, y = dot(force, force) * one, moment * moment * two
+    past, now = max(u + v, NOTHING), max(x + y, NOTHING)
+    each = 1.0 / (past * now)
+    distance = math.sqrt(max((now * now + COUPLING * x * y) * past * each, 1.0))
+    u, v = u * now * each, v * now * each
+    # the step along the normal
+    a, b = one * (1.0 + COUPLING * v * v), two * (1.0 + COUPLING * u * u)
+    w = cross(n, arm)
+    slip, spin = along(scaled(a, force), b * moment, w), b * moment
+    more = (distance - 1.0) * distance * distance
+    size = max(k * dot(slip, slip) + j * spin * spin, NOTHING)
+    shear = size + more * k * a
+    turn = more * b * (j * shear + k * dot(arm, arm) * size)
+    whole = size * shear + turn
+    each = 1.0 / (shear * whole)
+    gone, size = more * k * a * whole * each, more * whole * each
+    moment = (moment - twist * gone) * (1.0 - turn * shear * each)
+    force = along(scaled(1.0 - gone, force), -size * k * b * moment, w)
+    # what is still beyond it: 2/(1 + q) is below 1/√q
+    x, y = dot(force, force) * one, moment * moment * two
+    past, now = x + y, (x + y) * (x + y) + COUPLING * x * y
+    less = 1.0 - max(now - past, 0.0) / max(now + past, NOTHING)
     force = scaled(less, force)
-    return force, less * moment - dot(cross(arm, force), n), beyond
+    return force, less * moment - dot(cross(arm, force), n), distance - 1.0
 
 
 @long_law
@@ -104,13 +98,13 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     core, fresh : tuple
         Layers: shear force on the upper body [N], torsion [N m], k [N/m], j [N m]; of the core its place as well.
     face : tuple
-        Of what touches now: k, j, centroid C, middle of pressure P, square of the polar radius of gyration about C [m²].
+        Of what touches now: k, j, centroid C, middle of pressure P, and area over polar moment about C [1/m²].
     n : vector
         Normal of the face.
     slip, spin, dt : vector, float, float
         Velocity of the upper face over the lower one at C, across n, relative spin about n, step.
     limits : tuple
-        Coulomb's limit of the force [N], and the lever of torsion about P [m].
+        Coulomb's limit of the force [N], and the square of the lever of torsion about P [m²].
 
     Returns
     -------
@@ -121,34 +115,39 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     """
     s, core_torsion, kc, jc, place = core
     f, torsion, kf, jf = fresh
-    k, j, centre, middle, square = face
+    k, j, centre, middle, compact = face
     before = along(s, 1.0, f)
     # the core: beyond the extent of what touches it has opened, and its centroid moves towards C
     away = minus(place, centre)
     away = along(away, -dot(away, n), n)
-    far = k * math.sqrt(dot(away, away) / max(EXTENT * EXTENT * square, NOTHING))
+    far = k / EXTENT * math.sqrt(dot(away, away) * compact)
     lost = max(kc - k, far + 0.5 * (kc - k), 0.0)
-    each = 1.0 / (max(kc, NOTHING) * max(far, NOTHING))
     # where nothing is left of it, the fresh layer becomes core; what touches nowhere holds nothing
     new = lost >= kc
     whole = 1.0 if k > 0.0 else 0.0
-    keep, joins, rest = (whole, whole, 0.0) if new else (1.0 - lost * max(far, NOTHING) * each, 0.0, 1.0)
-    away = scaled(0.0 if new else 1.0 - min(0.5 * lost * kc * each, 1.0), away)
+    rest = k if new else kc - lost
+    left = max(k - rest, 0.0)
+    kc, far, least = max(kc, NOTHING), max(far, NOTHING), max(left, NO_LAYER * k, NOTHING)
+    each = 1.0 / (kc * far * least)
+    keep, joins = (whole, whole) if new else (1.0 - lost * far * least * each, 0.0)
+    away = scaled(0.0 if new else 1.0 - min(0.5 * lost * kc * least * each, 1.0), away)
+    beyond = rest * kc * far * each  # of the fresh layer's centroid from C, over the core's
     s, core_torsion = along(scaled(keep, s), joins, f), keep * core_torsion + joins * torsion
-    kc, jc = (k, j) if new else (keep * kc, keep * jc)
-    # the fresh layer, its centroid beyond C; what the layers resist by where they are, beside their own torsion
-    left = max(k - kc, 0.0)
-    beyond = kc / max(left, NO_LAYER * k, NOTHING)
+    kc, jc = rest, j if new else keep * jc
+    # what the layers resist by where they are, beside their own torsion
     apart = k * beyond * dot(away, away)
     j = max(j, apart)
     most = min(jc, j - apart)
     turns = j - apart - most
-    # what opened is taken from it
-    jc, kf, jf = max(jc, NOTHING), max(kf, NOTHING), max(jf, NOTHING)
-    each = 1.0 / (jc * kf * jf)
-    core_torsion *= most * kf * jf * each
-    f = scaled(rest * min(left * jc * jf * each, 1.0), f)
-    torsion *= rest * min(turns * jc * kf * each, 1.0)
+    # what opened is taken from them
+    keep = 0.0 if new else 1.0
+    closed, opened, unwound = jc - most, max(kf - left, 0.0), max(jf - turns, 0.0)
+    jc, kf, jf, both = max(jc, NOTHING), max(kf, NOTHING), max(jf, NOTHING), max(k, NOTHING) * max(j, NOTHING)
+    each = 1.0 / (jc * kf * jf * both)
+    core_torsion *= 1.0 - closed * kf * jf * both * each
+    f = scaled(keep * (1.0 - opened * jc * jf * both * each), f)
+    torsion *= keep * (1.0 - unwound * jc * kf * both * each)
+    both = jc * kf * jf * each
     jc, kf, jf = most, left, turns
     # both springs, in sum that of all that touches
     w = cross(n, away)
@@ -161,9 +160,8 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     drawn, wound = total, turning - j * dt * spin
     total, twist, over = limited(drawn, wound, before, turning, k, j, minus(centre, middle), n, limits)
     # both slip alike; where the face slips, all that touches becomes core
-    each = 1.0 / (max(k, NOTHING) * max(j, NOTHING))
-    turned = (wound - twist) * k * each
-    f = along(f, -kf, along(scaled(j * each, minus(drawn, total)), -beyond * turned, w))
+    turned = (wound - twist) * k * both
+    f = along(f, -kf, along(scaled(j * both, minus(drawn, total)), -beyond * turned, w))
     torsion -= jf * turned
     keep = max(1.0 - SLIPPED * over, 0.0)
     f, torsion, kf, jf = scaled(keep, f), keep * torsion, keep * kf, keep * jf

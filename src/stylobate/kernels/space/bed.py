@@ -370,10 +370,10 @@ def press(p, a, u, b, v, vertex, numbers, now, simplex):
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
     p.pn = fn * vn
     p.en -= before + 0.5 * p.pn * now.last
-    face = ks * area, ks * area * square, minus(centre, place(u)), ru, square
+    face = ks * area, ks * area * square, minus(centre, place(u)), ru, 1.0 / max(square, 1e-30)
     f, twist, core = rub(
         p, outward(u, of(p.at)), n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
-        face, (mu * (fn + dn), math.sqrt(mean)), scaled(dn, n), w, now,
+        face, (mu * (fn + dn), mean), scaled(dn, n), w, now,
     )  # fmt: skip
     put(p.at, inward(u, core))
     p.fn = fn

@@ -1,7 +1,5 @@
 """Joints of two plane faces in space: pressure on the edge of their overlap, friction, and how they hand over to the bed."""
 
-import math
-
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
 from ..shared.handover import handover
@@ -130,13 +128,13 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
     pressing *= share
     closed, polar, centre = closed
     kf = share * e.ks * closed
-    face = kf, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at, polar / max(closed, NOTHING)
+    face = kf, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at, closed / max(polar, NOTHING)
     i, j = outward(u, of(e.il)), outward(u, of(e.jl))
     z = cross(i, j)
     core = along(along(along(ml, e.at[0], i), e.at[1], j), e.at[2], z)
     dn = normal_dashpot(pressing, 0.0, vn, restitution_share(now.dull, now.calm, vn))
     past, past_spin = motion_then(e, u, v)
-    limits = e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread)
+    limits = e.tan * (pressing + dn) + share * e.co * closed, LEVER * LEVER * spread
     f, twist, core = rub(
         e, core, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
         face, limits, scaled(dn, n), w, now,

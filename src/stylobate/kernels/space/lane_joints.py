@@ -3,8 +3,6 @@
 Legend: ``lane_records.py``; u is the body of the lower face, v that of the upper one.
 """
 
-import math
-
 from ..dem3d.pose import in_space
 from ..jit import apart, law
 from ..shared.friction import dragged, friction
@@ -162,8 +160,8 @@ def act(damped, e, u, v, s, o, l):
     write(e.rb, l, rv)
     slip, spin, before, turn = along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
     centre = along(ml, 1.0, in_axes(s, l, centre))
-    face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at, polar / max(closed, NOTHING)
-    limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
+    face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at, closed / max(polar, NOTHING)
+    limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * LEVER * spread
     rolling = 0.5 * (spin_u + spin_v) * last
     core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l], along(ml, 1.0, in_axes(s, l, row(e.at, l)))
     fresh = turned(row(e.fs, l), n, rolling), e.ft[l], e.ff[l], e.fj[l]

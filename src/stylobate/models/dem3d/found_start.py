@@ -9,7 +9,7 @@ import numpy as np
 
 from ...column import Column, Drum
 from ...column.as_found import FoundDrum
-from ...column.found_in_space import SpaceGeometry, SpaceLoad, space_geometry, space_load
+from ...column.found_geometry import SpaceGeometry, SpaceLoad, space_geometry, space_load
 from ...errors import InputError
 from ...kernels.shared.records import JOINT
 from ..drums.bodies import Topology

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import space_geometry
+from ...column.found_geometry import space_geometry
 from ..drums.links import acting, hold_of, law_fields
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ...column.found_in_space import rotation
+from ...column.found_geometry import rotation
 
 #: Largest turn of one step [rad], and most steps.
 LARGEST, STEPS = 0.01, 400

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import base_axes, space_geometry, upward
+from ...column.found_geometry import base_axes, space_geometry, upward
 from ...kernels.dem3d.records import CHIPS, RINGS
 from ..drums.bodies import body_fields
 from ..drums.records import UNSEEN

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import rotation
+from ...column.found_geometry import rotation
 from ..start import Start
 from .packing import CORNERS
 

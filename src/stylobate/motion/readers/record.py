@@ -1,20 +1,587 @@
-"""Contents of a file before it becomes a motion: components with their direction, and the facts of the header."""
+"""A record before it becomes a motion: components with their direction and times, and facts of the header, checked."""
 
 from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import combinations
 
 import numpy as np
 
 from ...constants import g
-from ...errors import InputError, warn
+from ...errors import InputError, OutOfRangeWarning, warn
+from ...messages import joined, say
 from ...percent import percent
 from ..drift import as_asked, best_of, cures_of
+from ..events import moment_of
 from ..motion import MAX_SAMPLES, STRONGEST, Motion, integrate
-from .component import Component
-from .steps import resampled, same_step
-from .together import check_one_record, common_span
+from .numbers import NUMBER, number_in
+
+#: Steps of accelerographs [s]: 5000 to 5 samples per second.
+SHORTEST_STEP, LONGEST_STEP = 2e-4, 0.2
+
+#: A step of film this many times the steps of its neighbours, so many on either side, may be a lost line.
+GAP, NEIGHBOURS = 2.8, 3
+
+#: Share of a stated peak by which the samples may depart from it: one g is 980 to 981 gal, and peaks are rounded.
+PEAK_SHARE = 2e-3
+
+#: Beyond this share, the peak and the samples are not of the same record.
+WRONG_SHARE = 0.02
+
+CUT = "the file is damaged or cut, fetch it again"
+
+
+def check_step(dt: float | None, file: str, line: int) -> float:
+    """A step that an accelerograph may have had, or a refusal."""
+    if dt is None or not SHORTEST_STEP <= dt <= LONGEST_STEP:
+        raise InputError(
+            f"{file}, line {line}: the header states a step of {'no' if dt is None else f'{dt:g}'} s; records have "
+            f"{SHORTEST_STEP:g} to {LONGEST_STEP:g} s: fetch the file again, or convert it to columns."
+        )
+    return dt
+
+
+def check_sampling(dt: float, what: str) -> float:
+    """A step of samples that is one of accelerographs, wherever it comes from; milliseconds are no seconds.
+
+    Parameters
+    ----------
+    dt : float
+        [s]
+    what : str
+        Whose step, for the message.
+    """
+    if not SHORTEST_STEP <= dt <= LONGEST_STEP:
+        thousandth = dt > LONGEST_STEP and 1e-3 * dt >= SHORTEST_STEP
+        remedy = (
+            f"if it counts milliseconds, name the column time_ms (without times: `dt={1e-3 * dt:g}`)"
+            if thousandth
+            else "mend it"
+        )
+        raise InputError(
+            f"{what} is {dt:g} s; allowed is {SHORTEST_STEP:g} to {LONGEST_STEP:g} s, as accelerographs have: {remedy}."
+        )
+    return dt
+
+
+def rising_pairs(numbers: np.ndarray, file: str, start: int, rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """Times and values of pairs, refused where a time falls, or where samples are missing between two of them.
+
+    Parameters
+    ----------
+    numbers : array
+        Time [s] and value in turn, shape (2 N,).
+    file : str
+    start, rows : int
+        Lines above the pairs, and lines that hold them, the last one perhaps fewer than the others.
+    """
+    time, values = numbers.reshape(-1, 2).T.copy()
+    steps = np.diff(time)
+    per_row = -(-len(time) // rows)
+
+    def where(at: int) -> str:
+        line = start + (at + 1) // per_row + 1
+        return f"{file}, line {line}: the time goes from {time[at]:g} s to {time[at + 1]:g} s"
+
+    if (steps < 0.0).any():
+        raise InputError(f"{where(int((steps < 0.0).argmax()))}, where it may not fall; mend it.")
+    at = int(steps.argmax())
+    if steps[at] > LONGEST_STEP:
+        raise InputError(f"{where(at)}, a gap beyond the {LONGEST_STEP:g} s that records have between samples; {CUT}.")
+    largest = np.lib.stride_tricks.sliding_window_view(np.pad(steps, NEIGHBOURS, mode="edge"), NEIGHBOURS).max(axis=1)
+    around = np.maximum(largest[: len(steps)], largest[NEIGHBOURS + 1 :])  # of those before, and of those behind
+    bad = np.flatnonzero(steps > GAP * around)
+    if bad.size:
+        warn(
+            f"{where(int(bad[0]))}, {GAP:g} times the steps before and behind it and more; check that no line is missing.",
+            OutOfRangeWarning,
+        )
+    return time, values
+
+
+def check_same_step(first: float, second: float, file: str, line: int) -> None:
+    """Two statements of one step agree, but for rounding."""
+    if abs(first - second) > 0.01 * first:
+        raise InputError(
+            f"{file}, line {line}: the header states a step of {first:g} s and one of {second:g} s; {CUT}."
+        )
+
+
+def check_length(count: int, dt: float, stated: str | float | None, file: str, line: int) -> None:
+    """A stated length of the record is that of the samples, to the digit in which it is given.
+
+    Networks count from the first to the last sample, or one step more.
+    """
+    if stated is None:
+        return
+    length, half = printed(stated)
+    slack = 0.51 * dt + half
+    if length > 0.0 and not (count - 1) * dt - slack <= length <= count * dt + slack:
+        raise InputError(
+            f"{file}, line {line}: {count} samples of {dt:g} s last {count * dt:g} s, the header states {length:g} s; "
+            f"{CUT}."
+        )
+
+
+def check_peak(
+    values: np.ndarray,
+    stated: str | float | None,
+    size: float,
+    file: str,
+    line: int,
+    *,
+    wrong: float = WRONG_SHARE,
+    what: str = "peak",
+) -> None:
+    """The largest sample is the peak that the header states.
+
+    Parameters
+    ----------
+    values : array
+        As read, in SI.
+    stated : str or float or None
+        The peak as printed, of either sign.
+    size : float
+        Its unit in SI.
+    wrong : float
+        Share of the peak beyond which the file is refused; a smaller departure is warned about.
+    """
+    if stated is None:
+        return
+    peak, half = printed(stated)
+    peak, half = abs(peak) * size, half * size
+    if peak == 0.0:
+        return
+    found = float(np.abs(values).max())
+    apart = abs(found - peak) - 1.01 * half - 1e-6 * peak
+    text = f"{file}, line {line}: the header states a {what} of {peak / size:g}, the samples hold {found / size:.6g}"
+    if apart > wrong * peak:
+        raise InputError(f"{text}; {CUT}.")
+    if apart > PEAK_SHARE * peak:
+        warn(f"{text}: the header may be of another processing.")
+
+
+def check_peak_time(values: np.ndarray, dt: float, stated: str | float | None, file: str, line: int) -> None:
+    """The peak stands where the header states it, or at a sample as large; else a warning."""
+    if stated is None:
+        return
+    time, half = printed(stated)
+    if time <= 0.0:
+        return
+    first = max(0, round((time - half) / dt) - 1)
+    last = round((time + half) / dt) + 1
+    near = np.abs(values[first : last + 1])
+    if near.size == 0 or near.max() < 0.98 * np.abs(values).max():
+        at = int(np.abs(values).argmax()) * dt
+        warn(
+            f"{file}, line {line}: the header states its peak at {time:g} s, the samples have it at {at:g} s; check "
+            "the step and whether samples are missing.",
+            OutOfRangeWarning,
+        )
+
+
+def check_whole(lines: Sequence[str], ends_with_newline: bool, file: str) -> None:
+    """The last number of a text was not cut: its digits are those of the numbers before it."""
+    if ends_with_newline or not lines:
+        return
+    tokens = [token for line in lines[-8:] for token in re.split(r"[\s,;]+|(?<=[0-9.])(?=[+-])", line.strip()) if token]
+    shapes = [_decimals(token) for token in tokens]
+    if len(shapes) < 5 or any(shape is None for shape in shapes):
+        return
+    if len(set(shapes[:-1])) == 1 and shapes[-1] != shapes[0]:
+        raise InputError(
+            f"{file}, line {len(lines)}: the last number, {tokens[-1]!r}, has other digits than those before it and no "
+            f"line end follows; {CUT}."
+        )
+
+
+def check_ended(ended: bool, file: str, line: int, mark: str) -> None:
+    """The mark that closes a channel is there."""
+    if not ended:
+        raise InputError(f"{file}, line {line}: the samples end without the mark {mark!r} that closes them; {CUT}.")
+
+
+def warn_of_missing(found: int, stated: int | None, file: str) -> None:
+    """Fewer components than the header speaks of: the file may have been cut between two of them."""
+    if stated is not None and found < stated:
+        warn(
+            f"{file}: the header speaks of {stated} components, the file holds {found}; check that it is whole.",
+            OutOfRangeWarning,
+        )
+
+
+def printed(stated: str | float) -> tuple[float, float]:
+    """A number as printed, and half a unit of its last digit."""
+    if isinstance(stated, (float, int)):
+        return float(stated), 0.0
+    value = number_in(stated)
+    if value is None:
+        return 0.0, 0.0
+    text = stated.strip().rstrip(".").lower().replace("d", "e")
+    digits, _, power = text.partition("e")
+    decimals = len(digits.partition(".")[2])
+    return value, 0.5 * 10.0 ** (int(power or 0) - decimals) if re.fullmatch(NUMBER, stated.strip()) else 0.0
+
+
+def _decimals(token: str) -> tuple[int, int] | None:
+    """Digits after the point and of the exponent, or None where the token is no plain number."""
+    found = re.fullmatch(r"[+-]?[0-9]*(?:\.(?P<after>[0-9]*))?(?:[eEdD][+-]?(?P<power>[0-9]+))?", token)
+    if found is None or "." not in token:
+        return None
+    return len(found["after"] or ""), len(found["power"] or "")
+
+
+# -- One component of a record as a reader finds it, before it becomes part of a motion -------------------------------
+
+
+class UnstatedError(InputError):
+    """The file leaves its unit or its step open, which the caller can state."""
+
+
+#: Departure from a right angle of two horizontal components of one record [degrees].
+SQUARE = 5.0
+
+
+def at_right_angles(one: float, other: float) -> bool:
+    """Whether two azimuths are those of two horizontal components of one record [degrees]."""
+    return abs((one - other) % 180.0 - 90.0) <= SQUARE
+
+
+@dataclass
+class Component:
+    """One component of a record.
+
+    Parameters
+    ----------
+    values : array
+        Acceleration [m/s²], shape (steps,).
+    dt : float
+        Step [s]; NaN where ``time`` holds unequal steps, or where no step is known.
+    label : str
+        Direction as the file states it: ``90 DEG``, ``Up``, ``H1``.
+    azimuth : float, optional
+        Direction of positive acceleration, clockwise from north [degrees].
+    vertical : bool
+        Upward or downward; the sign is turned so that upward is positive.
+    time : array, optional
+        Times of irregular samples [s], shape (steps,).
+    metadata : dict
+        What this component's own header says.
+    processing : list of str
+        What the reader did to the values.
+    history : list of str
+        What was done to the whole record before, as its file says.
+    file : str
+        Name of the file it was read from.
+    first : float, optional
+        Time of the first sample on the file's own clock [s], where it states times.
+    named : bool
+        The label is the file's own; one that was given for its place in the file does not tell a direction.
+    facts : dict
+        What its file says of the whole record.
+    proven : bool
+        Step and samples are those that this package wrote, as their digest proves: the step may be any.
+    """
+
+    values: np.ndarray
+    dt: float
+    label: str = ""
+    azimuth: float | None = None
+    vertical: bool = False
+    time: np.ndarray | None = None
+    metadata: dict = field(default_factory=dict)
+    processing: list[str] = field(default_factory=list)
+    history: list[str] = field(default_factory=list)
+    file: str = ""
+    first: float | None = None
+    named: bool = True
+    facts: dict = field(default_factory=dict)
+    proven: bool = False
+
+
+# -- Time columns -----------------------------------------------------------------------------------------------------
+
+
+#: Departure from equal steps that is rounding of the printed times, as a share of the step.
+ROUNDING_SHARE = 0.05
+
+
+def step_of(time: np.ndarray) -> float | None:
+    """Step of times that are equally spaced but for rounding [s], or None."""
+    if len(time) < 2 or not time[-1] > time[0]:
+        return None
+    dt = float((time[-1] - time[0]) / (len(time) - 1))
+    grid = time[0] + dt * np.arange(len(time))
+    if np.abs(time - grid).max() > ROUNDING_SHARE * dt:
+        return None
+    # The step as it was meant: the shortest decimal that fits all the times as well.
+    for digits in range(1, 13):
+        short = float(f"{dt:.{digits}g}")
+        if abs(short - dt) * (len(time) - 1) <= 1e-3 * dt:
+            return short
+    return dt
+
+
+def first_bad_step(time: np.ndarray) -> int:
+    """Index of the first sample that does not lie one step after the one before it."""
+    steps = np.diff(time)
+    dt = float(np.median(steps))
+    bad = np.flatnonzero(np.abs(steps - dt) > ROUNDING_SHARE * abs(dt))
+    return int(bad[0]) + 1 if bad.size else len(time) - 1
+
+
+def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str) -> tuple[float, np.ndarray, str]:
+    """Values at equal steps, linear between the given ones.
+
+    Parameters
+    ----------
+    time : array
+        Increasing times [s], shape (steps,); equal neighbours are merged.
+    values : array
+        Shape (steps,).
+    dt : float, optional
+        Step [s]. By default the decimal in which the times are given, if a median step holds few of it: that keeps
+        every sample. Else the median step, halved until the samples are kept to 0.1 % of the peak, at most four times.
+    name : str
+        For messages.
+
+    Returns
+    -------
+    dt : float
+    values : array
+    note : str
+        What was done, for the processing history.
+    """
+    keep = np.concatenate([[True], np.diff(time) > 0.0])
+    time, values = time[keep], values[keep]
+    if len(time) < 2:
+        raise InputError(f"{name}: the times do not increase; give a record with increasing times.")
+    steps = np.diff(time)
+    median = float(f"{np.median(steps):.6g}")
+    span = float(time[-1] - time[0])
+    peak = max(float(np.abs(values).max()), 1e-300)
+
+    def at(step: float) -> tuple[np.ndarray, float]:
+        count = math.floor(span / step + 1e-6) + 1
+        if count > MAX_SAMPLES:
+            raise InputError(f"{name}: {count} samples at a step of {step:g} s; allowed is up to {MAX_SAMPLES}.")
+        if dt is None and count > 100 * len(time) + 1000:
+            raise InputError(
+                f"{name}: the steps of the times range from {steps.min():.4g} to {steps.max():.4g} s, which is a "
+                "gap, not film; mend the times, or state a step to resample to: `dt=0.01`.",
+                "dt",
+            )
+        grid = time[0] + step * np.arange(count)
+        found = np.interp(grid, time, values)
+        return found, float(
+            np.abs(np.interp(time[time <= grid[-1]], grid, found) - values[time <= grid[-1]]).max()
+        ) / peak
+
+    if dt is not None:
+        step = check_sampling(dt, "`dt`")
+        new, departure = at(step)
+    else:
+        step = decimal_of(time, median)
+        if step is None:
+            step = median
+            for _ in range(4):
+                if at(step)[1] <= 1e-3:
+                    break
+                step *= 0.5
+        new, departure = at(step)
+    note = say(
+        "resampled linearly from unequal steps ({min:.4g} to {max:.4g} s, median {median:.4g} s) to {step:.6g} "
+        "s; departs by up to {departure:.2%} of the peak at the original times",
+        min=steps.min(),
+        max=steps.max(),
+        median=median,
+        step=step,
+        departure=departure,
+    )
+    return step, new, note
+
+
+def decimal_of(time: np.ndarray, median: float) -> float | None:
+    """The decimal (0.001 s …) of which all times are multiples, if a median step holds no more than 16 of it."""
+    for digits in range(1, 7):
+        unit = 10.0**-digits
+        if median / unit > 16.0:
+            return None
+        if np.abs(time / unit - np.round(time / unit)).max() < 1e-3:
+            return unit
+    return None
+
+
+def same_step(components: list[Component], name: str, dt: float | None, processing: list[str]) -> float:
+    """Bring all components to one step; irregular ones are resampled, and ``processing`` says so."""
+    irregular = [component for component in components if component.time is not None]
+    if irregular:
+        wanted = dt
+        for one in irregular:
+            assert one.time is not None
+            check_sampling(float(np.median(np.diff(one.time))), f"the median step of the times of {name}")
+            step, one.values, note = resampled(one.time, one.values, wanted, name)
+            one.dt = wanted = step
+            one.processing.append(note)
+    steps = [component.dt for component in components]
+    if any(math.isnan(step) for step in steps):
+        if dt is None:
+            raise InputError(f"{name} has no time column and states no step; state it: `dt=0.01`.", "dt")
+        return check_sampling(dt, f"the step of {name}, `dt`,")
+    if max(steps) - min(steps) > 1e-6 * max(steps):
+        shown = ", ".join(f"{step:g} s" for step in steps)
+        raise InputError(f"components of {name} have different steps ({shown}); resample them to one step before use.")
+    if dt is not None and not irregular and abs(dt - steps[0]) > 1e-3 * steps[0]:
+        raise InputError(f"{name} states a step of {steps[0]:g} s, but dt is given as {dt:g} s; leave dt out.")
+    if irregular or all(component.proven for component in components):
+        return steps[0]
+    return check_sampling(steps[0], f"the step of {name}")
+
+
+# -- Whether components are of one record -----------------------------------------------------------------------------
+
+
+#: Facts by which a record is told from another, with their nouns. A station that one file alone states is another one.
+TOLD_BY = {"station": "station", "network": "network", "location": "location", "event": "event", "event_id": "event"}
+
+#: Facts that each component of a file may state for itself.
+OWN_FACTS = (*TOLD_BY, "station_name", "start_time")
+
+#: Labels of a channel that state no direction.
+_NO_DIRECTION = ("", "other")
+
+_REMEDY = "give the components of one record, or choose one by its number with `component='1'`"
+
+
+def check_one_record(components: Sequence[Component]) -> None:
+    """Components of one station and earthquake, of which no two point the same way.
+
+    Raises
+    ------
+    InputError
+        They name two stations, networks, locations or events; two horizontal ones are not at right angles, or
+        have one label.
+    """
+    for one, other in combinations(components, 2):
+        for key, noun in TOLD_BY.items():
+            first, second = (" ".join(str(each.facts.get(key) or "").split()) for each in (one, other))
+            stated = key == "station" or None not in (one.facts.get(key), other.facts.get(key))
+            if stated and first.casefold() != second.casefold():
+                told = f"{noun} {first!r}" if first else f"no stated {noun}"
+                raise _not_one(f"{_called(one)} is of {told}, {_called(other)} of {repr(second) if second else 'none'}")
+        if one.vertical or other.vertical:
+            continue
+        if one.azimuth is not None and other.azimuth is not None:
+            if not at_right_angles(one.azimuth, other.azimuth):
+                raise _not_one(
+                    f"{_called(one)} points to {one.azimuth:g}°, {_called(other)} to {other.azimuth:g}°; allowed are "
+                    f"horizontal components at right angles, within {SQUARE:g}°"
+                )
+        elif one.named and other.named and one.label.lower() == other.label.lower() not in _NO_DIRECTION:
+            raise _not_one(f"{_called(one)} and {_called(other)} have one label; allowed are two directions")
+
+
+def common_span(
+    components: Sequence[Component], axes: Sequence[str], step: float
+) -> tuple[dict[str, np.ndarray], Component, str]:
+    """The samples of the time in which all components were recorded.
+
+    Parameters
+    ----------
+    components : sequence of Component
+        Of one record.
+    axes : sequence of str
+        Theirs.
+    step : float
+        Of the samples [s].
+
+    Returns
+    -------
+    values : dict of array
+        Accelerations by axis [m/s²], all of one length.
+    last : Component
+        The one that begins last; the first one where all begin within half a sample.
+    note : str
+        What was cut; empty where nothing was.
+
+    Raises
+    ------
+    InputError
+        Two components do not overlap, or their files do not tell to half a sample how far apart they begin.
+    """
+    for one, other in combinations(components, 2):
+        _check_clocks(one, other, step)
+    known = next((one for one in components if one.facts.get("start_time")), components[0])
+    begin = [_seconds_after(known, one) for one in components]
+    later = [round((at - min(begin)) / step) for at in begin]
+    skipped = [round((max(begin) - at) / step) for at in begin]
+    lengths = [len(one.values) for one in components]
+    count = min(length - skip for length, skip in zip(lengths, skipped))
+    values = {axis: one.values[skip : skip + count] for axis, one, skip in zip(axes, components, skipped)}
+    if not any(later) and len(set(lengths)) == 1:
+        return values, components[0], ""
+    told = [f"{axis}: {length}" for axis, length in zip(axes, lengths)]
+    begins = say("{axis} begins {time:g} s later")
+    told += [begins.of(axis=axis, time=steps * step) for axis, steps in zip(axes, later) if steps]
+    span, length_ = (
+        say("cut to the common span of {count} samples ({names})"),
+        say("cut to the common length of {count} samples ({names})"),
+    )
+    note = (span if any(later) else length_).of(count=count, names=joined(", ", told))
+    return values, components[later.index(max(later))], note
+
+
+def _seconds_after(one: Component, other: Component) -> float:
+    """How long after ``one`` a component begins [s]; zero where their files do not say."""
+    apart = 0.0 if one.first is None or other.first is None else other.first - one.first
+    first, second = moment_of(_start(one)), moment_of(_start(other))
+    return apart if first is None or second is None else apart + (second.at - first.at).total_seconds()
+
+
+def _check_clocks(one: Component, other: Component, step: float) -> None:
+    """Two components overlap, and their files tell to half a sample how far apart they begin."""
+    apart = _seconds_after(one, other)
+    if abs(apart) >= step * (len((other if apart < 0.0 else one).values) - 1):
+        raise _not_one(f"{_called(one)} and {_called(other)} do not overlap, as they begin at {_begins(one, other)}")
+    if _start(one) == _start(other) or "" in (_start(one), _start(other)):
+        return
+    first, second = moment_of(_start(one)), moment_of(_start(other))
+    if (
+        first is None
+        or second is None
+        or first.zoned != second.zoned
+        or (first.at != second.at and first.digit + second.digit > step)
+    ):
+        raise _not_one(
+            f"{_called(one)} and {_called(other)} begin at {_begins(one, other)}, which does not tell to half a sample "
+            f"({0.5 * step:g} s) how far apart that is"
+        )
+
+
+def _start(one: Component) -> str:
+    """When a component begins, as its file states it."""
+    return " ".join(str(one.facts.get("start_time") or "").split())
+
+
+def _begins(one: Component, other: Component) -> str:
+    """When both begin: their starts, and the times of their first samples where these are not 0."""
+    parts = ([_start(each), f"{each.first:g} s" if each.first else ""] for each in (one, other))
+    return " and ".join(" + ".join(filter(None, part)) or "0 s" for part in parts)
+
+
+def _called(one: Component) -> str:
+    return f"{one.label or 'a component'} of {one.file}"
+
+
+def _not_one(what: str) -> InputError:
+    return InputError(f"{what}; {_REMEDY}.", "component")
+
+
+# -- Contents of a file before it becomes a motion --------------------------------------------------------------------
+
 
 #: A mean beyond this share of the peak is not an earthquake: an instrument's offset was left in.
 OFFSET_SHARE = 0.1
@@ -93,7 +660,7 @@ def oriented(component: Component) -> Component:
     component.azimuth = azimuth if component.azimuth is None and not vertical else component.azimuth
     if sign < 0.0:
         component.values = -component.values
-        component.processing.append("sign turned: the file counts downward as positive, here upward is")
+        component.processing.append(say("sign turned: the file counts downward as positive, here upward is"))
     return component
 
 
@@ -151,9 +718,9 @@ def assemble(
     values, last, note = common_span(used, axes, step)
     if note:
         processing.append(note)
-        warn(f"{name}: {note}.")
+        warn(say("{name}: {note}.", name=name, note=note))
     for axis, one in zip(axes, used):
-        processing += [f"{axis}: {text}" for text in one.processing]
+        processing += [say("{axis}: {text}", axis=axis, text=text) for text in one.processing]
     _warn_of_peak(values, step, name)
     _warn_of_offset(values, name)
     facts = used[0].facts | {key: last.facts[key] for key in ("start_time", "first_time") if key in last.facts}
@@ -225,8 +792,12 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
             )
     if 0.0 < max(peaks.values()) < SMALLEST_PEAK:
         _doubt(
-            f"{name}: the peak is {max(peaks.values()):.3g} g, which shakes no column; check the unit, and whether these "
-            "are accelerations."
+            say(
+                "{name}: the peak is {max:.3g} g, which shakes no column; check the unit, and whether these are "
+                "accelerations.",
+                name=name,
+                max=max(peaks.values()),
+            )
         )
     for axis, array in values.items():
         fastest = float(np.abs(integrate(array, step)).max())
@@ -245,8 +816,15 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
         mean = float(array.mean()) if array.size else 0.0
         if peak > 0.0 and abs(mean) > OFFSET_SHARE * peak:
             _doubt(
-                f"{name}: the mean of component {axis} is {mean / g:.3g} g, {percent(abs(mean) / peak)} of its peak, as "
-                "when an instrument's offset was left in; take it off (`condition='demean'`) unless it is meant."
+                say(
+                    "{name}: the mean of component {axis} is {mean:.3g} g, {share} of its peak, as when an "
+                    "instrument's offset was left in; take it off ({step}) unless it is meant.",
+                    name=name,
+                    axis=axis,
+                    mean=mean / g,
+                    share=percent(abs(mean) / peak),
+                    step="`condition='demean'`",
+                )
             )
 
 

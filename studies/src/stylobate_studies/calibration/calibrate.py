@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from stylobate.column import Column
-from stylobate.column.losses import LAWS
+from stylobate.column.joint import LAWS
 from stylobate.errors import InputError, check_kind, check_range
 from stylobate.models.base import Model
 from stylobate.models.drums.impact import one_body

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from stylobate.errors import InputError, check_choice, check_kind, check_range
+from stylobate.motion.readers.columns import first_row, read_table
+from stylobate.motion.readers.record import first_bad_step, resampled, step_of
 from stylobate.motion.readers.source import Source
-from stylobate.motion.readers.steps import first_bad_step, resampled, step_of
-from stylobate.motion.readers.tables import first_row, read_table
 from stylobate.motion.specs import TIME_UNITS
 
 #: Units of tilt [rad] and of displacement [m].

@@ -33,7 +33,7 @@ def calibrate(
     height: str | None = o.option("H", "Height at which a displacement is measured [m]; the top by default."),
     noise: str | None = o.option("SD", "Noise of the values, in their unit; estimated by default."),
     confidence: str = o.option("SHARE", "Of intervals.", "0.9"),
-    settings: o.Settings = None,
+    modelling: Annotated[o.Modelling, o.But("losses", "project")],
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
     execution: o.Plain,
 ) -> None:
@@ -50,13 +50,13 @@ def calibrate(
     from ..calibration.free_history import read_free_history
 
     numbers = {
-        name: None if text is None else parse_number(f"--{name}", text)
+        name: None if text is None else parse_number(f"`{name}`", text)
         for name, text in (("height", height), ("noise", noise), ("confidence", confidence))
     }
     measured = read_free_history(history, unit, None if dt is None else parse_time(dt, "dt"))
     if numbers["noise"] is not None:
         numbers["noise"] *= measured.unit
-    stone, how = o.the_column(column), o.the_model(model, settings)
+    stone, how = modelling.column(column), modelling.model(model)
     with execution.files("calibrate", "losses.toml", "calibrate.json", "calibration") as files:
         with console.progress("motions") as progress:
             found = calibrated(measured, stone, how, progress=progress, **numbers)  # type: ignore[arg-type]

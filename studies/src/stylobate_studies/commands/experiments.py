@@ -46,9 +46,9 @@ def experiments(
     from ..experiments import study
 
     if not realisations.isdecimal() or int(realisations) > MOST:
-        raise InputError(f"--realisations is {realisations!r}; allowed is a whole number from 0 to {MOST}.")
+        raise InputError(f"`realisations` is {realisations!r}; allowed is a whole number from 0 to {MOST}.")
     if calibration not in ("on", "off"):
-        raise InputError(f"--calibration is {calibration!r}; allowed are on, off.")
+        raise InputError(f"`calibration` is {calibration!r}; allowed are on, off.")
     found = study.read(folder)
     with console.folder(execution.out, *WRITES) as place:
         results = study.compute(
@@ -103,7 +103,7 @@ def _write(results: Results, found: Found, place: Path, films: bool) -> list[Pat
 def _worst(results: Results, found: Found, place: Path, films: bool) -> list[Path]:
     """Strips, and films, of the worst tests as they are computed."""
     from stylobate import plots
-    from stylobate.plots.animation import write_gif
+    from stylobate.plots.film import write_gif
 
     from ..experiments.granite import again
 

@@ -42,7 +42,7 @@ def reproduce(
     from stylobate.cli import console
 
     if quick and records is not None:
-        raise InputError("--quick takes no records; leave one of --quick and --records out.")
+        raise InputError("`quick` takes no records; leave one of `quick` and `records` out.")
 
     count, dask = execution.count, execution.dask
     folder = execution.out or (FOLDER.with_name("reproduction-quick") if quick else FOLDER)

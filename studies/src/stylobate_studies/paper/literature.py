@@ -12,7 +12,7 @@ from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.digests import Hasher
 from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.campaign.runs import Request, run_all
-from stylobate.column.twins import twins_of
+from stylobate.column.scatter import twins_of
 from stylobate.constants import g
 from stylobate.models.base import Case
 from stylobate.models.dem3d.model import DistinctElement3D

@@ -44,12 +44,12 @@ def fetch(
     early, codes = parse_time(before, "before"), [one.strip() for one in channels.split(",")]
     if not 0.0 <= early < length <= 3600.0:
         raise InputError(
-            f"--before is {before} and --lasts {lasts}; allowed are 0s <= before < lasts <= 3600s, such as 10s and 120s.",
+            f"`before` is {before} and `lasts` {lasts}; allowed are 0s <= before < lasts <= 3600s, such as 10s and 120s.",
             "lasts",
         )
     if bad := [one for one in codes if len(one) != 3 or not one.isascii()]:
         raise InputError(
-            f"--channels has {bad[0]!r}; write SEED codes of three characters, such as HN?,HG?.", "channels"
+            f"`channels` has {bad[0]!r}; write SEED codes of three characters, such as HN?,HG?.", "channels"
         )
     centre = DataCentre(service)
     if Path(earthquake).is_file():
@@ -71,7 +71,7 @@ def fetch(
             if files.folder is not None and (there := sorted(files.folder.glob("*.mseed"))):
                 raise InputError(
                     f"{files.folder} holds {there[0].name} of an earlier request, which would be read with these; choose "
-                    "another folder for --out.",
+                    "another folder for `out`.",
                     "out",
                 )
             found: list[StationRecord] = []
@@ -118,4 +118,4 @@ def _about(event: Earthquake, found: list[StationRecord]) -> pandas.DataFrame:
 def _kilometres(text: str) -> float:
     from stylobate.motion.specs import parse_number
 
-    return parse_number("--within", text.strip().removesuffix("km").strip())
+    return parse_number("`within`", text.strip().removesuffix("km").strip())

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 from stylobate.motion.earthquakes import is_station_xml
 from stylobate.motion.readers import Format
-from stylobate.motion.readers.component import Component
+from stylobate.motion.readers.record import Component
 from stylobate.motion.readers.source import Source
 
 from . import afad, bhrc, cosmos, csmip, esm, geonet, knet, miniseed, peer, renadic, smc, taiwan, unam, usc

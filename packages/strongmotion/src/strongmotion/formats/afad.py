@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import check_peak, check_step
 from stylobate.motion.readers.numbers import NUMBER, read_numbers
-from stylobate.motion.readers.record import Component, check_count, oriented
+from stylobate.motion.readers.record import Component, check_count, check_peak, check_step, oriented
 from stylobate.motion.readers.source import Source
 
 from .keyed import is_numeric, keyed, number_of

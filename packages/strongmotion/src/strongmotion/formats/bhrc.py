@@ -5,9 +5,17 @@ from __future__ import annotations
 import re
 
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import CUT, check_ended, check_length, check_step, printed, warn_of_missing
 from stylobate.motion.readers.numbers import number_in, read_numbers
-from stylobate.motion.readers.record import Component, oriented
+from stylobate.motion.readers.record import (
+    CUT,
+    Component,
+    check_ended,
+    check_length,
+    check_step,
+    oriented,
+    printed,
+    warn_of_missing,
+)
 from stylobate.motion.readers.source import Source
 
 from .volume1 import channel_end, channels, header_ends, length, points, unit

@@ -12,9 +12,21 @@ import numpy as np
 
 from stylobate.constants import g
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import CUT, check_ended, check_length, check_peak, check_peak_time, check_step
+from stylobate.messages import say
 from stylobate.motion.readers.numbers import NUMBER, fortran_width, read_numbers
-from stylobate.motion.readers.record import Component, check_count, check_direction, direction, oriented
+from stylobate.motion.readers.record import (
+    CUT,
+    Component,
+    check_count,
+    check_direction,
+    check_ended,
+    check_length,
+    check_peak,
+    check_peak_time,
+    check_step,
+    direction,
+    oriented,
+)
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 
@@ -187,8 +199,12 @@ def _scale(component: Component, unit: str, reals: np.ndarray, file: str, line: 
     zero = float(component.values.mean())
     component.values = (component.values - zero) * (size * g)
     component.processing.append(
-        f"counts × {size:.6g} g, after the zero level of {zero:.6g} counts (their mean) was taken off: raw counts "
-        "have no zero of their own"
+        say(
+            "counts × {size:.6g} g, after the zero level of {zero:.6g} counts (their mean) was taken off: raw counts "
+            "have no zero of their own",
+            size=size,
+            zero=zero,
+        )
     )
 
 

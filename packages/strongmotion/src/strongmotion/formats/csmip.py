@@ -9,17 +9,20 @@ from __future__ import annotations
 import re
 
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import (
+from stylobate.motion.readers.numbers import NUMBER, fortran_width, read_numbers
+from stylobate.motion.readers.record import (
+    Component,
+    check_count,
+    check_direction,
     check_ended,
     check_length,
     check_peak,
     check_peak_time,
     check_same_step,
     check_step,
+    oriented,
     warn_of_missing,
 )
-from stylobate.motion.readers.numbers import NUMBER, fortran_width, read_numbers
-from stylobate.motion.readers.record import Component, check_count, check_direction, oriented
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 

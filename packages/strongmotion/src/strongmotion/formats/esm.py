@@ -11,9 +11,17 @@ import re
 import numpy as np
 
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import CUT, check_length, check_peak, check_peak_time, check_step
 from stylobate.motion.readers.numbers import number_in, read_numbers
-from stylobate.motion.readers.record import Component, check_count, oriented
+from stylobate.motion.readers.record import (
+    CUT,
+    Component,
+    check_count,
+    check_length,
+    check_peak,
+    check_peak_time,
+    check_step,
+    oriented,
+)
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 

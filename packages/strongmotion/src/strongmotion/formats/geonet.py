@@ -7,17 +7,21 @@ import re
 import numpy as np
 
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import (
+from stylobate.motion.readers.numbers import NUMBER, read_numbers
+from stylobate.motion.readers.record import (
     CUT,
+    LABEL,
+    Component,
+    check_count,
+    check_direction,
     check_length,
     check_peak,
     check_peak_time,
     check_same_step,
     check_step,
+    oriented,
     warn_of_missing,
 )
-from stylobate.motion.readers.numbers import NUMBER, read_numbers
-from stylobate.motion.readers.record import LABEL, Component, check_count, check_direction, oriented
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from stylobate.motion.readers.checks import check_ended, warn_of_missing
-from stylobate.motion.readers.record import LABEL, Component, oriented
+from stylobate.motion.readers.record import LABEL, Component, check_ended, oriented, warn_of_missing
 from stylobate.motion.readers.source import Source
 
 from .volume1 import channel_end, channels, check_stated_peak, header_ends, length, pairs, points, unit

@@ -5,9 +5,17 @@ from __future__ import annotations
 import re
 
 from stylobate.errors import InputError, within
-from stylobate.motion.readers.checks import CUT, check_length, check_peak, check_step
 from stylobate.motion.readers.numbers import read_numbers
-from stylobate.motion.readers.record import Component, check_count, direction, oriented
+from stylobate.motion.readers.record import (
+    CUT,
+    Component,
+    check_count,
+    check_length,
+    check_peak,
+    check_step,
+    direction,
+    oriented,
+)
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 

@@ -6,9 +6,8 @@ import re
 
 from stylobate.constants import g
 from stylobate.errors import InputError
-from stylobate.motion.readers.checks import check_ended
 from stylobate.motion.readers.numbers import read_numbers
-from stylobate.motion.readers.record import Component, check_count, oriented
+from stylobate.motion.readers.record import Component, check_count, check_ended, oriented
 from stylobate.motion.readers.source import Source
 
 from .volume1 import channel_end, channels, pairs, unit

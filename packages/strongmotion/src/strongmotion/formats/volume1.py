@@ -9,10 +9,17 @@ from typing import TypeVar
 import numpy as np
 
 from stylobate.errors import InputError, within
-from stylobate.motion.readers.checks import CUT, check_peak, check_peak_time, printed, rising_pairs
 from stylobate.motion.readers.numbers import NUMBER, read_numbers
-from stylobate.motion.readers.record import Component, check_count
-from stylobate.motion.readers.steps import step_of
+from stylobate.motion.readers.record import (
+    CUT,
+    Component,
+    check_count,
+    check_peak,
+    check_peak_time,
+    printed,
+    rising_pairs,
+    step_of,
+)
 from stylobate.motion.specs import acceleration_unit
 
 Channel = TypeVar("Channel")

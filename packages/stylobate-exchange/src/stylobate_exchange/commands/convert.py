@@ -75,7 +75,7 @@ def _length(text: str, option: str) -> float:
     try:
         return factor * float(stem)
     except ValueError:
-        raise InputError(f"--{option} is {text!r}; allowed is a length such as 1mm.", option) from None
+        raise InputError(f"`{option}` is {text!r}; allowed is a length such as 1mm.", option) from None
 
 
 def _level(text: str | None) -> float | bool | None:
@@ -86,4 +86,4 @@ def _level(text: str | None) -> float | bool | None:
     try:
         return float(text.strip().removesuffix("m"))
     except ValueError:
-        raise InputError(f"--ground is {text!r}; allowed is a level in m, or none.", "ground") from None
+        raise InputError(f"`ground` is {text!r}; allowed is a level in m, or none.", "ground") from None

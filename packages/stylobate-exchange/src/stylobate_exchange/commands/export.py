@@ -28,7 +28,7 @@ def export(
     from ..export import export_response
 
     instant = None if at is None else parse_time(at, "at")
-    frames = None if rate is None else parse_number("--fps", rate, "such as 30")
+    frames = None if rate is None else parse_number("`fps`", rate, "such as 30")
     loaded = load_response(response / "response.nc" if response.is_dir() else response)
     files = export_response(loaded, execution.place(to), at=instant, rate=frames)
     doubt = doubt_of(loaded)

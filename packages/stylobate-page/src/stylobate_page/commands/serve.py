@@ -26,7 +26,7 @@ def serve(
     (Ctrl-C).
     """
     if not 0 <= port <= 65535:
-        raise InputError(f"--port is {port}; allowed is 0 to 65535.", "port")
+        raise InputError(f"`port` is {port}; allowed is 0 to 65535.", "port")
     try:
         from ..server import serve as run
     except ImportError as error:

@@ -26,19 +26,20 @@ def draw(
     With --paper the sheets are drawn to a scale that they name, to be printed as they are and measured with a ruler.
     """
     from stylobate.cli import console
+    from stylobate.column.assembly_files import load_structure
 
-    structure = o.the_structure(column)
+    structure = load_structure(column)
     if out.suffix.lower() not in KINDS:
-        raise InputError(f"--out is {str(out)!r}; allowed are files that end in {', '.join(KINDS)}.", "out")
+        raise InputError(f"`out` is {str(out)!r}; allowed are files that end in {', '.join(KINDS)}.", "out")
     if out.is_dir() or not out.parent.is_dir():
         what = "is a folder" if out.is_dir() else f"lies in {str(out.parent)!r}, which is no folder"
-        raise InputError(f"--out {str(out)!r} {what}; name a file in a folder that is there.", "out")
+        raise InputError(f"`out` {str(out)!r} {what}; name a file in a folder that is there.", "out")
     if paper is None and scale is not None:
         raise InputError(
-            f"--scale {scale} is for drawings on paper; say which with --paper, such as --paper A4.", "scale"
+            f"`scale` {scale} is for drawings on paper; say which with `paper`, such as `paper=A4`.", "scale"
         )
     if paper is not None and out.suffix.lower() != ".pdf":
-        raise InputError(f"--paper {paper} draws sheets to scale, and --out is {str(out)!r}; name a .pdf.", "out")
+        raise InputError(f"`paper` {paper} draws sheets to scale, and `out` is {str(out)!r}; name a .pdf.", "out")
     from stylobate import plots
 
     from ..sheets import sheets_to_scale
@@ -62,5 +63,5 @@ def parse_scale(text: str | None) -> int | None:
 
     one, _, number = text.partition(":")
     if one.strip() != "1" or not number.strip().isdecimal() or not 1 <= int(number) <= SCALES[-1]:
-        raise InputError(f"--scale is {text!r}; allowed is 1:N with N from 1 to {SCALES[-1]}, such as 1:50.", "scale")
+        raise InputError(f"`scale` is {text!r}; allowed is 1:N with N from 1 to {SCALES[-1]}, such as 1:50.", "scale")
     return int(number)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure, SubFigure
 
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.percent import percent
-from stylobate.plots.probability import draw_band, draw_shares
+from stylobate.plots.domain import draw_band, draw_shares
 from stylobate.plots.style import WIDTH, styled
 
 from .maps_side_by_side import draw_panels
