@@ -53,7 +53,10 @@ def main() -> int:
         if sys.argv[1:] == ["check"]:
             known = {message.id for message in read_po(file_of(tag).open("rb"))}
             empty = [one.id for one in catalog if one.id and not one.string]
-            for what, texts in (("without a translation", empty), ("said nowhere", known - {one.id for one in catalog})):
+            for what, texts in (
+                ("without a translation", empty),
+                ("said nowhere", known - {one.id for one in catalog}),
+            ):
                 for text in texts:
                     print(f"{tag}.po: {what}: {text!r}; run make messages, and translate what is new.", file=sys.stderr)
                     lacks += 1

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import verdicts as v
 from ..messages import say
+from . import verdicts as v
 
 #: Shares of many capacities that are told.
 SHARES = (0.16, 0.5, 0.84)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..campaign.twins import LAW
 from ..errors import InputError, check_kind
+from ..messages import say
 from ..motion.intensity_specs import ENDS, IntensityMeasure, measure_of_column, parse_measure
 from ..outcome import Outcome
 from ..reading import check_file, shown
@@ -18,7 +19,6 @@ from . import verdicts as v
 from .ida_curves import Ida
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, LimitState, parse_state
 from .lognormal import fit
-from ..messages import say
 
 if TYPE_CHECKING:
     import pandas

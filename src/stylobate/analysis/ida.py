@@ -21,6 +21,7 @@ from ..campaign.twins import Twins, the_twins
 from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, suggest, warn
+from ..messages import say
 from ..models.base import Case, Model
 from ..models.shared.quiet import level
 from ..motion import Motion
@@ -31,7 +32,6 @@ from .difference import caveat
 from .hunt import next_levels
 from .ida_curves import Ida
 from .record_facts import ABOUT
-from ..messages import say
 
 if TYPE_CHECKING:
     import pandas

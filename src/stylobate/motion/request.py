@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from numbers import Real
@@ -162,48 +162,36 @@ class MotionRequest:
         cls,
         *,
         motion: Sequence[str | Path] | None = None,
-        separate: bool = False,
         azimuth: str | None = None,
-        azimuths: str | None = None,
-        condition: Sequence[str] | None = None,
-        dt: str | None = None,
-        scale: str | None = None,
-        pga: str | None = None,
         vertical: str = "on",
-        **texts: str | None,
+        **words: Any,
     ) -> MotionRequest:
-        """The request in the words that a person types: quantities with their units.
+        """The request as a person types it, by the names of options: quantities with their units.
 
         Parameters
         ----------
         motion : sequence of path, optional
             ``files``.
-        separate : bool
-        azimuth, azimuths : str, optional
-            ``30deg``; ``0:330:12``.
-        condition : sequence of str, optional
-        dt, scale, pga : str, optional
-            ``0.01s``, ``1.5``, ``0.4g``.
+        azimuth : str, optional
+            ``30deg``; or several ``azimuths``, ``0:330:12``.
         vertical : str
             ``on`` or ``off``.
-        **texts : str
-            Any of the other parameters of :class:`MotionRequest`.
+        **words
+            Any of the other parameters of :class:`MotionRequest`: ``dt="0.01s"``, ``scale="1.5"``, ``pga="0.4g"``.
         """
-        if azimuth is not None and azimuths is not None:
+        if azimuth is not None and words.get("azimuths") is not None:
             raise InputError("`azimuth` and `azimuths` are both given; give one of the two.", "azimuth")
         check_choice("`vertical`", vertical, ("on", "off"))
-        turns = () if azimuths is None else tuple(azimuth_range(azimuths).tolist())
-        return cls(
-            files=tuple(motion or ()),
-            separate=separate,
-            dt=None if dt is None else parse_time(dt, "dt"),
-            azimuths=turns if azimuth is None else (parse_angle(azimuth, "azimuth"),),
-            condition=tuple(condition or ()),
-            scale=None if scale is None else parse_number("`scale`", scale),
-            pga=None if pga is None else parse_acceleration(pga, "pga"),
-            vertical=vertical == "on",
-            **{key: value for key, value in texts.items() if value is not None},
-        )
+        read: dict[str, Callable[[Any], Any]] = {
+            "azimuths": lambda text: tuple(azimuth_range(text).tolist()),
+            "dt": lambda text: parse_time(text, "dt"),
+            "scale": lambda text: parse_number("`scale`", text),
+            "pga": lambda text: parse_acceleration(text, "pga"),
+        }
+        made = {name: read.get(name, lambda text: text)(text) for name, text in words.items() if text is not None}
+        if azimuth is not None:
+            made["azimuths"] = (parse_angle(azimuth, "azimuth"),)
+        return cls(files=tuple(motion or ()), vertical=vertical == "on", **made)
 
     @property
     def several(self) -> bool:

@@ -184,7 +184,8 @@ def _in_joint(
                 "inward.",
                 "at",
             )
-    edge = min(s - low, high - s)
+    aside = min(0.5 * bodies[body].depth - abs(y) for body in (joint.lower, joint.upper) if not bodies[body].fixed)
+    edge = min(s - low, high - s, aside)
     inside = edge - 0.5 * link.numbers.diameter
     looked_at = link.numbers.edge < math.inf  # in the column that brings it along
     if link.numbers.diameter and inside < RIM and not looked_at:
@@ -205,8 +206,7 @@ def _in_joint(
             )
     link.check_joint(joint.law)
     x, z = (float(one) for one in left + s * t)
-    aside = min(0.5 * bodies[body].depth - abs(y) for body in (joint.lower, joint.upper) if not bodies[body].fixed)
-    edge = link.numbers.edge if looked_at else min(edge, aside)
+    edge = link.numbers.edge if looked_at else edge
     return joint.lower, joint.upper, (x, y, z), (float(t[0]), float(t[1])), edge
 
 

@@ -6,8 +6,8 @@ import math
 
 from ...column import Column
 from ...errors import warn
-from ...motion import Motion
 from ...messages import say
+from ...motion import Motion
 
 
 def warn_sliding(column: Column, alpha: float, name: str, remedy: str) -> None:
