@@ -190,6 +190,8 @@ def to_decide(structure: Structure, parameters: Mapping[str, Any], tail: float, 
     if free and moved and structure.section == "circular":
         return "no tail decides it, as drums that pivot freely turn with their offsets, slopes and chips at no cost"
     steps = "stiffness_damping" in parameters  # only what steps drums waits
+    if waited and structure.section == "circular" and not parameters.get("planar", True) and undamped(parameters):
+        return "no tail decides it, as nothing damps its wobble: damp it as stone (losses = stone)"
     return f"go on with {longer_tail(tail + LONGEST_WAIT * (waited and steps))}"
 
 
