@@ -37,6 +37,7 @@ from stylobate.column.files import write_column
 from stylobate.kernels.run_codes import CHUNK, RUNNING
 from stylobate.kernels.sources import source_digest
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.engine import engine_for
 from stylobate.motion.writing import write_csv
 from stylobate.simulate import thread_count
 from stylobate_gpu import card as records
@@ -191,9 +192,9 @@ def measure_kernels(keep: Keep) -> None:
     steps of a run."""
     for where in RUNS:
         column, model = twelve_drums(where)
-        kind, options = model.kind(column), RunOptions()
-        name, device = kernel_for(model, kind), driver.the_card()
-        many = lanes.CardLanes(device, name, partial(model.block_for, kind, options), 10**9, Lock())
+        engine, options = engine_for(model, column), RunOptions()
+        name, device = kernel_for(model, engine.kind), driver.the_card()
+        many = lanes.CardLanes(device, name, partial(engine.block, options), 10**9, Lock())
         for lane, motion in enumerate(shakings(many.lanes)):
             many.load(lane, Case(column, motion))
         many._begin()

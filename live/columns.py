@@ -11,6 +11,7 @@ import numpy as np
 from stylobate.kernels.plane.standing import STAND_TYPE
 from stylobate.kernels.run_codes import FREE, LANES
 from stylobate.kernels.shared.records import STATE
+from stylobate.models.engine import engine_for
 from stylobate.models.plane.laws import point_law
 
 from .kernel import KEPT_TYPE
@@ -90,8 +91,8 @@ def lanes_of(columns: Sequence[Any], model: Any) -> Room:
     from stylobate.models.plane.standing import numbers_for
     from stylobate.motion import Motion
 
-    paced = model.paced(columns[0])
-    block = paced.block_for(paced.kind(columns[0]), RunOptions())
+    paced = engine_for(model, columns[0]).paced
+    block = engine_for(paced, columns[0]).block(RunOptions())
     for lane, column in enumerate(columns):
         block.load(lane, Case(column, Motion(1.0, np.zeros(2))))
     room = Room.of(block.records.state, columns[0].n)

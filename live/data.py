@@ -11,6 +11,7 @@ from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import the_twins
 from stylobate.column.presets import known_column
 from stylobate.kernels.run_codes import CHUNK, LANES
+from stylobate.models.engine import engine_for
 from stylobate.models.shared.soft_joints import resolving
 from stylobate.motion.pulses import SAMPLES_PER_CYCLE
 from stylobate.motion.readers.source import samples
@@ -85,7 +86,7 @@ def data_of(module: bytes, start: int) -> tuple[dict[str, Any], bytes]:
         those = columns_like(name)
         memory = Memory(lanes_of(those, MODEL), start)
         for motion in (sine(FREQUENCIES[1], 1.0), pulse(FREQUENCIES[1], 1.0), *map(earthquake, EARTHQUAKES)):
-            step = MODEL.step_for(those[0])
+            step = engine_for(MODEL, those[0]).step
             assert resolving(step, motion) == step, f"{motion.name} shortens the step of {name}"
         result["images"][name] = blob.put(bytes(memory.bytes) + bytes(-len(memory.bytes) % 8))
         result["columns"].append(column_data(name, those, memory))

@@ -6,8 +6,21 @@ import time
 from dataclasses import dataclass
 
 from stylobate.models.base import Model
+from stylobate.models.engine import Engine
 from stylobate.outcome import Outcome
 from stylobate.response import Measures
+
+
+class Poisoning(Engine):
+    """Of :class:`Poisonous`."""
+
+    def run_many(self, cases, options, threads):
+        """One after the other."""
+        for index, case in enumerate(cases):
+            if case.column.name == "poison":
+                os._exit(1)
+            time.sleep(self.model.pause)
+            yield index, Measures(Outcome.ROCKED, True, math.nan, *[case.motion.factor] * 6, 0.0, 1)
 
 
 @dataclass(frozen=True)
@@ -17,11 +30,4 @@ class Poisonous(Model):
     pause: float = 0.0
 
     name = "poisonous"
-
-    def run_many(self, cases, options, threads):
-        """One after the other."""
-        for index, case in enumerate(cases):
-            if case.column.name == "poison":
-                os._exit(1)
-            time.sleep(self.pause)
-            yield index, Measures(Outcome.ROCKED, True, math.nan, *[case.motion.factor] * 6, 0.0, 1)
+    engines = (Poisoning,)

@@ -16,7 +16,8 @@ from .column.structure import Structure
 from .errors import InputError, check_all, check_choice, check_kind, check_range
 from .models import devices
 from .models.base import Case, Cases, Model, RunOptions, duration
-from .models.shared.quiet import expected_length, share_of
+from .models.engine import engine_for
+from .models.shared.quiet import share_of
 from .models.start import Start, Toss
 from .motion import Motion
 from .response import Measures, Response
@@ -95,19 +96,20 @@ def simulate(
     check_kind("start", start, (Start, Toss), optional=True)
     twins = check_all("twins", twins, Structure)
     if until_rest:
-        column = model.as_followed(column)
+        column = engine_for(model, column).followed()
+    engine = engine_for(model, column)
     share = share_of(motion) if quiet is None else quiet
     cut = share if column.moving_acceleration is not None else 0.0  # nobody knows what is quiet for anything else
     following = run_options(tail, output_interval, until_end, until_rest, cut, until_decided)
     options = dataclasses.replace(following, start=start, twins=tuple(twins), progress=progress)
-    if len(options.twins) > model.carried(column):
+    if len(options.twins) > engine.twins:
         raise InputError(
-            f"{len(options.twins)} twins are given; {model.name} carries up to {model.carried(column)}: use simulate_many."
+            f"{len(options.twins)} twins are given; {model.name} carries up to {engine.twins}: use simulate_many."
         )
     check_cases([Case(column, motion)], model, options)
     _tell_wait([Case(column, motion)], model, options)
     started = time.perf_counter()
-    response = model.run(column, model.taken(motion), options)
+    response = engine.run(model.taken(motion), options)
     wall = time.perf_counter() - started
     provenance = {column.kind: column.to_dict(), f"{column.kind}_digest": column.digest}
     provenance |= _provenance(model, motion, options, response.followed)
@@ -150,15 +152,14 @@ def run_cases(
 def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> None:
     """Refuse or warn of cases before any is computed."""
     check_kind("model", model, Model)
-    if options.start is not None and not model.takes_start:
-        raise InputError(
-            f"{model.name} starts from rest; leave start out, or use dem2d or dem3d (DistinctElement2D, 3D)."
-        )
     for column, motion in _to_check(cases):
+        engine = engine_for(model, column)
+        if options.start is not None:
+            engine.check_start()
         if options.until_rest:
-            model.as_followed(column)
-        model.check(column, motion)
-        model.check_length(column, motion, options)
+            engine.followed()
+        engine.check(motion)
+        engine.check_length(motion, options)
 
 
 def run_checked(
@@ -167,7 +168,8 @@ def run_checked(
     """Run cases that :func:`check_cases` has let pass; yields as :func:`run_cases` does."""
     count = thread_count(threads)
     _tell_wait(cases, model, options, count)
-    yield from model.run_many(cases, options, count)
+    if len(cases):
+        yield from engine_for(model, cases[0].column).run_many(cases, options, count)
 
 
 def run_on_card(
@@ -183,7 +185,8 @@ def run_on_card(
         It computes otherwise than the processor, or has failed on the way.
     """
     finished = left = 0
-    for index, measures in model.run_on_card(devices.gpu(), cases, options, thread_count(threads)):
+    engine = engine_for(model, cases[0].column)
+    for index, measures in engine.run_on_card(devices.gpu(), cases, options, thread_count(threads)):
         finished += 1
         left += measures.computed_by == CPU
         yield index, measures
@@ -287,15 +290,13 @@ def expected_wait(cases: Sequence[Case], model: Model, options: RunOptions, thre
     ----------
     .. [1] Graham, R. L. (1969). Bounds on multiprocessing timing anomalies. SIAM J. Appl. Math. 17(2), 416-429.
     """
-    if not len(cases) or (len(cases) > 1 and not model.carries):  # batches of the others are not stepped as single runs
+    if not len(cases):
         return 0.0
     each = []
     for number in np.unique(np.linspace(0, len(cases) - 1, ASKED).astype(int)).tolist():
-        column, motion = case = cases[number]
-        step, cost = model.expected_step(column, motion)
-        length = expected_length(case, options) if model.carries else motion.duration + options.tail
-        each.append(cost * length / step)
-    lanes = (1 + model.carried(cases[0].column)) * threads
+        column, motion = cases[number]
+        each.append(engine_for(model, column).expected_time(motion, options, alone=len(cases) == 1))
+    lanes = (1 + engine_for(model, cases[0].column).twins) * threads
     return float(np.mean(each)) * len(cases) / lanes + max(each) * (1.0 - 1.0 / lanes)
 
 

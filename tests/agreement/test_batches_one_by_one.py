@@ -12,6 +12,7 @@ import pytest
 import stylobate as st
 from stylobate.errors import OutOfRangeWarning
 from stylobate.models.base import Case
+from stylobate.models.engine import engine_for
 from stylobate.models.plane.columns import ColumnLanes
 from stylobate.models.shared.lanes import LONGEST_CALL, MOST_ALONE, WINDOW, run_alike, run_lanes
 from stylobate.simulate import run_cases
@@ -211,7 +212,7 @@ def test_absurd_numbers_of_steps_are_refused_with_the_estimate():
         st.simulate(column(1), st.harmonic(1.0, 1.0, 10.0), st.HousnerBlock(), output_interval=1e-12)
     for drums in (1, 12):  # what is usual is far below
         stone, motion = column(drums, st.Joint(1e12, 1e12, 35.0)), st.harmonic(1.0, 1.0, 120.0)
-        step, cost = st.DistinctElement2D().expected_step(stone, motion)
+        step, cost = engine_for(st.DistinctElement2D(), stone).expected_step(motion)
         assert motion.duration / step * cost < 200.0
 
 
@@ -228,7 +229,7 @@ def test_compiled_calls_are_short_however_long_the_run(model):
         block = BeamLanes(model.pack, loop_for(model.pack(stone), motion), RunOptions())
         chunk = block.loop.steps
     else:
-        block = model.block_for(model.kind(stone), RunOptions())
+        block = engine_for(model, stone).block(RunOptions())
         chunk = block.chunk
     calls = []
     block.load(0, case)
@@ -253,7 +254,7 @@ def test_compiled_calls_are_short_however_long_the_run(model):
         block.records.kernel = SimpleNamespace(advance=lambda _, chunks: calls.append(chunks))
         block.advance()
         block.advance(10_000)
-    _, cost = model.expected_step(stone, motion)
+    _, cost = engine_for(model, stone).expected_step(motion)
     assert sum(calls[1:]) == 10_000
     assert max(calls) == 1 or max(calls) * chunk * cost <= LONGEST_CALL
 

@@ -16,7 +16,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from poison import Poisonous
+from poison import Poisoning, Poisonous
 
 import stylobate as st
 from stylobate.campaign import cluster as module
@@ -230,12 +230,18 @@ def test_chunks_are_about_as_long_as_they_should_be():
     assert len(few.chunks) >= 20  # as many workers as there are have something to do
 
 
-class Seen(Poisonous):
+class Seeing(Poisoning):
     """Its peaks are the first samples."""
 
     def run_many(self, cases, options, threads):
         for index, measures in super().run_many(cases, options, threads):
             yield index, dataclasses.replace(measures, peak_top_displacement=float(cases[index].motion.samples[0]))
+
+
+class Seen(Poisonous):
+    """The model of these."""
+
+    engines = (Seeing,)
 
 
 def test_motions_that_are_made_one_by_one_are_not_taken_for_one_another(monkeypatch):
@@ -288,11 +294,8 @@ def test_the_worker_that_asks_gets_the_next_chunk_and_the_last_ones_are_small(mo
     assert sizes[-1] <= 4
 
 
-@dataclasses.dataclass(frozen=True)
-class Lanes(Poisonous):
+class Twenty(Poisoning):
     """Twenty runs at a time, of which the oldest ends next."""
-
-    name = "lanes"
 
     def run_many(self, cases, options, threads):
         coming, running = enumerate(cases), []
@@ -302,12 +305,20 @@ class Lanes(Poisonous):
             if not running:
                 return
             BESIDE.append(len(running))
-            time.sleep(self.pause)
+            time.sleep(self.model.pause)
             index, case = running.pop(0)
             if case.motion.factor < 0.0:
                 raise ArithmeticError("a fault")
-            for _, measures in Poisonous().run_many([case], options, 1):
+            for _, measures in Poisoning(Poisonous(), COLUMN).run_many([case], options, 1):
                 yield index, measures
+
+
+@dataclasses.dataclass(frozen=True)
+class Lanes(Poisonous):
+    """The model of these."""
+
+    name = "lanes"
+    engines = (Twenty,)
 
 
 BESIDE: list[int] = []

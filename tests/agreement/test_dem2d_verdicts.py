@@ -9,6 +9,7 @@ from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion
 from stylobate.simulate import simulate_many
 
@@ -20,7 +21,7 @@ TIME = np.arange(round(DURATION / DT) + 1) * DT
 
 
 def model_for(column: Column) -> DistinctElement2D:
-    chunks = math.ceil(DURATION / (CHUNK * DistinctElement2D().step_for(column)))
+    chunks = math.ceil(DURATION / (CHUNK * engine_for(DistinctElement2D(), column).step))
     return DistinctElement2D(time_step=DURATION / (CHUNK * chunks) * (1.0 + 1e-13))
 
 

@@ -10,6 +10,7 @@ import stylobate as st
 from stylobate.column import Column
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion
 
 MODEL = DistinctElement3D()
@@ -66,7 +67,7 @@ def test_no_declared_collapse_recovers(drums, section):
             joint=column.joints[0],
             depth=0.8,
         )
-    block = MODEL.block_for(MODEL.kind(column), RunOptions(until_end=True, tail=4.0))
+    block = engine_for(MODEL, column).block(RunOptions(until_end=True, tail=4.0))
     for lane in range(block.lanes):
         block.load(lane, Case(column, shaking(0.4 * lane, 0.25 + 0.04 * lane)))
     left, declared, down = set(range(block.lanes)), 0, 0

@@ -12,7 +12,8 @@ import stylobate as st
 from stylobate.campaign.campaign import Campaign
 from stylobate.cli.main import call
 from stylobate.models import devices
-from stylobate.models.drums.stepped import SteppedDrums
+from stylobate.models.drums.stepped import StackEngine
+from stylobate.models.engine import engine_for
 
 COLUMN = st.preset("paper-monolithic")
 GRID = COLUMN, st.DistinctElement2D(), [1.0, 2.0], [0.5, 4.0], 1.0
@@ -23,17 +24,17 @@ def card(monkeypatch):
     """A card that takes all columns of the plane; the numbers of runs that it has made, batch by batch."""
     made = []
 
-    def run(model, device, cases, options, threads):
+    def run(engine, device, cases, options, threads):
         assert device == "the card"
-        on_card = [model.on_card(device, case.column) for case in cases]
+        on_card = [engine_for(engine.model, case.column).on_card(device) for case in cases]
         made.append(sum(on_card))
-        for index, measures in model.run_many(cases, options, threads):
+        for index, measures in engine.run_many(cases, options, threads):
             by = "gpu (a card)" if on_card[index] else "cpu"
             yield index, dataclasses.replace(measures, computed_by=by)
 
     monkeypatch.setattr(devices, "gpu", lambda: "the card")
-    monkeypatch.setattr(SteppedDrums, "run_on_card", run)
-    monkeypatch.setattr(SteppedDrums, "on_card", lambda model, device, column: not column.links)
+    monkeypatch.setattr(StackEngine, "run_on_card", run)
+    monkeypatch.setattr(StackEngine, "on_card", lambda engine, device: not engine.structure.links)
     return made
 
 
@@ -82,7 +83,7 @@ def test_finished_runs_of_the_other_kind_are_not_gone_on_from_unless_asked(card,
 
 
 def test_what_the_processor_has_computed_for_the_card_is_gone_on_from(card, tmp_path, monkeypatch):
-    monkeypatch.setattr(SteppedDrums, "on_card", lambda model, device, column: False)
+    monkeypatch.setattr(StackEngine, "on_card", lambda engine, device: False)
     first = st.collapse_domain(*GRID, device="gpu", ledger=tmp_path / "runs.sqlite")
     assert by(first.table) == ["cpu"]
     again = st.collapse_domain(*GRID, device="gpu", ledger=tmp_path / "runs.sqlite")

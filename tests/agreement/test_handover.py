@@ -1,6 +1,7 @@
 """Joints and the elastic bed: nothing jumps where one hands over to the other; columns keep their bits until then."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,8 +13,9 @@ from stylobate.constants import g
 from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.engine import engine_for
 from stylobate.models.plane.collapse import _ColumnRun
-from stylobate.models.plane.loose import Loose
+from stylobate.models.plane.loose import Contacts, Loose
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate
 
@@ -120,7 +122,9 @@ def test_what_may_come_loose_has_the_joints_of_the_lanes(column, certain, monkey
     model = DistinctElement2D(start="settle")
     lanes = simulate(column, motion, model)
     options = RunOptions()
-    run = _ColumnRun(column, motion, model.followed(column, options), model.contacts, options)
+    run = _ColumnRun(
+        column, motion, engine_for(model, column).block(replace(options, until_end=True)), Contacts.of(model), options
+    )
     run.loose = True
     start = run.engine.records.body["x"][:, 0].copy()
     run.advance(run.engine.chunks)
@@ -164,7 +168,9 @@ def test_a_column_that_collapses_as_its_motion_ends_goes_on():
     whole = harmonic(0.5, 0.3 * g, 2.0)
     motion = Motion(whole.dt, whole.factor * whole.samples[: round(1.3 / whole.dt)])
     model, options = DistinctElement2D(restitution=1.0), RunOptions(until_rest=True)
-    run = _ColumnRun(column, motion, model.followed(column, options), model.contacts, options)
+    run = _ColumnRun(
+        column, motion, engine_for(model, column).block(replace(options, until_end=True)), Contacts.of(model), options
+    )
     while run.chunks_left() > 0:
         run.advance(run.chunks_left())
     assert run.collapsed

@@ -13,6 +13,7 @@ from stylobate.campaign.digests import Hasher
 from stylobate.campaign.ledger import Ledger
 from stylobate.campaign.runs import Request, Runs, run_all
 from stylobate.models.base import Case, Cases, Model
+from stylobate.models.engine import Engine
 from stylobate.models.shared.lanes import WINDOW, run_alike
 from stylobate.outcome import Outcome
 from stylobate.response import Measures
@@ -45,14 +46,19 @@ class AtOnce:
         return Measures(Outcome.ROCKED, True, math.nan, *sizes, 1e-4, 1000)
 
 
-@dataclasses.dataclass(frozen=True)
-class Instant(Model):
+class InNoTime(Engine):
     """Every run takes no time."""
-
-    name = "instant"
 
     def run_many(self, cases, options, threads):
         return run_alike(lambda case: "one", lambda kind: AtOnce(), cases, 1)
+
+
+@dataclasses.dataclass(frozen=True)
+class Instant(Model):
+    """The model of these."""
+
+    name = "instant"
+    engines = (InNoTime,)
 
 
 def bytes_per_case(work, few, many):

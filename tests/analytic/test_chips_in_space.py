@@ -9,6 +9,7 @@ import stylobate as st
 from stylobate.column.found_geometry import inside_overlap, space_geometry
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.models.shared.toes import point_toes
 from stylobate.motion import Motion
 from stylobate.plots.solids import surface_of
@@ -41,7 +42,7 @@ def pushed(column, azimuths, levels, **options):
 
 def places(column, motion, model):
     """Displacements of the drums' centroids along x, every 32 steps, shape (T, n)."""
-    block = model.block_for(model.kind(column), RunOptions(until_end=True))
+    block = engine_for(model, column).block(RunOptions(until_end=True))
     block.load(0, Case(column, motion))
     bodies = block.records.body
     first, found = bodies["x"][1:, 0].copy(), []
@@ -77,7 +78,7 @@ def test_in_its_plane_a_chipped_prism_moves_as_the_plane_model(drums):
     column = prism(drums, joint, chip_left=0.02, chip_right=0.06)
     time = np.arange(501) * 1e-3
     motion = Motion(1e-3, 0.25 * st.g * np.sin(6.0 * time))
-    step = DistinctElement3D().step_for(column)
+    step = engine_for(DistinctElement3D(), column).step
     flat = places(column, motion, st.DistinctElement2D(points=2, time_step=step))
     for planar in (True, False):
         found = places(column, motion, DistinctElement3D(planar=planar, time_step=step))
@@ -109,7 +110,7 @@ def test_the_ledger_of_a_chipped_column_closes():
         st.FoundDrum(3, chip_right=0.05, tilt=0.5, tilt_azimuth=50.0),
     )
     column = prism(3, st.Joint(5e9, 2.5e9, friction_coefficient=0.7)).replace(as_found=st.AsFound(found, 1.0, 30.0))
-    block = DistinctElement3D().block_for(DistinctElement3D().kind(column), RunOptions())
+    block = engine_for(DistinctElement3D(), column).block(RunOptions())
     block.load(0, Case(column, shaken()))
     assert block.residual_acceleration(0) < 5e-5
     response = st.simulate(column, shaken(), DistinctElement3D())
@@ -125,7 +126,7 @@ def test_what_stands_for_good_knows_the_smaller_support():
     column, height = prism(**CHIPS), 0.5 * HEIGHT
     drums, up, _ = found_numbers(column)
     still = np.zeros((1, 2)), np.zeros(2)
-    rigid = lowest_found(drums, numbers_for(column, np.zeros(1)), *still, up, True, column.gravity, False)[0]
+    rigid = lowest_found(drums, numbers_for(column, np.zeros((2, 1))), *still, up, True, column.gravity, False)[0]
     weight = column.mass * column.gravity
     assert rigid == pytest.approx(weight * (math.hypot(height, DEEP - 0.03) - height), rel=1e-9)
     at = space_geometry(column)
@@ -190,5 +191,4 @@ def test_what_a_chipped_joint_gives_is_bounded_by_what_its_smaller_face_gives():
     chips = dict.fromkeys(("chip_left", "chip_right", "chip_front", "chip_back"), 0.05)
     chipped = block(1.0, 2000.0).replace(as_found=st.AsFound((st.FoundDrum(1, **chips),)))
     small = point_toes(block(0.9, 2000.0 / 0.81), stiffness, 0.25)
-    # the moment's share of the largest one, squared, is told of the whole face
     assert point_toes(chipped, stiffness, 0.25) == pytest.approx(small / 0.81, rel=1e-12)

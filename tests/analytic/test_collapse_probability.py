@@ -23,6 +23,7 @@ from stylobate.analysis.verdicts import collapse_interval, share_collapsed, wils
 from stylobate.campaign import runs
 from stylobate.column import preset
 from stylobate.column.scatter import LARGEST, Scatter
+from stylobate.models.engine import engine_for
 from stylobate.motion.scatter import PHASES, MotionScatter, ScatteredSines
 
 CODES = {letter: v.VERDICTS.index(one) for letter, one in zip("SCUFN", v.VERDICTS)}
@@ -123,7 +124,7 @@ def test_a_cell_agrees_with_the_columns_like_this_one_of_a_run_of_its_motion():
     found = collapse_probability(column, model, [0.8], [0.33 * st.g], 5.0, replicates=number, seed=2, tail=2.0)
     motion = st.harmonic(0.8, 0.33 * st.g, 5.0)
     paced = collapse_probability(
-        column, model.paced(column), [0.8], [0.33 * st.g], 5.0, replicates=number, seed=2, tail=2.0
+        column, engine_for(model, column).paced, [0.8], [0.33 * st.g], 5.0, replicates=number, seed=2, tail=2.0
     )
     beside = certainty(column, motion, model, replicates=number, seed=2, tail=2.0).population
     fell = np.array([bool(row["collapsed"]) for row in beside.rows])
@@ -181,7 +182,7 @@ def test_half_of_a_step_is_half_and_the_verdicts_are_counted():
     column = preset("paper-monolithic")
     motion = st.harmonic(1.0, 3.0, 6.0)
     model = halved_step(st.DistinctElement2D(), column, motion)
-    assert model.step_for(column) == pytest.approx(0.5 * st.DistinctElement2D().step_for(column))
+    assert engine_for(model, column).step == pytest.approx(0.5 * engine_for(st.DistinctElement2D(), column).step)
     beam = st.RigidBeam(idealisation="prism")
     half = halved_step(beam, column, motion)
     assert half.time_step == pytest.approx(0.5 * beam.step_for(column.as_prism(), motion))

@@ -18,9 +18,21 @@ from stylobate.analysis.critical import amplitude_grid
 from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.column.presets import preset
 from stylobate.models.base import Model
+from stylobate.models.engine import Engine
 from stylobate.response import Measures
 
 COLUMN = preset("paper-monolithic")
+
+
+class Thresholds(Engine):
+    """Of :class:`Threshold`."""
+
+    def run_many(self, cases, options, threads):
+        for index in reversed(range(len(cases))):  # in another order than asked for
+            if os.environ["THRESHOLD_RUNS"] == os.environ.get("THRESHOLD_STOPS"):
+                raise KeyboardInterrupt
+            os.environ["THRESHOLD_RUNS"] = str(int(os.environ["THRESHOLD_RUNS"]) + 1)
+            yield index, self.model.measures(cases[index].motion)
 
 
 @dataclass(frozen=True)
@@ -34,13 +46,7 @@ class Threshold(Model):
 
     name: ClassVar[str] = "threshold"
     version: ClassVar[str] = "1"
-
-    def run_many(self, cases, options, threads):
-        for index in reversed(range(len(cases))):  # in another order than asked for
-            if os.environ["THRESHOLD_RUNS"] == os.environ.get("THRESHOLD_STOPS"):
-                raise KeyboardInterrupt
-            os.environ["THRESHOLD_RUNS"] = str(int(os.environ["THRESHOLD_RUNS"]) + 1)
-            yield index, self.measures(cases[index].motion)
+    engines: ClassVar[tuple] = (Thresholds,)
 
     def measures(self, motion):
         amplitude = round(motion.factor / st.g, 6)
@@ -236,10 +242,13 @@ def test_a_file_that_is_no_ledger_is_refused_and_left_as_it_was(tmp_path):
 def test_motions_of_one_frequency_share_their_samples():
     seen = []
 
-    class Spy(Threshold):
+    class Spying(Thresholds):
         def run_many(self, cases, options, threads):
             seen.extend(case.motion.samples for case in cases)
             yield from super().run_many(cases, options, threads)
+
+    class Spy(Threshold):
+        engines = (Spying,)
 
     domain(Spy())
     assert len(seen) == 36

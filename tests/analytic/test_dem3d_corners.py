@@ -13,6 +13,7 @@ from stylobate.kernels.run_codes import RUNNING
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.models.start import Start
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate_many
@@ -33,7 +34,7 @@ def blocks(column, motion, model=None, every=1, start=None):
     """A run chunk by chunk: yields the block with the run in lane 0."""
     model = model or DistinctElement3D()
     options = RunOptions(until_end=True, start=start)
-    block = model.block_for(model.kind(column), options)
+    block = engine_for(model, column).block(options)
     block.load(0, Case(column, motion))
     yield block
     while not block.is_over(0):
@@ -60,7 +61,9 @@ def both_ways(a, b, f=1.0, second=1.3, duration=1.0, dt=1e-3):
 def test_a_prism_shaken_along_its_side_is_the_plane_model(drums, depth, limit):
     """The plane model with two points, at 0.5 s; nothing at all leaves the plane."""
     column, motion = prism(drums, depth), harmonic(1.0, 0.2 * g, 0.5)
-    step = 0.4 * min(model.stable_step(column) for model in (DistinctElement2D(points=2), DistinctElement3D()))
+    step = 0.4 * min(
+        engine_for(model, column).stable_step for model in (DistinctElement2D(points=2), DistinctElement3D())
+    )
     space = path(column, motion, DistinctElement3D(time_step=step))
     model = DistinctElement2D(points=2, time_step=step)
     plane = np.array(
@@ -155,7 +158,7 @@ def test_friction_is_a_cone():
 def free(column, omega, duration, step):
     """Free motion of a body without joint and gravity: axes over time, times, angular momentum drift, energies."""
     model = DistinctElement3D(time_step=step)
-    block = model.block_for(model.kind(column), RunOptions(until_end=True))
+    block = engine_for(model, column).block(RunOptions(until_end=True))
     block.load(0, Case(column, Motion(duration, np.zeros(2))))
     block.records.joint["kn"][:] = block.records.joint["ks"][:] = 0.0
     block.lane["g"][:] = 0.0

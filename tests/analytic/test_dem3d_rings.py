@@ -15,6 +15,7 @@ from stylobate.kernels.dem3d.bed import settle_ring
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.models.shared.toes import disc_on_bed
 from stylobate.models.start import Start
 from stylobate.motion import Motion, harmonic
@@ -92,7 +93,7 @@ def test_static_uplift_of_a_column_on_a_ring():
     assert ring == pytest.approx(whole, rel=1e-9)
     slope = 1e-4
     model = DistinctElement3D(law="bed")
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     block.load(0, Case(column, Motion(1.0, np.zeros(2))))
     arm, depth = lever(5e10, 0.48, column.mass * g, slope, 0.38)
     assert arm > 1.01 * lever(5e10, 0.48, column.mass * g, slope)[0]
@@ -117,7 +118,7 @@ def test_a_column_on_rings_keeps_its_energy_and_the_share_that_it_touches_with()
     inner = 0.5 * max(column.sunken_widths(1))
     assert column.joint_areas[1] == pytest.approx(math.pi * ((0.5 * column.joint_widths[1]) ** 2 - inner**2), rel=1e-12)
     model = DistinctElement3D(law="bed")
-    block = model.block_for(model.kind(column), RunOptions(until_end=True))
+    block = engine_for(model, column).block(RunOptions(until_end=True))
     block.load(0, Case(column, harmonic(1.5, 0.25 * g, 1.0)))
     while not block.is_over(0):
         block.advance(50)
@@ -144,9 +145,9 @@ def test_rings_that_nothing_carries_are_refused():
         on_rings(section="rectangular")
     motion = harmonic(1.0, 1.0, 0.5)
     with pytest.raises(InputError, match="dem3d with law=rim knows no rings"):
-        DistinctElement3D().check(on_rings(), motion)
+        engine_for(DistinctElement3D(), on_rings()).check(motion)
     with pytest.raises(InputError, match="dem2d knows no rings"):
-        DistinctElement2D().check(on_rings(), motion)
+        engine_for(DistinctElement2D(), on_rings()).check(motion)
     with pytest.raises(InputError, match="is for round drums"):
         DistinctElement3D(rolling_resistance=0.01).check(
             Column.tapered(
@@ -160,7 +161,7 @@ def test_steady_rolling_decays_by_what_resists_it():
     """c N r on the arm a cos θ against the rolling Ω sin θ cos θ, for 0.5 s; the pivot lies 0.2 % inside the rim."""
     column, tilt, precession, c = space.round_column(), 0.1, 1.9129969655, 1e-3
     model = DistinctElement3D(pivot_friction=0.0, rolling_resistance=c)
-    block = model.block_for(model.kind(column), RunOptions(start=space.wobble(tilt, precession), until_end=True))
+    block = engine_for(model, column).block(RunOptions(start=space.wobble(tilt, precession), until_end=True))
     block.load(0, Case(column, Motion(0.5, np.zeros(2))))
     before = block.energies(0)
     while not block.is_over(0):
@@ -179,7 +180,7 @@ def test_no_step_adds_to_rolling(spin):
     column = space.cylinder(0.6, 4.0)
     model = DistinctElement3D(pivot_friction=0.0, rolling_resistance=1.0)
     start = Start(1.5, 0.0, tuple(spin * space.axis_of(1.5, 0.0)))
-    block = model.block_for(model.kind(column), RunOptions(start=start, until_end=True))
+    block = engine_for(model, column).block(RunOptions(start=start, until_end=True))
     block.load(0, Case(column, Motion(0.5, np.zeros(2))))
     block.advance(1)
     found = sum(block.records.body[f"w{c}"][1, 0] * block.records.body[f"k{c}"][1, 0] for c in "xyz")
@@ -189,7 +190,7 @@ def test_no_step_adds_to_rolling(spin):
 def test_rocking_in_a_plane_does_not_roll():
     column = space.round_column()
     model = DistinctElement3D(rolling_resistance=0.01, planar=True)
-    block = model.block_for(model.kind(column), RunOptions(until_end=True))
+    block = engine_for(model, column).block(RunOptions(until_end=True))
     block.load(0, Case(column, harmonic(1.0, 0.3 * g, 0.7)))
     while not block.is_over(0):
         block.advance(50)

@@ -13,6 +13,7 @@ from stylobate.kernels.plane import standing as plane
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.models.plane.standing import numbers_for
 from stylobate.models.start import Start
 from stylobate.motion import Motion
@@ -45,11 +46,12 @@ def test_soft_joints_overturn_with_less_energy(column, law):
     alpha = math.atan(0.5 * column.drums[0].bottom_width / column.drums[0].centroid_height)
     energies = []
     for tilt in np.linspace(0.9, 1.0, 11) * alpha:
-        block = model.block_for(model.kind(column), RunOptions(start=Start(float(tilt))))
+        block = engine_for(model, column).block(RunOptions(start=Start(float(tilt))))
         block.load(0, Case(column, Motion(1.0, np.zeros(2))))
         energies.append(block.rest[0])
     rigid = flat_barrier(column, np.zeros((1, 2)))
-    taken = flat_barrier(column, np.zeros((1, 2)), toes=model.pack(column).stand["toe"])
+    stand = engine_for(model, column).pack(column).stand
+    taken = flat_barrier(column, np.zeros((1, 2)), toes=np.stack((stand["toe"], stand["others"])))
     assert taken <= max(energies) < rigid
     assert taken > 0.98 * max(energies)
 
@@ -57,7 +59,7 @@ def test_soft_joints_overturn_with_less_energy(column, law):
 def in_the_plane(column, toes) -> float:
     """Lowest barrier of the law in the plane, of a column as built [J]."""
     stand = numbers_for(column)[0].copy()
-    stand["toe"] = toes
+    stand["toe"], stand["others"] = toes
     return float(plane.lowest_barrier(stand, column.gravity, 0.0))
 
 
@@ -68,11 +70,11 @@ def test_soft_joints_overturn_with_less_energy_in_the_plane_too(points, stiffnes
     alpha = math.atan(0.5 * column.drums[0].bottom_width / column.drums[0].centroid_height)
     energies = []
     for tilt in np.linspace(0.8, 1.0, 21) * alpha:
-        block = model.block_for(model.kind(column), RunOptions(start=Start(float(tilt))))
+        block = engine_for(model, column).block(RunOptions(start=Start(float(tilt))))
         block.load(0, Case(column, Motion(1.0, np.zeros(2))))
         energies.append(block.rest[0])
-    rigid = in_the_plane(column, np.zeros(1))
-    taken = in_the_plane(column, model.pack(column).stand)
+    rigid = in_the_plane(column, np.zeros((2, 1)))
+    taken = in_the_plane(column, engine_for(model, column).pack(column).stand)
     assert taken <= max(energies) < rigid
     assert taken > 0.93 * max(energies)
 
@@ -114,7 +116,7 @@ def test_slip_of_a_joint_between_unequal_drums():
     """A drum that stands flat has the offset of its middles, whatever its twist; so does one that leans about it."""
     column = round_column(2)
     model = DistinctElement3D()
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     block.load(0, Case(column, Motion(1.0, np.zeros(2))))
     c, s = math.cos(0.7), math.sin(0.7)
     for name, value in {"ix": c, "iy": s, "jx": -s, "jy": c}.items():
@@ -145,7 +147,7 @@ def test_a_plate_that_has_sunk_below_its_middle_is_not_lying():
     column = on_a_plate(0.03, 3.98e6)
     pressed = Motion(0.01, np.zeros(21), az=0.3 * 9.81 * np.sin(np.arange(21) * 0.2))
     model = DistinctElement3D()
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     block.load(0, Case(column, pressed))
     lowest = float(block.records.body["z"][1, 0])
     while not block.is_over(0):
@@ -166,7 +168,7 @@ def test_twists_count_full_turns():
         [Drum(0.5, 1.0, 1.0, 1600.0, section="circular")], Joint(5e8, 2.5e8, friction_coefficient=0.7)
     )
     model = DistinctElement3D(pivot_friction=0.0)
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     block.load(0, Case(column, Motion(1.0, np.zeros(2))))
     for name, value in {"lz": column.drums[0].axial_inertia * 9.0, "wz": 9.0}.items():
         block.records.body[name][1, 0] = value

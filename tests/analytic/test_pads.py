@@ -17,6 +17,7 @@ from stylobate.column.assembly_files import assembly_from_dict
 from stylobate.column.files import write_column
 from stylobate.column.links import block_link
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.engine import engine_for
 from stylobate.models.plane.beds import bed_laws
 from stylobate.simulate import simulate
 
@@ -49,7 +50,7 @@ PULSE = st.Motion(0.001, np.r_[np.full(50, 0.5), np.zeros(950)])
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
 def test_a_joint_closes_under_the_weight_by_both_springs(model) -> None:
     column = on_pad(**SOFT)
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     block.load(0, Case(column, PULSE))
     height = block.records.body["z"][1, 0]
     assert height == pytest.approx(0.1 - WEIGHT / (NORMAL * AREA), abs=1e-12)

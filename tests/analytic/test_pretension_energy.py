@@ -7,6 +7,7 @@ import pytest
 
 import stylobate as st
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.engine import engine_for
 
 G = 9.80665
 PULL, AXIAL = 5e4, 1e9
@@ -19,7 +20,7 @@ def loaded(model, links=(), drums=1, joint=JOINT):
     half = st.Drum(2.0 / drums, 0.5, 0.5, 2500.0, depth=0.5)
     column = st.Column.of_drums([half] * drums, joint).replace(links=links, gravity=G)
     motion = st.Motion(0.01, np.zeros(201), metadata={"format": "made for this test"})
-    block = model.block_for(model.kind(column), RunOptions(quiet=0.1))
+    block = engine_for(model, column).block(RunOptions(quiet=0.1))
     block.load(0, Case(column, motion))
     return block
 

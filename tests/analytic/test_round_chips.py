@@ -11,6 +11,7 @@ from stylobate.column.found_geometry import rotation
 from stylobate.kernels.dem3d.chipped import press_chord
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion
 
 AZIMUTH = 30.0
@@ -24,7 +25,7 @@ def chipped(chip=0.08, azimuth=AZIMUTH, column=None, **found):
 
 def block_of(column, options=None, **model):
     model = DistinctElement3D(**model)
-    return model.block_for(model.kind(column), options or RunOptions())
+    return engine_for(model, column).block(options or RunOptions())
 
 
 def by_quadrature(ru, rl, chip, c, n, e, count=40_000):

@@ -7,6 +7,7 @@ import pytest
 
 import stylobate as st
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.engine import engine_for
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 SIDE, HEIGHT, DENSITY = 0.81, 5.0, 1600.0
@@ -38,7 +39,7 @@ def boulder(seed=3, points=60):
 
 
 def path(structure, motion, model):
-    block = model.block_for(model.kind(structure), RunOptions(until_end=True))
+    block = engine_for(model, structure).block(RunOptions(until_end=True))
     block.load(0, Case(structure, motion))
     found = [np.array([block.records.body[c][1, 0] for c in "xyz"])]
     while not block.is_over(0):
@@ -59,7 +60,7 @@ def test_a_box_is_the_rectangular_column(depth, limit):
         height=HEIGHT, bottom_width=SIDE, top_width=SIDE, drums=1, density=DENSITY, joint=JOINT, depth=depth
     )
     motion, body = shaken(0.2, 0.1, 0.5), box(SIDE, depth)
-    step = 0.4 * min(st.DistinctElement3D().stable_step(one) for one in (column, body))
+    step = 0.4 * min(engine_for(st.DistinctElement3D(), one).stable_step for one in (column, body))
     model = st.DistinctElement3D(time_step=step)
     one, other = path(column, motion, model)[0], path(body, motion, model)[0]
     assert np.abs(one[:, :2]).max() > 1e-4
@@ -149,7 +150,7 @@ def test_free_fall_turns_as_a_free_body():
     """Lifted off the base it falls with g; its angular momentum is kept and its energy of rotation bounded."""
     model = st.DistinctElement3D(time_step=1e-4)
     body = boulder()
-    block = model.block_for(model.kind(body), RunOptions(until_end=True))
+    block = engine_for(model, body).block(RunOptions(until_end=True))
     block.load(0, Case(body, st.Motion(1.0, np.zeros(2))))
     drum = block.records.body
     drum["z"][1, 0] = 100.0
@@ -208,7 +209,7 @@ def test_other_models_and_steps_that_are_too_long_are_refused():
 def test_a_body_that_leans_has_not_slipped():
     """Turned by 0.1 rad about its lower edge, which stays where it is; the middle of its foot has moved by 2 mm."""
     model = st.DistinctElement3D()
-    block = model.block_for(model.kind(box()), RunOptions())
+    block = engine_for(model, box()).block(RunOptions())
     block.load(0, Case(box(), st.Motion(1.0, np.zeros(2))))
     c, s, edge = math.cos(0.1), math.sin(0.1), np.array([0.5 * SIDE, 0.0, 0.0])
     turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
@@ -239,7 +240,7 @@ def test_a_body_whose_weight_is_next_to_an_edge_lies_where_it_is_stable():
 def test_a_lane_that_is_used_again_starts_as_a_new_one():
     """While others move on beside it, whose vertices are near or not."""
     model, motion = st.DistinctElement3D(), st.harmonic(3.0, 6.0, 0.5)
-    block = model.block_for(model.kind(box()), RunOptions())
+    block = engine_for(model, box()).block(RunOptions())
     for lane in range(2):
         block.load(lane, Case(box(), motion))
 

@@ -7,6 +7,7 @@ import pytest
 
 import stylobate as st
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.engine import engine_for
 
 HALF, MASS, MOMENT = 0.05, 0.4, 7e-4
 CORNERS = HALF * np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
@@ -31,7 +32,7 @@ def matrix(q):
 def flown(body, toss, duration, step=1.5e-6):
     """Once the body is off the base again: velocity, angular momentum, most energy in the normal springs, energy lost."""
     model = st.DistinctElement3D(time_step=step)
-    block = model.block_for(model.kind(body), RunOptions(until_end=True, start=toss))
+    block = engine_for(model, body).block(RunOptions(until_end=True, start=toss))
     block.load(0, Case(body, st.Motion(duration, np.zeros(2))))
     deepest = 0.0
     while not block.is_over(0):

@@ -8,8 +8,8 @@ import pytest
 
 from stylobate.campaign.ledger import Holding
 from stylobate.cli.main import call
-from stylobate.models.dem2d.model import DistinctElement2D
-from stylobate.models.rocking.model import HousnerBlock
+from stylobate.models.drums.stepped import LaneEngine
+from stylobate.models.rocking.model import Rocking
 from stylobate.own_files import LIST
 from stylobate.results.asked import Asked
 
@@ -45,7 +45,7 @@ def records(tmp_path):
 def counted(monkeypatch):
     """Stops the batch after so many runs; counts those that are made."""
     state = {"runs": 0, "stop": None}
-    real = HousnerBlock.run_many
+    real = Rocking.run_many
 
     def run_many(self, cases, options, threads):
         for one in real(self, cases, options, 1):
@@ -54,7 +54,7 @@ def counted(monkeypatch):
             state["runs"] += 1
             yield one
 
-    monkeypatch.setattr(HousnerBlock, "run_many", run_many)
+    monkeypatch.setattr(Rocking, "run_many", run_many)
     return state
 
 
@@ -93,15 +93,15 @@ def test_what_is_finished_is_kept_and_the_same_command_goes_on(name, records, co
 
 def test_a_folder_of_records_goes_on_with_the_next(records, tmp_path, capsys, monkeypatch):
     out, made = tmp_path / "out", []
-    real = HousnerBlock.run
+    real = Rocking.run
 
-    def run(self, column, motion, options):
+    def run(self, motion, options):
         if len(made) == 2:
             raise KeyboardInterrupt
         made.append(motion.name)
-        return real(self, column, motion, options)
+        return real(self, motion, options)
 
-    monkeypatch.setattr(HousnerBlock, "run", run)
+    monkeypatch.setattr(Rocking, "run", run)
     monkeypatch.setattr(
         "stylobate.cli.run.write", lambda response, _, folder, everything: [response.save(folder / "response.nc")]
     )
@@ -123,7 +123,7 @@ def test_a_run_goes_on_with_its_twins(several, tmp_path, capsys, monkeypatch):
     """Its fifteen twins ride along with it; the three others are made after it, two of them before the interrupt."""
     from stylobate.analysis import certainty as module
 
-    state, real, real_many = {"runs": 0, "twins": 0, "stop": None}, module.simulate, DistinctElement2D.run_many
+    state, real, real_many = {"runs": 0, "twins": 0, "stop": None}, module.simulate, LaneEngine.run_many
 
     def simulate(*arguments, **options):
         state["runs"] += 1
@@ -137,7 +137,7 @@ def test_a_run_goes_on_with_its_twins(several, tmp_path, capsys, monkeypatch):
             yield one
 
     monkeypatch.setattr(module, "simulate", simulate)
-    monkeypatch.setattr(DistinctElement2D, "run_many", run_many)
+    monkeypatch.setattr(LaneEngine, "run_many", run_many)
     command = ["run", "paper-monolithic", "--harmonic", "1Hz,0.3g,1s", *SPREAD, "--no-pictures"]
     command += ["--azimuths", "0,180"] if several else []
     whole, out = tmp_path / "whole", tmp_path / "out"

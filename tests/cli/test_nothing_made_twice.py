@@ -12,7 +12,7 @@ import stylobate as st
 from stylobate.analysis.compare import compare_models
 from stylobate.campaign.ledger import APPLICATION, LAYOUT, RUNS_FILE, finished_runs_in
 from stylobate.cli.main import call
-from stylobate.models.rocking.model import HousnerBlock
+from stylobate.models.rocking.model import HousnerBlock, Rocking
 
 MODEL = ["--model", "housner"]
 GRID = ["--frequencies", "1:2:2", "--amplitudes", "0.25g:1g:4", "--duration", "2s"]
@@ -40,7 +40,7 @@ def folder(tmp_path, monkeypatch):
 def made(monkeypatch):
     """Counts the runs that are made, in batches and one by one."""
     runs = []
-    many, one = HousnerBlock.run_many, HousnerBlock.run
+    many, one = Rocking.run_many, Rocking.run
 
     def run_many(self, cases, options, threads):
         for found in many(self, cases, options, 1):
@@ -51,8 +51,8 @@ def made(monkeypatch):
         runs.append(0)
         return one(self, *arguments)
 
-    monkeypatch.setattr(HousnerBlock, "run_many", run_many)
-    monkeypatch.setattr(HousnerBlock, "run", run)
+    monkeypatch.setattr(Rocking, "run_many", run_many)
+    monkeypatch.setattr(Rocking, "run", run)
     return runs
 
 

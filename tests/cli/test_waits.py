@@ -13,6 +13,8 @@ from stylobate.cli import console
 from stylobate.cli.main import call
 from stylobate.kernels import jit
 from stylobate.models.base import Case, duration
+from stylobate.models.drums.stepped import LaneEngine
+from stylobate.models.engine import engine_for
 from stylobate.simulate import run_cases
 
 COLUMN = st.preset("paper-12-drums")
@@ -137,12 +139,12 @@ def test_progress_is_in_lines_where_there_is_no_terminal(told, monkeypatch):
 def test_a_long_computation_is_told_before_it_begins(told, monkeypatch):
     motion = st.Motion(0.01, np.sin(np.arange(3001) / 10.0), metadata={"format": "made for this test"})
     model = st.DistinctElement2D()
-    step, cost = model.expected_step(COLUMN, motion)
+    step, cost = engine_for(model, COLUMN).expected_step(motion)
     monkeypatch.setitem(run_cases.__globals__, "TOLD_WAIT", 1.0)
     # so many to a lane, and the longest besides, as some lane begins it last
     for runs, threads, blocks in ((1, 1, 1), (320, 2, 10 + 31 / 32), (320, 1, 20 + 15 / 16)):
         some = run_cases([Case(COLUMN, motion)] * runs, model, threads=threads)
-        monkeypatch.setattr(type(model), "run_many", lambda *_: iter(()))
+        monkeypatch.setattr(LaneEngine, "run_many", lambda *_: iter(()))
         assert list(some) == []
         what = "this run takes" if runs == 1 else "320 runs take"
         expected = duration(blocks * cost * motion.duration / step)
@@ -167,7 +169,9 @@ def test_the_wait_for_several_directions_is_that_for_all_of_them(told, tmp_path,
     with pytest.raises(pytest.fail.Exception):
         call(command)
     ((what, wait),) = waits
-    step, cost = DistinctElement2D().expected_step(st.preset("paper-monolithic"), st.harmonic(1.0, 0.3, 1.0))
+    step, cost = engine_for(DistinctElement2D(), st.preset("paper-monolithic")).expected_step(
+        st.harmonic(1.0, 0.3, 1.0)
+    )
     assert what == "12 runs, each with 20 like it, take"
     assert wait == pytest.approx(12 * cost / step * (1.0 + 5 / 16 + 15 / 16), rel=0.3)  # the last steps, and the quiet
 
@@ -175,7 +179,9 @@ def test_the_wait_for_several_directions_is_that_for_all_of_them(told, tmp_path,
 def test_damping_costs_what_its_steps_do():
     """A damped step in space costs half as much again as an undamped one; named losses are told by what acts."""
     column, motion = st.preset("paper-12-drums"), st.harmonic(1.0, 0.3, 1.0)
-    free, stone = (DistinctElement3D(losses=name).expected_step(column, motion) for name in ("none", "stone"))
+    free, stone = (
+        engine_for(DistinctElement3D(losses=name), column).expected_step(motion) for name in ("none", "stone")
+    )
     assert stone[0] < free[0]
     assert stone[1] == pytest.approx(1.5 * free[1], rel=0.05)
 
@@ -190,7 +196,7 @@ def test_links_cost_what_their_steps_do():
         links=tuple(st.Dowel(joint=k, shear_stiffness=1e8, shear_capacity=1e5) for k in range(1, 6))
     )
     for model in (DistinctElement2D(), DistinctElement3D()):
-        bare, more = (model.expected_step(one, motion)[1] for one in (column, linked))
+        bare, more = (engine_for(model, one).expected_step(motion)[1] for one in (column, linked))
         assert more == pytest.approx(1.6 * bare, rel=0.07)
 
 

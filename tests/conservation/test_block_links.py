@@ -12,6 +12,7 @@ import stylobate as st
 from stylobate.column.assembly import Assembly, Block
 from stylobate.column.assembly_files import assembly_from_dict
 from stylobate.column.links import block_link
+from stylobate.models.engine import engine_for
 from stylobate.simulate import simulate
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.5)
@@ -124,7 +125,7 @@ def test_a_column_in_an_assembly_takes_its_links_along(tmp_path) -> None:
     (tmp_path / "alone.toml").write_text('[[column]]\nfile = "column.toml"\nat = [1.0]\n')
     column, assembly = st.read_column(tmp_path / "column.toml"), st.read_assembly(tmp_path / "alone.toml")
     assert assembly.placed_links[-1].name == "column 1, core from the base to drum 3"
-    step = 0.5 * st.DistinctElement2D().step_for(column)
+    step = 0.5 * engine_for(st.DistinctElement2D(), column).step
     model = st.DistinctElement2D(time_step=step)
     motion = st.harmonic(frequency=2.0, amplitude=4.0, duration=0.25)
     plane, blocks = st.simulate(column, motion, model), simulate(assembly, motion, model)

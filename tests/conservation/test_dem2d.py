@@ -7,6 +7,7 @@ from validation.conservation import first_impact, rounding_shows
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint, preset
 from stylobate.constants import g
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 
@@ -151,7 +152,7 @@ def scaled(column: Column, k: float) -> Column:
 @pytest.mark.parametrize("column", [MONOLITH, TWELVE, unequal()], ids=["monolith", "12 drums", "unequal"])
 def test_four_times_the_size_is_the_same_motion_to_the_bit(column):
     """With k = 4 every scaled number differs by a power of two alone, so that even chaos repeats itself."""
-    step = DistinctElement2D().step_for(column)
+    step = engine_for(DistinctElement2D(), column).step
     small = DistinctElement2D(time_step=step, stiffness_damping=2.0**-15, mass_damping=0.25)
     large = DistinctElement2D(time_step=2.0 * step, stiffness_damping=2.0**-14, mass_damping=0.125)
     motion = with_vertical(4.0).scaled(0.35 * g)
@@ -170,8 +171,8 @@ def test_four_times_the_size_is_the_same_motion_to_the_bit(column):
 def test_similar_columns_have_similar_step_and_verdicts():
     k = 2.7
     large = scaled(MONOLITH, k)
-    assert DistinctElement2D().step_for(large) == pytest.approx(
-        k**0.5 * DistinctElement2D().step_for(MONOLITH), rel=1e-9
+    assert engine_for(DistinctElement2D(), large).step == pytest.approx(
+        k**0.5 * engine_for(DistinctElement2D(), MONOLITH).step, rel=1e-9
     )
     units = [(harmonic(f, 1.0, 6.0), harmonic(f / k**0.5, 1.0, 6.0 * k**0.5)) for f in (0.4, 0.8, 1.2)]
     amplitudes = np.linspace(0.1, 0.8, 32) * g

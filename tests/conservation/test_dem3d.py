@@ -12,6 +12,7 @@ from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.drums.impact import TRIED, restitutions
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 
@@ -41,7 +42,7 @@ def unequal() -> Column:
 def places(column, motion, **options):
     """Centroids of all drums every 32 steps, shape (T, 3, n), and the times."""
     model = DistinctElement3D(**options)
-    block = model.block_for(model.kind(column), RunOptions(until_end=True))
+    block = engine_for(model, column).block(RunOptions(until_end=True))
     block.load(0, Case(column, motion))
     found = []
     while not block.is_over(0):
@@ -127,7 +128,7 @@ def test_planar_twin_stays_in_its_plane():
 
 def test_four_times_the_size_is_the_same_motion():
     """Lengths × 4, times × 2, stiffness per area kept: the same numbers but for powers of two."""
-    step = DistinctElement3D().step_for(MONOLITH)
+    step = engine_for(DistinctElement3D(), MONOLITH).step
     large = Column.tapered(
         height=20.0,
         bottom_width=3.84,

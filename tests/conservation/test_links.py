@@ -10,6 +10,7 @@ import pytest
 import stylobate as st
 from stylobate.column.links import COLUMN_KINDS
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.engine import engine_for
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.5)
 COLUMN = st.Column.tapered(height=1.8, bottom_width=0.5, top_width=0.4, drums=3, density=2500.0, joint=JOINT)
@@ -88,7 +89,7 @@ def test_rigid_blocks_close_their_ledger_with_links(kind) -> None:
 def test_held_in_a_plane_space_has_the_plane_law(kind) -> None:
     """Contact at the corners in both: to a thousandth until the joints slip, after 0.25 s."""
     column = COLUMN.replace(links=KINDS[kind])
-    step = 0.9 * min(model.step_for(column) for model in (PLANE, SPACE))
+    step = 0.9 * min(engine_for(model, column).step for model in (PLANE, SPACE))
     motion = st.harmonic(frequency=2.0, amplitude=4.5, duration=0.25)
     plane, space = (
         run(column, type(model)(**(model.parameters() | {"time_step": step})), motion) for model in (PLANE, SPACE)
@@ -116,7 +117,7 @@ def test_a_broken_link_changes_nothing_afterwards() -> None:
     linked = COLUMN.replace(links=KINDS["elastic dowels"] + KINDS["ties"][1:])
     found = []
     for column in (COLUMN, linked):
-        block = model.block_for(model.kind(column), RunOptions())
+        block = engine_for(model, column).block(RunOptions())
         block.load(0, Case(column, motion))
         if column.links:
             block.records.link["on"] = 0.0

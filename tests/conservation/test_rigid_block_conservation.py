@@ -5,6 +5,7 @@ import pytest
 
 from stylobate.column import preset
 from stylobate.models.base import RunOptions
+from stylobate.models.engine import engine_for
 from stylobate.models.rigid_block.model import RigidBlock, stable_step
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
@@ -81,7 +82,7 @@ def test_an_unstable_step_is_refused_and_a_stable_one_is_stable():
     column = preset("paper-12-drums")
     stable = stable_step(column)
     with pytest.raises(InputError, match="largest stable step"):
-        RigidBlock(time_step=1.1 * stable).check(column, harmonic(1.0, 1.0))
+        engine_for(RigidBlock(time_step=1.1 * stable), column).check(harmonic(1.0, 1.0))
     # Below uplift the column is linear: close to the stability limit its energy stays bounded.
     response = simulate(column, harmonic(2.0, 0.05 * G, 1.0), RigidBlock(step_factor=0.95))
     assert response.peak_top_displacement < 1e-3

@@ -8,6 +8,7 @@ from stylobate.column import preset
 from stylobate.errors import InputError
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.drums.joints import contact_points
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion
 from stylobate.simulate import simulate
 
@@ -39,13 +40,13 @@ def test_largest_stable_step_is_sharp():
     push = Motion(0.001, np.array([0.0, 1e-6, 0.0] + [0.0] * 198))
     response = simulate(column, push, model)
     assert np.abs(response.top_displacement).max() < 1e-8
-    stable = model.step_for(column) / 0.999
+    stable = engine_for(model, column).step / 0.999
     with pytest.raises(InputError, match="largest stable"):
-        DistinctElement2D(time_step=1.01 * stable).step_for(column)
+        _ = engine_for(DistinctElement2D(time_step=1.01 * stable), column).step
     # the limit is taken away by hand: beyond it the same push grows without bound
     from stylobate.models.base import Case, RunOptions
 
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     block.load(0, Case(column, push))
     records = block.records
     records.lane["dt"][0, 0] = block.dt[0] = 1.02 * stable

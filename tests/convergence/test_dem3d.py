@@ -9,6 +9,7 @@ from validation.space import round_column
 
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion
 
 pytestmark = pytest.mark.processor
@@ -19,7 +20,7 @@ def top_after(step: float) -> np.ndarray:
     column, time = round_column(3, stiffness=5e8), np.arange(401) * 1e-3
     push = 0.02 * 9.81 * np.sin(0.5 * math.pi * np.minimum(time / 0.2, 1.0)) ** 4
     model = DistinctElement3D(time_step=step)
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     motion = Motion(1e-3, push * np.cos(20.0 * time), push * np.sin(20.0 * time))
     block.load(0, Case(column, motion))
     while not block.is_over(0):

@@ -10,6 +10,7 @@ import stylobate as st
 from stylobate.column import Joint
 from stylobate.column.presets import preset
 from stylobate.models.base import Case
+from stylobate.models.engine import engine_for
 from stylobate.models.shared.soft_joints import longest_step
 from stylobate.models.shared.stable_step import whole_steps
 from stylobate.motion import Motion, harmonic
@@ -34,7 +35,7 @@ def test_fast_shaking_of_soft_joints_ends_as_with_a_finer_step():
     column = on_joints(1e7)
     motions = [harmonic(f, a * st.g, 5.0) for f in (10.0, 25.0, 50.0) for a in (1.0, 2.0, 4.0, 6.0, 8.0)]
     model = st.DistinctElement2D()
-    assert model.step_for(column) > 10.0 * longest_step(motions[-1])
+    assert engine_for(model, column).step > 10.0 * longest_step(motions[-1])
     found = outcomes(column, motions, model)
     finer = [
         outcomes(column, [motion], st.DistinctElement2D(time_step=0.2 * longest_step(motion)))[0] for motion in motions
@@ -72,4 +73,4 @@ def test_a_column_that_sinks_into_its_joints_is_refused(model, name):
     ):
         st.simulate(soft, harmonic(1.0, 0.1, 1.0), model)
     firm = on_joints(1e7 * sinking / 0.0099, name)
-    model.check(firm, harmonic(1.0, 0.1, 1.0))
+    engine_for(model, firm).check(harmonic(1.0, 0.1, 1.0))

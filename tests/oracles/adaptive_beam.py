@@ -10,6 +10,7 @@ from stylobate.column import Column
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.kernels.run_codes import SUPPORT_MARGIN
 from stylobate.models.base import RunOptions
+from stylobate.models.engine import engine_for
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_beam.state import PackedBeam, given, histories_of, measures_of
 from stylobate.models.rigid_beam.verdict import faces
@@ -143,7 +144,7 @@ def run_as(solver: str, column: Column, motion: Motion, model: RigidBeam, **opti
     """One run of the model by its own fixed step ("fixed"), or by this solver ("adaptive")."""
     if solver == "fixed":
         return simulate(column, motion, model, **options)
-    model.check(column, motion)
+    engine_for(model, column).check(motion)
     return run_adaptive(column, motion, model, **options)
 
 

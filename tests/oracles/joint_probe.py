@@ -19,6 +19,7 @@ import numpy as np
 import stylobate as st
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.models.space import assemblies, lanes
 from stylobate.motion import Motion
 
@@ -165,7 +166,7 @@ def joint_of(**changes: Any) -> st.Joint:
 def of_column(column: st.Column, **options: Any) -> Rig:
     """The joint of the second drum of a column in ``dem3d``, of one drum that on the base; sixteen lanes."""
     model = DistinctElement3D(**options)
-    block = model.block_for(model.kind(column), RunOptions(until_end=True))
+    block = engine_for(model, column).block(RunOptions(until_end=True))
     for lane in range(block.lanes):
         block.load(lane, Case(column, Motion(1.0, np.zeros(2))))
     records, n = block.records, column.n
@@ -215,7 +216,7 @@ def stones(kind: str) -> st.SpatialAssembly:
 
 def of_assembly(assembly: st.SpatialAssembly) -> Rig:
     """The last joint of an assembly in the engine that finds contacts: one lane."""
-    engine = assemblies.unsettled(assembly, DistinctElement3D().spatial_numbers(assembly))
+    engine = assemblies.unsettled(assembly, engine_for(DistinctElement3D(), assembly).numbers)
     engine.now["last"] = engine.now["dt"] = DT
     upper = len(engine.body) - 1
     middle = engine.joint["mu"][-1]
@@ -251,7 +252,7 @@ def of_vertices() -> Rig:
     corners = np.array([(0.25 * math.cos(a), 0.25 * math.sin(a), z) for a in around for z in (-0.4, 0.4)])
     stone = st.Specimen(400.0, np.diag([30.0, 30.0, 15.0]), corners, "hexagon", joint_of())
     model = DistinctElement3D()
-    block = model.block_for(model.kind(stone), RunOptions(until_end=True))
+    block = engine_for(model, stone).block(RunOptions(until_end=True))
     for lane in range(block.lanes):
         block.load(lane, Case(stone, Motion(1.0, np.zeros(2))))
     records = block.records
@@ -283,7 +284,7 @@ def assemblies_list(state: Any) -> None:
 def of_lanes(assembly: st.SpatialAssembly, beta: float = 0.0) -> Rig:
     """The last joint of an assembly in lanes of assemblies that stand."""
     model = DistinctElement3D(stiffness_damping=beta)
-    block = lanes.IntactLanes(model.spatial_numbers, RunOptions())
+    block = lanes.IntactLanes(lambda one: engine_for(model, one).numbers, RunOptions())
     for lane in range(block.lanes):
         block.load(lane, Case(assembly, Motion(1.0, np.zeros(2))))
     block.lane["last"][:] = block.lane["dt"][:] = DT

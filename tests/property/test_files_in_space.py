@@ -151,9 +151,7 @@ def test_a_mesh_in_millimetres(read, tmp_path):
         " ".join(["v", *(str(1000 * int(x)) for x in one.split()[1:])]) if one[:1] == "v" else one for one in scaled
     ]
     (tmp_path / "mm.obj").write_text("\n".join(lines))
-    with pytest.raises(
-        st.InputError, match=r"mm.obj is 1000 m, and stones have 0.05 to 60 m: was it meant in .*unit = "
-    ):
+    with pytest.raises(st.InputError, match=r"mm.obj is 1000 m, and stones have 0.05 to 60 m: check .*unit = "):
         read(HEAD + block('mesh = "mm.obj"'))
     assert read(HEAD + block('mesh = "mm.obj"\nunit = "mm"')).stones[0].mass == pytest.approx(2500.0)
 
@@ -171,16 +169,20 @@ def test_a_mesh_is_refused_where_no_part_of_it_has_the_size_of_a_stone(tmp_path)
     forty = [" ".join(["v", *(str(40 * int(x)) for x in one.split()[1:])]) if one[:1] == "v" else one
              for one in CUBE.splitlines()]  # fmt: skip
     (tmp_path / "forty.obj").write_text("\n".join(forty))
-    with pytest.raises(st.InputError, match=r"forty.obj is 40 m, and stones have at their thinnest .*was it meant in"):
+    with pytest.raises(st.InputError, match=r"forty.obj is 40 m, and stones have at their thinnest 0 to 10 m: check"):
         read_stones(tmp_path / "forty.obj")
 
 
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
-        ("section = [0.6, 0.5]", "section = [90, 70]", r"size of block 'architrave' is 90 m.*meant in cm\?"),
+        ("section = [0.6, 0.5]", "section = [90, 70]", r"size of block 'architrave' is 90 m, and stones have"),
         ("section = [0.6, 0.5]", "section = [0.6, 0.5]\ndensity = 2.5", r"density of block 'architrave' is 2.5 kg/m³"),
-        ("section = [0.6, 0.5]", "section = [35, 28]", r"size of block 'architrave' across is 28 m.*was it meant in"),
+        (
+            "section = [0.6, 0.5]",
+            "section = [35, 28]",
+            r"size of block 'architrave' across is 28 m, and stones have 0.005 to 10 m",
+        ),
     ],
 )
 def test_beams_are_doubted_as_blocks_are(old, new, says, read):
@@ -199,7 +201,7 @@ def test_beams_are_doubted_as_blocks_are(old, new, says, read):
     ],
 )
 def test_stones_drawn_in_cm_are_doubted(shape, read):
-    with pytest.warns(st.OutOfRangeWarning, match=r"size of block 'a'.*stones have.*was it meant in"):
+    with pytest.warns(st.OutOfRangeWarning, match=r"size of block 'a'.*stones have.*check it and its unit"):
         read(HEAD + f"[[block]]\nname = 'a'\nat = [0.0, 0.0, 0.0]\n{shape}\n")
 
 

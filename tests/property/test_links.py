@@ -17,6 +17,7 @@ from stylobate.column.files import column_from_dict, write_column
 from stylobate.column.links import COLUMN_KINDS, KINDS
 from stylobate.column.links.kinds import shear_limits, shear_stiffness
 from stylobate.column.links.link import MATERIALS
+from stylobate.models.engine import engine_for
 from stylobate.models.registry import MODELS, model_class
 
 JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
@@ -174,7 +175,7 @@ def test_a_new_kind_is_refused_by_all_until_one_takes_it(name) -> None:
     motion = st.harmonic(frequency=1.0, amplitude=1.0, duration=1.0)
     refused = r"and '.*' (has a brake, which )?does not; .*leave it out\.$|knows no links"
     with pytest.raises(st.InputError, match=refused):
-        statics[name](column) if name in statics else model_class(name)().check(column, motion)
+        statics[name](column) if name in statics else engine_for(model_class(name)(), column).check(motion)
 
 
 def test_a_kind_lies_where_all_lie_that_act_by_its_law() -> None:
@@ -184,17 +185,18 @@ def test_a_kind_lies_where_all_lie_that_act_by_its_law() -> None:
 
 
 def test_every_kind_acts_by_a_law_that_a_model_knows() -> None:
-    taken = {law for name in MODELS for law in model_class(name).takes_links}
+    taken = {law for name in MODELS for engine in model_class(name).engines for law in engine.links}
     assert {kind.law for kind in KINDS.values()} == taken
 
 
 @pytest.mark.parametrize("model", [st.DistinctElement2D(), st.DistinctElement3D()], ids=lambda model: model.name)
 def test_what_lanes_have_of_their_own_begins_on_lines_of_the_cache(model) -> None:
     """64 bytes, in every row of a record: vectors across two lines made dowels cost a fifth more."""
+    engine = engine_for(model, st.preset("paper-monolithic"))
     types = (
-        model.record_types(linked=True)
+        engine.record_types(linked=True)
         if isinstance(model, st.DistinctElement2D)
-        else model.kind(st.preset("paper-monolithic")).record_types(linked=True)
+        else engine.kind.record_types(linked=True)
     )
     for one in types.values() if isinstance(types, dict) else types:
         if not any(field.subdtype for field, *_ in one.fields.values()):

@@ -8,6 +8,7 @@ from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.models.base import Model
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.engine import engine_for
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_block.model import RigidBlock
 from stylobate.models.rocking.model import HousnerBlock
@@ -225,7 +226,7 @@ def scaled(column: Column, k: float) -> Column:
     reason="every number differs by a power of two: to the bit",
 )
 def similarity_dem():
-    step = DistinctElement2D().step_for(TWELVE)
+    step = engine_for(DistinctElement2D(), TWELVE).step
     small = DistinctElement2D(time_step=step, stiffness_damping=2.0**-15, mass_damping=0.25)
     large = DistinctElement2D(time_step=2.0 * step, stiffness_damping=2.0**-14, mass_damping=0.125)
     motion = harmonic(1.0, 0.35 * g, 4.0)

@@ -13,6 +13,7 @@ from stylobate.models.base import Case as Run
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.engine import engine_for
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
@@ -150,7 +151,7 @@ def bed_moment(column: Column, phi: float) -> float:
 def dem_moment(column: Column, points: int, phi: float) -> float:
     """Moment about the middle of the base of a drum turned by φ, lowered until it is pressed by its weight [N m]."""
     model = DistinctElement2D(points=points)
-    block = model.block_for(model.kind(column), RunOptions())
+    block = engine_for(model, column).block(RunOptions())
     block.load(0, Run(column, Motion(0.1, np.zeros(2))))
     height, weight = column.centroid_height, float(column.joint_weights[0])
     records = block.records

@@ -12,6 +12,7 @@ from stylobate.models.base import Case as Run
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.drums.joints import contact_points
+from stylobate.models.engine import engine_for
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion
 from stylobate.simulate import simulate
@@ -135,7 +136,7 @@ def dem_prism(width: float, height: float, stiffness: float, friction: float = 5
 def release(column: Column, tilt: float, model: DistinctElement2D, duration: float) -> tuple[np.ndarray, np.ndarray]:
     """Rotation of a monolith let go from a tilt on its left corner, that corner closed by the weight: time, rotation."""
     quiet = Motion(1.0, np.zeros(2))
-    block = model.block_for(model.kind(column), RunOptions(tail=duration - quiet.duration))
+    block = engine_for(model, column).block(RunOptions(tail=duration - quiet.duration))
     block.load(0, Run(column, quiet))
     half, height, weight = 0.5 * column.base_width, column.centroid_height, column.mass * column.gravity
     c, s = math.cos(tilt), math.sin(tilt)

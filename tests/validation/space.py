@@ -13,6 +13,7 @@ from stylobate.kernels.dem3d.standing import lowest_barrier
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.dem3d.verdict import numbers_for
+from stylobate.models.engine import engine_for
 from stylobate.models.start import Start
 from stylobate.motion import Motion
 
@@ -39,7 +40,7 @@ def cylinder(diameter: float, height: float, stiffness: float = 5e10, friction: 
 def released(column: Column, start: Start, duration: float, every: int = 1, **options) -> tuple[np.ndarray, np.ndarray]:
     """Free motion of a column from a pose: times, and the axes of its lowest drum as columns of matrices, (T, 3, 3)."""
     model = DistinctElement3D(**options)
-    block = model.block_for(model.kind(column), RunOptions(start=start, until_end=True))
+    block = engine_for(model, column).block(RunOptions(start=start, until_end=True))
     block.load(0, Case(column, Motion(duration, np.zeros(2))))
     times, axes = [0.0], [block.records.axes(0)[0]]
     while not block.is_over(0):
@@ -95,7 +96,7 @@ def rolling(column: Column, tilt: float, precession: float, spin: float, duratio
 def block_of(column: Column, duration: float = 1.0, **options):
     """A block with the column at rest in every lane, for tests that set or read states themselves."""
     model = DistinctElement3D(**options)
-    block = model.block_for(model.kind(column), RunOptions(until_end=True))
+    block = engine_for(model, column).block(RunOptions(until_end=True))
     for lane in range(block.lanes):
         block.load(lane, Case(column, Motion(duration, np.zeros(2))))
     return block
@@ -103,7 +104,7 @@ def block_of(column: Column, duration: float = 1.0, **options):
 
 def flat_barrier(column: Column, slip, turns=None, toes=None, walks: bool = False) -> float:
     """Lowest barrier of a column put down flat with these slips [m] and turns of its bodies [rad], in [J]."""
-    stand = numbers_for(column, np.zeros(column.n) if toes is None else toes)
+    stand = numbers_for(column, np.zeros((2, column.n)) if toes is None else toes)
     turns = np.zeros(column.n + 1) if turns is None else turns
     return float(lowest_barrier(stand, slip, turns, column.section != "circular", column.gravity, walks))
 

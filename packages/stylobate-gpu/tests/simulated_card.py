@@ -22,6 +22,7 @@ import stylobate as st
 from stylobate.column.scatter import twins_of
 from stylobate.kernels.run_codes import LANES
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.engine import engine_for
 from stylobate.models.start import Start
 from stylobate_gpu import card_check, column, kinds, laws
 from stylobate_gpu import lanes as lanes
@@ -194,10 +195,11 @@ def main(names: list[str]) -> None:
     for name in names:
         columns, motions, model, options = BATCHES[name]()
         cases = [Case(*one) for one in zip(columns, motions, strict=True)]
-        ways = {"loop": model.run_many(cases, options, 1)}
+        engine = engine_for(model, columns[0])
+        ways = {"loop": engine.run_many(cases, options, 1)}
         for way, chunks in (("card", 500), ("cut", 3)):
             lanes.CHUNKS_PER_LAUNCH = chunks
-            ways[way] = list(model.run_on_card(GraphicsCard(device), cases, options, 1))
+            ways[way] = list(engine.run_on_card(GraphicsCard(device), cases, options, 1))
         found[name] = {
             "drums": columns[0].n,
             **{way: [told(one) for _, one in sorted(runs)] for way, runs in ways.items()},

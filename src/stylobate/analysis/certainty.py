@@ -17,6 +17,7 @@ from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import Twins, the_twins
 from ..column.structure import Structure
 from ..models.base import Case, Model, RunOptions
+from ..models.engine import engine_for
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..notebook import Shown
@@ -97,7 +98,7 @@ def certainty(
     campaign = Campaign.of("certainty", campaign, settings, ("whole",), replicates=15)
     began = time.perf_counter()
     if until_rest:
-        column = model.as_followed(column)
+        column = engine_for(model, column).followed()
     drawn = the_twins(column, model, campaign)
     twins, tail = drawn.columns, campaign.tail
     riding = _riding(drawn, column, model, until_end or until_rest)
@@ -117,7 +118,7 @@ def certainty(
         product = {"own run": [column.digest, motion.name, motion.digest, [one.nameless_digest for one in riding]]}
         digest = Hasher(model, run_options(tail, until_decided=True)).of_product(product | following, __file__)
         response, rows = _kept(Case(column, motion), model, digest, make, kept, campaign)
-    rest = until_rest and not model.carried(column)  # what is followed one by one, so are its twins
+    rest = until_rest and not engine_for(model, column).twins  # what is followed one by one, so are its twins
     options = run_options(tail, until_rest=rest, quiet=quiet, until_decided=True)
     rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, options)
     doubt = "" if column.space_joints is None else caveat([column], model)
@@ -127,7 +128,7 @@ def certainty(
 
 def _riding(drawn: Twins, column: Structure, model: Model, followed: bool) -> tuple[Any, ...]:
     """Twins that ride along with a run; none where it is ``followed``, or where the law of their joints varies."""
-    return () if followed or drawn.groups else tuple(drawn.columns[: model.carried(column)])
+    return () if followed or drawn.groups else tuple(drawn.columns[: engine_for(model, column).twins])
 
 
 def wait_for(
@@ -148,7 +149,7 @@ def wait_for(
     if campaign.replicates:
         drawn = the_twins(column, model, campaign)
         twins = drawn.columns[len(_riding(drawn, column, model, followed)) :]
-    threads, paced = thread_count(campaign.threads), model.paced(column)
+    threads, paced = thread_count(campaign.threads), engine_for(model, column).paced
     return sum(
         expected_wait([Case(column, motion)], model, options)
         + expected_wait([Case(twin, motion) for twin in twins], paced, options, threads)
@@ -181,7 +182,7 @@ def batch(
     """Rows of twins that did not ride along, computed as those that did; the ledger of the campaign keeps them."""
     rows: list[dict] = [{}] * len(cases)
     if cases:
-        request = Request.of(cases, Hasher(model.paced(column), options), options.quiet)
+        request = Request.of(cases, Hasher(engine_for(model, column).paced, options), options.quiet)
         with closing(Runs(replace(campaign, progress=None))) as runs, closing(runs.run(request)) as finished:
             try:
                 for number, row in finished:

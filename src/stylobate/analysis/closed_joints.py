@@ -20,6 +20,7 @@ from ..models.dem3d.found_start import face_corners
 from ..models.dem3d.model import DistinctElement3D
 from ..models.drums.joints import contact_points, joint_stiffnesses
 from ..models.drums.links import acting
+from ..models.engine import engine_for
 from .small_vibrations import AROUND, ClosedJoint, Spring, Vibrating, pressed
 
 #: Corners around a round face that is not whole, or not over a whole one.
@@ -57,10 +58,9 @@ def vibrating(structure: Structure, model: Any) -> Vibrating:
             "dem2d and dem3d.",
             "model",
         )
+    engine_for(model, structure)  # which refuses
     if isinstance(model, DistinctElement2D):
-        structure.must_consist_of(model.computes, model.name)
         return _in_plane(structure, model)
-    structure.must_consist_of(model.computes, model.name)
     column = structure.stack
     if column is not None:
         return _column_in_space(column, model)
@@ -272,7 +272,7 @@ def _in_plane(structure: Structure, model: DistinctElement2D) -> Vibrating:
         )
     kn, ks = joint_stiffnesses(structure, model.block_modulus if column is not None else None)
     if column is None:
-        model.contacts_of_blocks()
+        engine_for(model, structure).contacts  # noqa: B018 (which refuse a modulus)
     bodies = structure.bodies
     xi, share = contact_points(structure.section or "rectangular", model.points)
     centroids = np.array([(body.place[0], 0.0, body.place[1]) for body in bodies])

@@ -25,6 +25,7 @@ from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError, check_kind, check_range
 from ..models.base import Case, Cases, Model
+from ..models.engine import engine_for
 from ..motion import Motion
 from ..notebook import Shown
 from ..response.rows import Rows
@@ -334,7 +335,7 @@ def sweep(
 
     cases = Cases(int(ends[-1]), case)
     if drawn is not None:
-        model = model.paced(column)
+        model = engine_for(model, column).paced
     started = time.perf_counter()
     request = Request.of(cases, Hasher(model, campaign.options), campaign.quiet)
     finished = run_all(request, campaign)

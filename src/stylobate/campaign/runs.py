@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import InputError
 from ..models import devices
 from ..models.base import Case, Cases, Model, RunOptions
+from ..models.engine import engine_for
 from ..models.shared.quiet import share_of
 from ..own_files import digest as digest_of_file
 from ..response.measures import CPU, GPU
@@ -232,7 +233,7 @@ class Runs:
             return
         if self.campaign.device == GPU:
             model = next(model for numbers, model, _ in request.groups if number in numbers)
-            if not model.on_card(devices.gpu(), request.cases[number].column):
+            if not engine_for(model, request.cases[number].column).on_card(devices.gpu()):
                 return
         raise InputError(
             f"{self.path} keeps finished runs of this request that were computed by {by}, and `device` is "

@@ -20,7 +20,9 @@ from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import WITHIN, Scatter, drawn_twins, spread_of, usual_scatter
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
+from ..messages import joined, say
 from ..models.base import Model
+from ..models.engine import engine_for
 from .campaign import MAX_TWINS, Campaign
 
 #: Column of a table of runs: the number of the law of the joints, where it varies.
@@ -72,12 +74,14 @@ class Twins(NamedTuple):
 
 def described(number: int, scatter: Scatter, seed: int, left_out: Sequence[str]) -> str:
     """Number of twins and their differences, in words."""
-    return f"{number} that vary by {scatter.describe()}; seed {seed}{without(left_out)}"
+    words = say("{count} that vary by {scatter}; seed {seed}", count=number, scatter=scatter.describe(), seed=str(seed))
+    return words + without(left_out)
 
 
 def without(left_out: Sequence[str]) -> str:
     """Parts of a scatter that a model leaves out, in words."""
-    return f", without {', '.join(left_out).replace('_', ' ')}, which the model does not take" if left_out else ""
+    names = joined(", ", (say(name.replace("_", " ")) for name in left_out))
+    return say(", without {names}, which the model does not take", names=names) if left_out else ""
 
 
 def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: bool = True, laws: bool = True) -> Twins:
@@ -127,9 +131,9 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
 
 def _not_taken(stands: Structure, model: Model) -> tuple[str, ...]:
     """Parts of a scatter that change nothing in runs of what stands."""
-    if model.is_plane(model.parameters()) or not model.varies_law:
-        return (*model.not_scattered, *PARTS)
-    return model.not_scattered if stands.section == "circular" else (*model.not_scattered, *OF_ROUND)
+    engine = engine_for(model, stands)
+    laws = PARTS if not engine.draws_laws else () if stands.section == "circular" else OF_ROUND
+    return *engine.not_scattered, *laws
 
 
 #: Parts of a scatter that are laws of joints, of models in space; those of round faces alone.
@@ -166,7 +170,7 @@ class Laws(NamedTuple):
 def usual_with_laws(structure: Structure, model: Model) -> Scatter:
     """Scatter of what stands where nobody states it: of what a survey does not know, and of the laws of joints in space."""
     usual, column = usual_scatter(structure), structure.stack
-    if column is None or not model.varies_law or model.is_plane(model.parameters()):
+    if not engine_for(model, structure).draws_laws:
         return usual
     laws: dict[str, Any] = {"joint_stiffness": 1.0, "stiffness_damping": 0.8}
     if column.section == "circular":

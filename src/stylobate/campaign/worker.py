@@ -22,6 +22,7 @@ from ..errors import InputError
 from ..kernels.run_codes import LANES
 from ..kernels.sources import source_digest
 from ..models.base import Case, Cases, Model, RunOptions
+from ..models.engine import engine_for
 from ..motion import Motion
 from ..response import Measures
 from ..version import __version__
@@ -112,7 +113,8 @@ class Stream:
         feed = _Feed(self, first)
         started, finished = time.perf_counter(), 0
         try:
-            for index, measures in first.model.run_many(feed, first.options, 1):
+            engine = engine_for(first.model, first.cases[0].column)
+            for index, measures in engine.run_many(feed, first.options, 1):
                 part, number = feed.given.pop(index)
                 finished += 1
                 self._ended(1)

@@ -35,7 +35,7 @@ def _models(incomplete: str) -> list[str]:
 
 def _columns(incomplete: str) -> list[str]:
     """Presets and column files that begin so, for the completion of a shell."""
-    from ..column.presets import PRESETS
+    from ..column.presets import ASSEMBLIES, PRESETS
 
     folder, _, start = incomplete.rpartition("/")
     there = Path(folder or ("/" if incomplete.startswith("/") else "."))
@@ -45,7 +45,7 @@ def _columns(incomplete: str) -> list[str]:
     found = [
         f"{folder}/{file.name}" if "/" in incomplete else file.name for file in files if file.name.startswith(start)
     ]
-    return [*(name for name in PRESETS if name.startswith(incomplete)), *found]
+    return [*(name for name in (*PRESETS, *ASSEMBLIES) if name.startswith(incomplete)), *found]
 
 
 ColumnName = Annotated[
@@ -348,8 +348,9 @@ def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> 
     """What is asked for, with as many columns like this one as cost nothing where no number is ``given``."""
     from ..campaign.twins import the_twins
     from ..column.scatter import usual_scatter
+    from ..models.engine import engine_for
 
-    number = asked.replicates if given else model.carries if model.carried(stone) else 0
+    number = asked.replicates if given else engine_for(model, stone).twins
     # unasked they ride along, and what rides along is of one law
     scatter = asked.scatter if given or not number else asked.scatter or usual_scatter(stone.stack or stone)
     made = dataclasses.replace(asked, replicates=number, scatter=scatter)

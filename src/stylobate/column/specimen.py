@@ -60,7 +60,7 @@ class Specimen(Structure):
 
     kind: ClassVar[str] = "specimen"
     joints_are: ClassVar[str] = "contact with the base"
-    computed_by: ClassVar[str] = "dem3d (DistinctElement3D)"
+    computed_by: ClassVar[str] = "dem3d (DistinctElement3D) can"
 
     mass: float
     inertia: Any

@@ -16,6 +16,7 @@ import numpy as np
 from .. import notebook
 from ..constants import g
 from ..errors import InputError, check_range
+from ..messages import say
 from .as_found import AS_BUILT, AsFound
 from .joint import Joint
 from .links.link import Link, Numbers
@@ -263,7 +264,7 @@ class Structure:
 
     Class attributes: ``kind``, its word in sentences and the name of its entry in files; ``counted`` what one and several of
     its bodies are called; ``like``, what several like it are; ``joints_are``, what the joints of its responses are;
-    ``computed_by``, who computes it where not all models do; ``scattered``, by which parts of a scatter its twins vary, none
+    ``computed_by``, who can where not all models do; ``scattered``, by which parts of a scatter its twins vary, none
     of what has no twins; ``first``, the first of ``bodies`` whose poses a run records; ``relative``, whether a model in the
     plane records them from where the bodies stand.
     """
@@ -284,6 +285,7 @@ class Structure:
     ground: float | None = 0.0
     as_found: AsFound = AS_BUILT
     links: tuple[Link, ...] = ()
+    losses: Any = None
 
     # -- what it consists of -------------------------------------------------------------------------------------------
 
@@ -361,8 +363,8 @@ class Structure:
     def north_words(self) -> str:
         """What is known of north."""
         if self.north is None:
-            return "not stated; azimuths are from x towards y, and none is a bearing"
-        return f"x points to {self.north:g}° clockwise from north; azimuths are from x towards y"
+            return say("not stated; azimuths are from x towards y, and none is a bearing")
+        return say("x points to {self.north:g}° clockwise from north; azimuths are from x towards y", self=self)
 
     @property
     def height(self) -> float:
@@ -445,16 +447,6 @@ class Structure:
         return dataclasses.replace(fields, name=name)
 
     # -- what asks for less ------------------------------------------------------------------------------------------
-
-    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
-        """Refuse bodies whose shapes ``what`` does not know.
-
-        Raises
-        ------
-        InputError
-        """
-        if not all(isinstance(shape, shapes) for shape in self.shapes):
-            raise InputError(f"{what} computes columns, and {self.name!r} is {self.described}: use {self.computed_by}.")
 
     def must_be_as_built(self, what: str) -> None:
         """Refuse offsets, tilts or chips where ``what`` knows none.

@@ -1,25 +1,16 @@
-"""Base of models: a frozen set of parameters that can run one case or many."""
+"""Base of models: a frozen set of parameters; cases that are run with them, and how."""
 
 from __future__ import annotations
 
 import dataclasses
 import typing
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
-from ..column.shapes import DRUMS
-from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, suggest, warn
-from ..motion import Motion, beyond_axes, keep_axes
-from ..response import Measures, Response
-from ..response.words import round_in_the_plane
+from ..errors import InputError, suggest
+from ..motion import Motion, keep_axes
 from .start import Start, Toss
-
-if TYPE_CHECKING:
-    from .devices import Device
-
-#: Larger accelerations are rejected as non-physical; numbers would overflow [m/s²].
-LARGEST_ACCELERATION = 1e6
 
 #: Longest run, by the estimate [s], and most states times bodies of its histories.
 LONGEST_RUN, MOST_STATES = 3600.0, 5e7
@@ -81,12 +72,12 @@ class RunOptions:
         Go on after motion and tail, a minute at most: columns of models that step drums as long as they move and their
         verdict could change, assemblies as long as nothing has fallen and not all lies still.
     start : Start or Toss, optional
-        Pose and velocity at the start, instead of rest (models with ``takes_start``).
+        Pose and velocity at the start, instead of rest (engines of columns that are stepped, and of specimens).
     quiet : float
         Share of what opens a joint below which the lead-in and the end of a motion are not stepped (models of drums; see
         ``models/shared/quiet.py``); 0 steps the whole motion [-].
     twins : tuple of Column
-        Columns under the same motion in the other lanes of a single run (models with ``carries``, as many at most).
+        Columns under the same motion in the other lanes of a single run (engines with ``twins``, as many at most).
     progress : callable, optional
         Called with (time so far, time of the whole run) [s] at every recorded state of a single run, by models of drums and
         for assemblies.
@@ -110,10 +101,8 @@ class Model:
     Class attributes: ``name`` as on the command line; ``version`` of a model of somebody else, another whenever its
     results change, because finished runs of an equal version are not computed again; ``title`` for people; ``references``
     as keys of the bibliography; ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model
-    takes, ``xz`` in a plane; ``computes`` the shapes of bodies that it knows, ``takes_as_found`` whether it computes
-    columns that are not as built, ``takes_start`` whether it can start from a pose, ``takes_rings`` whether joints may
-    carry on rings, ``takes_links`` by which laws links may act; ``carries`` how many columns alike it can take along in a
-    single run at next to no cost; ``varies_law`` whether columns may have losses and laws of joints of their own.
+    takes, ``xz`` in a plane; ``engines``, the kinds of :class:`~stylobate.models.engine.Engine` that compute it, each for
+    structures of its own kinds.
     """
 
     wanted: ClassVar[str] = "a model, such as DistinctElement2D()"
@@ -124,45 +113,7 @@ class Model:
     assumptions: ClassVar[tuple[str, ...]] = ()
     limits: ClassVar[tuple[str, ...]] = ()
     axes: ClassVar[str] = "xz"
-    computes: ClassVar[tuple[type, ...]] = DRUMS
-    takes_as_found: ClassVar[bool] = False
-    takes_start: ClassVar[bool] = False
-    takes_rings: ClassVar[bool] = False
-    takes_links: ClassVar[frozenset[str]] = frozenset()
-    carries: ClassVar[int] = 0
-    varies_law: ClassVar[bool] = False
-
-    @property
-    def not_scattered(self) -> tuple[str, ...]:
-        """Parts of a :class:`~stylobate.column.scatter.Scatter` that change nothing in its runs, by name."""
-        return () if self.takes_as_found else ("offset",)
-
-    def check(self, column: Any, motion: Motion) -> None:
-        """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
-        column.must_consist_of(self.computes, self.name)
-        if not self.takes_as_found:
-            column.must_be_as_built(self.name)
-        elif "y" not in self.axes and not column.as_found.in_plane:
-            raise InputError(
-                f"{self.name} computes the plane of x and z, and {column.name!r} is found out of it "
-                "(an azimuth other than 0 and 180, or a turn); use dem3d, project it onto a plane (`project=AZIMUTH`), or "
-                "leave these out."
-            )
-        if not self.takes_rings:
-            column.must_carry_on_whole_faces(self.name)
-        column.must_link_by(self.takes_links, self.name)
-        for axis, peak in motion.peaks.items():
-            if not peak <= LARGEST_ACCELERATION:
-                raise InputError(
-                    f"the component {axis} of {motion.name!r} reaches {peak:.3g} m/s²; allowed is up to "
-                    f"{LARGEST_ACCELERATION:g} m/s²: check its unit and its factor."
-                )
-        left_out = beyond_axes(motion, self.axes)
-        if "y" in left_out and column.section == "circular":
-            said = f"{self.name} leaves out what shakes a round column across. {round_in_the_plane(column)}"
-            warn(said, PlaneOnlyWarning)
-        for one in left_out.values():
-            warn(f"left out of {motion.name!r}: {one}; {self.name} takes {' and '.join(self.axes)}.", LeftOutWarning)
+    engines: ClassVar[tuple[Any, ...]] = ()
 
     @classmethod
     def is_plane(cls, parameters: Mapping[str, Any]) -> bool:
@@ -172,60 +123,6 @@ class Model:
     def taken(self, motion: Motion) -> Motion:
         """The components of a motion that the model takes; what it leaves out is said in ``metadata["left_out"]``."""
         return keep_axes(motion, self.axes)
-
-    def as_followed(self, structure: Any) -> Any:
-        """What stands, in the form in which a run that goes on until everything lies still computes it.
-
-        Raises
-        ------
-        InputError
-            The model follows no collapse of it to the ground.
-        """
-        raise InputError(
-            f"`until_rest` is on, and {self.name} does not follow how {structure.described} comes down; use dem2d or dem3d "
-            "for columns and assemblies, or leave it off: `tail` and `until_end` are for every model.",
-            "until_rest",
-        )
-
-    def carried(self, column: Any) -> int:
-        """Number of twins along a run of what stands."""
-        del column
-        return self.carries
-
-    def paced(self, column: Any) -> Model:
-        """The model that computes columns like this one beside it: in its time step, where that is the model's to choose."""
-        return self
-
-    def expected_step(self, column: Any, motion: Motion) -> tuple[float, float]:
-        """Time step that a run will take, and about what a step costs on one core, both [s]; the cost of a single run."""
-        return motion.dt, 0.0
-
-    def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
-        """Refuse a run that would not end, and histories that no memory holds, with the estimate (InputError)."""
-        length = motion.duration + options.tail
-        step, cost = self.expected_step(column, motion)
-        refuse_endless(f"{column.name!r} under {motion.name!r}", length, step, cost)
-        refuse_long_histories(length / options.output_interval, column.n)
-
-    def run(self, column: Any, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories."""
-        raise NotImplementedError
-
-    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
-        """Many runs; yields (index of the case, measures) as they finish, in any order."""
-        raise NotImplementedError
-
-    def run_on_card(
-        self, device: Device, cases: Sequence[Case], options: RunOptions, threads: int
-    ) -> Iterator[tuple[int, Measures]]:
-        """As :meth:`run_many`, where a graphics card steps what it has kernels for, and threads the rest; all of it here."""
-        del device
-        return self.run_many(cases, options, threads)
-
-    def on_card(self, device: Device, column: Any) -> bool:
-        """Whether a graphics card steps runs of what stands."""
-        del device, column
-        return False
 
     def parameters(self) -> dict[str, Any]:
         """All parameters as plain values, for provenance."""

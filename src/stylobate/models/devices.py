@@ -26,7 +26,7 @@ class Device(Protocol):
     threads: int
 
     def steps(self, model: Any, kind: Any) -> bool:
-        """Whether it steps columns of a kind (``model.kind``) of a model (:class:`.drums.stepped.SteppedDrums`).
+        """Whether it steps columns of a kind (``LaneEngine.kind``) of a model (:class:`.drums.stepped.SteppedDrums`).
 
         Raises
         ------
@@ -35,12 +35,14 @@ class Device(Protocol):
         """
         ...
 
-    def lanes(self, model: Any, kind: Any, options: Any, runs: int, turn: Lock) -> Any:
+    def lanes(self, engine: Any, kind: Any, options: Any, runs: int, turn: Lock) -> Any:
         """Lanes (:class:`.shared.lanes.LaneBlock`) for columns of a kind that it steps.
 
         Parameters
         ----------
-        model, kind, options
+        engine : LaneEngine
+        kind, options
+            As its ``block_for`` takes them.
         runs : int
             How many runs there are, of all threads.
         turn : Lock

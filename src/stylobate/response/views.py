@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ..outcome import Outcome
 from .collapse import Collapse
 from .histories import Histories
 from .links import LinkHistories
-from .measures import Measures
+from .measures import Measure, Measures, SpaceMeasures, measures_of
 from .mechanism import Mechanism
 from .poses import PlanePoses, SpacePoses
 from .residuals import Residuals
@@ -41,69 +44,6 @@ class Views:
         return self.histories.links
 
     @property
-    def drum_x(self) -> np.ndarray:
-        """Displacement of each centroid along x (in the plane: along the base) from the start [m], shape (T, n)."""
-        return self.histories.drum_x
-
-    @property
-    def drum_y(self) -> np.ndarray:
-        """Displacement of each centroid along y from the start [m], shape (T, n); zero in the plane."""
-        return self.histories.drum_y
-
-    @property
-    def drum_z(self) -> np.ndarray:
-        """Displacement of each centroid upward (in the plane: normal to the base) from the start [m], shape (T, n)."""
-        return self.histories.drum_z
-
-    @property
-    def drum_rotation(self) -> np.ndarray:
-        """Rotation of each body, counter-clockwise positive (the top goes to −x) [rad], shape (T, n); as ``rotation``."""
-        return self.histories.drum_rotation
-
-    @property
-    def joint_opening(self) -> np.ndarray:
-        """Largest gap between the two faces of each joint [m], shape (T, J); as ``opening``."""
-        return self.histories.joint_opening
-
-    @property
-    def joint_slip(self) -> np.ndarray:
-        """Offset along each joint of the body above, from the start [m], shape (T, J); in space along x and y, (T, J, 2).
-
-        ``slip`` is the same with both components in the plane as well.
-        """
-        return self.histories.joint_slip
-
-    @property
-    def joint_twist(self) -> np.ndarray:
-        """Turn about the normal of each joint, from the start [rad], shape (T, J); zero in the plane."""
-        return self.histories.joint_twist
-
-    @property
-    def base_displacement(self) -> np.ndarray:
-        """Horizontal displacement of the middle of the lowest face [m], shape (T,); in space (T, 2)."""
-        return self.histories.base_displacement
-
-    @property
-    def top_displacement(self) -> np.ndarray:
-        """Horizontal displacement of the middle of the topmost face [m], shape (T,); in space (T, 2)."""
-        return self.histories.top_displacement
-
-    @property
-    def ground_acceleration(self) -> np.ndarray:
-        """Acceleration of the base along x [m/s²], shape (T,); in space along all axes, shape (T, 3)."""
-        return self.histories.ground_acceleration
-
-    @property
-    def ground_displacement(self) -> np.ndarray:
-        """Displacement of the base along x [m], shape (T,); in space along all axes, shape (T, 3)."""
-        return self.histories.ground_displacement
-
-    @property
-    def imbalance(self) -> np.ndarray:
-        """Input minus everything that the ledger accounts for [J], shape (T,)."""
-        return self.histories.imbalance
-
-    @property
     def energy(self) -> dict[str, np.ndarray]:
         """Ledger [J], each term of shape (T,); see :class:`Histories`."""
         return self.histories.energy
@@ -120,6 +60,40 @@ class Views:
         """Whether it collapsed."""
         return self.measures.collapsed
 
+    if (
+        TYPE_CHECKING
+    ):  # declared in ``histories.py`` and ``measures.py``; properties are made of these declarations below
+        drum_x: np.ndarray
+        drum_y: np.ndarray
+        drum_z: np.ndarray
+        drum_rotation: np.ndarray
+        joint_opening: np.ndarray
+        joint_slip: np.ndarray
+        joint_twist: np.ndarray
+        base_displacement: np.ndarray
+        top_displacement: np.ndarray
+        ground_acceleration: np.ndarray
+        ground_displacement: np.ndarray
+        imbalance: np.ndarray
+        collapse_time: float
+        peak_top_displacement: float
+        residual_top_displacement: float
+        peak_rotation: float
+        peak_joint_opening: float
+        residual_joint_slip: float
+        energy_imbalance: float
+        time_step: float
+        steps: int
+        peak_top_x: float | None
+        peak_top_y: float | None
+        peak_tilt: float | None
+        peak_twist: float | None
+
+    @property
+    def reason(self) -> str:
+        """Mechanism of a collapse, or why a run failed; empty otherwise."""
+        return self.measures.reason
+
     @property
     def decided(self) -> bool:
         """False when the run ended while the verdict could still change."""
@@ -129,79 +103,6 @@ class Views:
     def collapse(self) -> Collapse | None:
         """The collapse, as far as the model tells; None without one."""
         return self.measures.collapse
-
-    @property
-    def collapse_time(self) -> float:
-        """When the collapse became certain [s]; NaN without one."""
-        return self.measures.collapse_time
-
-    @property
-    def peak_top_displacement(self) -> float:
-        """Largest displacement of the middle of the top face, relative to the base [m]; NaN for an assembly."""
-        return self.measures.peak_top_displacement
-
-    @property
-    def residual_top_displacement(self) -> float:
-        """Displacement of the middle of the top face at the end, relative to the base [m]; NaN for an assembly.
-
-        After a collapse it is that of the debris.
-        """
-        return self.measures.residual_top_displacement
-
-    @property
-    def peak_rotation(self) -> float:
-        """Largest absolute rotation of any body [rad]."""
-        return self.measures.peak_rotation
-
-    @property
-    def peak_joint_opening(self) -> float:
-        """Largest opening of any joint [m]."""
-        return self.measures.peak_joint_opening
-
-    @property
-    def residual_joint_slip(self) -> float:
-        """Largest absolute offset along a joint at the end [m]; of the debris after a collapse."""
-        return self.measures.residual_joint_slip
-
-    @property
-    def energy_imbalance(self) -> float:
-        """Energy that the ledger cannot account for, as a share [-]."""
-        return self.measures.energy_imbalance
-
-    @property
-    def time_step(self) -> float:
-        """Step of the integration, the smallest if it varies [s]."""
-        return self.measures.time_step
-
-    @property
-    def steps(self) -> int:
-        """Steps taken."""
-        return self.measures.steps
-
-    @property
-    def reason(self) -> str:
-        """Mechanism of a collapse, or why a run failed; empty otherwise."""
-        return self.measures.reason
-
-    @property
-    def peak_top_x(self) -> float | None:
-        """Largest absolute displacement of the top along x [m]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.peak_top_x
-
-    @property
-    def peak_top_y(self) -> float | None:
-        """Largest absolute displacement of the top along y [m]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.peak_top_y
-
-    @property
-    def peak_tilt(self) -> float | None:
-        """Largest angle between a drum's axis and the vertical [rad]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.peak_tilt
-
-    @property
-    def peak_twist(self) -> float | None:
-        """Largest absolute twist of any joint [rad]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.peak_twist
 
     @property
     def residuals(self) -> Residuals | None:
@@ -349,3 +250,28 @@ def _recorded(velocity: np.ndarray | None) -> np.ndarray:
     if velocity is None:
         raise AttributeError("velocities are recorded of assemblies only; differentiate body_position.")
     return velocity
+
+
+def _read_directly(measure: Measure, part: str) -> None:
+    """Make a measure an attribute of responses; None where the run has no such part."""
+
+    def read(views: Views) -> float | None:
+        holder = getattr(views.measures, part) if part else views.measures
+        return None if holder is None else getattr(holder, measure.field)
+
+    unit, where = measure.unit or "-", "; None for plane models" if part else ""
+    setattr(Views, measure.field, property(read, doc=f"{measure.meaning.capitalize()} [{unit}]{where}."))
+
+
+#: Histories that a response passes on.
+_HISTORIES = (
+    "drum_x", "drum_y", "drum_z", "drum_rotation", "joint_opening", "joint_slip", "joint_twist", "base_displacement",
+    "top_displacement", "ground_acceleration", "ground_displacement", "imbalance",
+)  # fmt: skip
+
+for _name in _HISTORIES:
+    setattr(Views, _name, property(attrgetter(f"histories.{_name}"), doc=getattr(Histories, _name).__doc__))
+
+for _holder, _part in ((Measures, ""), (SpaceMeasures, "space")):
+    for _one in measures_of(_holder):
+        _read_directly(_one, _part)

@@ -9,6 +9,7 @@ import numpy as np
 from references import assembly, scenes
 
 import stylobate as st
+from stylobate.models.engine import engine_for
 
 from .row import MET, MISSED, NONE, Judged, Rows, family
 
@@ -64,7 +65,7 @@ def found(text: str, share: float = 1.0) -> Found:
     structure = st.SpatialAssembly(structure.stones, joint, "scene")
     motion = motion_of(text).scaled(share)
     models = [st.DistinctElement3D(stiffness_damping=damping) for damping in DAMPINGS]
-    model = next((one for one in models if one.expected_step(structure, motion)[0] >= SHORTEST), models[-1])
+    model = next((one for one in models if engine_for(one, structure).expected_step(motion)[0] >= SHORTEST), models[-1])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", st.OutOfRangeWarning)  # a monolith that leans begins as drawn
         response = st.simulate(structure, motion, model, tail=FOLLOWED - motion.duration, until_end=True)

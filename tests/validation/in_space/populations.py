@@ -17,6 +17,7 @@ import stylobate as st
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.presets import PAPER
 from stylobate.column.turning import matrix_of
+from stylobate.models.engine import engine_for
 from stylobate.models.shared.ledger import TERMS, released, unaccounted
 from stylobate.models.space import assemblies
 from stylobate.models.space.assemblies import engine_of, step_for
@@ -119,7 +120,7 @@ def tumbling() -> Iterator[dict[str, Any]]:
     for number in range(TUMBLES):
         joint = LAWS[number % len(LAWS)]
         assembly = st.SpatialAssembly(tuple(tumble(number)), joint, name="tumble", settle=False)
-        numbers = model.spatial_numbers(assembly)
+        numbers = engine_for(model, assembly).numbers
         engine = engine_of(assembly, numbers, 0.3)
         engine.start(step_for(engine, assembly, numbers))
         start, flown = engine.energies(), 0.0

@@ -446,9 +446,10 @@ HEAD = "drum,height_m,bottom_width_m,top_width_m"
         (f"# material: marble\n{HEAD}\n1,-1,1,1", "height in row 1 of .* is -1 m; give a length above 0 m"),
         (
             "# material: marble\ndrum;height;bottom_width;top_width\n1;74,2;120,4;117,2\n2;73,1;117,2;114,1",
-            r"147.3 m, and columns have 0.05 to 60 m: was it meant in cm\? Lengths in .* are in m unless .* height_cm",
+            r"height of drum 1 is 74.2 m, and drums have 0.005 to 30 m: check it and its unit. "
+            r"Lengths in .* are in m unless .* height_cm",
         ),
-        (f"# material: marble\n{HEAD}\n1,0.8,90,1", r"lower face of drum 1 is 90 m.*meant in cm\?"),
+        (f"# material: marble\n{HEAD}\n1,0.8,90,1", r"lower face of drum 1 is 90 m, and stones have"),
         (f"# material: marble\n{HEAD},tilt_deg\n1,1,1,1,80", "tilt"),
     ],
 )

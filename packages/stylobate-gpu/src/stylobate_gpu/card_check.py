@@ -15,6 +15,7 @@ import numpy as np
 from stylobate.column import Column, Joint
 from stylobate.errors import StylobateError
 from stylobate.models.base import Case, Model, RunOptions
+from stylobate.models.engine import engine_for
 from stylobate.models.shared.lanes import run_lanes
 from stylobate.motion import Motion
 
@@ -58,7 +59,7 @@ def check(device: Device, name: str, kind: type[Model]) -> None:
     """
     model, cases = cases_for(name, kind)
     options = RunOptions()
-    block = partial(model.block_for, model.kind(cases[0].column), options)
+    block = partial(engine_for(model, cases[0].column).block, options)
     there = dict(run_lanes(lambda: CardLanes(device, name, block, len(cases), Lock()), cases, 1))
     here = dict(run_lanes(block, cases, 1))
     for number in range(len(cases)):

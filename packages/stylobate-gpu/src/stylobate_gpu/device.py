@@ -10,7 +10,7 @@ from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.drums.bodies import Topology
-from stylobate.models.drums.stepped import SteppedDrums
+from stylobate.models.drums.stepped import LaneEngine, SteppedDrums
 
 from . import card_check, driver, kinds, lanes
 from .card import Device
@@ -36,11 +36,11 @@ class GraphicsCard:
         drums = kind.stack if isinstance(kind, Topology) else kind.topology.stack
         return card_check.usable(self.card, name, drums, type(model))
 
-    def lanes(self, model: SteppedDrums, kind: Any, options: RunOptions, runs: int, turn: Lock) -> lanes.CardLanes:
+    def lanes(self, engine: LaneEngine, kind: Any, options: RunOptions, runs: int, turn: Lock) -> lanes.CardLanes:
         """Lanes on the card for columns of a kind; each of its threads has its share of the runs."""
-        name, share = kernel_for(model, kind), -(-runs // self.threads)
+        name, share = kernel_for(engine.model, kind), -(-runs // self.threads)
         assert name is not None
-        return lanes.CardLanes(self.card, name, partial(model.block_for, kind, options), share, turn)
+        return lanes.CardLanes(self.card, name, partial(engine.block_for, kind, options), share, turn)
 
 
 def kernel_for(model: SteppedDrums, kind: Any) -> str | None:

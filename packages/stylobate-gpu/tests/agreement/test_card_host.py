@@ -11,6 +11,7 @@ from idle_card import IdleCard
 import stylobate as st
 from stylobate.column.scatter import twins_of
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.engine import engine_for
 from stylobate.models.shared.lanes import run_lanes
 from stylobate_gpu import card_check, driver
 from stylobate_gpu import lanes as lanes
@@ -32,13 +33,13 @@ def test_every_lane_of_wide_blocks_has_the_run_that_was_put_there(monkeypatch):
     ]
 
     def block(*width):
-        return model.block_for(model.kind(COLUMN), options, *width)
+        return engine_for(model, COLUMN).block(options, *width)
 
     found = dict(run_lanes(lambda: lanes.CardLanes(IdleCard(8), "plane", block, len(cases), Lock()), cases, 1))
     assert sorted(found) == list(range(len(cases)))
     for number, case in enumerate(cases):
         assert found[number].steps * found[number].time_step == pytest.approx(case.motion.duration, rel=1e-9)
-        assert found[number].time_step <= model.step_for(case.column)
+        assert found[number].time_step <= engine_for(model, case.column).step
         assert found[number].computed_by == "gpu (idle)"
         assert found[number].residual_top_displacement == pytest.approx(0.0, abs=1e-12)  # rounding of a place of 3 m
 

@@ -18,6 +18,7 @@ import pytest
 
 import stylobate as st
 from stylobate.column.links import Dowel
+from stylobate.models.engine import engine_for
 from stylobate_gpu import card_check, kinds
 from stylobate_gpu.device import kernel_for
 
@@ -113,7 +114,7 @@ def test_a_kernel_of_other_sources_is_not_used(tmp_path, monkeypatch):
 def test_every_kernel_has_runs_by_which_it_is_checked(name):
     engine = st.DistinctElement2D if name.startswith("plane") else st.DistinctElement3D
     model, cases = card_check.cases_for(name, engine)
-    assert kernel_for(model, model.kind(cases[0].column)) == name
+    assert kernel_for(model, engine_for(model, cases[0].column).kind) == name
 
 
 def test_what_has_no_kernel_is_left_to_the_processor():
@@ -123,11 +124,11 @@ def test_what_has_no_kernel_is_left_to_the_processor():
     round_ = st.Column.tapered(**size, section="circular")
     linked = column.replace(links=(Dowel(joint=2, shear_stiffness=1e8, shear_capacity=1e4),))
     several = st.DistinctElement2D(points=3), st.DistinctElement3D(law=bed)
-    assert kernel_for(plane, plane.kind(column)) == "plane"
-    assert kernel_for(space, space.kind(column)) == "corner"
-    assert kernel_for(space, space.kind(round_)) == "rim"
+    assert kernel_for(plane, engine_for(plane, column).kind) == "plane"
+    assert kernel_for(space, engine_for(space, column).kind) == "corner"
+    assert kernel_for(space, engine_for(space, round_).kind) == "rim"
     for model, other in ((several[0], column), (several[1], round_), (plane, linked), (space, linked)):
-        assert kernel_for(model, model.kind(other)) is None, (model, other)
+        assert kernel_for(model, engine_for(model, other).kind) is None, (model, other)
 
 
 class Wrong:

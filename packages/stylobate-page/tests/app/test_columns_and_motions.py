@@ -374,7 +374,8 @@ def test_an_error_in_the_text_of_an_assembly_is_of_its_line(client, old, new, li
 
 
 @pytest.mark.parametrize(
-    ("key", "value", "says"), [("height", 850.0, "was it meant in mm?"), ("bottom_width", 0.001, "is the unit right?")]
+    ("key", "value", "says"),
+    [("height", 850.0, "drums have 0.005 to 30 m: check"), ("bottom_width", 0.001, "stones have 0.005 to 10 m: check")],
 )
 def test_a_size_that_no_drum_has_is_marked_and_not_the_slope_on_which_it_falls(client, table, key, value, says):
     """A column of such a drum stands on no slope; what was typed last is what is wrong."""

@@ -20,6 +20,7 @@ from stylobate.column.scatter import drawn_twin, usual_scatter
 from stylobate.column.structure import Structure
 from stylobate.errors import InputError
 from stylobate.models.base import Case, Cases, Model
+from stylobate.models.drums.losses import LossyDrums
 from stylobate.models.shared.quiet import QUIET
 from stylobate.own_files import digest as digest_of_file
 from stylobate.response.rows import Rows
@@ -185,7 +186,7 @@ def simulations_of(
     InputError
         A model in the plane, or one whose losses do not vary; a structure that it does not take.
     """
-    if model.is_plane(model.parameters()) or not model.varies_law:
+    if model.is_plane(model.parameters()) or not isinstance(model, LossyDrums):
         raise InputError(
             f"{model.name} is no model in space whose losses vary, and ruins have directions; use dem3d "
             "(DistinctElement3D).",

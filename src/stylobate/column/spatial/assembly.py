@@ -17,12 +17,11 @@ from ..block import FAR_AWAY, Block, ground_block, length_of
 from ..column import GRAVITIES, Column
 from ..joint import Joint, given
 from ..links import link_from_dict
-from ..links.in_assembly import in_numbers
+from ..links.in_assembly import in_numbers, place_between
 from ..links.link import Link
 from ..links.placed import PlacedLink
-from ..shapes import Glued
 from ..structure import Bed, Body, Structure
-from .links import place_in_space
+from .links import SpaceScene
 from .placing import drums_in_space
 from .stone import Stone
 from .touching import TOUCHING, Overlap, Solid, SpaceJoint, overlap_of, overlaps, separation
@@ -65,6 +64,7 @@ class SpatialAssembly(Structure):
 
     kind: ClassVar[str] = "assembly in space"
     joints_are: ClassVar[str] = "joint, in the assembly's order"
+    computed_by: ClassVar[str] = "dem3d can, and its statics are 'stylobate limit'"
     like: ClassVar[str] = "assemblies"
     first: ClassVar[int] = 0
     relative: ClassVar[bool] = False
@@ -211,7 +211,8 @@ class SpatialAssembly(Structure):
     def placed_links(self) -> tuple[PlacedLink, ...]:
         """All links in numbers, in their order."""
         solids = self.solids if self.ground is None else ((), *self.solids)
-        return place_in_space(self.bodies, solids, self.space_joints, self.ground, self.links, self.name)
+        scene = SpaceScene(self.bodies, self.space_joints, solids, self.ground)
+        return place_between(scene, self.links, self.name)
 
     @cached_property
     def solids(self) -> tuple[tuple[Solid, ...], ...]:
@@ -323,21 +324,6 @@ class SpatialAssembly(Structure):
             return ""
         gap, name = min(best)
         return f", {length_of(gap)} from {name}"
-
-    # -- what asks for less --------------------------------------------------------------------------------------------
-
-    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
-        """Refuse models that do not know bodies of several parts: they compute a plane, or a stack.
-
-        Raises
-        ------
-        InputError
-        """
-        if Glued not in shapes:
-            raise InputError(
-                f"{what} cannot shake {self.name!r}, which is {self.described}; dem3d can, and its statics are "
-                "'stylobate limit'."
-            )
 
     # -- provenance ----------------------------------------------------------------------------------------------------
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
@@ -10,22 +9,21 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ...column import Column
-from ...column.assembly import Assembly
-from ...column.shapes import DRUMS, Prism
-from ...column.structure import Structure
 from ...errors import InputError, check_choice, check_range, check_whole
 from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import LANES
 from ...motion import Motion
-from ...response import Measures, Response
+from ...response import Response
 from ..base import Case, RunOptions
-from ..drums.bodies import Topology, body_fields
+from ..drums.bodies import body_fields
+from ..drums.impact import rocking_column
 from ..drums.joints import contact_points, damping_rows, joint_stiffnesses
 from ..drums.links import acting, link_stiffness, with_links
-from ..drums.losses import LossyDrums
+from ..drums.losses import LossyDrums, with_provenance
 from ..drums.records import Packed
-from ..plane.assemblies import expected_step, measures_of_assemblies, run_assembly
-from ..plane.columns import ColumnLanes
+from ..engine import engine_for
+from ..plane.assemblies import LooseInPlane
+from ..plane.columns import PlaneStack
 from ..plane.found_start import found_start
 from ..plane.laws import Types, point_law
 from ..plane.loose import Contacts
@@ -36,6 +34,43 @@ from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
 
 MAX_POINTS = 32
+
+
+class PointStack(PlaneStack):
+    """Columns in the plane on contact points: in lanes, and followed to the ground where that is asked for."""
+
+    takes = frozenset({"as found", "start"})
+    links = PlaneStack.links | {"clamp"}
+    rocking = staticmethod(rocking_column)
+
+    def record_types(self, linked: bool, lanes: int = LANES) -> Types:
+        """Types of the records by the law of the joints, for columns with links or without."""
+        return point_law(self.model.points, self.model.damped, lanes, linked)
+
+    def pack(self, structure: Column) -> Packed:
+        """A column as the lanes want it, settled if asked for."""
+        return _pack(structure, self.model.acting(structure))
+
+    @property
+    def stable_step(self) -> float:
+        """Largest stable time step of the closed column [s]."""
+        return _stable_step(self.structure, self.acting)
+
+    def followed(self) -> Column:
+        """The column: any two of its drums may strike each other."""
+        return self.structure
+
+    def run(self, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories; a column that falls is followed to the ground if asked for."""
+        if options.until_end or options.until_rest:
+            from ..plane.collapse import follow
+
+            how = engine_for(self.acting, self.structure)
+            lanes = how.block(replace(options, until_end=True))
+            response = follow(self.structure, motion, lanes, Contacts.of(self.acting), options)
+        else:
+            response = super().run(motion, options)
+        return with_provenance(self, motion, response, self.model.opening(self.structure))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,10 +129,7 @@ class DistinctElement2D(LossyDrums):
         "Drums do not crack, chip or wear.",
         "The cost of a run grows with the square root of the joint's stiffness over the drum's mass.",
     )
-    computes: ClassVar[tuple[type, ...]] = (*DRUMS, Prism)
-    takes_as_found: ClassVar[bool] = True
-    takes_start: ClassVar[bool] = True
-    takes_links: ClassVar[frozenset[str]] = LossyDrums.takes_links | {"clamp"}
+    engines: ClassVar[tuple[Any, ...]] = (PointStack, LooseInPlane)
 
     points: int = 2
     block_modulus: float | None = None
@@ -117,101 +149,10 @@ class DistinctElement2D(LossyDrums):
         """About what a step of a single run costs on one core [s]."""
         return (1.0 if self.damped else 0.5) * self.points * super().cost(drums)
 
-    # -- what a block of lanes needs -----------------------------------------------------------------------------
-
-    def record_types(self, linked: bool, lanes: int = LANES) -> Types:
-        """Types of the records by the law of the joints, for columns with links or without."""
-        return point_law(self.points, self.damped, lanes, linked)
-
-    def block_for(self, kind: Topology, options: RunOptions, lanes: int = LANES) -> ColumnLanes:
-        """A block of lanes for columns of a kind."""
-        return ColumnLanes(self.record_types(bool(kind.links), lanes), self.pack, kind, options, self.cost(kind.stack))
-
-    def pack(self, column: Column) -> Packed:
-        """A column as the engine wants it, settled if asked for."""
-        return _pack(column, self.acting(column))
-
-    def stable_step(self, column: Column) -> float:
-        """Largest stable time step of the closed column [s]."""
-        return _stable_step(column, self.acting(column))
-
     def opening(self, column: Column) -> Opening | None:
         """What rocks a column on two points; others have no closed form here."""
         kn = joint_stiffnesses(column, self.block_modulus)[0]
         return opening(column, kn, "corners") if self.points == 2 else None
-
-    def run(self, column: Any, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories; a column that falls is followed to the ground if asked for, an assembly always."""
-        if column.stack is None:
-            if options.start is not None:
-                raise InputError(
-                    f"a start from a pose is for columns, and {column.name!r} is {column.described}; leave start out."
-                )
-            return self.told(column, motion, self.run_assembly(column, motion, replace(options, until_end=True)))
-        if options.until_end or options.until_rest:
-            from ..plane.collapse import follow
-
-            how = self.acting(column)
-            response = follow(column, motion, how.followed(column, options), how.contacts, options)
-            return self.told(column, motion, response)
-        return self.told(column, motion, super().run(column, motion, options))
-
-    @property
-    def contacts(self) -> Contacts:
-        """Numbers for what may come loose."""
-        return Contacts(
-            self.name, self.points, self.stiffness_damping, self.mass_damping, self.block_modulus, self.restitution,
-            self.step_factor, self.time_step, self.start == "settle",
-        )  # fmt: skip
-
-    def followed(self, column: Column, options: RunOptions) -> ColumnLanes:
-        """Lanes for a column that is followed to the ground."""
-        return self.block_for(self.kind(column), replace(options, until_end=True))
-
-    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
-        """Many runs of columns in lanes, or of assemblies one by one in threads; never of both in one batch."""
-        if len(cases) and cases[0].column.stack is None:
-            return measures_of_assemblies(self.run_assembly, cases, options, threads)
-        return super().run_many(cases, options, threads)
-
-    def run_assembly(
-        self, assembly: Assembly, motion: Motion, options: RunOptions, *, recorded: bool = True
-    ) -> Response:
-        """One run of an assembly of blocks, with histories where they are wanted.
-
-        Raises
-        ------
-        InputError
-            The stone is given a modulus, the step asked for is unstable, or the assembly cannot settle.
-        """
-        return run_assembly(assembly, motion, self.acting(assembly).contacts_of_blocks(), options, recorded=recorded)
-
-    def expected_step(self, column: Structure, motion: Motion) -> tuple[float, float]:
-        """Time step and its cost [s]; of an assembly as long as it stands."""
-        if column.stack is not None:
-            return super().expected_step(column.stack, motion)
-        return expected_step(column.must_be("assembly"), motion, self.acting(column).contacts_of_blocks())
-
-    def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
-        """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""
-        if column.stack is not None:
-            super().check_length(column, motion, options)
-
-    def as_followed(self, structure: Any) -> Any:
-        """What stands as it is: all of it may come loose."""
-        return structure
-
-    def carried(self, column: Any) -> int:
-        """Number of twins along a run: of columns only; what may come loose is alone in its lane."""
-        return 0 if column.stack is None else self.carries
-
-    def contacts_of_blocks(self) -> Contacts:
-        """Numbers for assemblies, whose blocks are rigid."""
-        if self.block_modulus is not None:
-            raise InputError(
-                f"block_modulus is {self.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
-            )
-        return self.contacts
 
 
 @lru_cache(maxsize=4096)
@@ -230,7 +171,7 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
     types = point_law(model.points, model.damped, 1, bool(acting(column)))
     damp = damping_rows(model.damped, model.stiffness_damping, model.mass_damping)
     fields = drums, joint, lane_fields(column, damp, model.points)
-    return pack_column(column, types, fields, model.step_for(column), point_toes(column, kn, float(share[-1])))
+    return pack_column(column, types, fields, engine_for(model, column).step, point_toes(column, kn, float(share[-1])))
 
 
 #: Residual acceleration at which a column has settled [m/s²], and the most chunks of steps for it.
@@ -241,7 +182,7 @@ SETTLED, SETTLE_CHUNKS = 1e-7, 20_000
 def _settled(column: Column, model: DistinctElement2D) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Numbers of the drums and shear forces of the joints after settling under gravity with local damping."""
     damped = replace(model, start="static", mass_damping=max(model.mass_damping, 1e-300))
-    block = damped.block_for(damped.kind(column), RunOptions())
+    block = engine_for(damped, column).block(RunOptions())
     block.load(0, Case(column, Motion(1e3, np.zeros(2))))
     records = block.records
     records.lane["damp"][0, LOCAL, 0] = LOCAL_DAMPING

@@ -3,35 +3,32 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
 
 from ...column import Column
 from ...column.found_geometry import shares_left
-from ...column.shapes import DRUMS, ConvexSolid, Glued
 from ...column.spatial.assembly import SpatialAssembly
 from ...column.specimen import Specimen
-from ...column.structure import Structure
 from ...errors import InputError, check_choice, check_range
 from ...kernels.run_codes import LANES
 from ...motion import Motion
-from ...response import Measures, Response
-from ..base import Case, RunOptions
+from ...response import Response
+from ..base import RunOptions
 from ..drums.bodies import Topology
-from ..drums.impact import Rocking, damping_for
+from ..drums.impact import damping_for, rocking_column
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
-from ..drums.losses import LossyDrums
+from ..drums.losses import LossyDrums, with_provenance
 from ..drums.records import Packed
+from ..drums.stepped import LaneEngine, StackEngine
+from ..engine import engine_for
 from ..shared.opening import Opening, opening
 from ..shared.soft_joints import check_step_resolves
-from ..shared.stable_step import chosen_step, stable_step
+from ..shared.stable_step import stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
-from ..space.assemblies import SpatialNumbers, expected_step, run_in_space
-from ..space.lanes import measures_in_space
-from ..space.rocking import rocking_stone
+from ..space.bodies import BodiesInSpace
 from .arrays import Records
 from .block import SpaceBlock, Stack
 from .found_start import found_start
@@ -48,6 +45,152 @@ ON_CORNERS = 2.0
 
 #: Energy of a joint of each law with its load on its edge.
 TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_toes(column, kn, 0.25)}
+
+
+class InSpace(LaneEngine):
+    """Base of the engines of columns and of single bodies in space."""
+
+    takes = frozenset({"as found", "rings", "start"})
+    links = StackEngine.links | {"clamp"}
+
+    def check(self, motion: Motion) -> None:
+        """Refuse rolling of what has corners."""
+        rolling = self.model.rolling_resistance
+        if rolling and self.structure.section != "circular":
+            raise InputError(
+                f"rolling_resistance = {rolling:g} is for round drums, and {self.structure.name!r} has corners; leave it "
+                "out."
+            )
+        super().check(motion)
+
+    def records(self, kind: Kind, lanes: int = LANES) -> Records:
+        """Empty records of the kernel for what is of a kind."""
+        return Records(kernel(), kind.record_types(bool(kind.topology.links), lanes), kind.topology, kind.rows)
+
+
+class SpaceStack(InSpace, StackEngine):
+    """Columns in space."""
+
+    rocking = staticmethod(rocking_column)
+
+    @property
+    def draws_laws(self) -> bool:
+        """Whether columns may have losses and laws of joints of their own: out of the plane."""
+        return not self.model.planar
+
+    def check(self, motion: Motion) -> None:
+        """Refuse joints too soft, what is found that space does not know, and a step unstable or too long for the motion."""
+        super().check(motion)
+        column = self.structure
+        law = self.acting.law
+        if law != "bed":
+            column.must_carry_on_whole_faces(f"dem3d with law={law}")
+        twice = next((drum.drum for drum in column.as_found.drums if drum.chip_left and drum.chip_right), None)
+        if twice is not None and chipped(column):
+            raise InputError(
+                f"drum {twice} of {column.name!r} is round and chipped on the left and on the right; dem3d knows one "
+                "chip of a round drum: leave the smaller one out, or use dem2d in its plane."
+            )
+        if law == "bed" and chipped(column):
+            raise InputError(
+                f"dem3d with law=bed knows no chips of round drums, and a drum of {column.name!r} has one; use law=rim, "
+                "or leave the chip out."
+            )
+        if self.model.planar and not column.as_found.in_plane:
+            raise InputError(
+                f"planar = True holds the motion in the plane of x and z, and {column.name!r} is found out of it; "
+                "leave one of the two out."
+            )
+
+    @property
+    def kind(self) -> Kind:
+        """Columns of one kind share blocks of lanes."""
+        column, how = self.structure, self.acting
+        section = RING if column.on_rings else CHIPPED if chipped(column) else column.section
+        return Kind(Topology.of(column), section, column.n, how.law, how.damped, how.rolling_resistance > 0.0)
+
+    def block_for(self, kind: Kind, options: RunOptions, lanes: int = LANES) -> SpaceBlock:
+        """A block of lanes for columns of a kind."""
+        model = self.model
+        bodies, cost = Stack(planar=model.planar, pivots=model.pivot_friction < 1.0), model.cost(kind.rows)
+        return SpaceBlock(self.records(kind, lanes), bodies, self.pack, options, cost, planar=model.planar)
+
+    def pack(self, structure: Column) -> Packed:
+        """A column as the kernel wants it."""
+        return _pack(structure, self.model.acting(structure))
+
+    @property
+    def stable_step(self) -> float:
+        """Largest stable time step of the closed column [s]."""
+        return _stable_step(self.structure, self.acting)
+
+    def followed(self) -> SpatialAssembly:
+        """The column as an assembly of its drums: any two bodies may strike each other."""
+        return SpatialAssembly.of_column(self.structure)
+
+    def run(self, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories; says what opens the column, and what damping a restitution has led to."""
+        column, model = self.structure, self.model
+        response = with_provenance(self, motion, super().run(motion, options), model.opening(column))
+        if model.restitution is None:
+            return response
+        more = engine_for(replace(model, restitution=None, time_step=None), column).stable_step / self.stable_step
+        chosen = {"stiffness_damping_s": model.damping(column), "steps_over_undamped": more}
+        return replace(response, provenance=response.provenance | chosen)
+
+
+class SpaceBody(InSpace):
+    """Single bodies on the vertices of their hulls."""
+
+    computes = (Specimen,)
+
+    @property
+    def called(self) -> str:
+        """Its name in messages."""
+        return repr(self.structure.name)
+
+    @property
+    def rocking(self) -> RockingSpecimen:
+        """How single bodies rock on vertices."""
+        return RockingSpecimen(self.structure.restitution)
+
+    def check(self, motion: Motion) -> None:
+        """Refuse what acts on drums, and a step unstable or too long for the motion."""
+        super().check(motion)
+        body, model = self.structure, self.model
+        if model.planar:
+            raise InputError(f"planar is on, and a specimen such as {body.name!r} moves in space; leave it off.")
+        if model.restitution is not None:
+            raise InputError(
+                f"restitution is given, and that of a specimen such as {body.name!r} depends on the side it falls to; "
+                "give it to the specimen (restitution of a vertex), or give stiffness_damping."
+            )
+        self.step  # noqa: B018 (which refuses)
+        check_step_resolves(model.time_step, motion)
+
+    def run(self, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories."""
+        return with_provenance(self, motion, super().run(motion, options))
+
+    @property
+    def kind(self) -> Kind:
+        """Bodies with as many rows of vertices share blocks of lanes."""
+        model = self.model
+        return Kind(ALONE, SPECIMEN, rows_for(self.structure), model.law, True, model.rolling_resistance > 0.0)
+
+    def block_for(self, kind: Kind, options: RunOptions, lanes: int = LANES) -> SpaceBlock:
+        """A block of lanes for bodies of a kind."""
+        del lanes
+        return SpaceBlock(self.records(kind), FreeBody(), self.pack, options, self.model.cost(kind.rows // 32))
+
+    def pack(self, structure: Specimen) -> Packed:
+        """A body as the kernel wants it."""
+        return _pack_specimen(structure, self.model.acting(structure))
+
+    @property
+    def stable_step(self) -> float:
+        """Largest stable time step [s]."""
+        return stable_step(top_frequency(self.structure), self.acting.stiffness_damping)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,12 +262,7 @@ class DistinctElement3D(LossyDrums):
         "The cost of a run grows with the square root of the joint's stiffness over the drum's mass.",
     )
     axes: ClassVar[str] = "xyz"
-    takes_start: ClassVar[bool] = True
-    computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid, Glued)
-    takes_as_found: ClassVar[bool] = True
-    takes_rings: ClassVar[bool] = True
-    varies_law: ClassVar[bool] = True
-    takes_links: ClassVar[frozenset[str]] = LossyDrums.takes_links | {"clamp"}
+    engines: ClassVar[tuple[Any, ...]] = (SpaceStack, SpaceBody, BodiesInSpace)
 
     law: str = "rim"
     pivot_friction: float = 1.0
@@ -159,183 +297,25 @@ class DistinctElement3D(LossyDrums):
             )
         return damping_for(with_beds_alone(column), replace(self, restitution=None), self.restitution)
 
-    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories, of an assembly down to the ground; says what damping a restitution has led to."""
-        if column.space_joints is not None:
-            return self.told(column, motion, self.run_in_space(column, motion, options))
-        response = self.told(column, motion, super().run(column, motion, options))
-        if self.restitution is None:
-            return response
-        more = replace(self, restitution=None, time_step=None).stable_step(column) / self.stable_step(column)
-        chosen = {"stiffness_damping_s": self.damping(column), "steps_over_undamped": more}
-        return replace(response, provenance=response.provenance | chosen)
-
-    def run_in_space(
-        self, structure: Structure, motion: Motion, options: RunOptions, *, recorded: bool = True
-    ) -> Response:
-        """One run of an assembly in space; its histories are kept, wanted or not: the verdict rests on its ledger.
-
-        Raises
-        ------
-        InputError
-            A start, or something that its engine does not know, is asked for.
-        """
-        del recorded
-        if options.start is not None:
-            raise InputError(
-                f"a start from a pose is for columns, and {structure.name!r} is {structure.described}; give its bodies "
-                "orientations and velocities, and leave start out."
-            )
-        return run_in_space(structure, motion, self.spatial_numbers(structure), options)
-
-    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
-        """Many runs in lanes, assemblies as long as nothing of them comes loose; never of columns too in one batch."""
-        if len(cases) and cases[0].column.space_joints is not None:
-            return measures_in_space(self.run_in_space, cases, self.spatial_numbers, options, threads)
-        return super().run_many(cases, options, threads)
-
-    def expected_step(self, column: Any, motion: Motion) -> tuple[float, float]:
-        """Time step and its cost [s]; of an assembly as long as it stands."""
-        if column.space_joints is None:
-            return super().expected_step(column, motion)
-        return expected_step(column, self.spatial_numbers(column))
-
-    def spatial_numbers(self, structure: Structure) -> SpatialNumbers:
-        """What an assembly in space is computed with."""
-        damping = self.acting(structure).stiffness_damping
-        return SpatialNumbers(self.name, damping, self.step_factor, self.time_step, self.restitution)
-
-    def rocking(self, structure: Any) -> Rocking:
-        """How single bodies of a structure rock in the engine that computes it."""
-        if structure.space_joints is not None:
-            return rocking_stone
-        return super().rocking(structure) if structure.stack is not None else RockingSpecimen(structure.restitution)
-
-    def _check_assembly(self, structure: Structure, motion: Motion) -> None:
-        del motion
-        defaults = DistinctElement3D()
-        unknown = ("law", "pivot_friction", "rolling_resistance", "planar", "block_modulus", "mass_damping")
-        given = next((name for name in unknown if getattr(self, name) != getattr(defaults, name)), None)
-        if given is not None:
-            raise InputError(
-                f"{given} is {getattr(self, given)!r}, which assemblies in space such as {structure.name!r} do not know; "
-                "leave it out."
-            )
-
-    def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
-        """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""
-        if column.space_joints is None:
-            super().check_length(column, motion, options)
-
-    def as_followed(self, structure: Any) -> Any:
-        """An assembly as it is, a column as one of its drums: any two bodies may strike each other."""
-        if structure.space_joints is not None:
-            return structure
-        return super().as_followed(structure) if structure.stack is None else SpatialAssembly.of_column(structure.stack)
-
-    def carried(self, column: Any) -> int:
-        """How many are taken along: what may come loose is alone in its lane."""
-        return 0 if column.space_joints is not None else super().carried(column)
-
-    def check(self, column: Any, motion: Motion) -> None:
-        """Refuse joints too soft, what is found that space does not know, and a step unstable or too long for the motion."""
-        if column.space_joints is not None:
-            super().check(column, motion)
-            self._check_assembly(column, motion)
-            return
-        if self.rolling_resistance and column.section != "circular":
-            raise InputError(
-                f"rolling_resistance = {self.rolling_resistance:g} is for round drums, and {column.name!r} has corners; "
-                "leave it out."
-            )
-        super().check(column, motion)
-        (self._check_stack if column.stack is not None else self._check_body)(column, motion)
-
-    def _check_stack(self, column: Column, motion: Motion) -> None:
-        del motion
-        law = self.acting(column).law
-        if law != "bed":
-            column.must_carry_on_whole_faces(f"dem3d with law={law}")
-        twice = next((drum.drum for drum in column.as_found.drums if drum.chip_left and drum.chip_right), None)
-        if twice is not None and chipped(column):
-            raise InputError(
-                f"drum {twice} of {column.name!r} is round and chipped on the left and on the right; dem3d knows one "
-                "chip of a round drum: leave the smaller one out, or use dem2d in its plane."
-            )
-        if law == "bed" and chipped(column):
-            raise InputError(
-                f"dem3d with law=bed knows no chips of round drums, and a drum of {column.name!r} has one; use law=rim, "
-                "or leave the chip out."
-            )
-        if self.planar and not column.as_found.in_plane:
-            raise InputError(
-                f"planar = True holds the motion in the plane of x and z, and {column.name!r} is found out of it; "
-                "leave one of the two out."
-            )
-
-    def _check_body(self, body: Specimen, motion: Motion) -> None:
-        if self.planar:
-            raise InputError(f"planar is on, and a specimen such as {body.name!r} moves in space; leave it off.")
-        if self.restitution is not None:
-            raise InputError(
-                f"restitution is given, and that of a specimen such as {body.name!r} depends on the side it falls to; "
-                "give it to the specimen (restitution of a vertex), or give stiffness_damping."
-            )
-        chosen_step(self.stable_step(body), self.step_factor, self.time_step, f"{body.name!r}")
-        check_step_resolves(self.time_step, motion)
-
-    # -- what a block of lanes needs -----------------------------------------------------------------------------
-
     def opening(self, column: Column) -> Opening | None:
-        """What rocks a column on the law of its joints; not a single body on vertices."""
-        if column.stack is None:
-            return None
+        """What rocks a column on the law of its joints."""
         kn = joint_stiffnesses(column, self.block_modulus)[0]
         return opening(column, kn, self.acting(column).law if column.section == "circular" else "corners")
-
-    def kind(self, column: Any) -> Kind:
-        """Columns of one kind share blocks of lanes; specimens with as many rows."""
-        if column.stack is None:
-            return Kind(ALONE, SPECIMEN, rows_for(column), self.law, True, self.rolling_resistance > 0.0)
-        section = RING if column.on_rings else CHIPPED if chipped(column) else column.section
-        how = self.acting(column)
-        return Kind(Topology.of(column), section, column.n, how.law, how.damped, how.rolling_resistance > 0.0)
-
-    def kernel(self) -> Any:
-        """Module of kernels."""
-        return importlib.import_module("...kernels.dem3d.step", __package__)
-
-    def pack(self, column: Any) -> Packed:
-        """A column or a specimen as the kernel wants it."""
-        return (_pack_specimen if column.stack is None else _pack)(column, self.acting(column))
-
-    def records(self, kind: Kind, lanes: int = LANES) -> Records:
-        """Empty records of the kernel for what is of a kind."""
-        return Records(self.kernel(), kind.record_types(bool(kind.topology.links), lanes), kind.topology, kind.rows)
-
-    def stable_step(self, column: Any) -> float:
-        """Largest stable time step of the closed column [s]."""
-        if column.stack is None:
-            return stable_step(top_frequency(column), self.acting(column).stiffness_damping)
-        return _stable_step(column, self.acting(column))
-
-    def block_for(self, kind: Kind, options: RunOptions, lanes: int = LANES) -> SpaceBlock:
-        """A block of lanes for what is of a kind."""
-        if kind.section == SPECIMEN:
-            return SpaceBlock(self.records(kind), FreeBody(), self.pack, options, self.cost(kind.rows // 32))
-        bodies, cost = Stack(planar=self.planar, pivots=self.pivot_friction < 1.0), self.cost(kind.rows)
-        return SpaceBlock(self.records(kind, lanes), bodies, self.pack, options, cost, planar=self.planar)
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
         return (8.3 if self.damped else 5.5) * super().cost(drums)
 
 
+def kernel() -> Any:
+    """Module of kernels."""
+    return importlib.import_module("...kernels.dem3d.step", __package__)
+
+
 @lru_cache(maxsize=256)
 def _pack_specimen(specimen: Specimen, model: DistinctElement3D) -> Packed:
-    damping = model.stiffness_damping, model.mass_damping
-    step = chosen_step(model.stable_step(specimen), model.step_factor, model.time_step, f"{specimen.name!r}")
-    return pack_specimen(model.records(model.kind(specimen)), specimen, damping, step)
+    engine, damping = engine_for(model, specimen), (model.stiffness_damping, model.mass_damping)
+    return pack_specimen(engine.records(engine.kind), specimen, damping, engine.step)
 
 
 @lru_cache(maxsize=4096)
@@ -345,17 +325,16 @@ def _pack(column: Column, model: DistinctElement3D) -> Packed:
     drums, joints = drum_fields(column, closure), joint_fields(column, kn, ks)
     options = model.pivot_friction, model.planar, model.rolling_resistance
     lane = lane_fields(column, damping_rows(model.damped, model.damping(column), model.mass_damping), *options)
-    kind = model.kind(column)
+    engine = engine_for(model, column)
+    kind = engine.kind
     if column.as_found or column.pretensioned:
-        found, friction = found_start(
-            column, model.kernel(), kind.record_types(linked=False), (drums, joints, lane), closure
-        )
+        found, friction = found_start(column, kernel(), kind.record_types(linked=False), (drums, joints, lane), closure)
         drums, joints = drums | found, joints | friction
     links, top = link_fields(column, drums), Stack(planar=model.planar).top
-    numbers = pack_column(model.records(kind), column, (drums, joints, lane), links, top)
+    numbers = pack_column(engine.records(kind), column, (drums, joints, lane), links, top)
     law = model.law if column.section == "circular" else "corners"
     stand = numbers_for(column, TOES[law](column, kn * shares_left(column)))
-    return Packed(numbers, bonds(column), model.step_for(column), column.joint_widths, column.lowest_barrier, stand)
+    return Packed(numbers, bonds(column), engine.step, column.joint_widths, column.lowest_barrier, stand)
 
 
 @lru_cache(maxsize=4096)

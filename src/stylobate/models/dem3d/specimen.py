@@ -20,6 +20,7 @@ from ..base import RunOptions
 from ..drums.impact import in_lanes, undamped
 from ..drums.joints import damping_rows
 from ..drums.records import UNSEEN, Packed
+from ..engine import engine_for
 from ..shared.stable_step import highest_frequency
 from ..start import Toss
 from .arrays import Records
@@ -281,7 +282,7 @@ class RockingSpecimen:
         place = x - x * c + z * s, 0.0, x * s + z * c
         start = Toss(place, (math.cos(0.5 * tilt), 0.0, math.sin(0.5 * tilt), 0.0))
         twin = replace(model, **undamped())
-        return in_lanes(twin.block_for(twin.kind(box), RunOptions(start=start, until_end=True)), box)
+        return in_lanes(engine_for(twin, box).block(RunOptions(start=start, until_end=True)), box)
 
 
 @lru_cache(maxsize=256)

@@ -23,6 +23,7 @@ from ...errors import InputError
 from ...kernels.dem3d.records import BETA  # the row of a lane's damping, in the plane too
 from ...motion import Motion
 from ..base import Case, RunOptions
+from ..engine import engine_for
 from ..start import Start
 from .released import followed
 
@@ -48,7 +49,7 @@ def rocking_column(body: Column, model: Any, tilt: float) -> Iterator[np.ndarray
     """Leans of a column of one drum in the lanes of a model of columns."""
     alone = {"planar": True} if "y" in model.axes else {"start": "static"}
     twin = dataclasses.replace(model, **undamped(), **alone)
-    return in_lanes(twin.block_for(twin.kind(body), RunOptions(start=Start(tilt), until_end=True)), body)
+    return in_lanes(engine_for(twin, body).block(RunOptions(start=Start(tilt), until_end=True)), body)
 
 
 def undamped() -> dict[str, Any]:

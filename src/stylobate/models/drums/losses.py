@@ -11,8 +11,9 @@ from ...column.materials import ROLLING
 from ...errors import InputError, check_choice
 from ...motion import Motion
 from ...response import Response
+from ..engine import engine_for
 from ..shared.opening import Opening
-from .impact import Rocking, damping_of_stone, rocking_column
+from .impact import damping_of_stone
 from .stepped import SteppedDrums
 
 
@@ -61,50 +62,28 @@ class LossyDrums(SteppedDrums):
         """Whether any damping acts during the run."""
         return super().damped or self.losses != "none"
 
-    def acting(self, column: Any) -> Self:
-        """The model with what acts in a run of a column in place of the name of its losses."""
-        own = None if column.stack is None else column.stack.losses
-        return self if self.losses == "none" and own is None else _acting(column, self)
+    def acting(self, structure: Any) -> Self:
+        """The model with what acts in a run of a structure in place of the name of its losses."""
+        return self if self.losses == "none" and structure.losses is None else _acting(structure, self)
 
-    def rocking(self, structure: Any) -> Rocking:
-        """How single bodies of a structure rock in the engine that computes it."""
-        del structure
-        return rocking_column
 
-    def step_for(self, column: Any) -> float:
-        """As of all models that step drums, with what acts in a run of the column [s]."""
-        return super(LossyDrums, self.acting(column)).step_for(column)
-
-    def expected_step(self, column: Any, motion: Motion) -> tuple[float, float]:
-        """As of all models that step drums, with what acts in a run of the column, both [s]."""
-        return super(LossyDrums, self.acting(column)).expected_step(column, motion)
-
-    def paced(self, column: Any) -> SteppedDrums:
-        """As of all models that step drums; with the losses of the column, by name no more."""
-        return super(LossyDrums, self.acting(column)).paced(column)
-
-    def opening(self, column: Any) -> Opening | None:
-        """What rocks a column statically, on soft joints and on rigid ones, where that has a closed form."""
-        raise NotImplementedError
-
-    def told(self, structure: Any, motion: Motion, response: Response) -> Response:
-        """A response whose provenance says what opens the column, and what acted by the name of the losses."""
-        opens = None if structure.stack is None else self.opening(structure)
-        if opens is not None:
-            response = replace(response, provenance=response.provenance | {"opening": opens._asdict()})
-        if self.losses == "none":
-            return response
-        how, free = self.acting(structure), replace(self, losses="none")
-        chosen = {name: getattr(how, name.removesuffix("_s")) for name in ("stiffness_damping_s", *self._chosen[1:])}
-        steps = [one.expected_step(structure, motion)[0] for one in (free, how)]
-        return replace(response, provenance=response.provenance | chosen | {"steps_over_undamped": steps[0] / steps[1]})
+def with_provenance(engine: Any, motion: Motion, response: Response, opens: Opening | None = None) -> Response:
+    """A response of an engine whose provenance says what opens a column, and what acted by the name of the losses."""
+    if opens is not None:
+        response = replace(response, provenance=response.provenance | {"opening": opens._asdict()})
+    if engine.model.losses == "none":
+        return response
+    how, free = engine.acting, replace(engine.model, losses="none")
+    chosen = {name: getattr(how, name.removesuffix("_s")) for name in ("stiffness_damping_s", *how._chosen[1:])}
+    steps = [engine_for(one, engine.structure).expected_step(motion)[0] for one in (free, how)]
+    return replace(response, provenance=response.provenance | chosen | {"steps_over_undamped": steps[0] / steps[1]})
 
 
 @lru_cache(maxsize=4096)
-def _acting(column: Any, model: Any) -> Any:
+def _acting(structure: Any, model: Any) -> Any:
     changes: dict[str, Any] = {"losses": "none"}
-    round_ = column.section == "circular" and "rolling_resistance" in model._chosen
-    drawn = None if column.stack is None or "y" not in model.axes else column.stack.losses
+    round_ = structure.section == "circular" and "rolling_resistance" in model._chosen
+    drawn = structure.losses if "y" in model.axes else None
     own = drawn or model.losses
     if isinstance(own, Losses):
         changes |= {"stiffness_damping": own.stiffness_damping}
@@ -112,6 +91,6 @@ def _acting(column: Any, model: Any) -> Any:
         changes |= {} if drawn is None else {"restitution": None, "time_step": None}
     elif model.losses == "stone":
         free = replace(model, losses="none")
-        changes["stiffness_damping"] = damping_of_stone(column, free, model.rocking(column))
+        changes["stiffness_damping"] = damping_of_stone(structure, free, engine_for(model, structure).rocking)
         changes |= {"rolling_resistance": ROLLING.value} if round_ else {}
     return replace(model, **changes)

@@ -13,6 +13,7 @@ from ...column.joint import Losses
 from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ..base import Case, RunOptions
+from ..engine import engine_for
 from ..start import Start
 
 
@@ -46,19 +47,19 @@ def released(
     duration, interval : float
         Of each motion, and between its states at most [s].
     """
-    models = [replace(model, losses=one) for one in losses]
+    engines = [engine_for(replace(model, losses=one), column) for one in losses]
     kinds: dict[Any, list[int]] = {}
-    for number, how in enumerate(models):
-        kinds.setdefault(how.kind(column), []).append(number)
+    for number, engine in enumerate(engines):
+        kinds.setdefault(engine.kind, []).append(number)
     found: dict[int, Free] = {}
-    for kind, numbers in kinds.items():
+    for numbers in kinds.values():
         # lanes of about one step end together
-        ordered = sorted(numbers, key=lambda number: models[number].step_for(column))
+        ordered = sorted(numbers, key=lambda number: engines[number].step)
         for first in range(0, len(ordered), LANES):
             some = ordered[first : first + LANES]
-            block = models[some[0]].block_for(kind, RunOptions(start=starts[some[0]], until_end=True))
+            block = engines[some[0]].block(RunOptions(start=starts[some[0]], until_end=True))
             for lane, number in enumerate(some):
-                block.pack, block.options = models[number].pack, replace(block.options, start=starts[number])
+                block.pack, block.options = engines[number].pack, replace(block.options, start=starts[number])
                 block.load(lane, Case(column, Motion(duration, np.zeros(2))))
             stride = max(1, int(interval / (block.chunk * block.dt.max())))
             states = [(block.dt * block.feed["step"][0], block.leans()) for _ in followed(block, stride, len(some))]

@@ -6,16 +6,17 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from threading import Lock
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from ...column import Column
 from ...errors import check_range
 from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ...outcome import Outcome
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
+from ..engine import Engine, engine_for
 from ..shared.lanes import LaneBlock, Riders, run_alike
+from ..shared.quiet import expected_length
 from ..shared.soft_joints import check_sinking, check_step_resolves
 from ..shared.stable_step import chosen_step, whole_steps
 from .bodies import Topology
@@ -34,7 +35,7 @@ LINK = 0.6
 
 @dataclass(frozen=True, kw_only=True)
 class SteppedDrums(Model):
-    """Base of the models whose kernels step rigid drums explicitly. A model gives its kernel, types and packing.
+    """Base of the models whose kernels step rigid drums explicitly.
 
     Parameters
     ----------
@@ -47,9 +48,6 @@ class SteppedDrums(Model):
     mass_damping : float
         α: force −α m v on every drum, v relative to the base [1/s].
     """
-
-    carries: ClassVar[int] = 15
-    takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
 
     step_factor: float = 0.4
     time_step: float | None = None
@@ -70,71 +68,98 @@ class SteppedDrums(Model):
         """Whether any damping acts during the run."""
         return self.stiffness_damping > 0.0 or self.mass_damping > 0.0
 
-    # -- given by each model -------------------------------------------------------------------------------------
-
-    def pack(self, column: Any) -> Any:
-        """A column as the engine wants it."""
-        raise NotImplementedError
-
-    def stable_step(self, column: Any) -> float:
-        """Largest stable time step of the closed column [s]."""
-        raise NotImplementedError
-
-    def block_for(self, kind: Any, options: RunOptions, lanes: int = LANES) -> Any:
-        """A block of lanes for columns of a kind."""
-        raise NotImplementedError
+    def acting(self, structure: Any) -> Self:
+        """The model with what acts in a run of a structure."""
+        del structure
+        return self
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]; a batch shares it among its lanes."""
         return 1.2e-7 * drums
 
-    # -- shared --------------------------------------------------------------------------------------------------
 
-    def kind(self, column: Any) -> Any:
-        """Mark of columns that can share a block of lanes: which contacts there are."""
-        return Topology.of(column)
+class SteppedEngine(Engine):
+    """Base of the engines of models that step drums explicitly."""
 
-    def check(self, column: Column, motion: Motion) -> None:
-        """Refuse joints of a stack that are too soft, and a step that is unstable or passes over the motion."""
-        super().check(column, motion)
-        if column.stack is None:
-            return
-        check_sinking(column)
-        self.step_for(column)
-        check_step_resolves(self.time_step, motion)
+    @property
+    def acting(self) -> Any:
+        """The model with what acts in a run."""
+        return self.model.acting(self.structure)
 
-    def step_for(self, column: Column) -> float:
-        """Time step for a column [s].
+    @property
+    def paced(self) -> Any:
+        """The model with what acts in a run; what may come loose chooses its step run by run."""
+        return self.acting
+
+    def expected_time(self, motion: Motion, options: RunOptions, *, alone: bool) -> float:
+        """About how long a run takes on one core [s], without the quiet that is not stepped."""
+        del alone
+        step, cost = self.expected_step(motion)
+        return cost * expected_length(Case(self.structure, motion), options) / step
+
+
+class LaneEngine(SteppedEngine):
+    """Base of the engines of what is stepped in blocks of lanes; each gives its kinds, packing and largest stable step."""
+
+    twins: ClassVar[int] = 15
+
+    # -- given by each engine ------------------------------------------------------------------------------------------
+
+    @property
+    def kind(self) -> Any:
+        """Mark of structures that can share a block of lanes: which contacts there are."""
+        return Topology.of(self.structure)
+
+    def pack(self, structure: Any) -> Any:
+        """A structure of the same kinds in numbers of a lane."""
+        raise NotImplementedError
+
+    @property
+    def stable_step(self) -> float:
+        """Largest stable time step of the closed joints [s]."""
+        raise NotImplementedError
+
+    def block_for(self, kind: Any, options: RunOptions, lanes: int = LANES) -> Any:
+        """A block of lanes for structures of a kind."""
+        raise NotImplementedError
+
+    # -- shared --------------------------------------------------------------------------------------------------------
+
+    def block(self, options: RunOptions, lanes: int = LANES) -> Any:
+        """A block of lanes for structures that can share it with this one."""
+        return self.block_for(self.kind, options, lanes)
+
+    @property
+    def called(self) -> str:
+        """What it is called in messages."""
+        return "this column"
+
+    @property
+    def step(self) -> float:
+        """Time step [s].
 
         Raises
         ------
         InputError
             The step asked for is above the largest stable one.
         """
-        return chosen_step(self.stable_step(column), self.step_factor, self.time_step, "this column")
+        acting = self.acting
+        return chosen_step(self.stable_step, acting.step_factor, acting.time_step, self.called)
 
-    def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
+    def expected_step(self, motion: Motion) -> tuple[float, float]:
         """Time step and its cost [s]; whole chunks of steps fill the motion."""
-        links = sum(link.acts for link in column.placed_links)
-        return whole_steps(motion, 0.0, self.step_for(column))[0], self.cost(column.n) * (1.0 + LINK * links / column.n)
+        structure, n = self.structure, self.structure.n
+        links = sum(link.acts for link in structure.placed_links)
+        return whole_steps(motion, 0.0, self.step)[0], self.acting.cost(n) * (1.0 + LINK * links / n)
 
-    def paced(self, column: Column) -> SteppedDrums:
-        """The model in the column's own time step, far enough below the largest stable one of columns like it.
-
-        What is no stack chooses its step run by run.
-        """
-        if self.time_step is not None or self.step_factor > SAFE_FACTOR:
-            return self
-        return self if column.stack is None else replace(self, time_step=self.step_for(column))
-
-    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories, through the same kernel as a batch; twins of the column in the free lanes.
+    def run(self, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories, through the same kernel as a batch; twins of the structure in the free lanes.
 
         States are recorded at equal times; where quiet is left out, that in which the column lies at rest.
         """
-        kind = self.kind(column)
-        block = (self.paced(column) if options.twins else self).block_for(kind, options)
-        block.load(0, Case(column, motion))
+        paced = engine_for(self.paced, self.structure) if options.twins else self
+        block = paced.block(options)
+        block.load(0, Case(self.structure, motion))
         chunks = math.ceil(block.steps[0] / block.chunk)
         stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
         every, end, dt = stride * block.chunk, int(block.steps[0]), float(block.dt[0])
@@ -162,35 +187,51 @@ class SteppedDrums(Model):
         measures = block.collect(0)
         rests = measures.stepped is not None and measures.outcome not in (Outcome.COLLAPSED, Outcome.FAILED)
         record(last=True, until=max(end, int(block.feed["step"][0, 0])) if rests else None)
-        return Response(column, histories(motion, states), measures, self.name, provenance, twins=twins.measures())
+        shown = histories(motion, states)
+        return Response(self.structure, shown, measures, self.model.name, provenance, twins=twins.measures())
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs through blocks of lanes; columns, joints and motions may differ from lane to lane."""
-        return run_alike(
-            lambda case: self.kind(case.column), lambda kind: self.block_for(kind, options), cases, threads
-        )
+        return run_alike(self._kind_of, lambda kind: self.block_for(kind, options), cases, threads)
+
+    def _kind_of(self, case: Case) -> Any:
+        return engine_for(self.model, case.column).kind
+
+
+class StackEngine(LaneEngine):
+    """Base of the engines of columns that are stepped."""
+
+    links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
+
+    def check(self, motion: Motion) -> None:
+        """Refuse joints that are too soft, and a step that is unstable or passes over the motion."""
+        super().check(motion)
+        check_sinking(self.structure)
+        self.step  # noqa: B018 (which refuses)
+        check_step_resolves(self.model.time_step, motion)
+
+    @property
+    def paced(self) -> Any:
+        """The model in the column's own time step, far enough below the largest stable one of columns like it."""
+        acting = self.acting
+        stated = acting.time_step is not None or acting.step_factor > SAFE_FACTOR
+        return acting if stated else replace(acting, time_step=self.step)
 
     def run_on_card(
         self, device: Device, cases: Sequence[Case], options: RunOptions, threads: int
     ) -> Iterator[tuple[int, Measures]]:
         """As :meth:`run_many`, where a graphics card steps what it has kernels for, and threads the rest."""
-        if len(cases) and cases[0].column.stack is None:
-            return self.run_many(cases, options, threads)
-
         turn = Lock()
 
         def lanes(kind: Any) -> LaneBlock:
-            if not device.steps(self, kind):
+            if not device.steps(self.model, kind):
                 return self.block_for(kind, options)
             return device.lanes(self, kind, options, len(cases), turn)
 
         return run_alike(
-            lambda case: self.kind(case.column),
-            lanes,
-            cases,
-            lambda kind: device.threads if device.steps(self, kind) else threads,
+            self._kind_of, lanes, cases, lambda kind: device.threads if device.steps(self.model, kind) else threads
         )
 
-    def on_card(self, device: Device, column: Any) -> bool:
-        """Whether a graphics card steps runs of what stands: of columns without links for which it has kernels."""
-        return column.stack is not None and device.steps(self, self.kind(column.stack))
+    def on_card(self, device: Device) -> bool:
+        """Whether a graphics card steps runs of the column: of those without links for which it has kernels."""
+        return device.steps(self.model, self.kind)

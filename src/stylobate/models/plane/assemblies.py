@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,11 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ...response.assembly_measures import first_touch, have_fallen, lowest_standing, recorded_blocks
 from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
+from ..drums.impact import rocking_column
 from ..drums.links import acting, link_histories, link_measures, with_links
+from ..drums.losses import with_provenance
+from ..drums.stepped import StackEngine, SteppedEngine
+from ..engine import engine_for
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.stable_step import chosen_step, highest_frequency, stable_step
@@ -43,10 +48,61 @@ def step_for(engine: Loose, contacts: Contacts) -> float:
     )
 
 
-def expected_step(assembly: Assembly, motion: Motion, contacts: Contacts) -> tuple[float, float]:
-    """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
-    engine = Loose(assembly, contacts, motion, motion.duration)
-    return step_for(engine, contacts), COST_STANDING * len(engine.records.body) * contacts.points
+class LooseInPlane(SteppedEngine):
+    """Assemblies of blocks in the plane, any two of which may touch: one by one, each to the end of its run."""
+
+    computes = (Assembly,)
+    takes = frozenset({"as found"})
+    links = StackEngine.links | {"clamp"}
+    rocking = staticmethod(rocking_column)
+
+    def check_start(self) -> None:
+        """Refuse a start from a pose."""
+        what = self.structure
+        raise InputError(f"a start from a pose is for columns, and {what.name!r} is {what.described}; leave start out.")
+
+    def check_length(self, motion: Motion, options: RunOptions) -> None:
+        """The step of what may come loose is known once its contacts are: each run asks for itself."""
+
+    def followed(self) -> Assembly:
+        """The assembly: any two of its blocks may strike each other."""
+        return self.structure
+
+    @property
+    def contacts(self) -> Contacts:
+        """Numbers of its contacts.
+
+        Raises
+        ------
+        InputError
+            The stone is given a modulus.
+        """
+        acting = self.acting
+        if acting.block_modulus is not None:
+            raise InputError(
+                f"block_modulus is {acting.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
+            )
+        return Contacts.of(acting)
+
+    def expected_step(self, motion: Motion) -> tuple[float, float]:
+        """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
+        contacts = self.contacts
+        loose = Loose(self.structure, contacts, motion, motion.duration)
+        return step_for(loose, contacts), COST_STANDING * len(loose.records.body) * contacts.points
+
+    def run(self, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories, however much falls."""
+        response = run_assembly(self.structure, motion, self.contacts, replace(options, until_end=True))
+        return with_provenance(self, motion, response)
+
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
+        """Many runs one by one in threads, without histories."""
+
+        def alone(case: Case) -> Response:
+            contacts = engine_for(self.model, case.column).contacts
+            return run_assembly(case.column, case.motion, contacts, options, recorded=False)
+
+        return one_by_one(alone, cases, threads)
 
 
 def run_assembly(
@@ -165,20 +221,18 @@ def follow(engine: Loose, options: RunOptions, recorded: bool = True) -> tuple[l
     return states, still and over
 
 
-def measures_of_assemblies(
-    run: Callable[..., Response], cases: Sequence[Case], options: RunOptions, threads: int
-) -> Iterator[tuple[int, Measures]]:
-    """(index of the case, measures) of runs of assemblies as they finish; their histories are not recorded."""
+def one_by_one(run: Callable[[Case], Response], cases: Sequence[Case], threads: int) -> Iterator[tuple[int, Measures]]:
+    """(index of the case, measures) of runs as they finish."""
     from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
     under_way: dict[Future[Response], int] = {}
     with ThreadPoolExecutor(threads) as pool:
         try:
-            for index, (assembly, motion) in enumerate(cases):
+            for index, case in enumerate(cases):
                 if len(under_way) >= 2 * threads:
                     for one in wait(under_way, return_when=FIRST_COMPLETED).done:
                         yield under_way.pop(one), one.result().measures
-                under_way[pool.submit(run, assembly, motion, options, recorded=False)] = index
+                under_way[pool.submit(run, case)] = index
             while under_way:
                 for one in wait(under_way, return_when=FIRST_COMPLETED).done:
                     yield under_way.pop(one), one.result().measures

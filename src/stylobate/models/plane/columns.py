@@ -9,6 +9,7 @@ import numpy as np
 
 from ...column import Column
 from ...constants import DEGREE
+from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ...response import Collapse
 from ...response.collapse import in_plane
@@ -18,6 +19,7 @@ from ..drums.bodies import Topology
 from ..drums.lane_engine import Left
 from ..drums.records import Packed
 from ..drums.runs import LaneRuns
+from ..drums.stepped import StackEngine
 from ..start import check_in_plane
 from .block import Records, slope_base
 from .laws import Types
@@ -168,14 +170,15 @@ class ColumnLanes(LaneRuns):
         offsets: overturning as one body about the nearer end of the contact, m g (R − H); where some joint above is so
         slippery that it slides first, tan φ below the sine of the critical angle, sliding and lifting together:
         m g [tan φ b − H (1 − √(1 − tan² φ))]. On a slope H and b are measured along and across gravity, and friction is what
-        the slope of the joint leaves of it. Soft joints give, and the barrier is lower by that.
+        the slope of the joint leaves of it. Soft joints give, and the barrier is lower by that,
+        Eq. (V5).
         """
         from ...kernels.plane.standing import all_stand
 
         columns, records = [self.column(lane) for lane in lanes], self.records
         stand, offsets = zip(*map(numbers_for, columns), strict=True)
         stand = np.array([one.view(float) for one in stand]).view(stand[0].dtype)  # numpy stacks records field by field
-        stand["toe"] = [self.packed[lane].stand for lane in lanes]
+        stand["toe"], stand["others"] = np.array([self.packed[lane].stand for lane in lanes]).swapaxes(0, 1)
         gravity, slope = np.array([(one.gravity, one.as_found.base_tilt * DEGREE) for one in columns]).T
         where, stays = np.array(lanes, dtype=np.int64), np.zeros(len(lanes), dtype=bool)
         numbers = offsets + slip, gravity.copy(), slope.copy(), energy
@@ -189,3 +192,16 @@ class ColumnLanes(LaneRuns):
         joint = 1 + int(watch["which" if parted else "about"][lane])
         time = float(watch["when"][lane] * self.dt[lane])
         return in_plane(time, joint, float(watch["side"][lane]), slid_off=parted)
+
+
+class PlaneStack(StackEngine):
+    """Base of the engines of columns in the plane; each gives the law of their joints."""
+
+    def record_types(self, linked: bool, lanes: int = LANES) -> Types:
+        """Types of the records by the law of the joints, for columns with links or without."""
+        raise NotImplementedError
+
+    def block_for(self, kind: Topology, options: RunOptions, lanes: int = LANES) -> ColumnLanes:
+        """A block of lanes for columns of a kind."""
+        types = self.record_types(bool(kind.links), lanes)
+        return ColumnLanes(types, self.pack, kind, options, self.model.cost(kind.stack))

@@ -89,6 +89,14 @@ class Contacts(NamedTuple):
     time_step: float | None
     must_settle: bool
 
+    @classmethod
+    def of(cls, model: Any) -> Contacts:
+        """Those of a model of contact points."""
+        return cls(
+            model.name, model.points, model.stiffness_damping, model.mass_damping, model.block_modulus, model.restitution,
+            model.step_factor, model.time_step, model.start == "settle",
+        )  # fmt: skip
+
     @property
     def given_back(self) -> float:
         """Restitution of the bed [-]."""

@@ -15,10 +15,13 @@ from ...errors import InputError, check_choice, check_range, warn
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
+from ..engine import Engine
 from ..rocking.block import RockingBlock
+from ..rocking.model import Rocking
 from ..shared.lanes import MOST_SAMPLES, run_alike
 from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
 from .equations import BeamMatrices
+from ...messages import say
 
 if TYPE_CHECKING:
     from .state import PackedBeam
@@ -28,6 +31,94 @@ LAWS = ("winkler", "bilinear", "trilinear", "housner")
 #: Step times the highest rate of the closed column: default, and what is refused beyond (stable to 2.8 undamped).
 STEP_FACTOR = 1.5
 STABLE = 2.6
+
+
+class Beam(Engine):
+    """Chains of rigid beams, single runs and batches in lanes."""
+
+    @property
+    def not_scattered(self) -> tuple[str, ...]:
+        """Friction too, where nothing slides."""
+        return super().not_scattered + (() if self.model.sliding else ("friction",))
+
+    def check(self, motion: Motion) -> None:
+        """Refuse what cannot be computed; warn outside the declared limits."""
+        super().check(motion)
+        column, model = self.structure, self.model
+        seen = model.idealised(column)
+        if model.moment_law == "housner" and column.n > 1:
+            raise InputError(
+                f"moment_law=housner is for one drum, and {column.name!r} has {column.n}; "
+                "use bilinear, trilinear or winkler."
+            )
+        if model.rotation == "absolute" and model.flutters(seen):
+            raise InputError(
+                f"with rotation=absolute the column {column.name!r} flutters while all its joints are closed, so that the "
+                "smallest vibration grows without end; use rotation=relative, or fewer or more slender drums."
+            )
+        if model.time_step is not None:
+            p = seen.frequency_parameter
+            passed = f"{MOST_SAMPLES} samples of the motion"
+            limits = {"0.02/p of this column": 0.02 / p, passed: MOST_SAMPLES * motion.dt}
+            if model.moment_law == "housner":
+                limits = {"0.2/p of this column": 0.2 / p}
+            else:
+                limits["what is stable"] = model.stable_step(seen)
+            which, largest = min(limits.items(), key=lambda item: item[1])
+            if model.time_step > largest * (1.0 + 1e-9):
+                raise InputError(
+                    f"time_step is {model.time_step:g} s; allowed is up to {largest:.3g} s ({which}), or leave it out."
+                )
+        if not model.sliding:
+            warn_sliding(seen, seen.slenderness, model.name, say("with sliding=true the beam slides"))
+        if abs(model.initial_rotation) >= seen.slenderness:
+            raise InputError(
+                f"initial_rotation is {model.initial_rotation:g} rad; allowed is less than the slenderness "
+                f"{seen.slenderness:.4g} rad, beyond which the column falls by itmodel."
+            )
+        opening = float(model.opening_rotations(seen).max())
+        if model.moment_law != "housner" and opening > 0.1 * float(model.critical_angles(seen).min()):
+            warn(
+                f"the joints of {column.name!r} open only at {opening:.3g} rad, more than a tenth of the critical angle: "
+                "the beam is for stiff joints; raise normal_stiffness."
+            )
+        warn_of_free_flight(column, motion)
+
+    def expected_step(self, motion: Motion) -> tuple[float, float]:
+        """Time step and its cost [s]."""
+        from .lanes import COST
+
+        step = self.model.step_for(self.model.idealised(self.structure), motion)
+        return min(step, motion.duration), COST * self.structure.n
+
+    def run(self, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories."""
+        from .lanes import run_one
+
+        column = self.structure
+        histories, measures = run_one(self.model.pack(column), column, motion, options)
+        return Response(column, histories, measures, self.model.name, {})
+
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
+        """Many runs through blocks of lanes."""
+        from .lanes import BeamLanes, loop_for
+
+        pack = self.model.pack
+        return run_alike(
+            lambda case: loop_for(pack(case.column), case.motion),
+            lambda loop: BeamLanes(pack, loop, options),
+            cases,
+            threads,
+        )
+
+
+class RockingBeam(Rocking, Beam):
+    """A beam of one drum that rocks as a block does."""
+
+    @classmethod
+    def computes_for(cls, model: Any, structure: Any) -> bool:
+        """Whether it computes a structure with a model: with Housner's law."""
+        return super().computes_for(model, structure) and model.moment_law == "housner"
 
 
 @dataclass(frozen=True)
@@ -81,6 +172,8 @@ class RigidBeam(Model):
     ----------
     Baraldi, Sarhosis and Milani; Housner 1963.
     """
+
+    engines: ClassVar[tuple[Any, ...]] = (RockingBeam, Beam)
 
     moment_law: str = "winkler"
     xi: float = 1.0
@@ -154,11 +247,6 @@ class RigidBeam(Model):
                 "moment_law=housner is rigid and has no sliding or stiffness_damping; use bilinear or winkler."
             )
 
-    @property
-    def not_scattered(self) -> tuple[str, ...]:
-        """Friction too, where nothing slides."""
-        return super().not_scattered + (() if self.sliding else ("friction",))
-
     @classmethod
     def paper(cls, **changes) -> RigidBeam:
         """As the paper has it: prisms of mean width, falling branch in the law with each drum's own α, no damping.
@@ -229,17 +317,6 @@ class RigidBeam(Model):
         """Time step for a column under a motion, whose samples it may pass over by a few [s]; ``column`` idealised."""
         return self.time_step or min(self.longest_step(column), MOST_SAMPLES * motion.dt)
 
-    def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
-        """Time step and its cost [s]."""
-        seen = self.idealised(column)
-        if self.moment_law == "housner":
-            from ..rocking.single import longest_step
-
-            return longest_step(self.block(seen).p, motion), 3e-4
-        from .lanes import COST
-
-        return min(self.step_for(seen, motion), motion.duration), COST * column.n
-
     def highest_rate(self, column: Column) -> float:
         """Highest rate of the column with all joints closed, ω_max or faster where damped [1/s]; ``column`` idealised."""
         shear = None
@@ -270,77 +347,6 @@ class RigidBeam(Model):
     def pack(self, column: Column) -> PackedBeam:
         """Everything about a column that the lanes need, computed once."""
         return _packed(self, column)
-
-    # -- Model -----------------------------------------------------------------------------------------------------
-
-    def check(self, column: Column, motion: Motion) -> None:
-        """Refuse what cannot be computed; warn outside the declared limits."""
-        super().check(column, motion)
-        seen = self.idealised(column)
-        if self.moment_law == "housner" and column.n > 1:
-            raise InputError(
-                f"moment_law=housner is for one drum, and {column.name!r} has {column.n}; "
-                "use bilinear, trilinear or winkler."
-            )
-        if self.rotation == "absolute" and self.flutters(seen):
-            raise InputError(
-                f"with rotation=absolute the column {column.name!r} flutters while all its joints are closed, so that the "
-                "smallest vibration grows without end; use rotation=relative, or fewer or more slender drums."
-            )
-        if self.time_step is not None:
-            p = seen.frequency_parameter
-            passed = f"{MOST_SAMPLES} samples of the motion"
-            limits = {"0.02/p of this column": 0.02 / p, passed: MOST_SAMPLES * motion.dt}
-            if self.moment_law == "housner":
-                limits = {"0.2/p of this column": 0.2 / p}
-            else:
-                limits["what is stable"] = self.stable_step(seen)
-            which, largest = min(limits.items(), key=lambda item: item[1])
-            if self.time_step > largest * (1.0 + 1e-9):
-                raise InputError(
-                    f"time_step is {self.time_step:g} s; allowed is up to {largest:.3g} s ({which}), or leave it out."
-                )
-        if not self.sliding:
-            warn_sliding(seen, seen.slenderness, self.name, "with sliding=true the beam slides")
-        if abs(self.initial_rotation) >= seen.slenderness:
-            raise InputError(
-                f"initial_rotation is {self.initial_rotation:g} rad; allowed is less than the slenderness "
-                f"{seen.slenderness:.4g} rad, beyond which the column falls by itself."
-            )
-        opening = float(self.opening_rotations(seen).max())
-        if self.moment_law != "housner" and opening > 0.1 * float(self.critical_angles(seen).min()):
-            warn(
-                f"the joints of {column.name!r} open only at {opening:.3g} rad, more than a tenth of the critical angle: "
-                "the beam is for stiff joints; raise normal_stiffness."
-            )
-        warn_of_free_flight(column, motion)
-
-    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories."""
-        if self.moment_law == "housner":
-            from ..rocking.single import run_single
-
-            histories, measures = run_single(self.block(column), motion, options, self.initial_rotation)
-        else:
-            from .lanes import run_one
-
-            histories, measures = run_one(self.pack(column), column, motion, options)
-        return Response(column, histories, measures, self.name, {})
-
-    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
-        """Many runs through blocks of lanes."""
-        if self.moment_law == "housner":
-            from ..rocking.lanes import run_blocks
-
-            return run_blocks(self, cases, options, threads)
-        from .lanes import BeamLanes, loop_for
-
-        return run_alike(
-            lambda case: loop_for(self.pack(case.column), case.motion),
-            lambda loop: BeamLanes(self.pack, loop, options),
-            cases,
-            threads,
-        )
 
 
 @lru_cache(64)

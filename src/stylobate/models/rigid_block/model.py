@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -12,18 +12,54 @@ from ...column import Column
 from ...errors import InputError, check_range
 from ...kernels.run_codes import LANES
 from ...motion import Motion
-from ..base import RunOptions
-from ..drums.bodies import Topology, body_fields
+from ..drums.bodies import body_fields
 from ..drums.joints import damping_rows
 from ..drums.links import acting, link_stiffness, with_links
 from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
-from ..plane.columns import ColumnLanes
+from ..engine import engine_for
+from ..plane.columns import PlaneStack
 from ..plane.laws import Types, interface_law
 from ..plane.packing import face_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
 from ..shared.toes import point_toes
 from .block_stack import BlockStack
+
+
+class InterfaceStack(PlaneStack):
+    """Columns in the plane whose joints are one interface each."""
+
+    def check(self, motion: Motion) -> None:
+        """Refuse an unstable step, joints that crush under the weight, and pretension; say what a plane model leaves out."""
+        super().check(motion)
+        column, strength = self.structure, self.model.compressive_strength
+        if column.pretensioned:
+            pull = max(link.pretension for link in column.placed_links)
+            raise InputError(
+                f"rigid-block begins with joints that the weight alone presses, and a link of {column.name!r} has a "
+                f"pretension of {pull:g} N; use dem2d or dem3d, or leave the pretension out."
+            )
+        if strength is not None:
+            stress = column.joint_weights / column.joint_areas
+            worst = int(np.argmax(stress))
+            if stress[worst] >= strength:
+                raise InputError(
+                    f"joint {worst + 1} crushes under the column's own weight: compressive_strength is "
+                    f"{strength:g} Pa; allowed is above {stress[worst]:.4g} Pa."
+                )
+
+    def record_types(self, linked: bool, lanes: int = LANES) -> Types:
+        """Types of the records by the law of the joints, for columns with links or without."""
+        return interface_law(self.model.compressive_strength is not None, self.model.damped, lanes, linked)
+
+    def pack(self, structure: Column) -> Packed:
+        """A column as the lanes want it."""
+        return _pack(structure, self.model)
+
+    @property
+    def stable_step(self) -> float:
+        """Largest stable time step of the closed column [s]."""
+        return stable_step(self.structure, self.model.stiffness_damping)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,6 +112,8 @@ class RigidBlock(SteppedDrums):
         "Columns that are not as built are refused, and links with pretension.",
     )
 
+    engines: ClassVar[tuple[Any, ...]] = (InterfaceStack,)
+
     compressive_strength: float | None = None
     step_factor: float = 0.2
 
@@ -83,44 +121,6 @@ class RigidBlock(SteppedDrums):
         super().__post_init__()
         if self.compressive_strength is not None:
             check_range("compressive_strength", self.compressive_strength, 0.0, 1e12, unit="Pa", open_low=True)
-
-    # -- before the run ------------------------------------------------------------------------------------------
-
-    def check(self, column: Column, motion: Motion) -> None:
-        """Refuse an unstable step, joints that crush under the weight, and pretension; say what a plane model leaves out."""
-        super().check(column, motion)
-        if column.pretensioned:
-            pull = max(link.pretension for link in column.placed_links)
-            raise InputError(
-                f"rigid-block begins with joints that the weight alone presses, and a link of {column.name!r} has a "
-                f"pretension of {pull:g} N; use dem2d or dem3d, or leave the pretension out."
-            )
-        if self.compressive_strength is not None:
-            stress = column.joint_weights / column.joint_areas
-            worst = int(np.argmax(stress))
-            if stress[worst] >= self.compressive_strength:
-                raise InputError(
-                    f"joint {worst + 1} crushes under the column's own weight: compressive_strength is "
-                    f"{self.compressive_strength:g} Pa; allowed is above {stress[worst]:.4g} Pa."
-                )
-
-    # -- what a block of lanes needs -----------------------------------------------------------------------------
-
-    def record_types(self, linked: bool, lanes: int = LANES) -> Types:
-        """Types of the records by the law of the joints, for columns with links or without."""
-        return interface_law(self.compressive_strength is not None, self.damped, lanes, linked)
-
-    def block_for(self, kind: Topology, options: RunOptions, lanes: int = LANES) -> ColumnLanes:
-        """A block of lanes for columns of a kind."""
-        return ColumnLanes(self.record_types(bool(kind.links), lanes), self.pack, kind, options, self.cost(kind.stack))
-
-    def pack(self, column: Column) -> Packed:
-        """A column as the engine wants it."""
-        return _pack(column, self)
-
-    def stable_step(self, column: Column) -> float:
-        """Largest stable time step of the closed column [s]."""
-        return stable_step(column, self.stiffness_damping)
 
 
 @lru_cache(maxsize=4096)
@@ -140,18 +140,16 @@ def _pack(column: Column, model: RigidBlock) -> Packed:
     types = interface_law(strength is not None, model.damped, 1, bool(acting(column)))
     damp = damping_rows(model.damped, model.stiffness_damping, model.mass_damping)
     fields = body_fields(column, column.joint_weights / kn), joint, lane_fields(column, damp)
-    return pack_column(column, types, fields, model.step_for(column), _toes(column, strength))
+    return pack_column(column, types, fields, engine_for(model, column).step, _toes(column, strength))
 
 
 def _toes(column: Column, strength: float | None) -> np.ndarray:
-    """Energy of joints with their load on their edge [J], shape (n,); a joint that crushes carries it further in."""
+    """Energy that joints give [J], shape (2, n); a joint that crushes carries its load further in."""
     kn, km, _ = joint_stiffness(column)
     half = 0.5 * column.joint_widths
-    toes = point_toes(column, kn / column.joint_areas, 1.0 / (1.0 + half**2 * kn / km))
-    if strength is None:
-        return toes
-    inset = half * column.joint_weights / (strength * column.joint_areas)
-    return toes + column.joint_weights * inset * half / np.hypot(half, column.parts_above[1])
+    inset = 0.0 if strength is None else half * column.joint_weights / (strength * column.joint_areas)
+    crushed = column.joint_weights * inset * half / np.hypot(half, column.parts_above[1])
+    return point_toes(column, kn / column.joint_areas, 1.0 / (1.0 + half**2 * kn / km), crushed)
 
 
 def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

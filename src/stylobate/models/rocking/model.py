@@ -5,18 +5,82 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ...column import Column
 from ...errors import InputError, check_range, warn
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
+from ..engine import Engine
 from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
 from .block import RockingBlock
+from ...messages import say
 
 #: Slenderness beyond which the linearised equation departs visibly from the nonlinear one [rad]; Housner's own limit.
 SLENDER = math.radians(20.0)
+
+
+class Rocking(Engine):
+    """One block that rocks: single runs by an adaptive solver with impacts as events, batches in lanes."""
+
+    def expected_step(self, motion: Motion) -> tuple[float, float]:
+        """Longest step of the adaptive solver, which is the dearer one, and its cost [s]."""
+        from .single import longest_step
+
+        return longest_step(self.model.block(self.structure).p, motion), 3e-4
+
+    def run(self, motion: Motion, options: RunOptions) -> Response:
+        """One run by an adaptive solver with impacts as events."""
+        from .single import run_single
+
+        model = self.model
+        histories, measures = run_single(model.block(self.structure), motion, options, model.initial_rotation)
+        return Response(self.structure, histories, measures, model.name, {})
+
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
+        """Many runs by the lane kernel, impacts located."""
+        from .lanes import run_blocks
+
+        return run_blocks(self.model, cases, options, threads)
+
+
+class HousnerRocking(Rocking):
+    """The block of :class:`HousnerBlock`."""
+
+    @property
+    def not_scattered(self) -> tuple[str, ...]:
+        """Of a block that neither slides nor has elastic joints."""
+        return *super().not_scattered, "friction", "joint_stiffness", "density"
+
+    def check(self, motion: Motion) -> None:
+        """Refuse columns of several drums; warn outside the declared limits."""
+        super().check(motion)
+        column, model = self.structure, self.model
+        if column.n != 1:
+            raise InputError(
+                f"the model housner computes one block, and {column.name!r} has {column.n} drums; "
+                "use rigid-beam, rigid-block or dem2d."
+            )
+        block = model.block(column)
+        if abs(model.initial_rotation) >= block.alpha:
+            raise InputError(
+                f"initial_rotation is {model.initial_rotation:g} rad; allowed is less than the slenderness "
+                f"{block.alpha:g} rad, beyond which the block falls by itself."
+            )
+        if model.time_step is not None and model.time_step > 0.2 / block.p:
+            raise InputError(
+                f"time_step is {model.time_step:g} s; allowed is up to {0.2 / block.p:.3g} s (0.2/p) for this block."
+            )
+        warn_sliding(column, block.alpha, model.name, say("dem2d has sliding"))
+        if model.linear and block.alpha > SLENDER:
+            warn(f"the slenderness is {math.degrees(block.alpha):.1f}°; the linearised equation is for up to 20°.")
+        if model.restitution is None and column.restitution < 0.0:
+            warn(
+                f"Housner's restitution of this stocky block is {column.restitution:.2f}, below zero: "
+                "0 is used, and the block stops at its first impact."
+            )
+        warn_of_free_flight(column, motion)
 
 
 @dataclass(frozen=True)
@@ -59,6 +123,8 @@ class HousnerBlock(Model):
     Housner 1963; Yim, Chopra and Penzien 1980.
     """
 
+    engines: ClassVar[tuple[Any, ...]] = (HousnerRocking,)
+
     restitution: float | None = None
     linear: bool = False
     initial_rotation: float = 0.0
@@ -91,45 +157,6 @@ class HousnerBlock(Model):
         if self.time_step is not None:
             check_range("time_step", self.time_step, 0.0, 1.0, unit="s", open_low=True)
 
-    @property
-    def not_scattered(self) -> tuple[str, ...]:
-        """Of a block that neither slides nor has elastic joints."""
-        return *super().not_scattered, "friction", "joint_stiffness", "density"
-
-    def check(self, column: Column, motion: Motion) -> None:
-        """Refuse columns of several drums; warn outside the declared limits."""
-        super().check(column, motion)
-        if column.n != 1:
-            raise InputError(
-                f"the model housner computes one block, and {column.name!r} has {column.n} drums; "
-                "use rigid-beam, rigid-block or dem2d."
-            )
-        block = self.block(column)
-        if abs(self.initial_rotation) >= block.alpha:
-            raise InputError(
-                f"initial_rotation is {self.initial_rotation:g} rad; allowed is less than the slenderness "
-                f"{block.alpha:g} rad, beyond which the block falls by itself."
-            )
-        if self.time_step is not None and self.time_step > 0.2 / block.p:
-            raise InputError(
-                f"time_step is {self.time_step:g} s; allowed is up to {0.2 / block.p:.3g} s (0.2/p) for this block."
-            )
-        warn_sliding(column, block.alpha, self.name, "dem2d has sliding")
-        if self.linear and block.alpha > SLENDER:
-            warn(f"the slenderness is {math.degrees(block.alpha):.1f}°; the linearised equation is for up to 20°.")
-        if self.restitution is None and column.restitution < 0.0:
-            warn(
-                f"Housner's restitution of this stocky block is {column.restitution:.2f}, below zero: "
-                "0 is used, and the block stops at its first impact."
-            )
-        warn_of_free_flight(column, motion)
-
-    def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
-        """Longest step of the adaptive solver, which is the dearer one, and its cost [s]."""
-        from .single import longest_step
-
-        return longest_step(column.frequency_parameter, motion), 3e-4
-
     def block(self, column: Column) -> RockingBlock:
         """The numbers of the rocking equation for a column of one drum."""
         e = max(0.0, column.restitution) if self.restitution is None else self.restitution
@@ -144,16 +171,3 @@ class HousnerBlock(Model):
             centroid_height=column.centroid_height,
             linear=self.linear,
         )
-
-    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
-        """One run by an adaptive solver with impacts as events."""
-        from .single import run_single
-
-        histories, measures = run_single(self.block(column), motion, options, self.initial_rotation)
-        return Response(column, histories, measures, self.name, {})
-
-    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
-        """Many runs by the lane kernel, impacts located."""
-        from .lanes import run_blocks
-
-        return run_blocks(self, cases, options, threads)

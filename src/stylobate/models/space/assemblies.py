@@ -66,12 +66,6 @@ def engine_of(structure: Structure, numbers: SpatialNumbers, restitution: float)
     return Loose(solids, laws_of(structure), gravity, restitution, numbers.stiffness_damping, joints, acting(structure))
 
 
-def expected_step(structure: Structure, numbers: SpatialNumbers) -> tuple[float, float]:
-    """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
-    engine = engine_of(structure, numbers, 1.0)
-    return step_for(engine, structure, numbers), COST * len(engine.body)
-
-
 def step_for(engine: Loose, structure: Structure, numbers: SpatialNumbers) -> float:
     """Time step of a run [s].
 

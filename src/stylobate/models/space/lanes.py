@@ -12,10 +12,10 @@ from ...column.structure import Structure
 from ...kernels.run_codes import CHUNK, FAILED, FREE, LANES, RUNNING
 from ...kernels.space.lane_records import types
 from ...kernels.space.records import GROUND
-from ...response import Measures, Response
+from ...response import Measures
 from ...response.space_measures import fallen
 from ..base import Case, RunOptions
-from ..plane.assemblies import measures_of_assemblies
+from ..plane.assemblies import one_by_one
 from ..shared.lanes import GoesOn, aligned_zeros, copied, run_alike
 from .assemblies import Begun, SpatialNumbers, chunks_of, go_on, response_of, run_in_space, settled, unsettled
 from .loose import REST_TIME, REST_WAY, Loose
@@ -61,15 +61,16 @@ def kind(structure: Structure) -> Hashable:
 
 
 def measures_in_space(
-    run: Callable[..., Response], cases: Sequence[Case], numbers: Numbers, options: RunOptions, threads: int
+    numbers: Numbers, cases: Sequence[Case], options: RunOptions, threads: int
 ) -> Iterator[tuple[int, Measures]]:
     """(index of the case, measures) of runs of assemblies in space as they finish: in lanes as long as they are intact.
 
-    Runs until rest are made one by one, by ``run``. However few there are, others ride: what a run comes to does not hang on
-    how many are left of a batch that was stopped, nor on the number of threads.
+    Runs until rest are made one by one; their histories are kept: the verdict rests on the ledger. However few there are,
+    others ride: what a run comes to does not hang on how many are left of a batch that was stopped, nor on the number of
+    threads.
     """
-    if options.until_rest or options.start is not None:
-        yield from measures_of_assemblies(run, cases, options, threads)
+    if options.until_rest:
+        yield from one_by_one(lambda case: run_in_space(*case, numbers(case.column), options), cases, threads)
         return
 
     def block_of(key: Hashable) -> IntactLanes:

@@ -28,6 +28,7 @@ from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.drums.stepped import SteppedDrums
+from stylobate.models.engine import engine_for
 from stylobate.motion import Motion, harmonic
 from stylobate.response.measures import CPU, GPU
 from stylobate.simulate import run_options, simulate, simulate_many, thread_count
@@ -174,12 +175,12 @@ def _on_workers(column: Column, model: SteppedDrums, count: int) -> float | None
 
 def _kernel(model: SteppedDrums, column: Column, motion: Motion, source: str, points: int) -> dict[str, Any]:
     """Nanoseconds per contact point and step, ours and native, for one full block; how far apart the two are early on."""
-    dt = model.step_for(column)
+    dt = engine_for(model, column).step
     shaking = motion.replace(dt=dt * STEPS)
     ours, native = [], []
 
     def timed(chunks: int) -> tuple[float, float]:
-        block = model.block_for(model.kind(column), RunOptions(until_end=True))
+        block = engine_for(model, column).block(RunOptions(until_end=True))
         for lane in range(block.lanes):
             block.load(lane, Case(column, shaking))
         bodies = block.records.body
