@@ -27,9 +27,9 @@ SHOWN = (
 
 
 def suite(
-    column: o.ColumnName,
+    column: str = o.COLUMN,
     sources: list[Path] = o.argument("DIR|FILE...", "Folders of records, or records."),
-    model: o.ModelName = "dem2d",
+    model: str = o.model(),
     also: list[str] | None = o.option("COLUMN", "A further column, or assembly; may be repeated."),
     against: str = o.option("MEASURE", "Measure of the records on the axis of the figure.", "pgv_m_s"),
     *,
