@@ -1,4 +1,4 @@
-"""Messages of reports and their catalogues: ``messages.py`` renews them from the sources, ``messages.py check`` tells what lacks."""
+"""Catalogues of the messages of reports: renewed from the sources, or with the word ``check`` only looked at."""
 
 from __future__ import annotations
 
@@ -12,18 +12,20 @@ from babel.messages.pofile import read_po, write_po
 
 from stylobate.models.registry import MODELS, model_class
 from stylobate_report.language import LANGUAGES, file_of, has_words
+from stylobate_report.numbers import WORDS
 
 ROOT = Path(__file__).parents[1]
 
 
 def found() -> Iterator[tuple[str, str]]:
-    """Every message with the file that says it: templates of ``say``, and what models say of themselves."""
+    """Every message with the file that says it: templates of ``say``, words of tables, and prose of models."""
     for path in sorted((*ROOT.glob("src/**/*.py"), *ROOT.glob("packages/*/src/**/*.py"))):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "say":
                 text = node.args[0]
                 if isinstance(text, ast.Constant) and has_words(text.value):
                     yield text.value, path.relative_to(ROOT).as_posix()
+    yield from ((word, "words") for word in WORDS.split("|"))
     for name in MODELS:
         model = model_class(name)
         for text in (model.title, *model.assumptions, *model.limits):
