@@ -68,7 +68,8 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
     )
     if low is not None and high is not None:
         said += say(
-            " ({share}): under this motion and in this model the probability of collapse is {range}, with {level} confidence",
+            " ({share}): under this motion and in this model the probability of collapse is {range}, with "
+            "{level} confidence",
             share=percents(fell / number, (fell + open_) / number), range=percents(low, high),
             level=percent(known.get("confidence", 0.95)),
         )  # fmt: skip

@@ -183,8 +183,8 @@ def _asked(r: Response) -> list[tuple[str, str]]:
 
 
 def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]:
-    before = say("Measures of the response. Peaks are those before the fall; the pictures below go on to {time:.2f} s and show "
-                 "the fall itself.", time=r.time[-1])  # fmt: skip
+    before = say("Measures of the response. Peaks are those before the fall; the pictures below go on to "
+                 "{time:.2f} s and show the fall itself.", time=r.time[-1])  # fmt: skip
     items: list[Item] = [Facts(_measures(r), before if r.collapsed else say("Measures of the response"))]
     space, top = r.dims == "xyz", r.histories.top is not None
     of_top = say("Histories: displacement of top and base relative to the ground, over the acceleration of the ground.")
@@ -192,8 +192,8 @@ def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]
     if r.collapsed:
         texts.append(say("The dotted line is where the collapse became certain, at {r.collapse_time:.2f} s.", r=r))
     items.append(picture(plots.draw_histories(r, " "), joined(" ", texts)))
-    sides = say("Film strip: what stood, at chosen instants, seen along y (x to the right) and against x (y to the right), in "
-                "true proportion unless the title says a factor.")  # fmt: skip
+    sides = say("Film strip: what stood, at chosen instants, seen along y (x to the right) and against x (y to "
+                "the right), in true proportion unless the title says a factor.")  # fmt: skip
     plain = say("Film strip: what stood, at chosen instants, in true proportion unless the title says a factor.")
     most = say("Under each time: how far the block that moved most is from where it was.")
     texts = [sides if space else plain]
@@ -276,9 +276,9 @@ def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
         body.append(row)
     texts = [say("Joints, from the base up.")]
     if r.collapsed:
-        texts.append(say("Openings are the largest recorded until the collapse was certain, the beginning of the fall included, "
-                         "which the measures above leave out. Slips and twists are those at the end; –: the joint that failed "
-                         "and all above."))  # fmt: skip
+        texts.append(say("Openings are the largest recorded until the collapse was certain, the beginning of the "
+                         "fall included, which the measures above leave out. Slips and twists are those at the "
+                         "end; –: the joint that failed and all above."))  # fmt: skip
     return [Rows(header, body, joined(" ", texts), numbers=True)]
 
 
