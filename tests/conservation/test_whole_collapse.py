@@ -12,8 +12,7 @@ from stylobate.kernels.plane.records import LOCAL
 from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import RESTITUTION, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
-from stylobate.models.plane.assemblies import follow, stable_step_of
-from stylobate.models.plane.loose import Loose
+from stylobate.models.plane.loose import Loose, follow, stable_step_of
 from stylobate.motion import harmonic
 from stylobate.response.assembly_measures import recorded_blocks
 from stylobate.simulate import simulate

@@ -20,7 +20,8 @@ import stylobate as st
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.engine import engine_for
-from stylobate.models.space import assemblies, lanes
+from stylobate.models.space import lanes
+from stylobate.models.space import loose as assemblies
 from stylobate.motion import Motion
 
 #: Time of one step of a path [s]: so slow that dashpots do nothing.

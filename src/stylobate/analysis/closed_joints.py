@@ -16,10 +16,10 @@ from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError
 from ..models.dem2d.model import DistinctElement2D
-from ..models.dem3d.found_start import face_corners
 from ..models.dem3d.model import DistinctElement3D
-from ..models.drums.joints import contact_points, joint_stiffnesses
+from ..models.dem3d.packing import face_corners
 from ..models.drums.links import acting
+from ..models.drums.records import contact_points, joint_stiffnesses
 from ..models.engine import engine_for
 from .small_vibrations import AROUND, ClosedJoint, Spring, Vibrating, pressed
 

@@ -19,8 +19,8 @@ from stylobate.column.presets import PAPER
 from stylobate.column.turning import matrix_of
 from stylobate.models.engine import engine_for
 from stylobate.models.shared.ledger import TERMS, released, unaccounted
-from stylobate.models.space import assemblies
-from stylobate.models.space.assemblies import engine_of, step_for
+from stylobate.models.space import loose as assemblies
+from stylobate.models.space.loose import engine_of, step_for
 
 from .plane import GALLERY
 from .random_scenes import scene, tumble, turned

@@ -19,15 +19,12 @@ from ...response.collapse import OVERTURNED, SLID_OFF, what_is_lost
 from ...response.measures import SpaceMeasures
 from ...response.residuals import Residuals, turned_up
 from ..base import RunOptions
-from ..drums.lane_engine import Left
 from ..drums.records import Packed, sink
-from ..drums.runs import LaneRuns
+from ..drums.runs import LaneRuns, Left
 from ..shared.lanes import in_rows
 from ..start import check_in_plane, check_takes_pose
-from .arrays import Records
-from .pose import placed
+from .packing import Records, found_numbers, placed
 from .specimen import FreeBody
-from .verdict import found_numbers
 
 
 class Stack:

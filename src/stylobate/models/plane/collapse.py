@@ -16,8 +16,7 @@ from ...response.assembly_measures import first_touch
 from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..base import Case, RunOptions
-from ..drums.histories import histories
-from ..drums.lane_engine import Left
+from ..drums.runs import Left, histories
 from .columns import ColumnLanes, residuals_in
 from .loose import ENDLESS, Contacts, Loose
 from .packing import OF_BODY
