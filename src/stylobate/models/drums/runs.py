@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -74,7 +74,7 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     return with_link_histories(found, states)
 
 
-class Left(NamedTuple):
+class FinalStates(NamedTuple):
     """What runs have left behind, of each of them.
 
     Parameters
@@ -83,7 +83,7 @@ class Left(NamedTuple):
     offset : array
         Length of the offset along every joint [m], shape (runs, joints).
     slip : array
-        Of every joint since the start, as :meth:`LaneEngine.stay` takes it [m], shape (runs, joints) or (runs, joints, 2).
+        Of every joint since the start, as :meth:`LaneRuns.stay` takes it [m], shape (runs, joints) or (runs, joints, 2).
     top : array
         Residual displacement of the top [m], shape (runs,).
     rotation : array
@@ -99,8 +99,90 @@ class Left(NamedTuple):
     space: Sequence[SpaceMeasures] | None = None
 
 
-class LaneEngine:
-    """Base of :class:`stylobate.models.drums.runs.LaneRuns`: the methods in which the plane and space differ."""
+@dataclass(frozen=True)
+class Started:
+    """How a run has begun, for those of the same column that begin alike: what does not hang on its motion otherwise.
+
+    Parameters
+    ----------
+    packed : Packed
+        The column.
+    dt : float
+        Time step [s].
+    ground : tuple of float
+        Acceleration of the base at the start [m/s²].
+    numbers : array
+        Numbers of the lane of what moves.
+    kept : tuple of array
+        What the block itself keeps of a lane.
+    """
+
+    packed: Packed
+    dt: float
+    ground: tuple[float, ...]
+    numbers: np.ndarray
+    kept: tuple[np.ndarray, ...]
+
+    @classmethod
+    def of(cls, block: LaneRuns, lane: int, ground: tuple[float, ...]) -> Started:
+        """That of a run that has begun in a lane."""
+        numbers = block.arrays.numbers[: block.arrays.moving, lane].copy()
+        kept = tuple(one[lane].copy() for one in block.beginning)
+        return cls(block.packed[lane], float(block.dt[lane]), ground, numbers, kept)
+
+    def serves(self, packed: Packed, dt: float, ground: tuple[float, ...]) -> bool:
+        """Whether another run begins so."""
+        return packed is self.packed and dt == self.dt and ground == self.ground
+
+    def put(self, block: LaneRuns, lane: int) -> None:
+        """Let a run begin so in a lane."""
+        block.arrays.numbers[: len(self.numbers), lane] = self.numbers
+        for one, own in zip(block.beginning, self.kept, strict=True):
+            one[lane] = own
+
+
+#: Calls of the kernel per run.
+CALLS_PER_RUN = 100
+
+#: Time after which a run that waits for its verdict is looked at again [s].
+WAIT = 0.5
+
+
+class LaneRuns:
+    """Runs in the lanes of a block; the base of the blocks of the engines in the plane and in space.
+
+    Parameters
+    ----------
+    pack : callable
+        Gives the numbers of a column.
+    records : LaneRecords
+    options : RunOptions
+    cost : float
+        About what a step of a run costs [s].
+    """
+
+    def __init__(self, pack: Callable[[Any], Any], records: LaneRecords, options: RunOptions, cost: float) -> None:
+        self.pack, self.arrays, self.options = pack, records, options
+        self.lane, self.feed, self.watch, self.link = records.lane, records.feed, records.watch, records.link
+        self.packed: dict[int, Packed] = {}
+        self.lanes, self.chunk, self.tied = records.lanes, CHUNK, len(self.link) > 0
+        self.watch["status"] = FREE
+        self.dt = np.zeros(self.lanes)
+        self.steps = np.zeros(self.lanes, dtype=np.int64)
+        self.start = np.zeros((self.lanes, 6))
+        self.rest = np.zeros(self.lanes)
+        self.pressed = np.zeros(self.lanes)
+        self.cases: list[Case | None] = [None] * self.lanes
+        self.computed_by = CPU
+        self.ledgers: dict[int, np.ndarray] = {}  # of lanes that stand still
+        self.ended: dict[int, Measures] = {}  # of lanes whose runs have ended
+        self.started: Started | None = None
+        self.starter: LaneRuns | None = None  # a block of few lanes, in which runs begin at less cost than in this one
+        self.spans = quiet.Spans(self.lanes, options, self.chunk)
+        self.chunks_per_call = 1
+        self.piece = longest_piece(cost, self.chunk)
+
+    # -- what each engine gives ---------------------------------------------------------------------------------
 
     def step(self, chunks: int) -> None:
         """Let the kernel take so many chunks of steps."""
@@ -135,7 +217,7 @@ class LaneEngine:
         """The collapse of a lane."""
         raise NotImplementedError
 
-    def left(self, lanes: list[int]) -> Left:
+    def left(self, lanes: list[int]) -> FinalStates:
         """What the runs of some lanes leave behind."""
         raise NotImplementedError
 
@@ -149,103 +231,6 @@ class LaneEngine:
         ``slip`` is that of every joint since the start [m], of each lane.
         """
         raise NotImplementedError
-
-
-class Lanes(Protocol):
-    """What a run that has begun is taken from, and put into: a block of lanes."""
-
-    arrays: LaneRecords
-    packed: dict[int, Packed]
-    dt: np.ndarray
-
-    @property
-    def beginning(self) -> tuple[np.ndarray, ...]:
-        """What is kept of how runs have begun, the lanes first."""
-        ...
-
-
-@dataclass(frozen=True)
-class Started:
-    """How a run has begun, for those of the same column that begin alike: what does not hang on its motion otherwise.
-
-    Parameters
-    ----------
-    packed : Packed
-        The column.
-    dt : float
-        Time step [s].
-    ground : tuple of float
-        Acceleration of the base at the start [m/s²].
-    numbers : array
-        Numbers of the lane of what moves.
-    kept : tuple of array
-        What the block itself keeps of a lane.
-    """
-
-    packed: Packed
-    dt: float
-    ground: tuple[float, ...]
-    numbers: np.ndarray
-    kept: tuple[np.ndarray, ...]
-
-    @classmethod
-    def of(cls, block: Lanes, lane: int, ground: tuple[float, ...]) -> Started:
-        """That of a run that has begun in a lane."""
-        numbers = block.arrays.numbers[: block.arrays.moving, lane].copy()
-        kept = tuple(one[lane].copy() for one in block.beginning)
-        return cls(block.packed[lane], float(block.dt[lane]), ground, numbers, kept)
-
-    def serves(self, packed: Packed, dt: float, ground: tuple[float, ...]) -> bool:
-        """Whether another run begins so."""
-        return packed is self.packed and dt == self.dt and ground == self.ground
-
-    def put(self, block: Lanes, lane: int) -> None:
-        """Let a run begin so in a lane."""
-        block.arrays.numbers[: len(self.numbers), lane] = self.numbers
-        for one, own in zip(block.beginning, self.kept, strict=True):
-            one[lane] = own
-
-
-#: Calls of the kernel per run.
-CALLS_PER_RUN = 100
-
-#: Time after which a run that waits for its verdict is looked at again [s].
-WAIT = 0.5
-
-
-class LaneRuns(LaneEngine):
-    """Runs in the lanes of a block; the base of the blocks of the engines in the plane and in space.
-
-    Parameters
-    ----------
-    pack : callable
-        Gives the numbers of a column.
-    records : LaneRecords
-    options : RunOptions
-    cost : float
-        About what a step of a run costs [s].
-    """
-
-    def __init__(self, pack: Callable[[Any], Any], records: LaneRecords, options: RunOptions, cost: float) -> None:
-        self.pack, self.arrays, self.options = pack, records, options
-        self.lane, self.feed, self.watch, self.link = records.lane, records.feed, records.watch, records.link
-        self.packed: dict[int, Packed] = {}
-        self.lanes, self.chunk, self.tied = records.lanes, CHUNK, len(self.link) > 0
-        self.watch["status"] = FREE
-        self.dt = np.zeros(self.lanes)
-        self.steps = np.zeros(self.lanes, dtype=np.int64)
-        self.start = np.zeros((self.lanes, 6))
-        self.rest = np.zeros(self.lanes)
-        self.pressed = np.zeros(self.lanes)
-        self.cases: list[Case | None] = [None] * self.lanes
-        self.computed_by = CPU
-        self.ledgers: dict[int, np.ndarray] = {}  # of lanes that stand still
-        self.ended: dict[int, Measures] = {}  # of lanes whose runs have ended
-        self.started: Started | None = None
-        self.starter: LaneRuns | None = None  # a block of few lanes, in which runs begin at less cost than in this one
-        self.spans = quiet.Spans(self.lanes, options, self.chunk)
-        self.chunks_per_call = 1
-        self.piece = longest_piece(cost, self.chunk)
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
@@ -503,13 +488,13 @@ class LaneRuns(LaneEngine):
         except NOT_COMPUTED:  # of one of them, whose own turn it is to say so
             (self.ended[lane],) = self.measures([lane], self.left([lane]))
 
-    def measures(self, lanes: list[int], left: Left, since: np.ndarray | None = None) -> list[Measures]:
+    def measures(self, lanes: list[int], left: FinalStates, since: np.ndarray | None = None) -> list[Measures]:
         """Measures of lanes whose runs are over.
 
         Parameters
         ----------
         lanes : list of int
-        left : Left
+        left : FinalStates
         since : array, optional
             Change of the ledgers since the start [J], shape (lanes, 6); that of the lanes if left out.
         """

@@ -16,7 +16,7 @@ from ...response.assembly_measures import first_touch
 from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..base import Case, RunOptions
-from ..drums.runs import Left, histories
+from ..drums.runs import FinalStates, histories
 from .columns import ColumnLanes, residuals_in
 from .loose import ENDLESS, Contacts, Loose
 from .packing import OF_BODY
@@ -209,6 +209,6 @@ class _ColumnRun:
         change = last["energy"] - self.start
         residuals, slip = residuals_in(last), block.poses([0])["slip"]
         offset = np.array([residuals.slips])
-        left = Left([residuals], offset, slip, np.array([residual]), block.peaks([0], "turn"))
+        left = FinalStates([residuals], offset, slip, np.array([residual]), block.peaks([0], "turn"))
         (measures,) = block.measures([0], left, since=change[None])
         return measures if measures.collapse is None else replace(measures, collapse=self.collapse(found))

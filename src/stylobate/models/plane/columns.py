@@ -18,7 +18,7 @@ from ...response.collapse import in_plane
 from ...response.residuals import Residuals
 from ..base import RunOptions
 from ..drums.records import LaneRecords, Packed, Topology, sink
-from ..drums.runs import LaneRuns, Left
+from ..drums.runs import FinalStates, LaneRuns
 from ..drums.stepped import StackEngine
 from ..start import Start, check_in_plane
 from .packing import Types, numbers_for
@@ -276,12 +276,12 @@ class ColumnLanes(LaneRuns):
             "slip": slip - self.slip[lanes],
         }
 
-    def left(self, lanes: list[int]) -> Left:
+    def left(self, lanes: list[int]) -> FinalStates:
         """What the runs of some lanes leave behind."""
         state = self.poses(lanes)
         slip, residuals = state["slip"], Residuals.all_in_plane(*(state[one] for one in ("slip", "x", "z", "rotation")))
         top = self.top(lanes) - self.watch["stood"][0, lanes]
-        return Left(residuals, np.abs(slip), slip, top, self.peaks(lanes, "turn"))
+        return FinalStates(residuals, np.abs(slip), slip, top, self.peaks(lanes, "turn"))
 
     def stay(self, lanes: list[int], energy: np.ndarray, slip: np.ndarray) -> np.ndarray:
         """Whether columns that no input shakes any more can neither overturn nor slide apart, shape (lanes,).

@@ -32,9 +32,9 @@ from .loose import (
     COST,
     REST_TIME,
     REST_WAY,
-    Begun,
     Loose,
     SpatialNumbers,
+    StartState,
     chunks_of,
     engine_of,
     go_on,
@@ -144,7 +144,7 @@ class HandedOver(NamedTuple):
     case : Case
     numbers : SpatialNumbers
     options : RunOptions
-    made : Begun
+    made : StartState
         How it began; its engine is that of all lanes with this structure.
     states : Recorded
     records : tuple of three dicts of str to array
@@ -158,7 +158,7 @@ class HandedOver(NamedTuple):
     case: Case
     numbers: SpatialNumbers
     options: RunOptions
-    made: Begun
+    made: StartState
     states: Recorded
     records: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, np.ndarray]]
     step: int
@@ -196,16 +196,16 @@ class IntactLanes:
         self.begun = lru_cache(KEPT)(self._begun)
         self.state: tuple[Any, ...] = ()
         self.cases: list[Case | None] = [None] * self.lanes
-        self.ways: list[Begun | None] = [None] * self.lanes
+        self.ways: list[StartState | None] = [None] * self.lanes
         self.states: list[Recorded | None] = [None] * self.lanes
         self.every, self.chunks = np.ones(self.lanes, dtype=int), np.zeros(self.lanes, dtype=int)
         self.status = np.full(self.lanes, FREE)
 
-    def _begun(self, structure: Structure) -> tuple[Begun, np.ndarray | None]:
+    def _begun(self, structure: Structure) -> tuple[StartState, np.ndarray | None]:
         """A structure as it has settled, and the gaps between its bodies; None if something is loose from the start."""
         engine = unsettled(structure, self.numbers(structure))
         if self._gaps(engine).min() <= 0.0:
-            return Begun(engine, np.zeros(6), None), None
+            return StartState(engine, np.zeros(6), None), None
         made, gap = settled(structure, engine), self._gaps(engine)
         intact = made.balanced and gap.min() > 0.0 and bool((engine.joint["weight"] == 1.0).all())
         return made, gap if intact else None
@@ -264,7 +264,7 @@ class IntactLanes:
         self.rows = [(of_lanes(one), of_lanes(kept)) for one, kept in zip(changing, self.kept, strict=True)]
         return state
 
-    def _put(self, lane: int, made: Begun, gap: np.ndarray, case: Case, chunks: int) -> None:
+    def _put(self, lane: int, made: StartState, gap: np.ndarray, case: Case, chunks: int) -> None:
         """The numbers of an engine that has settled into a lane."""
         engine, now = made.engine, made.engine.now
         for name in OF_BODY:
@@ -362,7 +362,7 @@ class IntactLanes:
             return response_of(*case, self.numbers(case.column), made, stack, still=still).measures
         return self._handed_over(lane, case, made, states).measures
 
-    def _handed_over(self, lane: int, case: Case, made: Begun, states: Recorded) -> HandedOver:
+    def _handed_over(self, lane: int, case: Case, made: StartState, states: Recorded) -> HandedOver:
         """A lane's run as it was kept last."""
         body, joint, now = (
             {name: kept[name][..., lane].copy() for name in names}

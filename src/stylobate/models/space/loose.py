@@ -439,7 +439,7 @@ def go_on(
     motion: Motion,
     numbers: SpatialNumbers,
     options: RunOptions,
-    made: Begun,
+    made: StartState,
     states: list[dict[str, Any]],
 ) -> Response:
     """Go on with a run from where its engine is to where it ends.
@@ -448,7 +448,7 @@ def go_on(
     ----------
     structure, motion, numbers, options
         As of :func:`run_in_space`.
-    made : Begun
+    made : StartState
         How it began, with the engine as it is now.
     states : list of dict
         What was recorded so far, the last one now; empty at the start. Of what the first one holds a history is kept.
@@ -465,7 +465,7 @@ def go_on(
     )
 
 
-class Begun(NamedTuple):
+class StartState(NamedTuple):
     """An assembly in space about to be shaken.
 
     Parameters
@@ -497,10 +497,10 @@ def unsettled(structure: Structure, numbers: SpatialNumbers) -> Loose:
     return engine
 
 
-def begun(structure: Structure, engine: Loose) -> Begun:
+def begun(structure: Structure, engine: Loose) -> StartState:
     """An assembly in space with its contacts closed by the weight that they carry, unless it begins as drawn."""
     balanced = engine.settle() if getattr(structure, "settle", True) else None
-    return Begun(engine, engine.energies(), balanced)
+    return StartState(engine, engine.energies(), balanced)
 
 
 def chunks_of(structure: Structure, motion: Motion, engine: Loose, options: RunOptions) -> tuple[int, int]:
@@ -522,7 +522,7 @@ def response_of(
     structure: Structure,
     motion: Motion,
     numbers: SpatialNumbers,
-    made: Begun,
+    made: StartState,
     stack: dict[str, Any],
     *,
     still: bool,
