@@ -61,7 +61,7 @@ def test_no_jump_where_a_joint_hands_over(path):
     assembly = Assembly(blocks, SMOOTH, ground=None)
     jumps, weights = [], None
     for steps in (4_000, 8_000, 16_000):
-        engine = Loose(assembly, DistinctElement2D().contacts, STILL, 1.0)
+        engine = Loose(assembly, Contacts.of(DistinctElement2D()), STILL, 1.0)
         assert len(engine.records.joint) == 1
         force = forces_along(engine, path(steps))
         weights = engine.hand["weight"][0]
@@ -77,7 +77,7 @@ def test_no_jump_on_a_slow_path_over_an_edge():
     for steps in (8_000, 16_000, 32_000):
         blocks = (box(-1.0, 0.0, -1.0, 0.0, "edge", fixed=True), box(2.0, 3.0, 2.0, 3.0, "block"))
         with pytest.warns(UserWarning, match="will fall"):
-            engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
+            engine = Loose(Assembly(blocks, SMOOTH, ground=None), Contacts.of(DistinctElement2D()), STILL, 1.0)
         turn = np.linspace(0.0, 0.5 * math.pi, steps)
         radius = 0.5 * math.sqrt(2.0)
         # round the corner (0, 0), pressed in by 0.5 mm, turning on the way
@@ -154,7 +154,7 @@ def test_a_column_on_a_narrow_step_falls_past_its_edge():
 
 def test_a_joint_that_has_parted_stays_the_bed_s_where_its_faces_meet_again():
     blocks = (box(-0.5, 0.5, 0.0, 1.0, "lower", fixed=True), box(-0.5, 0.5, 1.0, 2.0, "upper"))
-    engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
+    engine = Loose(Assembly(blocks, SMOOTH, ground=None), Contacts.of(DistinctElement2D()), STILL, 1.0)
     engine.start(1e-4)
     assert engine.chunks_ahead() > 0
     forces_along(engine, [(1.05, 1.5, 0.0), (0.0, 1.5, 0.0)])  # off the edge, and back as drawn
