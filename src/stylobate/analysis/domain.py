@@ -21,6 +21,7 @@ from ..constants import g
 from ..models.base import Model
 from ..notebook import Shown
 from ..outcome import Outcome
+from ..response.measures import STEPS, Measures, measures_of
 from ..response.rows import Rows
 from ..version import __version__
 from . import verdicts as v
@@ -29,21 +30,8 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-_GRIDS = {
-    "collapse_time_s": ("s", "time at which the collapse became certain"),
-    "peak_top_displacement_m": ("m", "largest top displacement relative to the base"),
-    "residual_top_displacement_m": (
-        "m",
-        "top displacement relative to the base at the end, of the debris after a collapse",
-    ),
-    "peak_rotation_rad": ("rad", "largest rotation of any drum"),
-    "peak_joint_opening_m": ("m", "largest opening of any joint"),
-    "residual_joint_slip_m": (
-        "m",
-        "largest offset of a drum along its joint at the end, of the debris after a collapse",
-    ),
-    "energy_imbalance": ("1", "energy that the ledger cannot account for, over the energy at stake"),
-}
+#: Measures that the file of a domain has as grids: all but what says how a run was computed.
+_GRIDS = [one for one in measures_of(Measures) if one.of != STEPS]
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,8 +153,8 @@ class Domain(Shown):
                 "flag_meanings": " ".join(one.label for one in Outcome),
             },
         )
-        for name, (unit, meaning) in _GRIDS.items():
-            variables[name] = (dims, self.grid(name), {"units": unit, "long_name": meaning})
+        for one in _GRIDS:
+            variables[one.key] = (dims, self.grid(one.key), {"units": one.unit or "1", "long_name": one.meaning})
         variables["column"] = ((), json.dumps(self.column.to_dict()))
         variables["provenance"] = ((), json.dumps(self.provenance, default=str))
         attributes = {
@@ -196,7 +184,7 @@ class Domain(Shown):
         try:
             verdicts = np.array(v.VERDICTS, dtype=object)[data["verdict"].values.ravel()]
             outcomes = data["outcome"].values.ravel()
-            grids = {name: data[name].values.ravel() for name in _GRIDS}
+            grids = {one.key: data[one.key].values.ravel() for one in _GRIDS if one.key in data}
             column = column_from_dict(json.loads(str(data["column"].values)))
             provenance = json.loads(str(data["provenance"].values))
             axes = data["frequency"].values, data["amplitude"].values

@@ -8,13 +8,14 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import InputError, check_choice, check_kind
-from . import likelihood_region, lognormal
+from . import lognormal
 from .evidence import Evidence, independent, intervals, medians_by_law
 from .evidence import evidence as evidence_of
 from .fragility_checks import check_bootstrap, check_number, check_shape
 from .fragility_curve import Fragility
 from .fragility_points import goodness, points_of
 from .ida_curves import Ida
+from .likelihood_region import dispersions, region
 from .limit_states import EXCEEDED, NOT_EXCEEDED
 from .unknown_law import under_another_law
 
@@ -109,8 +110,8 @@ def _known(
     weight, number = independent(low, high, owner, method)
     return (
         lognormal.bootstrap(low, high, owner, samples, rng),
-        likelihood_region.region(low, high, weight, number, confidence),
-        likelihood_region.dispersions(low, high, weight, number, confidence),
+        region(low, high, weight, number, confidence),
+        dispersions(low, high, weight, number, confidence),
         (math.exp(below), math.exp(above)) if below <= above else None,
     )
 

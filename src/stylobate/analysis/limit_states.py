@@ -11,13 +11,17 @@ from typing import Any
 
 from ..column.structure import Structure
 from ..errors import InputError
+from ..response.measures import MEASURES
 from . import verdicts as v
 
 #: Answers of a run about a state.
 EXCEEDED, NOT_EXCEEDED, OPEN, FAILED = 1, 0, -1, -2
 
-#: Short names of what a level is of. ``top`` and ``drums`` are those of Psycharis, Fragiadakis and Stefanou (2013).
-SHORT = {"top": "peak_top_displacement_m", "drums": "residual_joint_slip_m"}
+#: Measures whose levels are limit states, by their names in tables.
+LEVELLED = {one.key: one for one in MEASURES if one.unit in ("m", "rad")}
+
+#: Short names of some of them. ``top`` and ``drums`` are those of Psycharis, Fragiadakis and Stefanou (2013).
+SHORT = {one.short: one.key for one in MEASURES if one.short}
 
 #: The levels of Psycharis, Fragiadakis and Stefanou (2013): at the top 0.15, 0.35 and 1 base diameters, between drums what
 #: stays of a slip, 0.005, 0.01 and 0.02 of a joint's diameter.
@@ -50,17 +54,21 @@ class LimitState:
         if not self.what:
             return "collapse"
         short = next((key for key, value in SHORT.items() if value == self.what), self.what)
-        unit = "d" if self.in_diameters else "rad" if self.what.endswith("_rad") else "m"
-        return f"{short}:{self.level:g}{unit}"
+        return f"{short}:{self.level:g}{'d' if self.in_diameters else self._unit}"
 
     @property
     def words(self) -> str:
         """For a picture."""
         if not self.what:
             return "collapse"
-        unit = "diameters" if self.in_diameters else "rad" if self.what.endswith("_rad") else "m"
-        what = self.what.removesuffix("_m").removesuffix("_rad").replace("_", " ")
-        return f"{what} over {self.level:g} {unit}"
+        what = self.what.removesuffix(f"_{self._unit}").replace("_", " ")
+        return f"{what} over {self.level:g} {'diameters' if self.in_diameters else self._unit}"
+
+    @property
+    def _unit(self) -> str:
+        """That of the level, where it is not in diameters."""
+        measure = LEVELLED.get(self.what)
+        return "m" if measure is None else measure.unit
 
     def of(self, row: Mapping[str, Any]) -> int:
         """Answer of a run: exceeded, not exceeded, open (undecided) or failed.
@@ -112,7 +120,7 @@ class LimitState:
     def _limit(self, row: Mapping[str, Any]) -> float:
         if not self.in_diameters:
             return self.level
-        key = "joint_width_m" if "slip" in self.what else "base_width_m"
+        key = LEVELLED[self.what].width if self.what in LEVELLED else "base_width_m"
         if row.get(key) is None:
             raise InputError(f"the state {self.name} needs {key!r}, which the runs do not have; state the level in m.")
         return self.level * float(row[key])

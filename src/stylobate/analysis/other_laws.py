@@ -99,7 +99,7 @@ def other_laws(response: Response, motion: Motion, model: Model, campaign: Campa
     return OtherLaws(own, {law: v.verdict(row) for law, row in zip(others, rows, strict=True)})
 
 
-def _companions(column: Column, model: Any) -> Iterator[tuple[str, Column]]:
+def _companions(column: Any, model: Any) -> Iterator[tuple[str, Column]]:
     """Columns under other laws, by these laws in words."""
     acting = model.acting(column)
     damped = acting.damping(column) > UNDAMPED

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..campaign.twins import Twins
 from ..percent import percents
+from ..response.measures import SPREAD
 from ..response.recorded import Recorded
 from ..response.words import doubt_of
 from . import verdicts as v
@@ -20,12 +21,6 @@ from .unknown_law import share_limits
 
 if TYPE_CHECKING:
     import pandas
-
-#: Displacements whose median and spread are told: of the top of a column, of the farthest body of an assembly.
-DISPLACEMENTS = (
-    "peak_top_displacement_m", "residual_top_displacement_m", "peak_displacement_m", "residual_displacement_m",
-    "peak_rotation_rad", "residual_joint_slip_m",
-)  # fmt: skip
 
 #: Twins that must stand before their largest and least displacement tell where a run belongs.
 ENOUGH = 8
@@ -94,7 +89,8 @@ class Population:
 
         None where a verdict is missing, or a percentile lies among the collapses.
         """
-        return {name: self._percentiles(name) for name in DISPLACEMENTS if not self.rows or name in self.rows[0]}
+        named = (one.key for one in SPREAD)
+        return {name: self._percentiles(name) for name in named if not self.rows or name in self.rows[0]}
 
     @cached_property
     def bodies(self) -> tuple[BodyOverTwins, ...]:
@@ -173,8 +169,8 @@ class Population:
         if self.drawn.groups:
             columns |= dict(zip(OF_COLUMNS, self.interval_of_columns, strict=True))
         columns |= {f"twins_{one}": number for one, number in self.counts.items() if one != v.NOT_RUN}
-        name = next((one for one in DISPLACEMENTS if one in self.spread), DISPLACEMENTS[0])
-        spread = self.spread.get(name)
+        name = next(iter(self.spread))
+        spread = self.spread[name]
         for i, share in enumerate((16, 50, 84)):
             columns[f"{name.removesuffix('_m')}_{share}_m"] = None if spread is None else spread[i]
         return columns

@@ -56,7 +56,8 @@ class Settings:
         from ..analysis.certainty import certainty
         from ..simulate import simulate
 
-        campaign, options = self.campaign, self.options | {"quiet": self.campaign.quiet}
+        campaign = self.campaign
+        options: dict[str, Any] = self.options | {"quiet": campaign.quiet}
         if not campaign.replicates:
             options |= {"tail": campaign.tail, "until_decided": True, "progress": campaign.progress}
             return simulate(self.stone, motion, self.model, **options), None
@@ -388,33 +389,19 @@ def population_facts(population: Population) -> dict[str, str]:
 
 def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str]]:
     """Verdict on a column, what it is, and its measures."""
-    from . import console
-
     m, column = response.measures, response.column
     drums = f"{column.n} {'drum' if column.n == 1 else 'drums'}"
     shown = f"histories and films show the fall, to {response.time[-1]:.2f} s"
     facts = {"collapse": f"certain at {m.collapse_time:.2f} s; {shown}"} if m.collapsed else {}
-    peak, until = m.peak_top_displacement, ", before the fall" if m.collapsed else ""
-    whose = ", at the end" if m.collapsed else ""
-    facts |= {
-        "peak top displacement" + until: f"{console.length(peak)} ({peak / column.base_width:.2f} base widths)",
-        "residual top displacement" + whose: console.length(m.residual_top_displacement),
-        "peak rotation" + until: f"{m.peak_rotation:.4f} rad",
-        "peak joint opening" + until: console.length(m.peak_joint_opening),
-        "residual joint slip" + whose: console.length(m.residual_joint_slip),
-        "energy imbalance": f"{m.energy_imbalance:.1e} of the energy at stake",
-    }
+    facts |= measure_facts(response, ", before the fall")
     return response.sentence, {"column": f"{column.name}, {drums}, {column.height:g} m high"}, facts
 
 
 def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str]]:
     """Verdict on an assembly, what it is, and its measures."""
     from ..response.block_words import moving_at_end
-    from . import console
 
     structure: Any = response.structure
-    m, blocks = response.measures, response.measures.blocks
-    assert blocks is not None
     sentence = response.sentence
     if response.at_rest:
         sentence += " Everything lies still."
@@ -427,16 +414,20 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
         sentence += f" Not everything lies still{change}{'' if rolls else remedy}."
     fixed = sum(block.fixed for block in structure.bodies[-structure.n :])
     supports = f", {fixed} of them fixed" if fixed else ""
-    until, whose = (", until the first block fell", ", at the end") if response.collapsed else ("", "")
-    facts = {
-        "peak displacement" + until: console.length(blocks.peak_displacement),
-        "residual displacement" + whose: console.length(blocks.residual_displacement),
-        "peak rotation" + until: f"{m.peak_rotation:.4f} rad",
-        "peak joint opening" + until: console.length(m.peak_joint_opening),
-        "residual joint slip" + whose: console.length(m.residual_joint_slip),
-        "energy imbalance": f"{response.energy_imbalance:.1e} of the energy at stake",
-    }
     joined = structure.face_pairs if structure.space_joints is None else structure.space_joints
     joints = f"{len(joined)} {'joint' if len(joined) == 1 else 'joints'}"
     what = f"{structure.name}, {structure.n} blocks{supports}, {joints}"
-    return sentence, {"assembly": what}, facts
+    return sentence, {"assembly": what}, measure_facts(response, ", until the first block fell")
+
+
+def measure_facts(response: Response, until: str) -> dict[str, str]:
+    """Measures that are declared with a label, in lines; ``until`` says where peaks end that a collapse has ended."""
+    from ..response.measures import TOP
+    from . import console
+
+    m, facts, base = response.measures, {}, response.structure.base_width
+    for one, value in m.shown():
+        when = "" if not m.collapsed else until if one.peak else ", at the end"
+        share = f" ({value / base:.2f} base widths)" if one.peak and one.of == TOP and base is not None else ""
+        facts[one.label + when] = (console.length(value) if one.unit == "m" else f"{value:.4f} {one.unit}") + share
+    return facts | {"energy imbalance": f"{m.energy_imbalance:.1e} of the energy at stake"}

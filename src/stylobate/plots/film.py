@@ -109,7 +109,7 @@ def _images(
     figure = draw_frame(scene, int(indices[0]), scene.view(indices, SHAPE))
     figure.set_dpi(DOTS_PER_INCH)
     if indices[-1] > indices[0]:  # the ground's motion for as long as the film lasts
-        figure.axes[1].set_xlim(scene.time[indices[0]], scene.time[indices[-1]])
+        figure.axes[1].set_xlim(float(scene.time[indices[0]]), float(scene.time[indices[-1]]))
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     figure.set_layout_engine("none")  # keep the given positions in every frame

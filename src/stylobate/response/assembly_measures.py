@@ -161,8 +161,6 @@ def measures_of_bodies(
         outcome=classify(collapsed, failed, opened, max(_largest(shares), _largest(free_shares))),
         decided=not failed and (at_rest or collapsed),
         collapse_time=first,
-        peak_top_displacement=math.nan,
-        residual_top_displacement=math.nan,
         peak_rotation=float(tilt[until].max()),
         peak_joint_opening=float(opening[until].max(initial=0.0)),
         residual_joint_slip=float(slip.max(initial=0.0)),

@@ -4,52 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from ..outcome import SHIFT_RATIO
+from .measures import BodyMeasures
 
 #: A body that fell with its centroid nearly over its place, to this share of its size, fell to no side.
 STRAIGHT_DOWN = 0.01
-
-
-@dataclass(frozen=True)
-class BodyMeasures:
-    """Measures of one body of an assembly.
-
-    Parameters
-    ----------
-    name : str
-    peak_tilt : float
-        Largest turn since the start of what was vertical then, over the whole run, its fall included [rad].
-    fell_at : float or None
-        When it had fallen for good [s].
-    fall_azimuth : float or None
-        Where its centroid was then, from where it stood, from x towards y [rad]; None where it fell straight down.
-    moved : (float, float, float)
-        Of its centroid, from the start to the end of the run, of what fell too [m].
-    displaced : bool
-        Whether it stands, and stands shifted; only known where all lies still at the end.
-    """
-
-    name: str
-    peak_tilt: float
-    fell_at: float | None
-    fall_azimuth: float | None
-    moved: tuple[float, float, float]
-    displaced: bool
-
-    def row(self) -> dict:
-        """The facts under the names that scripts rely on; what has fallen has no residual displacement."""
-        fell = self.fell_at is not None
-        return {
-            "peak_tilt_rad": self.peak_tilt,
-            "fell_at_s": self.fell_at,
-            "fall_azimuth_deg": None if self.fall_azimuth is None else math.degrees(self.fall_azimuth),
-            "residual_displacement_m": None if fell else math.hypot(*self.moved),
-            "displacement_at_end_m": list(self.moved),
-        }
 
 
 def body_measures(

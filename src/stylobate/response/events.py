@@ -15,7 +15,7 @@ from .assembly_measures import measures_of_bodies
 from .collapse import Touch
 from .histories import Histories
 from .links import NAMES, LinkMeasures
-from .measures import Measures
+from .measures import Measures, SpaceMeasures, measures_of
 from .poses import PlanePoses, rotation_matrices
 from .residuals import Residuals, residuals_of, turned_up
 from .response import Response
@@ -210,19 +210,24 @@ def _by(response: Response, last: int) -> Measures:
     so_far: dict[str, Any] = {"residual_top_displacement": residual, "residual_joint_slip": float(slips.max())}
     so_far |= {"residuals": left, "links": links, "steps": steps, "stepped": None}
     if now >= m.collapse_time:  # it fell before: its peaks ended there
-        return replace(m, **so_far)
+        return replace(m, **{one.field: math.nan for one in measures_of(Measures) if one.residual} | so_far)
     column = response.column
     opening = float(h.opening.max())
     outcome = classify(False, False, opening / column.joint_width, float((slips / column.joint_widths).max()))
     space = None
     if m.space is not None:
         tilt = float(response.tilt[: last + 1].max())
-        space = replace(m.space, peak_top_x=float(np.abs(top[:, 0]).max()), peak_top_y=float(np.abs(top[:, 1]).max()),
+        space = SpaceMeasures(peak_top_x=float(np.abs(top[:, 0]).max()), peak_top_y=float(np.abs(top[:, 1]).max()),
                         peak_tilt=tilt, peak_twist=float(np.abs(h.twist).max()))  # fmt: skip
+    unknown = {one.field: math.nan for one in measures_of(Measures) if one.peak or one.residual}
+    peaks = {
+        "peak_top_displacement": float((np.abs(top) if top.ndim == 1 else np.hypot(*top.T)).max()),
+        "peak_rotation": float(turns(response)[: last + 1].max()),
+        "peak_joint_opening": opening,
+    }
     return replace(
         m, outcome=outcome, decided=True, collapse_time=math.nan, reason="", collapse=None, space=space,
-        peak_top_displacement=float((np.abs(top) if top.ndim == 1 else np.hypot(*top.T)).max()),
-        peak_rotation=float(turns(response)[: last + 1].max()), peak_joint_opening=opening, **so_far,
+        **unknown | peaks | so_far,
     )  # fmt: skip
 
 

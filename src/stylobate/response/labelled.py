@@ -19,12 +19,11 @@ from ..column.assembly_files import FROM_DICT
 from ..column.structure import Structure
 from ..errors import InputError, OutOfRangeWarning
 from ..outcome import Outcome
-from .body_measures import BodyMeasures
 from .collapse import Collapse
 from .histories import Histories
 from .links import NAMES as LINKS
 from .links import LinkHistories, LinkMeasures
-from .measures import BlockMeasures, Measures, SpaceMeasures
+from .measures import BlockMeasures, BodyMeasures, Measures, SpaceMeasures, measures_of
 from .mechanism import Mechanism
 from .poses import PlanePoses
 from .recorded import Recorded
@@ -71,20 +70,8 @@ _REST = {
 }
 _MEANINGS = _BODY | _REST
 
-# field of Measures: attribute in the file, the same as in tables and JSON
-_MEASURES = {
-    "decided": "decided",
-    "collapse_time": "collapse_time_s",
-    "peak_top_displacement": "peak_top_displacement_m",
-    "residual_top_displacement": "residual_top_displacement_m",
-    "peak_rotation": "peak_rotation_rad",
-    "peak_joint_opening": "peak_joint_opening_m",
-    "residual_joint_slip": "residual_joint_slip_m",
-    "energy_imbalance": "energy_imbalance",
-    "time_step": "time_step_s",
-    "steps": "steps",
-    "reason": "reason",
-}
+#: Attributes of a file beside the outcome, by field of the measures: the same as in tables and JSON.
+_ATTRIBUTES = {"decided": "decided", **{one.field: one.key for one in measures_of(Measures)}, "reason": "reason"}
 
 
 def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
@@ -145,7 +132,7 @@ def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
         coordinates["axis"] = ("axis", ["x", "y", "z"], {"long_name": "axis: x, y horizontal, z up"})
     attributes: dict[str, Any] = {"model": response.model, "dims": h.dims, "wall_s": float(response.wall_time)}
     attributes |= {"outcome": m.outcome.label}
-    for field, name in _MEASURES.items():
+    for field, name in _ATTRIBUTES.items():
         value = getattr(m, field)
         attributes[name] = int(value) if isinstance(value, (bool, np.bool_, np.integer)) else value
     return xarray.Dataset(labelled, coordinates, attributes)
@@ -300,7 +287,7 @@ def _energy(data: xarray.Dataset) -> dict[str, np.ndarray]:
 
 
 def _measures(attributes: dict[str, Any], **parts: Any) -> Measures:
-    values: dict[str, Any] = {field: attributes[name] for field, name in _MEASURES.items()}
+    values: dict[str, Any] = {field: attributes[name] for field, name in _ATTRIBUTES.items() if name in attributes}
     for field, value in values.items():
         if isinstance(value, np.generic):
             values[field] = value.item()

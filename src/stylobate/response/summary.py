@@ -11,10 +11,10 @@ import numpy as np
 from ..constants import g
 from .block_words import mechanism_of, moving_at_end
 from .links import row_of
+from .measures import BODY, MEASURES, Measures
 from .words import doubt_of
 
 if TYPE_CHECKING:
-    from .measures import Measures
     from .recorded import Recorded
 
 
@@ -69,7 +69,7 @@ def _of_column(response: Recorded) -> dict:
     row["doubt"] = doubt_of(response)
     if m.collapsed:
         first = 1 if m.collapse is None or m.collapse.joint is None else m.collapse.joint
-        row["residual_top_displacement_m"] = row["residual_joint_slip_m"] = None
+        row |= {one.key: None for one in MEASURES if one.residual and one.key in row}
         listed = (
             {"residual_slip_per_joint_m"} if m.residuals is None else {"residual_slip_per_joint_m", *m.residuals.row()}
         )
@@ -87,36 +87,24 @@ def _of_blocks(response: Recorded) -> dict:
     m, blocks = response.measures, response.measures.blocks
     assert blocks is not None
     gone, moving = m.collapsed, moving_at_end(response)
-    h = response.histories
+    h, row = response.histories, m.row()
+    for name in ("computed_by", "reason", "fallen_blocks", "collapse_azimuth_deg"):
+        del row[name]
     before = h.time <= m.collapse_time if gone else np.ones(len(h.time), dtype=bool)
-    joints = {"peak_opening_per_joint_m": _finite(h.opening[before].max(axis=0))}
+    row["peak_opening_per_joint_m"] = _finite(h.opening[before].max(axis=0))
     if m.residuals is not None:
         fell = [body.fell_at is not None or body.name in moving for body in blocks.bodies]
-        joints |= {name: [None] * len(each) if gone else each for name, each in m.residuals.of_joints().items()}
+        row |= {name: [None] * len(each) if gone else each for name, each in m.residuals.of_joints().items()}
         for name, each in m.residuals.of_bodies().items():
-            joints[name] = [None if down else one for one, down in zip(each, fell, strict=True)]
-    return {
-        "outcome": m.outcome.label,
-        "collapsed": m.collapsed,
-        "decided": m.decided,
-        "collapse_time_s": m.collapse_time if gone else None,
+            row[name] = [None if down else one for one, down in zip(each, fell, strict=True)]
+    row |= {
+        one.key: None for one in MEASURES if one.residual and one.key in row and (gone or (moving and one.of == BODY))
+    }
+    for name in moving.keys() & row["bodies"].keys():
+        row["bodies"][name]["residual_displacement_m"] = None
+    return row | {
         "fallen": list(response.fallen),
-        "displaced": list(blocks.displaced),
-        "at_rest": blocks.at_rest,
         "in_equilibrium_as_drawn": blocks.in_equilibrium,
-        "peak_displacement_m": blocks.peak_displacement,
-        "residual_displacement_m": None if gone or moving else blocks.residual_displacement,
-        "peak_rotation_rad": m.peak_rotation,
-        "peak_joint_opening_m": m.peak_joint_opening,
-        "residual_joint_slip_m": None if gone else m.residual_joint_slip,
-        **joints,
-        "energy_imbalance": m.energy_imbalance,
-        "time_step_s": m.time_step,
-        "steps": m.steps,
-        "bodies": {
-            body.name: body.row() | ({"residual_displacement_m": None} if body.name in moving else {})
-            for body in blocks.bodies
-        },
         "moving_at_end_m_s": moving,
         "struck_at_s": blocks.struck_at,
         "mechanism": mechanism_of(response),

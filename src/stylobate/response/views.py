@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from ..outcome import Outcome
 from .collapse import Collapse
 from .histories import Histories
 from .links import LinkHistories
-from .measures import Measures
+from .measures import Measure, Measures, SpaceMeasures, measures_of
 from .mechanism import Mechanism
 from .poses import PlanePoses, SpacePoses
 from .residuals import Residuals
@@ -120,6 +122,26 @@ class Views:
         """Whether it collapsed."""
         return self.measures.collapsed
 
+    if TYPE_CHECKING:  # declared in ``measures.py``; properties are made of the declarations below
+        collapse_time: float
+        peak_top_displacement: float
+        residual_top_displacement: float
+        peak_rotation: float
+        peak_joint_opening: float
+        residual_joint_slip: float
+        energy_imbalance: float
+        time_step: float
+        steps: int
+        peak_top_x: float | None
+        peak_top_y: float | None
+        peak_tilt: float | None
+        peak_twist: float | None
+
+    @property
+    def reason(self) -> str:
+        """Mechanism of a collapse, or why a run failed; empty otherwise."""
+        return self.measures.reason
+
     @property
     def decided(self) -> bool:
         """False when the run ended while the verdict could still change."""
@@ -129,79 +151,6 @@ class Views:
     def collapse(self) -> Collapse | None:
         """The collapse, as far as the model tells; None without one."""
         return self.measures.collapse
-
-    @property
-    def collapse_time(self) -> float:
-        """When the collapse became certain [s]; NaN without one."""
-        return self.measures.collapse_time
-
-    @property
-    def peak_top_displacement(self) -> float:
-        """Largest displacement of the middle of the top face, relative to the base [m]; NaN for an assembly."""
-        return self.measures.peak_top_displacement
-
-    @property
-    def residual_top_displacement(self) -> float:
-        """Displacement of the middle of the top face at the end, relative to the base [m]; NaN for an assembly.
-
-        After a collapse it is that of the debris.
-        """
-        return self.measures.residual_top_displacement
-
-    @property
-    def peak_rotation(self) -> float:
-        """Largest absolute rotation of any body [rad]."""
-        return self.measures.peak_rotation
-
-    @property
-    def peak_joint_opening(self) -> float:
-        """Largest opening of any joint [m]."""
-        return self.measures.peak_joint_opening
-
-    @property
-    def residual_joint_slip(self) -> float:
-        """Largest absolute offset along a joint at the end [m]; of the debris after a collapse."""
-        return self.measures.residual_joint_slip
-
-    @property
-    def energy_imbalance(self) -> float:
-        """Energy that the ledger cannot account for, as a share [-]."""
-        return self.measures.energy_imbalance
-
-    @property
-    def time_step(self) -> float:
-        """Step of the integration, the smallest if it varies [s]."""
-        return self.measures.time_step
-
-    @property
-    def steps(self) -> int:
-        """Steps taken."""
-        return self.measures.steps
-
-    @property
-    def reason(self) -> str:
-        """Mechanism of a collapse, or why a run failed; empty otherwise."""
-        return self.measures.reason
-
-    @property
-    def peak_top_x(self) -> float | None:
-        """Largest absolute displacement of the top along x [m]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.peak_top_x
-
-    @property
-    def peak_top_y(self) -> float | None:
-        """Largest absolute displacement of the top along y [m]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.peak_top_y
-
-    @property
-    def peak_tilt(self) -> float | None:
-        """Largest angle between a drum's axis and the vertical [rad]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.peak_tilt
-
-    @property
-    def peak_twist(self) -> float | None:
-        """Largest absolute twist of any joint [rad]; None for plane models."""
-        return None if self.measures.space is None else self.measures.space.peak_twist
 
     @property
     def residuals(self) -> Residuals | None:
@@ -349,3 +298,19 @@ def _recorded(velocity: np.ndarray | None) -> np.ndarray:
     if velocity is None:
         raise AttributeError("velocities are recorded of assemblies only; differentiate body_position.")
     return velocity
+
+
+def _read_directly(measure: Measure, part: str) -> None:
+    """Make a measure an attribute of responses; None where the run has no such part."""
+
+    def read(views: Views) -> float | None:
+        holder = getattr(views.measures, part) if part else views.measures
+        return None if holder is None else getattr(holder, measure.field)
+
+    unit, where = measure.unit or "-", "; None for plane models" if part else ""
+    setattr(Views, measure.field, property(read, doc=f"{measure.meaning.capitalize()} [{unit}]{where}."))
+
+
+for _holder, _part in ((Measures, ""), (SpaceMeasures, "space")):
+    for _one in measures_of(_holder):
+        _read_directly(_one, _part)

@@ -12,6 +12,7 @@ from typing import Any
 
 from stylobate.constants import g
 from stylobate.errors import InputError, reworded
+from stylobate.response.measures import MEASURES as DECLARED
 
 
 @dataclass(frozen=True)
@@ -95,12 +96,7 @@ MEASURES = {
     "decided": "decided",
     "collapse_time_s": "falls at [s]",
     "collapse_probability": "probability of collapse",
-    "peak_top_displacement_m": "peak top displacement [m]",
-    "peak_displacement_m": "peak displacement [m]",
-    "residual_top_displacement_m": "residual [m]",
-    "peak_rotation_rad": "peak rotation [rad]",
-    "peak_tilt_rad": "peak tilt [rad]",
-    "residual_joint_slip_m": "residual slip [m]",
+    **{one.key: f"{one.label} [{one.unit}]" for one in DECLARED if one.label},
 }
 
 FORMS = {

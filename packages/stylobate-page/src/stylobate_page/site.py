@@ -23,6 +23,7 @@ from stylobate.column.files import write_column
 from stylobate.column.toml import checked
 from stylobate.errors import InputError
 from stylobate.motion.readers.source import samples
+from stylobate.response.measures import MEASURES
 from stylobate.version import __version__
 from stylobate_exchange.convert import SURVEYS
 
@@ -89,6 +90,7 @@ class Site:
                 "samples": listed,
                 "labels": LABELS,
                 "forms": FORMS_SHOWN,
+                "measures": [{"key": one.key, "label": one.label, "unit": one.unit} for one in MEASURES if one.label],
             }
         )
 

@@ -7,7 +7,6 @@ here and loaded with the next case. A run's result does not depend on its lane, 
 from __future__ import annotations
 
 import itertools
-import math
 import operator
 import queue
 import threading
@@ -316,4 +315,4 @@ NOT_COMPUTED = (InputError, ArithmeticError, np.linalg.LinAlgError)
 def not_computed(error: Exception) -> Measures:
     """Measures of a case that could not be computed, with the reason."""
     what = str(error) if isinstance(error, InputError) else f"could not be computed: {type(error).__name__}: {error}"
-    return Measures(Outcome.FAILED, False, *[math.nan] * 8, steps=0, reason=what.rstrip("."))
+    return Measures(Outcome.FAILED, False, reason=what.rstrip("."))

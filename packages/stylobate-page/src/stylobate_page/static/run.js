@@ -7,7 +7,7 @@ import * as motion from "./motion.js";
 import { isOpen, tell } from "./news.js";
 import { BLUE, CYCLE, INK, moving, plot } from "./plot.js";
 import * as records from "./records.js";
-import { called, change, listen, state } from "./state.js";
+import { called, change, declared, listen, state } from "./state.js";
 import { numeral } from "./typed.js";
 
 export const MODELS = [
@@ -164,13 +164,10 @@ function verdict(r, words) {
 }
 
 function measures(r) {
-  const whole = r.peak_top_displacement_m !== undefined;  // a column; of an assembly its blocks are told
+  const fell = r.collapse_time_s !== null, shown = (value, unit) => unit === "m" ? length(value) : `${number(value)} ${unit}`;
   return facts([
-    r.collapse_time_s !== null && ["collapse certain at", `${number(r.collapse_time_s)} s`], whole ? [r.collapse_time_s === null ? "peak top displacement" : "peak top displacement before the fall", length(r.peak_top_displacement_m)] : ["peak displacement", length(r.peak_displacement_m)],
-    whole ? r.residual_top_displacement_m !== null && ["residual", length(r.residual_top_displacement_m)] : r.residual_displacement_m !== null && ["residual", length(r.residual_displacement_m)],
-    (r.fallen || []).length > 0 && ["fallen", r.fallen.join(", ")], r.peak_tilt_rad !== undefined && ["peak tilt", `${number(r.peak_tilt_rad)} rad`],
-    r.peak_tilt_rad === undefined && ["peak rotation", `${number(r.peak_rotation_rad)} rad`], ["peak joint opening", length(r.peak_joint_opening_m)],
-    r.residual_joint_slip_m !== null && ["residual slip", length(r.residual_joint_slip_m)], r.peak_twist_rad !== undefined && ["peak twist", `${number(r.peak_twist_rad)} rad`],
+    fell && ["collapse certain at", `${number(r.collapse_time_s)} s`], (r.fallen || []).length > 0 && ["fallen", r.fallen.join(", ")],
+    ...declared.filter(({ key }) => Number.isFinite(r[key])).map(({ key, label, unit }) => [fell && key.startsWith("peak_top") ? `${label} before the fall` : label, shown(r[key], unit)]),
     ["energy imbalance", number(r.energy_imbalance, 2)], ["computed in", `${number(r.wall_s)} s, ${r.steps} steps`],
   ]);
 }

@@ -21,7 +21,9 @@ const ADDRESSED = ["tab", ...SHOWN];
 export const state = { ...structuredClone(START), hazards: {}, table: null };
 // What stands, in words: a preset that was changed is told from what it was.
 let presets = {};
-export const known = about => { presets = about.presets; };
+// Measures that are shown of a run: key in its results, label and unit.
+export let declared = [];
+export const known = about => { ({ presets, measures: declared } = about); };
 export function called() {
   const { name = "column" } = state.column || {};
   return state.assembly ? "the assembly" : `${name}${presets[name] && JSON.stringify(presets[name]) !== JSON.stringify(state.column) ? ", changed" : ""}`;
