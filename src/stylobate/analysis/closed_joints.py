@@ -272,7 +272,7 @@ def _in_plane(structure: Structure, model: DistinctElement2D) -> Vibrating:
         )
     kn, ks = joint_stiffnesses(structure, model.block_modulus if column is not None else None)
     if column is None:
-        engine_for(model, structure).contacts  # noqa: B018 (which refuse a modulus)
+        engine_for(model, structure).check_rigid()
     bodies = structure.bodies
     xi, share = contact_points(structure.section or "rectangular", model.points)
     centroids = np.array([(body.place[0], 0.0, body.place[1]) for body in bodies])

@@ -120,7 +120,7 @@ def tumbling() -> Iterator[dict[str, Any]]:
     for number in range(TUMBLES):
         joint = LAWS[number % len(LAWS)]
         assembly = st.SpatialAssembly(tuple(tumble(number)), joint, name="tumble", settle=False)
-        numbers = engine_for(model, assembly).numbers
+        numbers = engine_for(model, assembly).acting
         engine = engine_of(assembly, numbers, 0.3)
         engine.start(step_for(engine, assembly, numbers))
         start, flown = engine.energies(), 0.0

@@ -21,7 +21,7 @@ from ..drums.records import Packed, body_fields, contact_points, damping_rows, j
 from ..drums.stepped import LossyDrums, with_provenance
 from ..engine import engine_for
 from ..plane.columns import PlaneStack
-from ..plane.loose import Contacts, LooseInPlane
+from ..plane.loose import LooseInPlane
 from ..plane.packing import Types, found_start, joint_fields, lane_fields, pack_column, point_law
 from ..shared import stable_step as shared
 from ..shared.opening import Opening, opening
@@ -62,7 +62,7 @@ class PointStack(PlaneStack):
 
             how = engine_for(self.acting, self.structure)
             lanes = how.block(replace(options, until_end=True))
-            response = follow(self.structure, motion, lanes, Contacts.of(self.acting), options)
+            response = follow(self.structure, motion, lanes, self.acting, options)
         else:
             response = super().run(motion, options)
         return with_provenance(self, motion, response, self.model.opening(self.structure))

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ...column.joint import Joint
 from ...column.structure import Structure
 from ...kernels.run_codes import CHUNK, RUNNING
 from ...kernels.shared.records import LANE, STATE
@@ -90,6 +91,25 @@ def with_stone(
     half = 0.5 * structure.must_be("column").heights / block_modulus
     soft = 1.0 / (1.0 / kn + half + np.concatenate(([0.0], half[:-1])))
     return soft, ks * soft / kn
+
+
+def bed_laws(structure: Structure, block_modulus: float | None = None) -> np.ndarray:
+    """k_n, k_s [N/m³] and tan φ of the bed between any two bodies, shape (N, N, 3); the pair's lower number first.
+
+    As soft as the joints where their springs have the stone of a column in series.
+    """
+    laws = np.empty((len(structure.bodies), len(structure.bodies), 3))
+
+    def numbers(law: Joint) -> tuple[float, float, float]:
+        return law.normal_stiffness, law.shear_stiffness, law.tan_phi
+
+    for i, law in enumerate(structure.surfaces):
+        laws[:, i] = numbers(law)
+    for i, h, law in structure.laws_of_pairs:
+        laws[i, h] = numbers(law)
+    if block_modulus is not None:
+        laws[:, 1:, 0], laws[:, 1:, 1] = with_stone(structure, laws[:, 1:, 0], laws[:, 1:, 1], block_modulus)
+    return laws
 
 
 def contact_points(section: str, points: int) -> tuple[np.ndarray, np.ndarray]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -19,19 +19,17 @@ from ...kernels.shared.records import STATE
 from ...motion import Motion
 from ...response import Measures, Response
 from ...response.assembly_measures import first_touch, have_fallen, lowest_standing, recorded_blocks
-from ..base import RESTITUTION, Case, RunOptions, refuse_endless, refuse_long_histories
+from ..base import Case, RunOptions, given_back, refuse_endless, refuse_long_histories
 from ..drums.impact import rocking_column
 from ..drums.links import acting, bonds, link_histories, link_measures, link_snapshot, with_links
-from ..drums.records import UNSEEN, Topology, body_fields, damping_rows, joint_stiffnesses
+from ..drums.records import UNSEEN, Topology, bed_laws, body_fields, damping_rows, joint_stiffnesses
 from ..drums.stepped import StackEngine, SteppedEngine, with_provenance
-from ..engine import engine_for
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.lanes import longest_piece
 from ..shared.stable_step import LOCAL_DAMPING, chosen_step, highest_frequency, settled, stable_step, whole_steps
 from .columns import Records, slope_base
 from .packing import (
-    bed_laws,
     fill_hands,
     fill_shapes,
     joint_fields,
@@ -71,58 +69,14 @@ ENDLESS = 2**62
 SKIN = 0.1
 
 
-class Contacts(NamedTuple):
-    """Numbers of a model for what may come loose.
-
-    Parameters
-    ----------
-    name : str
-        Of the model, for the response.
-    points : int
-        Contact points of a joint.
-    stiffness_damping, mass_damping : float
-        [s], [1/s]
-    block_modulus : float or None
-        Of the stone of a column, in series with its joints [Pa].
-    restitution : float or None
-        Of the bed; 0.3 by default.
-    step_factor, time_step : float, float or None
-        Of assemblies: share of the largest stable step, or the step itself [s].
-    must_settle : bool
-        Refuse an assembly that is not in equilibrium as drawn.
-    """
-
-    name: str
-    points: int
-    stiffness_damping: float
-    mass_damping: float
-    block_modulus: float | None
-    restitution: float | None
-    step_factor: float
-    time_step: float | None
-    must_settle: bool
-
-    @classmethod
-    def of(cls, model: Any) -> Contacts:
-        """Those of a model of contact points."""
-        return cls(
-            model.name, model.points, model.stiffness_damping, model.mass_damping, model.block_modulus, model.restitution,
-            model.step_factor, model.time_step, model.start == "settle",
-        )  # fmt: skip
-
-    @property
-    def given_back(self) -> float:
-        """Restitution of the bed [-]."""
-        return RESTITUTION if self.restitution is None else self.restitution
-
-
 class Loose:
     """One lane of bodies any two of which may touch, and the search for what does.
 
     Parameters
     ----------
     structure : Structure
-    contacts : Contacts
+    model : DistinctElement2D
+        With what acts in the run.
     motion : Motion
     duration : float
         For which the ground moves, and after [s]; the step divides it.
@@ -132,7 +86,7 @@ class Loose:
     """
 
     def __init__(
-        self, structure: Structure, contacts: Contacts, motion: Motion, duration: float, restitution: float = 1.0
+        self, structure: Structure, model: Any, motion: Motion, duration: float, restitution: float = 1.0
     ) -> None:
         from ...kernels.plane import links as ties
         from ...kernels.plane import loose as kernel
@@ -140,16 +94,14 @@ class Loose:
         self.kernel, self.ties, self.structure, self.motion = kernel, ties, structure, motion
         bodies, topology = structure.bodies, Topology.of(structure)
         n = len(bodies)
-        types = point_law(contacts.points, True, 1, bool(topology.links), turned=True)
+        types = point_law(model.points, True, 1, bool(topology.links), turned=True)
         self.records = records = Records(types, topology, spare=n * (n - 1) // 2)
         now, hand, shape = (np.zeros(rows, one) for rows, one in zip((1, len(records.joint), n), kernel.search_types()))
-        lane = lane_fields(
-            structure, damping_rows(True, contacts.stiffness_damping, contacts.mass_damping), contacts.points
-        )
+        lane = lane_fields(structure, damping_rows(True, model.stiffness_damping, model.mass_damping), model.points)
         records.fill(
             0,
             body=body_fields(structure),
-            joint=joint_fields(structure, *joint_stiffnesses(structure, contacts.block_modulus), turned=True),
+            joint=joint_fields(structure, *joint_stiffnesses(structure, model.block_modulus), turned=True),
             lane=lane,
         )
         corner = fill_shapes(shape, structure)
@@ -166,7 +118,7 @@ class Loose:
         now["touched"], now["finer"] = -1, FINER
         now["skin"] = SKIN * min(body.size for body in bodies if not body.fixed)
         self.now, self.hand, self.shape = now, hand, shape
-        self.law, self.memory = bed_laws(structure, contacts.block_modulus), np.zeros((n, n, 3))
+        self.law, self.memory = bed_laws(structure, model.block_modulus), np.zeros((n, n, 3))
         real = tuple(np.zeros(kernel.MOST) for _ in range(8))
         whole = tuple(np.zeros(kernel.MOST, dtype=np.int64) for _ in range(2))
         self.search: tuple[Any, ...] = (
@@ -391,7 +343,7 @@ class Loose:
 AFTER_THE_FALL = 5.0
 
 
-def step_for(engine: Loose, contacts: Contacts) -> float:
+def step_for(engine: Loose, model: Any) -> float:
     """Time step of a run [s]; whole chunks of steps fill the motion.
 
     Raises
@@ -401,7 +353,7 @@ def step_for(engine: Loose, contacts: Contacts) -> float:
     """
     name = repr(engine.structure.name)
     return min(
-        chosen_step(stable_step_of(engine), contacts.step_factor, contacts.time_step, name),
+        chosen_step(stable_step_of(engine), model.step_factor, model.time_step, name),
         engine.motion.duration / CHUNK,
     )
 
@@ -426,45 +378,40 @@ class LooseInPlane(SteppedEngine):
         """The assembly: any two of its blocks may strike each other."""
         return self.structure
 
-    @property
-    def contacts(self) -> Contacts:
-        """Numbers of its contacts.
+    def check(self, motion: Motion) -> None:
+        """Refuse a modulus of the stone, besides what all refuse."""
+        super().check(motion)
+        self.check_rigid()
 
-        Raises
-        ------
-        InputError
-            The stone is given a modulus.
-        """
-        acting = self.acting
-        if acting.block_modulus is not None:
+    def check_rigid(self) -> None:
+        """Refuse a modulus of the stone."""
+        if self.model.block_modulus is not None:
             raise InputError(
-                f"block_modulus is {acting.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
+                f"block_modulus is {self.model.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
             )
-        return Contacts.of(acting)
 
     def expected_step(self, motion: Motion) -> tuple[float, float]:
         """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
-        contacts = self.contacts
-        loose = Loose(self.structure, contacts, motion, motion.duration)
-        return step_for(loose, contacts), COST_STANDING * len(loose.records.body) * contacts.points
+        acting = self.acting
+        loose = Loose(self.structure, acting, motion, motion.duration)
+        return step_for(loose, acting), COST_STANDING * len(loose.records.body) * acting.points
 
     def run(self, motion: Motion, options: RunOptions) -> Response:
         """One run with histories, however much falls."""
-        response = run_assembly(self.structure, motion, self.contacts, replace(options, until_end=True))
+        response = run_assembly(self.structure, motion, self.acting, replace(options, until_end=True))
         return with_provenance(self, motion, response)
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs one by one in threads, without histories."""
 
         def alone(case: Case) -> Response:
-            contacts = engine_for(self.model, case.column).contacts
-            return run_assembly(case.column, case.motion, contacts, options, recorded=False)
+            return run_assembly(*case, self.model.acting(case.column), options, recorded=False)
 
         return one_by_one(alone, cases, threads)
 
 
 def run_assembly(
-    assembly: Assembly, motion: Motion, contacts: Contacts, options: RunOptions, *, recorded: bool = True
+    assembly: Assembly, motion: Motion, model: Any, options: RunOptions, *, recorded: bool = True
 ) -> Response:
     """One run of an assembly to the end of the motion and its tail, or until rest.
 
@@ -477,7 +424,8 @@ def run_assembly(
     ----------
     assembly : Assembly
     motion : Motion
-    contacts : Contacts
+    model : DistinctElement2D
+        With what acts in the run.
     options : RunOptions
     recorded : bool
         Whether histories are wanted; without them the ledger is drawn up at the end only, and forces of links are not kept.
@@ -492,15 +440,15 @@ def run_assembly(
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
-    motion, restitution = motion.multiplied, contacts.given_back
-    engine = Loose(assembly, contacts, motion, motion.duration + options.tail, restitution)
-    step = step_for(engine, contacts)
+    motion, restitution = motion.multiplied, given_back(model)
+    engine = Loose(assembly, model, motion, motion.duration + options.tail, restitution)
+    step = step_for(engine, model)
     length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
     refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
     refuse_long_histories(length / options.output_interval, len(assembly.blocks))
     engine.start(step)
     balanced = engine.settle()
-    if not balanced and contacts.must_settle:
+    if not balanced and model.start == "settle":
         raise InputError(
             f"{assembly.name!r} is not in equilibrium as drawn; support its blocks, or leave start=settle out to let "
             "it move."
@@ -532,7 +480,7 @@ def run_assembly(
         energy_imbalance=imbalance,
         time_step=engine.dt,
         steps=engine.steps,
-        model=contacts.name,
+        model=model.name,
         touched=touched,
         links=link_measures(acting(assembly), engine.records.link, 0, engine.dt),
         held=link_histories(states) if recorded else None,

@@ -12,14 +12,13 @@ import numpy as np
 from ...column import Column
 from ...column.block import smallest_turn
 from ...column.found_geometry import Geometry, geometry, gravity_vector, joint_load
-from ...column.joint import Joint
 from ...column.links.placed import PlacedLink
 from ...column.structure import Structure
 from ...constants import DEGREE
 from ...errors import InputError
 from ...kernels.shared.link_records import NO_LINK, OWN, link_types
 from ..drums.links import LinkStiffness, acting, bonds, hold_of, law_fields, link_matrices
-from ..drums.records import UNSEEN, LaneRecords, Packed, Topology, contact_points, with_stone
+from ..drums.records import UNSEEN, LaneRecords, Packed, Topology, contact_points
 from ..shared.stable_step import highest_frequency
 
 #: Types of records by their names in ``kernels/shared/records.py``.
@@ -132,25 +131,6 @@ def fill_hands(records: Any, structure: Structure) -> None:
         h["live"], h["weight"] = 1, 1.0
         h["from_c"], h["to_c"] = math.cos(0.7 * last), math.cos(last)
         h["width"] = min(pair.below.width, pair.above.width)
-
-
-def bed_laws(structure: Structure, block_modulus: float | None) -> np.ndarray:
-    """k_n, k_s [N/m³] and tan φ of the bed between any two bodies, shape (N, N, 3); the pair's lower number first.
-
-    As soft as the joints where their springs have the stone of a column in series.
-    """
-    laws = np.empty((len(structure.bodies), len(structure.bodies), 3))
-
-    def numbers(law: Joint) -> tuple[float, float, float]:
-        return law.normal_stiffness, law.shear_stiffness, law.tan_phi
-
-    for i, law in enumerate(structure.surfaces):
-        laws[:, i] = numbers(law)
-    for i, h, law in structure.laws_of_pairs:
-        laws[i, h] = numbers(law)
-    if block_modulus is not None:
-        laws[:, 1:, 0], laws[:, 1:, 1] = with_stone(structure, laws[:, 1:, 0], laws[:, 1:, 1], block_modulus)
-    return laws
 
 
 def pack_column(

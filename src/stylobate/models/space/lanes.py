@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Hashable, Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import fields, replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -25,7 +25,6 @@ from ...response.space_measures import fallen
 from ..base import Case, RunOptions
 from ..drums.impact import TRIED, longest, undamped
 from ..drums.stepped import StackEngine, SteppedEngine, with_provenance
-from ..engine import engine_for
 from ..plane.loose import one_by_one
 from ..shared.lanes import GoesOn, aligned_zeros, copied, run_alike
 from .loose import (
@@ -33,7 +32,6 @@ from .loose import (
     REST_TIME,
     REST_WAY,
     Loose,
-    SpatialNumbers,
     StartState,
     chunks_of,
     engine_of,
@@ -45,9 +43,6 @@ from .loose import (
 )
 from .loose import begun as settled
 from .packing import turned_over
-
-#: Gives what a structure is computed with.
-Numbers = Callable[[Structure], SpatialNumbers]
 
 #: Structures that are kept as they have settled, in each thread.
 KEPT = 8
@@ -86,7 +81,7 @@ def kind(structure: Structure) -> Hashable:
 
 
 def measures_in_space(
-    numbers: Numbers, cases: Sequence[Case], options: RunOptions, threads: int
+    model: Any, cases: Sequence[Case], options: RunOptions, threads: int
 ) -> Iterator[tuple[int, Measures]]:
     """(index of the case, measures) of runs of assemblies in space as they finish: in lanes as long as they are intact.
 
@@ -95,11 +90,11 @@ def measures_in_space(
     threads.
     """
     if options.until_rest:
-        yield from one_by_one(lambda case: run_in_space(*case, numbers(case.column), options), cases, threads)
+        yield from one_by_one(lambda case: run_in_space(*case, model.acting(case.column), options), cases, threads)
         return
 
     def block_of(key: Hashable) -> IntactLanes:
-        return IntactLanes(numbers, options, none=key is None)
+        return IntactLanes(model, options, none=key is None)
 
     yield from run_alike(lambda case: kind(case.column), block_of, cases, threads)
 
@@ -142,7 +137,8 @@ class HandedOver(NamedTuple):
     Parameters
     ----------
     case : Case
-    numbers : SpatialNumbers
+    model : DistinctElement3D
+        With what acts in the run.
     options : RunOptions
     made : StartState
         How it began; its engine is that of all lanes with this structure.
@@ -156,7 +152,7 @@ class HandedOver(NamedTuple):
     """
 
     case: Case
-    numbers: SpatialNumbers
+    model: Any
     options: RunOptions
     made: StartState
     states: Recorded
@@ -168,13 +164,13 @@ class HandedOver(NamedTuple):
     def measures(self) -> Measures:
         """Go on to the end of the run."""
         structure, motion = self.case
-        engine = unsettled(structure, self.numbers)
+        engine = unsettled(structure, self.model)
         engine.take_over(*self.records, self.step)
         engine.stood_at, engine.stood_since = self.stood_at, self.stood_since
         stack = self.states.stack()
         states = [dict(zip(stack, one, strict=True)) for one in zip(*stack.values(), strict=True)]
         made = self.made._replace(engine=engine)
-        return go_on(structure, motion, self.numbers, self.options, made, states).measures
+        return go_on(structure, motion, self.model, self.options, made, states).measures
 
 
 class IntactLanes:
@@ -182,16 +178,16 @@ class IntactLanes:
 
     Parameters
     ----------
-    numbers : Numbers
+    model : DistinctElement3D
     options : RunOptions
     none : bool
         It takes none: each of its cases is run alone.
     """
 
-    def __init__(self, numbers: Numbers, options: RunOptions, *, none: bool = False) -> None:
+    def __init__(self, model: Any, options: RunOptions, *, none: bool = False) -> None:
         from ...kernels.space import lanes as kernel
 
-        self.kernel, self.numbers, self.options, self.none = kernel, numbers, options, none
+        self.kernel, self.model, self.options, self.none = kernel, model, options, none
         self.lanes = 1 if none else LANES
         self.begun = lru_cache(KEPT)(self._begun)
         self.state: tuple[Any, ...] = ()
@@ -203,7 +199,7 @@ class IntactLanes:
 
     def _begun(self, structure: Structure) -> tuple[StartState, np.ndarray | None]:
         """A structure as it has settled, and the gaps between its bodies; None if something is loose from the start."""
-        engine = unsettled(structure, self.numbers(structure))
+        engine = unsettled(structure, self.model.acting(structure))
         if self._gaps(engine).min() <= 0.0:
             return StartState(engine, np.zeros(6), None), None
         made, gap = settled(structure, engine), self._gaps(engine)
@@ -350,7 +346,7 @@ class IntactLanes:
         assert case is not None
         self.status[lane] = FREE
         if states is None:
-            return lambda: run_in_space(*case, self.numbers(case.column), self.options).measures
+            return lambda: run_in_space(*case, self.model.acting(case.column), self.options).measures
         assert made is not None
         self.watch["status"][0, lane] = FREE
         self.lane["dt"][0, lane] = 0.0
@@ -359,7 +355,7 @@ class IntactLanes:
         poses = (stack[name][k] for k in (0, -1) for name in ("position", "axes"))
         waits = self.options.until_decided and not still and not fallen(case.column, *poses).any()
         if intact and not waits:
-            return response_of(*case, self.numbers(case.column), made, stack, still=still).measures
+            return response_of(*case, self.model.acting(case.column), made, stack, still=still).measures
         return self._handed_over(lane, case, made, states).measures
 
     def _handed_over(self, lane: int, case: Case, made: StartState, states: Recorded) -> HandedOver:
@@ -370,7 +366,9 @@ class IntactLanes:
         )
         step = round(float(states.time[states.count - 1]) / made.engine.dt)
         stood = self.stood_at[..., lane].reshape(-1, len(POSE)), float(self.stood_since[lane])
-        return HandedOver(case, self.numbers(case.column), self.options, made, states, (body, joint, now), step, *stood)
+        return HandedOver(
+            case, self.model.acting(case.column), self.options, made, states, (body, joint, now), step, *stood
+        )
 
 
 def rocking_stone(body: Column, model: Any, tilt: float) -> Iterator[np.ndarray]:
@@ -382,8 +380,7 @@ def rocking_stone(body: Column, model: Any, tilt: float) -> Iterator[np.ndarray]
     else:
         stone = Stone.box((width, drum.depth, height), foot, drum.density, name=body.name)
     alone = SpatialAssembly((stone,), body.joint_laws[0], gravity=body.gravity)
-    numbers = engine_for(replace(model, **undamped()), alone).numbers
-    lanes = IntactLanes(lambda _: numbers, RunOptions())
+    lanes = IntactLanes(replace(model, **undamped()), RunOptions())
     case = Case(alone, longest(alone))
     for lane in range(len(TRIED)):
         lanes.load(lane, case)
@@ -449,24 +446,16 @@ class BodiesInSpace(SteppedEngine):
         """The assembly: any two bodies may strike each other."""
         return self.structure
 
-    @property
-    def numbers(self) -> SpatialNumbers:
-        """What the assembly is computed with."""
-        model = self.model
-        damping = self.acting.stiffness_damping
-        return SpatialNumbers(model.name, damping, model.step_factor, model.time_step, model.restitution)
-
     def expected_step(self, motion: Motion) -> tuple[float, float]:
         """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
         del motion
-        numbers = self.numbers
-        loose = engine_of(self.structure, numbers, 1.0)
-        return step_for(loose, self.structure, numbers), COST * len(loose.body)
+        loose = engine_of(self.structure, self.acting, 1.0)
+        return step_for(loose, self.structure, self.acting), COST * len(loose.body)
 
     def run(self, motion: Motion, options: RunOptions) -> Response:
         """One run with histories, down to the ground."""
-        return with_provenance(self, motion, run_in_space(self.structure, motion, self.numbers, options))
+        return with_provenance(self, motion, run_in_space(self.structure, motion, self.acting, options))
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs in lanes, as long as nothing comes loose."""
-        return measures_in_space(lambda one: engine_for(self.model, one).numbers, cases, options, threads)
+        return measures_in_space(self.model, cases, options, threads)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,13 +18,14 @@ from ...kernels.space.records import GROUND, types, workspace, workspace_of_join
 from ...motion import Motion
 from ...response import LinkHistories, Response
 from ...response.space_measures import fallen, recorded_in_space
-from ..base import RESTITUTION, RunOptions, refuse_endless, refuse_long_histories
+from ..base import RunOptions, given_back, refuse_endless, refuse_long_histories
 from ..drums.links import acting, link_histories, link_measures, link_snapshot, with_links
+from ..drums.records import bed_laws
 from ..shared import ledger
 from ..shared.ground import BEFORE, ground_histories, value_at
 from ..shared.lanes import copied
 from ..shared.stable_step import LOCAL_DAMPING, chosen_step, highest_frequency, settled, stable_step
-from .packing import FacesJoined, Solid, joints_of, laws_of, pack, pack_joints, solids_of, stiffness_of, ties_of
+from .packing import FacesJoined, Solid, joints_of, pack, pack_joints, solids_of, stiffness_of, ties_of
 
 #: Below this speed the restitution of a contact acts like a dashpot [m/s].
 CALM = 0.02
@@ -367,38 +367,15 @@ DEEPEST = 0.25
 COST = 2e-6
 
 
-@dataclass(frozen=True)
-class SpatialNumbers:
-    """What a run is computed with.
-
-    Parameters
-    ----------
-    name : str
-        Of the model, for the response.
-    stiffness_damping : float
-        [s]
-    step_factor, time_step : float, float or None
-        Share of the largest stable step, or the step itself [s].
-    restitution : float or None
-        Of what no joint holds; :data:`RESTITUTION` by default.
-    """
-
-    name: str
-    stiffness_damping: float
-    step_factor: float
-    time_step: float | None
-    restitution: float | None
-
-
-def engine_of(structure: Structure, numbers: SpatialNumbers, restitution: float) -> Loose:
+def engine_of(structure: Structure, model: Any, restitution: float) -> Loose:
     """The lane of an assembly in space."""
     solids, first = solids_of(structure)
     joints = joints_of(structure, solids, first)
     gravity = (0.0, 0.0, structure.gravity)
-    return Loose(solids, laws_of(structure), gravity, restitution, numbers.stiffness_damping, joints, acting(structure))
+    return Loose(solids, bed_laws(structure), gravity, restitution, model.stiffness_damping, joints, acting(structure))
 
 
-def step_for(engine: Loose, structure: Structure, numbers: SpatialNumbers) -> float:
+def step_for(engine: Loose, structure: Structure, model: Any) -> float:
     """Time step of a run [s].
 
     Raises
@@ -406,10 +383,10 @@ def step_for(engine: Loose, structure: Structure, numbers: SpatialNumbers) -> fl
     InputError
         The step asked for is unstable.
     """
-    return chosen_step(engine.stable_step(), numbers.step_factor, numbers.time_step, repr(structure.name))
+    return chosen_step(engine.stable_step(), model.step_factor, model.time_step, repr(structure.name))
 
 
-def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, options: RunOptions) -> Response:
+def run_in_space(structure: Structure, motion: Motion, model: Any, options: RunOptions) -> Response:
     """One run of an assembly in space to the end of the motion and its tail, or until rest.
 
     It goes on however much has fallen: what stands may fall later. The contacts are closed by the weight they carry; an
@@ -425,19 +402,19 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
-    motion, engine = motion.multiplied, unsettled(structure, numbers)
+    motion, engine = motion.multiplied, unsettled(structure, model)
     chunks_of(structure, motion, engine, options)
     made = begun(structure, engine)
     if made.balanced is False:
         said = f"{structure.name!r} is not in equilibrium as drawn, as far as settling shows; it moves from the start."
         warnings.warn(said, OutOfRangeWarning, stacklevel=4)
-    return go_on(structure, motion, numbers, options, made, [])
+    return go_on(structure, motion, model, options, made, [])
 
 
 def go_on(
     structure: Structure,
     motion: Motion,
-    numbers: SpatialNumbers,
+    model: Any,
     options: RunOptions,
     made: StartState,
     states: list[dict[str, Any]],
@@ -446,7 +423,7 @@ def go_on(
 
     Parameters
     ----------
-    structure, motion, numbers, options
+    structure, motion, model, options
         As of :func:`run_in_space`.
     made : StartState
         How it began, with the engine as it is now.
@@ -460,9 +437,7 @@ def go_on(
     failure = ""
     if engine.failed:
         failure = f"the bodies could not be followed beyond {engine.time:.4g} s; try a smaller step_factor"
-    return response_of(
-        structure, motion, numbers, made, stack, still=still, failure=failure, held=link_histories(states)
-    )
+    return response_of(structure, motion, model, made, stack, still=still, failure=failure, held=link_histories(states))
 
 
 class StartState(NamedTuple):
@@ -483,7 +458,7 @@ class StartState(NamedTuple):
     balanced: bool | None
 
 
-def unsettled(structure: Structure, numbers: SpatialNumbers) -> Loose:
+def unsettled(structure: Structure, model: Any) -> Loose:
     """The lane of an assembly in space as drawn, with its step.
 
     Raises
@@ -491,9 +466,8 @@ def unsettled(structure: Structure, numbers: SpatialNumbers) -> Loose:
     InputError
         The step asked for is unstable.
     """
-    restitution = RESTITUTION if numbers.restitution is None else numbers.restitution
-    engine = engine_of(structure, numbers, restitution)
-    engine.start(step_for(engine, structure, numbers))
+    engine = engine_of(structure, model, given_back(model))
+    engine.start(step_for(engine, structure, model))
     return engine
 
 
@@ -521,7 +495,7 @@ def chunks_of(structure: Structure, motion: Motion, engine: Loose, options: RunO
 def response_of(
     structure: Structure,
     motion: Motion,
-    numbers: SpatialNumbers,
+    model: Any,
     made: StartState,
     stack: dict[str, Any],
     *,
@@ -560,7 +534,7 @@ def response_of(
         velocity=stack.get("velocity"),
         spin=stack.get("spin"),
         struck_at=engine.struck_at,
-        model=numbers.name,
+        model=model.name,
         links=link_measures(engine.links, engine.ties.link, 0, engine.dt),
         held=held,
         provenance={

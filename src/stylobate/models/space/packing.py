@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...column.joint import Joint
 from ...column.links.placed import PlacedLink
 from ...column.shapes import CircularFrustum, Mesh, Placed, cut
 from ...column.spatial.touching import SpaceJoint
@@ -429,20 +428,6 @@ def part_of(part: Placed) -> Any:
         foot = np.array(part.place) - shape.centroid * turned[:, 2]
         return Drum(foot, turned[:, 2], shape.height, 0.5 * shape.bottom, 0.5 * shape.top)
     return part.mesh(AROUND)
-
-
-def laws_of(structure: Structure) -> np.ndarray:
-    """k_n, k_s [N/m³] and tan φ of the bed between any two bodies, shape (N, N, 3); the pair's lower number first."""
-    laws = np.empty((len(structure.bodies), len(structure.bodies), 3))
-
-    def numbers(law: Joint) -> tuple[float, float, float]:
-        return law.normal_stiffness, law.shear_stiffness, law.tan_phi
-
-    for i, law in enumerate(structure.surfaces):
-        laws[:, i] = numbers(law)
-    for i, h, law in structure.laws_of_pairs:
-        laws[i, h] = numbers(law)
-    return laws
 
 
 def joints_of(structure: Structure, solids: list[Solid], first: np.ndarray) -> list[FacesJoined]:
