@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,69 +44,6 @@ class Views:
         return self.histories.links
 
     @property
-    def drum_x(self) -> np.ndarray:
-        """Displacement of each centroid along x (in the plane: along the base) from the start [m], shape (T, n)."""
-        return self.histories.drum_x
-
-    @property
-    def drum_y(self) -> np.ndarray:
-        """Displacement of each centroid along y from the start [m], shape (T, n); zero in the plane."""
-        return self.histories.drum_y
-
-    @property
-    def drum_z(self) -> np.ndarray:
-        """Displacement of each centroid upward (in the plane: normal to the base) from the start [m], shape (T, n)."""
-        return self.histories.drum_z
-
-    @property
-    def drum_rotation(self) -> np.ndarray:
-        """Rotation of each body, counter-clockwise positive (the top goes to −x) [rad], shape (T, n); as ``rotation``."""
-        return self.histories.drum_rotation
-
-    @property
-    def joint_opening(self) -> np.ndarray:
-        """Largest gap between the two faces of each joint [m], shape (T, J); as ``opening``."""
-        return self.histories.joint_opening
-
-    @property
-    def joint_slip(self) -> np.ndarray:
-        """Offset along each joint of the body above, from the start [m], shape (T, J); in space along x and y, (T, J, 2).
-
-        ``slip`` is the same with both components in the plane as well.
-        """
-        return self.histories.joint_slip
-
-    @property
-    def joint_twist(self) -> np.ndarray:
-        """Turn about the normal of each joint, from the start [rad], shape (T, J); zero in the plane."""
-        return self.histories.joint_twist
-
-    @property
-    def base_displacement(self) -> np.ndarray:
-        """Horizontal displacement of the middle of the lowest face [m], shape (T,); in space (T, 2)."""
-        return self.histories.base_displacement
-
-    @property
-    def top_displacement(self) -> np.ndarray:
-        """Horizontal displacement of the middle of the topmost face [m], shape (T,); in space (T, 2)."""
-        return self.histories.top_displacement
-
-    @property
-    def ground_acceleration(self) -> np.ndarray:
-        """Acceleration of the base along x [m/s²], shape (T,); in space along all axes, shape (T, 3)."""
-        return self.histories.ground_acceleration
-
-    @property
-    def ground_displacement(self) -> np.ndarray:
-        """Displacement of the base along x [m], shape (T,); in space along all axes, shape (T, 3)."""
-        return self.histories.ground_displacement
-
-    @property
-    def imbalance(self) -> np.ndarray:
-        """Input minus everything that the ledger accounts for [J], shape (T,)."""
-        return self.histories.imbalance
-
-    @property
     def energy(self) -> dict[str, np.ndarray]:
         """Ledger [J], each term of shape (T,); see :class:`Histories`."""
         return self.histories.energy
@@ -122,7 +60,21 @@ class Views:
         """Whether it collapsed."""
         return self.measures.collapsed
 
-    if TYPE_CHECKING:  # declared in ``measures.py``; properties are made of the declarations below
+    if (
+        TYPE_CHECKING
+    ):  # declared in ``histories.py`` and ``measures.py``; properties are made of these declarations below
+        drum_x: np.ndarray
+        drum_y: np.ndarray
+        drum_z: np.ndarray
+        drum_rotation: np.ndarray
+        joint_opening: np.ndarray
+        joint_slip: np.ndarray
+        joint_twist: np.ndarray
+        base_displacement: np.ndarray
+        top_displacement: np.ndarray
+        ground_acceleration: np.ndarray
+        ground_displacement: np.ndarray
+        imbalance: np.ndarray
         collapse_time: float
         peak_top_displacement: float
         residual_top_displacement: float
@@ -310,6 +262,15 @@ def _read_directly(measure: Measure, part: str) -> None:
     unit, where = measure.unit or "-", "; None for plane models" if part else ""
     setattr(Views, measure.field, property(read, doc=f"{measure.meaning.capitalize()} [{unit}]{where}."))
 
+
+#: Histories that a response passes on.
+_HISTORIES = (
+    "drum_x", "drum_y", "drum_z", "drum_rotation", "joint_opening", "joint_slip", "joint_twist", "base_displacement",
+    "top_displacement", "ground_acceleration", "ground_displacement", "imbalance",
+)  # fmt: skip
+
+for _name in _HISTORIES:
+    setattr(Views, _name, property(attrgetter(f"histories.{_name}"), doc=getattr(Histories, _name).__doc__))
 
 for _holder, _part in ((Measures, ""), (SpaceMeasures, "space")):
     for _one in measures_of(_holder):

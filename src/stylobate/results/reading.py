@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..analysis.domain import Domain
 from ..analysis.probability import CollapseProbability
@@ -28,48 +28,44 @@ MOST = 500_000_000
 #: Most folders in a folder of runs.
 MOST_RUNS = 10_000
 
-#: Keys that a JSON object of each kind must hold; a folder with such an object of other keys was not written by stylobate.
-KEYS = {
-    Kind.RUN: ("outcome", "collapsed", "decided", "energy_imbalance"),
-    Kind.CRITICAL: ("runs", "lowest_collapse_g", "sentence"),
-    Kind.DOMAIN: ("cells", "collapsed"),
-    Kind.PROBABILITY: ("cells", "replicates"),
-    Kind.PUSHOVER: ("collapse_multiplier_g", "peaked", "curve"),
-    Kind.LIMIT: ("collapse_multiplier_g", "active_joints"),
-    Kind.STATES: ("state", "states", "differences", "links", "records", "doubt"),
-    Kind.SUITE: ("runs", "verdicts"),
-    Kind.IDA: ("runs", "records", "capacities"),
-    Kind.FRAGILITY: ("median", "beta", "im", "state", "sentence"),
-    Kind.RISK: ("annual_rate", "return_period_y"),
-    Kind.SURVIVAL: ("hazards",),
-    Kind.INFER: ("posterior", "accepted", "bayes_factor_no_earthquake"),
-    Kind.UNTIL_FALL: ("until_fall", "motions"),
-    Kind.RECORDS: ("target_words", "meets", "records", "sentence"),
-    Kind.CALIBRATE: ("stiffness_damping", "decrements", "reached", "sentence"),
-}
 
-#: Tables beside an object.
-TABLES = {
-    Kind.CRITICAL: ("critical",),
-    Kind.STATES: ("states", "design"),
-    Kind.SUITE: ("suite", "design"),
-    Kind.IDA: ("capacities", "fractiles", "measures"),
-    Kind.RISK: ("risk",),
-    Kind.SURVIVAL: ("survival", "hazard"),
-    Kind.INFER: ("draws", "observations"),
-    Kind.UNTIL_FALL: ("until_fall",),
-}
+class Files(NamedTuple):
+    """Files of a kind of result, besides those that are called after the kind.
 
-#: Further files by kind, a picture by its name without an ending, besides the one that is called after the kind.
-FURTHER = {
-    Kind.CRITICAL: ("probability", "directions"),
-    Kind.SUITE: ("directions", "design"),
-    Kind.LIMIT: ("directions",),
-    Kind.IDA: ("measures",),
-    Kind.RUNS: ("directions",),
-    Kind.INFER: ("observations", "matches"),
-    Kind.STATES: ("links.csv", "design"),
-    Kind.CALIBRATE: ("losses.toml", "calibration"),
+    ``keys`` that its JSON object must hold: with other ones it was not written by stylobate; ``tables`` beside the object;
+    ``further`` files, a picture by its name without an ending.
+    """
+
+    keys: tuple[str, ...] = ()
+    tables: tuple[str, ...] = ()
+    further: tuple[str, ...] = ()
+
+
+#: Files of each kind.
+FILES = {
+    Kind.RUN: Files(("outcome", "collapsed", "decided", "energy_imbalance")),
+    Kind.RUNS: Files(further=("directions",)),
+    Kind.CRITICAL: Files(("runs", "lowest_collapse_g", "sentence"), ("critical",), ("probability", "directions")),
+    Kind.DOMAIN: Files(("cells", "collapsed")),
+    Kind.PROBABILITY: Files(("cells", "replicates")),
+    Kind.LIMIT: Files(("collapse_multiplier_g", "active_joints"), further=("directions",)),
+    Kind.PUSHOVER: Files(("collapse_multiplier_g", "peaked", "curve")),
+    Kind.STATES: Files(
+        ("state", "states", "differences", "links", "records", "doubt"), ("states", "design"), ("links.csv", "design")
+    ),
+    Kind.SUITE: Files(("runs", "verdicts"), ("suite", "design"), ("directions", "design")),
+    Kind.IDA: Files(("runs", "records", "capacities"), ("capacities", "fractiles", "measures"), ("measures",)),
+    Kind.FRAGILITY: Files(("median", "beta", "im", "state", "sentence")),
+    Kind.RISK: Files(("annual_rate", "return_period_y"), ("risk",)),
+    Kind.SURVIVAL: Files(("hazards",), ("survival", "hazard")),
+    Kind.INFER: Files(
+        ("posterior", "accepted", "bayes_factor_no_earthquake"), ("draws", "observations"), ("observations", "matches")
+    ),
+    Kind.UNTIL_FALL: Files(("until_fall", "motions"), ("until_fall",)),
+    Kind.RECORDS: Files(("target_words", "meets", "records", "sentence")),
+    Kind.CALIBRATE: Files(
+        ("stiffness_damping", "decrements", "reached", "sentence"), further=("losses.toml", "calibration")
+    ),
 }
 
 
@@ -161,7 +157,7 @@ def _several(place: Path, runs: Sequence[Path]) -> SeveralRuns:
         raise InputError(
             f"the runs in {shown(place)} are not all of one column; name their folders one by one to report them together."
         )
-    facts: dict[str, Any] = _common(place, Kind.RUNS, "run", FURTHER[Kind.RUNS], {}) | {"asked": read[0].asked}
+    facts: dict[str, Any] = _common(place, Kind.RUNS, "run", FILES[Kind.RUNS].further, {}) | {"asked": read[0].asked}
     return SeveralRuns(**facts, runs=read)
 
 
@@ -177,10 +173,10 @@ def _read_grid(kind: Kind, load: Callable[[Path], Any]) -> Callable[[Path], Grid
 
 def _read_numbers(kind: Kind) -> Callable[[Path], Numbers]:
     def read(place: Path) -> Numbers:
-        stem = kind.value
+        stem, files = kind.value, FILES[kind]
         summary = _object(place, f"{stem}.json", kind)
-        tables = {one: _table(place / f"{one}.csv") for one in TABLES.get(kind, ()) if (place / f"{one}.csv").is_file()}
-        names = [f"{stem}.json", stem, f"{stem}.csv", *(f"{table}.csv" for table in tables), *FURTHER.get(kind, ())]
+        tables = {one: _table(place / f"{one}.csv") for one in files.tables if (place / f"{one}.csv").is_file()}
+        names = [f"{stem}.json", stem, f"{stem}.csv", *(f"{table}.csv" for table in tables), *files.further]
         return Numbers(**_common(place, kind, stem, names, summary), tables=tables)
 
     return read
@@ -210,7 +206,7 @@ def _read_comparison(place: Path) -> Comparison:
     return Comparison(**_common(place, Kind.COMPARE, "compare", names, {}), table=table, responses=responses)
 
 
-#: The file that tells a kind, and its reader.
+#: The file that tells a kind, and its reader; a folder's results come in this order.
 _READERS: dict[str, Callable[[Path], Result]] = {
     "response.nc": _read_run,
     "critical.json": _read_numbers(Kind.CRITICAL),
@@ -219,17 +215,20 @@ _READERS: dict[str, Callable[[Path], Result]] = {
     "limit.json": _read_numbers(Kind.LIMIT),
     "pushover.json": _read_numbers(Kind.PUSHOVER),
     "comparison.csv": _read_comparison,
-    "states.json": _read_numbers(Kind.STATES),
-    "suite.json": _read_numbers(Kind.SUITE),
-    "ida.json": _read_numbers(Kind.IDA),
+    **{f"{kind.value}.json": _read_numbers(kind) for kind in (Kind.STATES, Kind.SUITE, Kind.IDA)},
     PLAN_FILE: _read_study,
-    "fragility.json": _read_numbers(Kind.FRAGILITY),
-    "risk.json": _read_numbers(Kind.RISK),
-    "survival.json": _read_numbers(Kind.SURVIVAL),
-    "infer.json": _read_numbers(Kind.INFER),
-    "sequence.json": _read_numbers(Kind.UNTIL_FALL),
-    "records.json": _read_numbers(Kind.RECORDS),
-    "calibrate.json": _read_numbers(Kind.CALIBRATE),
+    **{
+        f"{kind.value}.json": _read_numbers(kind)
+        for kind in (
+            Kind.FRAGILITY,
+            Kind.RISK,
+            Kind.SURVIVAL,
+            Kind.INFER,
+            Kind.UNTIL_FALL,
+            Kind.RECORDS,
+            Kind.CALIBRATE,
+        )
+    },
 }
 
 
@@ -263,7 +262,7 @@ def _facts(place: Path, names: Iterable[str]) -> tuple[FileFact, ...]:
 
 def _object(place: Path, name: str, kind: Kind) -> dict[str, Any]:
     found = read_json(place / name)
-    missing = [key for key in KEYS[kind] if key not in found]
+    missing = [key for key in FILES[kind].keys if key not in found]
     if missing:
         raise InputError(
             f"{shown(place / name)} is not what 'stylobate {kind.value}' of this version writes: it has "
