@@ -224,8 +224,8 @@ def warn_sliding(column: Column, alpha: float, name: str, remedy: str) -> None:
     if math.tan(alpha) > friction:
         where = "" if column.n == 1 else say(" of joint {joint}", joint=joint + 1)
         words = say(
-            "tan α = {slope:.3f} is above the friction coefficient {friction:.3f}{where}: the column slides before it rocks, "
-            "and {model} as it is set has no sliding; {remedy}."
+            "tan α = {slope:.3f} is above the friction coefficient {friction:.3f}{where}: the column slides before it "
+            "rocks, and {model} as it is set has no sliding; {remedy}."
         )
         warn(words.of(slope=math.tan(alpha), friction=friction, where=where, model=name, remedy=remedy))
 

@@ -75,7 +75,7 @@ def kind(structure: Structure) -> Hashable:
             (joint.lower, joint.upper, joint.lower_part, joint.upper_part, turned_over(joint)),
             (corners(joint.below), corners(joint.above)),
         )
-        for joint in structure.space_joints or ()
+        for joint in structure.joined_faces
     )
     return parts, joints
 

@@ -433,7 +433,7 @@ def part_of(part: Placed) -> Any:
 def joints_of(structure: Structure, solids: list[Solid], first: np.ndarray) -> list[FacesJoined]:
     """Joints of the faces that lie on one another at the start."""
     joints = []
-    for joint in structure.space_joints or ():
+    for joint in structure.joined_faces:
         lower, upper = solids[joint.lower], solids[joint.upper]
         ground = isinstance(lower.parts[0], HalfSpace)
         sides = [
