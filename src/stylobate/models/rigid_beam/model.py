@@ -12,6 +12,7 @@ import numpy as np
 
 from ...column import Column
 from ...errors import InputError, check_choice, check_range, warn
+from ...messages import say
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
@@ -68,7 +69,7 @@ class Beam(Engine):
                     f"time_step is {model.time_step:g} s; allowed is up to {largest:.3g} s ({which}), or leave it out."
                 )
         if not model.sliding:
-            warn_sliding(seen, seen.slenderness, model.name, "with sliding=true the beam slides")
+            warn_sliding(seen, seen.slenderness, model.name, say("with sliding=true the beam slides"))
         if abs(model.initial_rotation) >= seen.slenderness:
             raise InputError(
                 f"initial_rotation is {model.initial_rotation:g} rad; allowed is less than the slenderness "
