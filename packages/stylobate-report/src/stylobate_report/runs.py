@@ -306,7 +306,7 @@ def _bodies(r: Response) -> list[Item]:
 def _joints_of_blocks(r: Response, opening: list[float | None]) -> list[Item]:
     """Joints of an assembly by the bodies that they join."""
     structure, gone = r.structure, r.collapsed
-    joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    joints = structure.joined_faces
     slip = np.linalg.norm(r.slip[-1], axis=-1)
     header = [
         say("joint"),
