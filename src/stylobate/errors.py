@@ -52,32 +52,23 @@ class InputError(StylobateError, ValueError):
         Path of what is wrong, such as ``frequency``, ``drum.3.height`` or ``link.1.at``: drums, joints and links by number.
     value, allowed, remedy : optional
         What the message says of it, as far as they are known one by one.
-    quantity : Quantity, optional
-        The same of a number.
-    place : str
-        What in the message says where in a file it is, which its reader may know by the field.
     """
 
+    #: The number that is not allowed; words of the message that say where in a file it is, which the field says as well.
+    quantity: Quantity | None = None
+    places: tuple[str, ...] = ()
+
     def __init__(
-        self,
-        message: str = "",
-        field: str | None = None,
-        *,
-        value: Any = None,
-        allowed: str = "",
-        remedy: str = "",
-        quantity: Quantity | None = None,
-        place: str = "",
+        self, message: str = "", field: str | None = None, *, value: Any = None, allowed: str = "", remedy: str = ""
     ) -> None:
         super().__init__(_cut(message))
         self.field, self.value, self.allowed, self.remedy = field, value, allowed, remedy
-        self.quantity, self.places = quantity, [place] if place else []
 
     def place(self, place: str, *path: object) -> None:
         """Say where the error is, as :func:`within`."""
         if place:  # a key of a table, a part of a file
             self.args = (_cut(f"{place}: {reworded(str(self), str)}"),)
-            self.places.insert(0, f"{place}: ")
+            self.places = (f"{place}: ", *self.places)
         self.field = ".".join(map(str, (*path, *([self.field] if self.field else [])))) or None
 
     def without(self, place: str) -> None:
@@ -224,7 +215,9 @@ def check_range(
         quantity = Quantity(number, low, high, open_low, open_high, unit)
         shown, interval = quantity.words()
         shown = shown if is_number else f"{as_typed(value)}, not a number"
-        raise _wrong(name, value, shown, f"is {interval}", remedy, of, field, quantity=quantity)
+        error = _wrong(name, value, shown, f"is {interval}", remedy, of, field)
+        error.quantity = quantity
+        raise error
     return number
 
 
@@ -338,17 +331,9 @@ def _with_article(word: str) -> str:
 
 
 def _wrong(
-    name: str,
-    value: Any,
-    shown: str,
-    allowed: str,
-    remedy: str,
-    of: str,
-    field: str | None,
-    near: str = "",
-    quantity: Quantity | None = None,
+    name: str, value: Any, shown: str, allowed: str, remedy: str, of: str, field: str | None, near: str = ""
 ) -> InputError:
     """The error about a value that is not allowed."""
     words = f"{name}{f' of {of}' if of else ''} is {shown}; {near}allowed {allowed}{f'; {remedy}' if remedy else ''}."
     path = field or (name.strip("`") if name.strip("`").isidentifier() else None)
-    return InputError(words, path, value=value, allowed=allowed.partition(" ")[2], remedy=remedy, quantity=quantity)
+    return InputError(words, path, value=value, allowed=allowed.partition(" ")[2], remedy=remedy)

@@ -12,6 +12,8 @@ The definitions hold for every model:
 
 from enum import IntEnum
 
+from .messages import say
+
 #: A joint counts as opened when its peak opening exceeds this share of its width [-].
 OPENING_RATIO: float = 1.0e-6
 
@@ -47,18 +49,18 @@ class Outcome(IntEnum):
 
 
 _SENTENCES = {
-    Outcome.AT_REST: "The column stood still: no joint opened.",
-    Outcome.ROCKED: "The column rocked and stands: joints opened and closed, no drum is shifted.",
-    Outcome.DISPLACED: "The column stands, but at least one drum is shifted for good.",
-    Outcome.COLLAPSED: "The column collapsed.",
-    Outcome.FAILED: "The computation could not be completed; this is no verdict on the column.",
+    Outcome.AT_REST: say("The column stood still: no joint opened."),
+    Outcome.ROCKED: say("The column rocked and stands: joints opened and closed, no drum is shifted."),
+    Outcome.DISPLACED: say("The column stands, but at least one drum is shifted for good."),
+    Outcome.COLLAPSED: say("The column collapsed."),
+    Outcome.FAILED: say("The computation could not be completed; this is no verdict on the column."),
 }
 
 _OF_A_MONOLITH = {
-    Outcome.AT_REST: "The block stood still: its joint did not open.",
-    Outcome.ROCKED: "The block rocked and stands: its joint opened and closed, it is not shifted.",
-    Outcome.DISPLACED: "The block stands, but is shifted for good.",
-    Outcome.COLLAPSED: "The block collapsed.",
+    Outcome.AT_REST: say("The block stood still: its joint did not open."),
+    Outcome.ROCKED: say("The block rocked and stands: its joint opened and closed, it is not shifted."),
+    Outcome.DISPLACED: say("The block stands, but is shifted for good."),
+    Outcome.COLLAPSED: say("The block collapsed."),
 }
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from .messages import say
+
 #: Shares that differ by less are one: 0.575 is a little less in binary digits, and is rounded as it is written [%].
 CLOSE = 1e-9
 
@@ -28,4 +30,6 @@ def percent(share: float) -> str:
 
 def percents(low: float, high: float) -> str:
     """From which share to which, as percentages; one where both are written alike."""
-    return percent(low) if whole(low) == whole(high) else f"{whole(low)} to {percent(high)}"
+    if whole(low) == whole(high):
+        return percent(low)
+    return say("{low} to {high} %", low=whole(low), high=whole(high))

@@ -187,7 +187,7 @@ def barrier_of(column, turns=None):
 
     found, up, high = found_numbers(column)
     turned = space_geometry(column).turned if turns is None else turns
-    numbers = found, numbers_for(column, np.zeros(column.n)), np.zeros((column.n, 2)), np.append(0.0, turned), up
+    numbers = found, numbers_for(column, np.zeros((2, column.n))), np.zeros((column.n, 2)), np.append(0.0, turned), up
     lowest, low = lowest_found(*numbers, column.section == "rectangular", column.gravity, False)
     if turns is None:
         assert low == pytest.approx(high, rel=1e-12)
@@ -251,6 +251,6 @@ def test_turned_faces_carry_on_the_corners_that_the_engine_has(psi):
     flat = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0, depth=0.3)] * 2, st.Joint(5e10, 2.5e10, 35.0))
     column, turns = flat.replace(as_found=st.AsFound((st.FoundDrum(2, offset=1e-12),))), np.radians([0.0, psi])
     built = lowest_barrier(
-        numbers_for(flat, np.zeros(2)), np.zeros((2, 2)), np.append(0.0, turns), True, flat.gravity, False
+        numbers_for(flat, np.zeros((2, 2))), np.zeros((2, 2)), np.append(0.0, turns), True, flat.gravity, False
     )
     assert barrier_of(column, turns) == pytest.approx(built, rel=1e-8)

@@ -126,7 +126,7 @@ def test_what_stands_for_good_knows_the_smaller_support():
     column, height = prism(**CHIPS), 0.5 * HEIGHT
     drums, up, _ = found_numbers(column)
     still = np.zeros((1, 2)), np.zeros(2)
-    rigid = lowest_found(drums, numbers_for(column, np.zeros(1)), *still, up, True, column.gravity, False)[0]
+    rigid = lowest_found(drums, numbers_for(column, np.zeros((2, 1))), *still, up, True, column.gravity, False)[0]
     weight = column.mass * column.gravity
     assert rigid == pytest.approx(weight * (math.hypot(height, DEEP - 0.03) - height), rel=1e-9)
     at = space_geometry(column)
@@ -191,5 +191,4 @@ def test_what_a_chipped_joint_gives_is_bounded_by_what_its_smaller_face_gives():
     chips = dict.fromkeys(("chip_left", "chip_right", "chip_front", "chip_back"), 0.05)
     chipped = block(1.0, 2000.0).replace(as_found=st.AsFound((st.FoundDrum(1, **chips),)))
     small = point_toes(block(0.9, 2000.0 / 0.81), stiffness, 0.25)
-    # the moment's share of the largest one, squared, is told of the whole face
     assert point_toes(chipped, stiffness, 0.25) == pytest.approx(small / 0.81, rel=1e-12)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from stylobate.cli.main import call, commands
+from stylobate.cli.main import ask, call, commands, words_of
 from stylobate.cli.options import Execution, Following, Motions, Population
 
 COLUMN = """
@@ -129,3 +129,26 @@ def test_options_of_a_group_are_said_alike_wherever_they_are():
             assert one.help == known.help, (command, one.name)
             shared += 1
     assert shared > 100
+
+
+def test_a_request_does_what_its_command_line_does(capsys, folder):
+    column, record = str(folder / "column.toml"), str(folder / "record.csv")
+    request = {"command": "run", "column": column, "model": "housner", "set": ["restitution=0.9"], "motion": [record]}
+    request |= {"whole": True, "pictures": False, "scale": None, "json": True}
+    words = ["run", column, "--model=housner", "--set=restitution=0.9", f"--motion={record}", "--whole"]
+    assert words_of(request) == [*words, "--no-pictures", "--json"]
+    found = []
+    for do in (lambda: ask(request), lambda: call(words_of(request))):
+        assert do() == 0
+        found.append(json.loads(capsys.readouterr().out) | {"wall_s": 0.0})
+    assert found[0] == found[1]
+    for wrong, why in (
+        ({"modell": "x"}, "run takes no 'modell'"),
+        ({"column": None}, "--column is missing; give it"),
+        ({"command": "ida", "sources": [record], "runs": "x"}, "--runs is 'x'; allowed is a whole number."),
+    ):
+        plain = {"command": "run", "column": column, "motion": [record]}
+        if "command" in wrong:
+            plain.pop("motion")
+        assert ask(plain | wrong) == 2
+        assert why in capsys.readouterr().err

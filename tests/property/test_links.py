@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import random
+import re
 from typing import Any
 
 import pytest
@@ -14,6 +16,7 @@ from stylobate.analysis.limit_directions import limit_in_space
 from stylobate.column.files import column_from_dict, write_column
 from stylobate.column.links import COLUMN_KINDS, KINDS
 from stylobate.column.links.kinds import shear_limits, shear_stiffness
+from stylobate.column.links.link import MATERIALS
 from stylobate.models.engine import engine_for
 from stylobate.models.registry import MODELS, model_class
 
@@ -201,3 +204,44 @@ def test_what_lanes_have_of_their_own_begins_on_lines_of_the_cache(model) -> Non
         assert one.itemsize % 64 == 0
         lanes = [one.fields[name] for name in one.names if one.fields[name][0].itemsize >= 64]
         assert all(start % 64 == 0 for _, start in lanes)
+
+
+def strengths(kind, at: float, size: dict[str, Any]) -> tuple[float, float, float, str]:
+    """Shear and pull that a link of the column holds [N], its distance from the nearest edge [m], and how it fails."""
+    (link,) = COLUMN.replace(links=[kind(joint=3, at=(at, 0.0), **size)]).placed_links
+    assert link.stone is not None
+    assert link.shear_capacity == min(link.alone.shear_capacity, link.stone.shear)
+    assert link.axial_capacity == min(link.alone.axial_capacity, link.stone.pull)
+    return link.shear_capacity, link.axial_capacity, link.stone.edge, link.failure
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_no_link_bears_more_nearer_to_the_rim_or_in_weaker_stone(seed) -> None:
+    """Every size, place and stone that is allowed, to the ends of their ranges: what the stone limits is never left out."""
+    draw = random.Random(seed)
+    kind, embedment = draw.choice((st.Dowel, st.Bar)), 0.01 * 40.0 ** draw.choice((0.0, draw.random()))
+    size = {"diameter": draw.uniform(0.005, 0.08), "embedment": embedment, "material": draw.choice([*MATERIALS])}
+    rim = 0.5 * min(COLUMN.drums[2].bottom_width, COLUMN.drums[1].top_width) - 0.5 * size["diameter"] - 0.02
+    stone = 1e6 * 500.0 ** draw.choice((0.0, draw.random(), 1.0))
+    far, near = sorted(draw.choice((0.0, rim - 1e-9, draw.uniform(0.0, rim))) for _ in range(2))
+    weak, strong = (strengths(kind, far, size | {"stone_strength": f}) for f in sorted((stone, draw.uniform(1e6, 5e8))))
+    first, last = (strengths(kind, at, size | {"stone_strength": stone}) for at in (far, near))
+    for less, more in ((weak, strong), (last, first)):
+        assert less[0] <= more[0] * (1.0 + 1e-12)
+        assert less[1] <= more[1] * (1.0 + 1e-12)
+    d, h, c = (1e3 * one for one in (size["diameter"], embedment, last[2]))
+    along = min(h, 12.0 * d if d <= 24.0 else max(8.0 * d, 300.0))
+    edge = 1.7 * d ** (0.1 * math.sqrt(along / c)) * along ** (0.1 * (d / c) ** 0.2) * math.sqrt(1e-6 * stone) * c**1.5
+    bar = min(shear_limits(size["material"], size["diameter"], embedment, stone).values())
+    assert last[0] == pytest.approx(min(edge, bar), rel=1e-9)
+    assert (last[3] == "brittle") == (edge < bar)
+
+
+@pytest.mark.parametrize(
+    ("change", "allowed"),
+    [({"stone_strength": 9e5}, "1e+06"), ({"embedment": 0.009}, "0.01"), ({"diameter": 0.3}, "0.2")],
+)
+def test_a_link_whose_stone_no_formula_knows_is_refused(change, allowed) -> None:
+    """It would hold its bar's own capacity, more than in a stone that is a little better."""
+    with pytest.raises(st.InputError, match=re.escape(allowed)):
+        st.Dowel(joint=2, **TITANIUM | change)

@@ -104,7 +104,7 @@ def block_of(column: Column, duration: float = 1.0, **options):
 
 def flat_barrier(column: Column, slip, turns=None, toes=None, walks: bool = False) -> float:
     """Lowest barrier of a column put down flat with these slips [m] and turns of its bodies [rad], in [J]."""
-    stand = numbers_for(column, np.zeros(column.n) if toes is None else toes)
+    stand = numbers_for(column, np.zeros((2, column.n)) if toes is None else toes)
     turns = np.zeros(column.n + 1) if turns is None else turns
     return float(lowest_barrier(stand, slip, turns, column.section != "circular", column.gravity, walks))
 

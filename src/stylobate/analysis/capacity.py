@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..messages import say
 from . import verdicts as v
 
 #: Shares of many capacities that are told.
@@ -33,8 +34,8 @@ class Capacity(NamedTuple):
         if 0.0 < self.low and math.isfinite(self.high):
             return None
         if math.isfinite(self.high):
-            return f"≤ {self.high / unit:.4g}"
-        return f"> {self.low / unit:.4g}" if self.low > 0.0 else "not known"
+            return say("≤ {value:.4g}", value=self.high / unit)
+        return say("> {value:.4g}", value=self.low / unit) if self.low > 0.0 else say("not known")
 
 
 def of_levels(levels: Sequence[float] | np.ndarray, verdicts: Sequence[str]) -> Capacity:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..messages import joined, say
 from . import verdicts as v
 
 #: Shares of the twins whose places the regions hold.
@@ -18,7 +19,7 @@ REGIONS = (0.5, 0.9)
 FEW = 20
 
 #: Of which runs places and regions are.
-OVER_ALL = "over all runs, those in which it stands too"
+OVER_ALL = say("over all runs, those in which it stands too")
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,14 +117,16 @@ def bodies_over_twins(rows: Sequence[Mapping[str, Any]]) -> tuple[BodyOverTwins,
 def not_yet_debris(bodies: Sequence[BodyOverTwins]) -> str:
     """That the regions are of bodies that still move, in a clause; empty where all lies still."""
     moving = len(bodies[0].ends) - bodies[0].still if bodies else 0
-    return f"in {moving} of {len(bodies[0].ends)} runs not all lay still at the end" if moving else ""
+    if not moving:
+        return ""
+    return say("in {moving} of {all} runs not all lay still at the end", moving=moving, all=len(bodies[0].ends))
 
 
 def only_as_seen(runs: int) -> str:
     """That a region from so few runs is only as large as what was seen, in a clause; empty where they are enough."""
-    return f"from {runs} run{'s' * (runs != 1)}, fewer than {FEW}, the 90 % region is only that of what was seen" * (
-        0 < runs < FEW
-    )
+    alone = say("from 1 run, fewer than {few}, the 90 % region is only that of what was seen")
+    several = say("from {runs} runs, fewer than {few}, the 90 % region is only that of what was seen")
+    return (alone if runs == 1 else several).of(runs=runs, few=FEW) * (0 < runs < FEW)
 
 
 def not_safe(bodies: Sequence[BodyOverTwins]) -> list[BodyOverTwins]:
@@ -134,12 +137,13 @@ def not_safe(bodies: Sequence[BodyOverTwins]) -> list[BodyOverTwins]:
 def words_of_bodies(bodies: Sequence[BodyOverTwins], most: int = 6) -> str:
     """In how many twins each body fell or is undecided, in up to two sentences; empty where all surely stand."""
     listed = not_safe(bodies)
-    fallen = [f"{one.name} in {one.fell}{f' ({one.open} undecided)' * bool(one.open)}" for one in listed if one.fell]
-    open_ = [f"{one.name} in {one.open}" for one in listed if not one.fell]
-    told = (("What fell", fallen), ("Fell in none, but undecided", open_))
-    return " ".join(f"{title}: {_first_of(some, most)}." for title, some in told if some)
+    both = say("{body.name} in {body.fell} ({body.open} undecided)")
+    fallen = [(both if one.open else say("{body.name} in {body.fell}")).of(body=one) for one in listed if one.fell]
+    open_ = [say("{name} in {count}", name=one.name, count=one.open) for one in listed if not one.fell]
+    told = ((say("What fell: {bodies}."), fallen), (say("Fell in none, but undecided: {bodies}."), open_))
+    return joined(" ", (title.of(bodies=_first_of(some, most)) for title, some in told if some))
 
 
 def _first_of(names: Sequence[str], most: int) -> str:
-    more = f", and {len(names) - most} more" if len(names) > most else ""
-    return ", ".join(names[:most]) + more
+    more = len(names) - most
+    return joined(", ", names[:most]) + (say(", and {count} more", count=more) if more > 0 else "")

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..messages import say
 from .unknown_law import few_laws
 
 if TYPE_CHECKING:
     import pandas
 
 #: Why an upper limit is infinite, in words.
-OPEN = (
+OPEN = say(
     "Where it says inf, it is beyond all that was computed, because runs collapse or lose the link, or there are "
     "fewer than 21 records."
 )
@@ -28,13 +29,14 @@ def basis_of(values: pandas.DataFrame) -> str:
     """
     laws = max(values["laws"].tolist(), default=0) if "laws" in values else 0
     if not laws:
-        return "over records; the law of the joints is taken as known"
-    return "over records and one more law of the joints" + (f"; {few}" if (few := few_laws(laws)) else "")
+        return say("over records; the law of the joints is taken as known")
+    few = few_laws(laws)
+    return say("over records and one more law of the joints") + (say("; {few}", few=few) if few else "")
 
 
 def where(values: pandas.DataFrame) -> str:
     """At which level values are told; empty where there is only one."""
-    which = " at one level" if "told" in values else " at the largest level"
+    which = say(" at one level") if "told" in values else say(" at the largest level")
     return which if len(set(values["level"])) > 1 else ""
 
 

@@ -15,6 +15,7 @@ from ..campaign.twins import LAW
 from ..column.links.placed import PlacedLink
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
+from ..messages import say
 from ..models.base import duration
 from ..response.response import Response
 from ..simulate import TOLD_WAIT
@@ -33,7 +34,7 @@ FRACTILES = (0.5, 0.84, 0.95)
 MOST_COLLAPSED = 0.16
 
 #: The level at which values are told, in words.
-WHICH_LEVEL = (
+WHICH_LEVEL = say(
     "Unless another one was asked for, the level is the highest at which fewer than 16 % of the runs of a state collapse, "
     "or the lowest where there is none."
 )

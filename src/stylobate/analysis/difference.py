@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 from ..column.structure import Structure
+from ..messages import joined, say
 from ..models.base import Model
 from ..percent import whole
 from ..response.words import ROUND_IN_THE_PLANE, cautions_in_space, round_in_the_plane
@@ -17,14 +17,14 @@ from .fragility_checks import FEWEST
 STRONGER, WEAKER, NOT_TOLD = "stronger", "weaker", "not told"
 
 #: Sentence where there is nothing to compare.
-NO_PAIR = "no pair of runs could be computed"
+NO_PAIR = say("no pair of runs could be computed")
 
 #: States that are no measure: nobody can adopt them.
 NO_MEASURE = ("as built", "as found")
 
 
 #: What stands before any advice on measures for round columns that were computed in a plane, however many the records.
-NO_MEASURE_YET = (
+NO_MEASURE_YET = say(
     ", and what helps here need not help there. No measure is to be adopted before a model in space (dem3d) has told "
     "the same"
 )
@@ -36,7 +36,7 @@ def caveat(columns: Sequence[Structure], *models: Model) -> str:
     In a plane, columns of several round drums leave it by themselves; in space, bodies that strike one another hang on how
     stiff they are, and the wobble of what is round may be damped by nothing.
     """
-    return " ".join(dict.fromkeys(caution for model in models for caution in _cautions(columns, model)))
+    return joined(" ", dict.fromkeys(caution for model in models for caution in _cautions(columns, model)))
 
 
 def _cautions(columns: Sequence[Structure], model: Model) -> list[str]:
@@ -144,107 +144,138 @@ class Difference:
     @property
     def sentence(self) -> str:
         """The advice, and what it rests on."""
-        return f"{self.advice} {self.basis}"
+        return joined(" ", [self.advice, self.basis])
 
     @property
     def basis(self) -> str:
         """Basis of the advice: median, pairs and share, with their intervals."""
-        return " ".join(one for one in (self._median(), self._pairs(), self._share()) if one)
+        return joined(" ", [self._median(), self._pairs(), self._share()])
 
     @property
     def advice(self) -> str:
         """Advice, in one sentence that can be read in one way only, and what to mind beside it."""
-        return f"{self._advice} {self.stone}".rstrip()
+        return joined(" ", [self._advice, self.stone])
 
     @property
     def _advice(self) -> str:
-        against = f"than “{self.against}” against {self.limit_state}"
+        known = {
+            "state": self.state,
+            "against": say("than “{name}” against {state}", name=self.against, state=say(self.limit_state)),
+        }
         measure = self.state not in NO_MEASURE
         if self.conclusion == STRONGER:
-            return f"“{self.state}”: stronger {against}, under these motions."
+            return say("“{state}”: stronger {against}, under these motions.", **known)
         if self.conclusion == WEAKER:
-            return f"“{self.state}”: weaker {against}{': do not adopt it for safety' if measure else ''}."
-        few = f"; nothing is concluded from fewer than {FEWEST} records" if self.records < FEWEST else ""
+            never = say("“{state}”: weaker {against}: do not adopt it for safety.", **known)
+            return never if measure else say("“{state}”: weaker {against}.", **known)
+        words: list[str] = [say("it fares better in {saved} of {number} and worse in {harmed}").of(
+            saved=self.saved, number=self._number, harmed=self.harmed)]  # fmt: skip
+        if self.records < FEWEST:
+            words.append(say("nothing is concluded from fewer than {fewest} records", fewest=FEWEST))
         if self.undecided:
-            several = "is" if self.undecided == 1 else "are"
-            few += f"; {self.undecided} of {self.pairs + self.undecided} pairs of runs {several} undecided"
-            few += ", and longer runs may settle them" if self.records >= FEWEST else ""
-        here = f"it fares better in {self.saved} of {self._number} and worse in {self.harmed}{few}"
-        if not self.pairs + self.undecided:
-            here = NO_PAIR
+            alone = self.undecided == 1
+            said = (
+                say("{open} of {all} pairs of runs is undecided")
+                if alone
+                else say("{open} of {all} pairs of runs are undecided")
+            )
+            later = say(", and longer runs may settle them") if self.records >= FEWEST else ""
+            words.append(said.of(open=self.undecided, all=self.pairs + self.undecided) + later)
+        here = joined("; ", words) if self.pairs + self.undecided else NO_PAIR
         if measure:
-            ground = "no ground to adopt it for safety"
-            return f"“{self.state}”: not shown to be stronger {against}, nor weaker: {ground} ({here})."
-        return f"“{self.state}”: not shown to be weaker or stronger {against} ({here})."
+            no = say(
+                "“{state}”: not shown to be stronger {against}, nor weaker: no ground to adopt it for safety ({here})."
+            )
+            return no.of(here=here, **known)
+        return say("“{state}”: not shown to be weaker or stronger {against} ({here}).", here=here, **known)
 
     @property
     def _number(self) -> str:
         """Number of pairs of runs, and of their records: the runs of one record are no independent evidence."""
-        pairs, records = (
-            f"{count} {word}{'' if count == 1 else 's'}"
-            for count, word in ((self.pairs + self.undecided, "pair"), (self.records, "record"))
-        )
-        return f"{pairs} of runs under {records}"
+        pairs = self.pairs + self.undecided
+        runs = say("{count} pair of runs", count=1) if pairs == 1 else say("{count} pairs of runs", count=pairs)
+        if self.records == 1:
+            return say("{pairs} under 1 record", pairs=runs)
+        return say("{pairs} under {count} records", pairs=runs, count=self.records)
 
     def _median(self) -> str:
         if math.isnan(self.ratio):
-            return f"Medians are not compared: {self.lacking}." if self.lacking else ""
+            return say("Medians are not compared: {lacking}.", lacking=self.lacking) if self.lacking else ""
         low, high = sorted((self.ratio_best - 1.0, self.ratio_worst - 1.0))
         measure = f" ({self.im})" if self.im else ""
         change = self._change((low, high), (self.ratio_low - 1.0, self.ratio_high - 1.0), _percent)
-        return f"The median intensity of {self.limit_state}{measure} is {change}."
+        words = say("The median intensity of {state}{measure} is {change}.")
+        return words.of(state=say(self.limit_state), measure=measure, change=change)
 
     def _pairs(self) -> str:
         if not self.pairs + self.undecided:
-            return f"{NO_PAIR.capitalize()}."
-        how = "collapse" if self.limit_state == "collapse" else f"exceed {self.limit_state}"
-        said = f"Of {self._number}, {self.saved} {how} with “{self.against}” only and {self.harmed} with "
-        said += f"“{self.state}” only"
-        said += f"; {self.undecided} {'is' if self.undecided == 1 else 'are'} undecided" if self.undecided else ""
-        return said + (f"; {self.failed} more could not be computed." if self.failed else ".")
+            return say("{none:capital}.", none=NO_PAIR)
+        how = say("collapse") if self.limit_state == "collapse" else say("exceed {state}", state=self.limit_state)
+        said = say("Of {number}, {saved} {how} with “{against}” only and {harmed} with “{state}” only").of(
+            number=self._number, saved=self.saved, how=how, against=self.against, harmed=self.harmed, state=self.state
+        )
+        if self.undecided:
+            open_ = say("; {count} is undecided") if self.undecided == 1 else say("; {count} are undecided")
+            said += open_.of(count=self.undecided)
+        return said + (say("; {count} more could not be computed.", count=self.failed) if self.failed else ".")
 
     def _share(self) -> str:
         if not self.pairs + self.undecided:
             return ""
-        how = "collapses" if self.limit_state == "collapse" else f"exceeds {self.limit_state}"
         change = self._change((self.share_best, self.share_worst), (self.share_low, self.share_high), _points)
-        return f"The share that {how} is {change}."
+        if self.limit_state == "collapse":
+            return say("The share that collapses is {change}.", change=change)
+        return say("The share that exceeds {state} is {change}.", state=self.limit_state, change=change)
 
     def _change(
-        self, of_these: tuple[float, float], of_others: tuple[float, float], words: Callable[[float], str]
+        self, of_these: tuple[float, float], of_others: tuple[float, float], words: Callable[[float, bool], str]
     ) -> str:
         """The interval over records, which decides, and what these records alone show."""
-        here = f"{_span(*of_these, words)} in these records"
+        here = say("{here} in these records", here=_span(*of_these, words))
         if self.records < FEWEST or math.isnan(of_others[0]) or math.isnan(of_others[1]):
-            return here + (", whichever way the undecided end" if self.undecided else "")
-        both = ", undecided runs counted both ways" if self.undecided else ""
-        return f"{_span(*of_others, words)} ({100.0 * self.confidence:g} % interval over records{both}; {here})"
+            return here + (say(", whichever way the undecided end") if self.undecided else "")
+        both = say(", undecided runs counted both ways") if self.undecided else ""
+        said = say("{span} ({level:g} % interval over records{both}; {here})")
+        return said.of(span=_span(*of_others, words), level=100.0 * self.confidence, both=both, here=here)
 
 
-def _size(value: float, unit: str) -> str:
-    """A change by its size and direction."""
+def _percent(value: float, direction: bool = True) -> str:
+    """A change of a ratio by its size, and its direction where that is asked for."""
     size = whole(abs(value))
     if size == "0":
-        return "the same"
-    several = "s" if unit[-1].isalpha() and size not in ("1", "<1") else ""
-    return f"{size} {unit}{several} {'higher' if value > 0.0 else 'lower'}"
+        return say("the same")
+    if not direction:
+        return size
+    return say("{size} % higher", size=size) if value > 0.0 else say("{size} % lower", size=size)
 
 
-_percent, _points = partial(_size, unit="%"), partial(_size, unit="percentage point")
+def _points(value: float, direction: bool = True) -> str:
+    """A change of a share by its size, and its direction where that is asked for."""
+    size = whole(abs(value))
+    if size == "0":
+        return say("the same")
+    if not direction:
+        return size
+    if size in ("1", "<1"):
+        alone = say("{size} percentage point higher") if value > 0.0 else say("{size} percentage point lower")
+        return alone.of(size=size)
+    return (say("{size} percentage points higher") if value > 0.0 else say("{size} percentage points lower")).of(
+        size=size
+    )
 
 
-def _span(low: float, high: float, words: Callable[[float], str]) -> str:
+def _span(low: float, high: float, words: Callable[[float, bool], str]) -> str:
     """From which to which change; a lower end of −1 of a ratio and an infinite upper one are no limits."""
     if math.isinf(high) and low <= -1.0:
-        return "not known"
+        return say("not known")
     if math.isinf(high):
-        return f"at least {words(low)}" if low > 0.0 else f"{words(low)} or any more"
-    below, above = words(low), words(high)
+        return (say("at least {low}") if low > 0.0 else say("{low} or any more")).of(low=words(low, True))
+    below, above = words(low, True), words(high, True)
     if below == above:
         return below
-    number, _, direction = below.partition(" ")
-    if low > 0.0 and high > 0.0 and direction:
-        return f"{number} to {above}"
-    if low < 0.0 and high < 0.0 and above != "the same":
-        return f"{above.partition(' ')[0]} to {below}"
-    return f"{below} to {above}"
+    changes = whole(abs(low)) != "0" and whole(abs(high)) != "0"
+    if low > 0.0 and high > 0.0 and changes:
+        below = words(low, False)
+    if low < 0.0 and high < 0.0 and changes:
+        below, above = words(high, False), below
+    return say("{low} to {high}", low=below, high=above)

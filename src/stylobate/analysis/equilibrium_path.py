@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ..errors import InputError
+from ..messages import say
 from ..models.rigid_block.block_stack import BlockStack
 from .path_links import PathLinks
 from .pushover_result import PushoverResult
@@ -193,13 +194,15 @@ class EquilibriumPath:
             moved = self.kept[-1][0] - start
             if abs(moved) >= to * (1.0 - 1e-9):
                 if not (extend and to < FARTHEST * width and self.rises()):
-                    return self.result(True, f"the control displacement of {math.copysign(to, moved):g} m was reached.")
+                    return self.result(
+                        True, say("the control displacement of {far:g} m was reached.", far=math.copysign(to, moved))
+                    )
                 to *= 2.0
             if len(self.kept) > 2 and self.multiplier <= 0.0:
-                return self.result(True, "the load multiplier has fallen to zero.")
+                return self.result(True, say("the load multiplier has fallen to zero."))
             gone = self.off_support()
             if gone:
-                return self.result(True, f"the part above joint {gone} has slid off its support.")
+                return self.result(True, say("the part above joint {joint} has slid off its support.", joint=gone))
             if control == "displacement":
                 longest = min(0.005 * width, to / 100.0) if self.geometric else to / 100.0
                 length = math.copysign(min(abs(length), longest, to - abs(moved)), length)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..campaign.twins import LAW
 from ..errors import InputError, check_kind
+from ..messages import say
 from ..motion.intensity_specs import ENDS, IntensityMeasure, measure_of_column, parse_measure
 from ..outcome import Outcome
 from ..reading import check_file, shown
@@ -157,7 +158,7 @@ def evidence(
     table: pandas.DataFrame | Ida,
     measure: IntensityMeasure | str | None = None,
     state: LimitState | str = "collapse",
-    name: str = "runs",
+    name: str = say("runs"),
     unit: str = "-",
     doubt: str = "",
     *,

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtr
 
+from ..messages import digits as number
+from ..messages import joined, say
 from ..notebook import Shown
 from . import lognormal
 from .evidence import Evidence, independent, intervals
@@ -101,17 +103,17 @@ class Fragility(Shown):
     @property
     def counted(self) -> str:
         """Samples that count as independent of one another, over which the interval is, in words."""
-        return "runs" if self.records_are_one else "records"
+        return say("runs") if self.records_are_one else say("records")
 
     @property
     def warnings(self) -> list[str]:
         """Caveats beside anything that rests on this curve."""
-        alone = (
+        alone = say(
             "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
             "nothing about the next earthquake"
         )
         known = (self.outside, self.no_dispersion, alone * self.records_are_one, self.unequal, self.few_laws)
-        said = [f"{one}." for one in known if one]
+        said = [joined("", [one, "."]) for one in known if one]
         return [self.evidence.doubt, *said] if self.evidence.doubt else said
 
     @property
@@ -134,8 +136,10 @@ class Fragility(Shown):
     def unequal(self) -> str:
         """Caveat on records that hold most of the runs; empty where there are none."""
         count, equal = self.records, self.equal_records
-        said = f"a few of its {count} records hold most of the runs: they tell as much as {equal:.2g} with as many each"
-        return said if equal < UNEQUAL * count else ""
+        said = say(
+            "a few of its {count} records hold most of the runs: they tell as much as {equal:.2g} with as many each"
+        )
+        return said.of(count=count, equal=equal) if equal < UNEQUAL * count else ""
 
     @property
     def levels(self) -> tuple[float, float]:
@@ -150,28 +154,40 @@ class Fragility(Shown):
         unit = "" if e.unit == "-" else f" {e.unit}"
         if low * (1.0 - AT_END) <= self.median <= high * (1.0 + AT_END):
             return ""
-        where, more = ("above", "larger") if self.median > high else ("below", "smaller")
-        return (
-            f"the fitted median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}"
-            f"{unit}): it is told by the shape of the curve, not by runs; give {more} intensities"
+        above = say(
+            "the fitted median, {median:.3g}{unit}, lies above all runs ({im} = {low:.3g} to {high:.3g}{unit}): it is told "
+            "by the shape of the curve, not by runs; give larger intensities"
         )
+        below = say(
+            "the fitted median, {median:.3g}{unit}, lies below all runs ({im} = {low:.3g} to {high:.3g}{unit}): it is told "
+            "by the shape of the curve, not by runs; give smaller intensities"
+        )
+        said = above if self.median > high else below
+        return said.of(median=self.median, unit=unit, im=e.measure, low=low, high=high)
 
     @property
     def unsupported(self) -> str:
         """What the runs lack for their median to be compared with that of others; empty where they lack nothing."""
         e = self.evidence
-        how = "collapse" if e.state == "collapse" else f"exceed {e.state}"
-        for code, verb, more in ((EXCEEDED, how, "larger"), (NOT_EXCEEDED, f"do not {how}", "smaller")):
+        how = say("collapse") if e.state == "collapse" else say("exceed {state}", state=e.state)
+        larger, smaller = say("larger"), say("smaller")
+        for code, verb, more in ((EXCEEDED, how, larger), (NOT_EXCEEDED, say("do not {exceed}", exceed=how), smaller)):
             if (count := e.count(code)) < FEWEST_EACH:
-                return (
-                    f"{count} of {len(e.im)} runs of “{e.name}” {verb}, and a median needs at least {FEWEST_EACH} of them; "
-                    f"give {more} intensities"
-                )
+                return say(
+                    "{count} of {all} runs of “{name}” {verb}, and a median needs at least {fewest} of them; give {more} "
+                    "intensities",
+                    count=count, all=len(e.im), name=e.name, verb=verb, fewest=FEWEST_EACH, more=more,
+                )  # fmt: skip
         if not self.outside:
             return ""
         (low, high), unit = self.levels, "" if e.unit == "-" else f" {e.unit}"
-        where, more = (f"above {high:.3g}", "larger") if self.median > high else (f"below {low:.3g}", "smaller")
-        return f"the median of “{e.name}” lies {where}{unit}, where nothing was run; give {more} intensities"
+        above = say(
+            "the median of “{name}” lies above {high:.3g}{unit}, where nothing was run; give larger intensities"
+        )
+        below = say(
+            "the median of “{name}” lies below {low:.3g}{unit}, where nothing was run; give smaller intensities"
+        )
+        return (above if self.median > high else below).of(name=e.name, low=low, high=high, unit=unit)
 
     @property
     def few_laws(self) -> str:
@@ -184,11 +200,12 @@ class Fragility(Shown):
         if lognormal.seen(self.beta) is not None:
             return ""
         most = self.beta_interval[1]
-        limit = f"it may be up to {most:.2g}" if math.isfinite(most) else "no limit of it is known"
-        return (
-            f"the dispersion is not seen in these runs ({limit}, with {100.0 * self.confidence:g} % confidence): "
-            f"β = {lognormal.BETAS[0]:g} is where the fit ends, no value; give levels that lie closer"
-        )
+        limit = say("it may be up to {most:.2g}", most=most) if math.isfinite(most) else say("no limit of it is known")
+        return say(
+            "the dispersion is not seen in these runs ({limit}, with {level:g} % confidence): β = {beta:g} is where the fit "
+            "ends, no value; give levels that lie closer",
+            limit=limit, level=100.0 * self.confidence, beta=lognormal.BETAS[0],
+        )  # fmt: skip
 
     def probability(self, im: np.ndarray) -> np.ndarray:
         """Probability of exceedance given the intensity, shape of ``im``."""
@@ -312,28 +329,38 @@ class Fragility(Shown):
     def sentence(self) -> str:
         """Words of the runs on the median, in a sentence."""
         e = self.evidence
-        where = f"{e.state} at {e.measure}"
-        unit = "" if e.unit == "-" else f" {e.unit}"
+        known = {
+            "name": e.name,
+            "im": say(e.measure),
+            "unit": "" if e.unit == "-" else f" {e.unit}",
+            "counted": self.counted,
+        }
+        known["state"] = say("collapse") if e.state == "collapse" else e.state
         if self.outside:
-            return f"{e.name}: {self.outside}."
+            return say("{name}: {outside}.", outside=self.outside, **known)
         if self.bracket is None:
-            return f"{e.name}: half of the {self.counted} bring {where} = {self.median:.3g}{unit}."
+            half = say("{name}: half of the {counted} bring {state} at {im} = {median:.3g}{unit}.")
+            return half.of(median=self.median, **known)
         low, high = self.bracket
         stands = (e.codes == NOT_EXCEEDED) & (e.im > high * (1.0 + AT_END))
         # what stands above a collapse is no capacity, and no run that a sentence on all of them may pass over
         if again := int(stands.sum()) if self.method == "records" else 0:
-            place = f"at {low:.4g}{unit}" if low == high else f"between {low:.4g} and {high:.4g}{unit}"
-            return (
-                f"{e.name}: under every record {where} begins {place}; {again} run{'s' * (again > 1)} above that "
-                f"stand{'s' * (again == 1)} again and {'are' if again > 1 else 'is'} left out."
-            )
-        run = "decided run" if self.ends else "run"
+            between = say("at {low:.4g}{unit}") if low == high else say("between {low:.4g} and {high:.4g}{unit}")
+            words = say("{name}: under every record {state} at {im} begins {place}; {again} runs above that stand again and "
+                        "are left out.")  # fmt: skip
+            alone = say("{name}: under every record {state} at {im} begins {place}; 1 run above that stands again and is "
+                        "left out.")  # fmt: skip
+            place = between.of(low=low, high=high, **known)
+            return (alone if again == 1 else words).of(place=place, again=again, **known)
+        run = say("decided run") if self.ends else say("run")
         if low == high:
-            return f"{e.name}: no {run} below {e.measure} = {low:.4g}{unit} brings {e.state}, and every {run} above it does."
-        return (
-            f"{e.name}: half of the {self.counted} bring {where} between {low:.4g} and {high:.4g}{unit}: no {run} up to "
-            f"the one brings it, and every {run} from the other on does."
+            words = say("{name}: no {run} below {im} = {low:.4g}{unit} brings {state}, and every {run} above it does.")
+            return words.of(run=run, low=low, **known)
+        words = say(
+            "{name}: half of the {counted} bring {state} at {im} between {low:.4g} and {high:.4g}{unit}: no {run} up to the "
+            "one brings it, and every {run} from the other on does."
         )
+        return words.of(run=run, low=low, high=high, **known)
 
     def _law_facts(self) -> dict[str, Any]:
         """Number of laws of the joints, and limits of the median as if they were known; empty where they do not vary."""
@@ -355,7 +382,7 @@ class Fragility(Shown):
             "beta_low": self.beta_interval[0],
             "beta_high": self.beta_interval[1],
             "correlation": lognormal.correlation(self.samples),
-            "im": e.measure,
+            "im": say(e.measure),
             "unit": e.unit,
             "state": e.state,
             "name": e.name,
@@ -384,9 +411,9 @@ class Fragility(Shown):
 def between(low: float | None, high: float | None, unit: str = "-", digits: int = 4) -> str:
     """Limits in words, with their unit; 0 and +inf, or None, where there are none."""
     low, high = low or 0.0, math.inf if high is None else high
-    behind = "" if unit == "-" else f" {unit}"
+    behind, form = "" if unit == "-" else f" {unit}", f".{digits}g"
     if low > 0.0:
-        return (
-            f"{low:.{digits}g} to {high:.{digits}g}{behind}" if high < math.inf else f"{low:.{digits}g}{behind} or more"
-        )
-    return f"up to {high:.{digits}g}{behind}" if high < math.inf else "no limits known"
+        words = say("{low} to {high}{unit}") if high < math.inf else say("{low}{unit} or more")
+    else:
+        words = say("up to {high}{unit}") if high < math.inf else say("no limits known")
+    return words.of(low=number(low, form), high=number(high, form), unit=behind)

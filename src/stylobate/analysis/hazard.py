@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
+from ..messages import say
 from ..motion.intensity_specs import ENDS, measure_of_column
 from ..reading import read_bytes, shown
 from . import tables
@@ -46,7 +47,7 @@ _KIND_OF_NAME = re.compile(r"hazard_curve-(?P<kind>[A-Za-z]+(?:-[0-9.]+)?)(?=[-_
 _STATISTIC = re.compile(
     r"(?P<one>mean|max|median)|quantile-(?P<quantile>0?\.\d+)|rlz-(?P<number>\d+)|(?P<branch>b\w*.*)"
 )
-_WORDS = {"max": "maximum of all realisations"}
+_WORDS = {"max": say("maximum of all realisations")}
 _IMT = re.compile(r"imt='?\"?([A-Za-z]+)(?:\(([0-9.]+)\))?")
 
 
@@ -126,10 +127,10 @@ class Hazard:
         told = ""
         for im, rate, why in ENVELOPE:
             at = self.at(im)
-            text = (
-                f"by {self.name} shaking of {im:g} {self.unit} is exceeded {at:.3g} times a year, and where the Earth "
-                f"shakes most about {rate:g}; {why}"
-            )
+            text = say(
+                "by {hazard.name} shaking of {im:g} {hazard.unit} is exceeded {at:.3g} times a year, and where the Earth "
+                "shakes most about {rate:g}; {why}", hazard=self, im=im, at=at, rate=rate, why=why,
+            )  # fmt: skip
             if at > REFUSED * rate:
                 raise InputError(f"{text}.")
             told = told or (text if at > rate else "")
@@ -210,10 +211,10 @@ def _statistic(kind: str, name: str) -> str:
     if found is None:
         return ""
     if found["quantile"]:
-        return f"quantile {float(found['quantile']):g}"
+        return say("quantile {share:g}", share=float(found["quantile"]))
     if found["number"]:
-        return f"realisation {int(found['number'])}"
-    return _WORDS.get(kind, f"branch {kind}" if found["branch"] else kind)
+        return say("realisation {count}", count=int(found["number"]))
+    return _WORDS.get(kind, say("branch {name}", name=kind) if found["branch"] else say(kind))
 
 
 def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tuple[float, float] | None) -> Hazard:

@@ -21,6 +21,7 @@ from ..campaign.twins import Twins, the_twins
 from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, suggest, warn
+from ..messages import say
 from ..models.base import Case, Model
 from ..models.shared.quiet import level
 from ..motion import Motion
@@ -257,11 +258,12 @@ def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
     beyond = {name: factor for name, factor in factors.items() if factor > WARNED}
     if beyond:
         name = max(beyond, key=beyond.__getitem__)
-        warn(
-            f"{len(beyond)} of {len(factors)} records are multiplied by more than {WARNED:g}, {name!r} by "
-            f"{beyond[name]:.3g}: scaled so far, they are no longer those of earthquakes; leave out the weak ones.",
-            OutOfRangeWarning,
+        words = say(
+            "{count} of {all} records are multiplied by more than {most:g}, {name!r} by {factor:.3g}: scaled so far, they are no "
+            "longer those of earthquakes; leave out the weak ones."
         )
+        known = {"count": len(beyond), "all": len(factors), "most": WARNED, "name": name, "factor": beyond[name]}
+        warn(words.of(**known), OutOfRangeWarning)
 
 
 def _table(

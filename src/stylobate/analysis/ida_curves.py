@@ -12,6 +12,7 @@ import numpy as np
 from ..campaign.twins import Twins
 from ..column.structure import Structure
 from ..errors import InputError
+from ..messages import say
 from ..models.base import Model
 from ..motion.intensity_specs import IntensityMeasure
 from ..notebook import Shown
@@ -232,12 +233,14 @@ def median_of(summary: Mapping[str, Any]) -> str:
     """
     (half,) = quantiles(map(_capacity, summary["capacities"]), (0.5,))
     unit = "" if summary.get("unit") in (None, "-") else f" {summary['unit']}"
-    at = f"{summary.get('im')} ="
+    known = {"im": say(str(summary.get("im"))), "low": half.low, "high": half.high, "unit": unit}
     bound = half.bound()
     if bound is None:
-        return f"half of the curves have collapsed between {at} {half.low:.3g} and {half.high:.3g}{unit}"
+        return say("half of the curves have collapsed between {im} = {low:.3g} and {high:.3g}{unit}", **known)
     if half.low > 0.0:
-        return f"fewer than half of the curves collapse up to {at} {half.low:.3g}{unit}, and the median lies above"
+        fewer = say("fewer than half of the curves collapse up to {im} = {low:.3g}{unit}, and the median lies above")
+        return fewer.of(**known)
     if bound.startswith("≤"):
-        return f"half of the curves have collapsed at {at} {half.high:.3g}{unit}, or below: no lower level was stood"
-    return "no level tells where half of the curves have collapsed"
+        below = say("half of the curves have collapsed at {im} = {high:.3g}{unit}, or below: no lower level was stood")
+        return below.of(**known)
+    return say("no level tells where half of the curves have collapsed")

@@ -10,6 +10,7 @@ import numpy as np
 from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError
+from ..messages import joined, say
 from ..models.rigid_block.stack_links import LINE, Hold, holds
 from .contact_programme import ContactProgramme
 from .contact_rims import Holder, Rim
@@ -151,7 +152,9 @@ def listed(names: Sequence[str]) -> str:
     for name in names:
         column, _, drum = name.rpartition(", ")
         groups.setdefault(column if column and drum.startswith("drum ") else name, []).append(name)
-    said = [some[0] if len(some) == 1 else f"{column} ({len(some)} drums)" for column, some in groups.items()]
+    alone = [some[0] if len(some) == 1 else "" for some in groups.values()]
+    several = [say("{column} ({count} drums)", column=name, count=len(some)) for name, some in groups.items()]
+    said = [one or many for one, many in zip(alone, several, strict=True)]
     if len(said) > NAMED:
-        return f"{', '.join(said[:NAMED])} and {len(said) - NAMED} more"
-    return " and ".join(filter(None, (", ".join(said[:-1]), said[-1])))
+        return say("{names} and {count} more", names=joined(", ", said[:NAMED]), count=len(said) - NAMED)
+    return joined(say(" and "), [joined(", ", said[:-1]), said[-1]])

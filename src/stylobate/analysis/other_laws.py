@@ -19,6 +19,7 @@ from ..column.column import Column
 from ..column.joint import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import spread_of
+from ..messages import joined, say
 from ..models.base import Case, Model
 from ..models.engine import engine_for
 from ..motion import Motion
@@ -59,16 +60,17 @@ class OtherLaws:
             return ""
         other = v.STANDS if self.own == v.COLLAPSED else v.COLLAPSED
         named = [law for law, verdict in self.verdicts.items() if verdict == other]
-        made = "stands" if other == v.STANDS else "falls"
-        return (
-            f"The verdict hangs on what nobody knows of the joints: under {len(named)} of {len(self.verdicts)} other laws "
-            f"it {made} ({', '.join(named)}); replicates tell how sure that is."
-        )
+        made = say("stands") if other == v.STANDS else say("falls")
+        return say(
+            "The verdict hangs on what nobody knows of the joints: under {some} of {all} other laws it {made} ({laws}); "
+            "replicates tell how sure that is.",
+            some=len(named), all=len(self.verdicts), made=made, laws=joined(", ", named),
+        )  # fmt: skip
 
     @property
     def words(self) -> str:
         """All verdicts, for people."""
-        return "; ".join(f"{law}: {verdict}" for law, verdict in self.verdicts.items())
+        return joined("; ", (say("{law}: {verdict}", law=law, verdict=say(one)) for law, one in self.verdicts.items()))
 
 
 def other_laws(response: Response, motion: Motion, model: Model, campaign: Campaign) -> OtherLaws | None:
@@ -99,7 +101,7 @@ def other_laws(response: Response, motion: Motion, model: Model, campaign: Campa
     return OtherLaws(own, {law: v.verdict(row) for law, row in zip(others, rows, strict=True)})
 
 
-def _companions(column: Column, model: Any) -> Iterator[tuple[str, Column]]:
+def _companions(column: Any, model: Any) -> Iterator[tuple[str, Column]]:
     """Columns under other laws, by these laws in words."""
     acting = model.acting(column)
     damped = acting.damping(column) > UNDAMPED
@@ -108,12 +110,12 @@ def _companions(column: Column, model: Any) -> Iterator[tuple[str, Column]]:
         for with_losses in (False, True):
             if law == acting.law and with_losses == damped:
                 continue
-            faces = f"on {law}s, " if whole else ""
-            words = f"{faces}{'damped as stone' if with_losses else 'undamped'}"
+            faces = (say("on rims, ") if law == "rim" else say("on beds, ")) if whole else ""
+            words = faces + (say("damped as stone") if with_losses else say("undamped"))
             rolling = ROLLING.value if with_losses and column.section == "circular" else 0.0
             yield words, column.unwarned(losses=Losses(CONTACT.value if with_losses else 0.0, rolling, law))
     own = Losses(acting.damping(column), acting.rolling_resistance, acting.law)
-    for words, factor in (("stiffer joints", FACTOR), ("softer joints", 1.0 / FACTOR)):
+    for words, factor in ((say("stiffer joints"), FACTOR), (say("softer joints"), 1.0 / FACTOR)):
         joints = tuple(
             joint.changed(
                 normal_stiffness=joint.normal_stiffness * factor, shear_stiffness=joint.shear_stiffness * factor

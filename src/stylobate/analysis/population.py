@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..campaign.twins import Twins
+from ..messages import joined, say
 from ..percent import percents
 from ..response.measures import SPREAD
 from ..response.recorded import Recorded
@@ -30,7 +31,7 @@ ENOUGH = 8
 OF_COLUMNS = ("collapse_interval_of_columns_low", "collapse_interval_of_columns_high")
 
 #: Heading of a column of a table that holds :func:`chance_words`.
-CHANCE = "those like it that collapse"
+CHANCE = say("those like it that collapse")
 
 
 @dataclass(frozen=True, eq=False)
@@ -256,11 +257,12 @@ def chance_words(row: Mapping[str, Any]) -> str:
     fell, stood, open_, failed = (int(known.get(one) or 0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED))
     number = fell + stood + open_
     if not number:
-        return f"none of {failed} could be computed" if failed else ""
+        return say("none of {count} could be computed", count=failed) if failed else ""
     low, high = (float(row[f"collapse_interval_{one}"]) for one in ("low", "high"))
-    said = f"{percents(fell / number, (fell + open_) / number)} of {number} ({percents(low, high)})"
-    counts = [f"{count} {word}" for count, word in ((open_, "undecided"), (failed, "failed")) if count]
-    return f"{said}; {', '.join(counts)}" if counts else said
+    said = say("{share} of {count} ({interval})", share=percents(fell / number, (fell + open_) / number), count=number,
+               interval=percents(low, high))  # fmt: skip
+    counts = [say("{count} undecided", count=open_) * bool(open_), say("{count} failed", count=failed) * bool(failed)]
+    return joined("; ", [said, joined(", ", counts)])
 
 
 def set_against(
@@ -292,19 +294,22 @@ def set_against(
     number = fell + stood + open_
     fell, stood, open_ = fell + collapsed, stood + (decided and not collapsed), open_ + (not decided and not collapsed)
     low, high = limits or (float(one) for one in v.collapse_interval(fell, stood, open_, confidence))
-    whole = f"{fell} of {number + 1}, this one and {number} like it, collapse{'s' if fell == 1 else ''}"
-    whole += (
-        f" ({100.0 * confidence:g} %: {percents(low, high)}); {_not_fallen({v.STANDS: stood, v.UNDECIDED: open_})}."
-    )
+    some = say("{fell} of {all}, this one and {count} like it, collapse ({level:g} %: {range}); {rest}.")
+    alone = say("{fell} of {all}, this one and {count} like it, collapses ({level:g} %: {range}); {rest}.")
+    all_ = (alone if fell == 1 else some).of(
+        fell=fell, all=number + 1, count=number, level=100.0 * confidence, range=percents(low, high),
+        rest=_not_fallen({v.STANDS: stood, v.UNDECIDED: open_}),
+    )  # fmt: skip
     if collapsed:
-        return f"That others stand does not make this one safe, which falls and is one of them: {whole}"
-    own = "stands" if decided else "has not fallen yet"
-    return f"That this one {own} does not make it safe, as most like it collapse: {whole}"
+        return say("That others stand does not make this one safe, which falls and is one of them: {all}", all=all_)
+    if decided:
+        return say("That this one stands does not make it safe, as most like it collapse: {all}", all=all_)
+    return say("That this one has not fallen yet does not make it safe, as most like it collapse: {all}", all=all_)
 
 
 def _not_fallen(counts: Mapping[str, int]) -> str:
     """Numbers of columns that stand and that are undecided."""
     stood, open_ = counts[v.STANDS], counts[v.UNDECIDED]
-    words = [f"{stood} stand{'s' if stood == 1 else ''}"]
-    words += [f"{open_} {'is' if open_ == 1 else 'are'} undecided"] if open_ else []
-    return " and ".join(words)
+    words = say("{count} stands", count=stood) if stood == 1 else say("{count} stand", count=stood)
+    open_words = say(" and {count} is undecided") if open_ == 1 else say(" and {count} are undecided")
+    return words + (open_words.of(count=open_) if open_ else "")

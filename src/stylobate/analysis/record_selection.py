@@ -12,6 +12,7 @@ import pandas
 
 from ..constants import g
 from ..errors import InputError, check_choice, check_range, check_whole
+from ..messages import joined, say
 from ..motion import Motion
 from ..motion.drift import cure_of
 from ..motion.events import events_of, unknown_events
@@ -61,11 +62,12 @@ class Wanted:
         if isinstance(self.measure, str):
             value = about.get(self.measure, np.nan)
             if not np.isfinite(value):
-                return f"its {self.measure} is not told, and {self.low:g} to {self.high:g} is asked for"
+                return say("its {w.measure} is not told, and {w.low:g} to {w.high:g} is asked for", w=self)
         else:
             value = self.measure.of(motion)
         inside = self.low <= value <= self.high
-        return None if inside else f"its {self.name} is {value:.3g}, and {self.low:g} to {self.high:g} is asked for"
+        said = say("its {w.name} is {value:.3g}, and {w.low:g} to {w.high:g} is asked for", w=self, value=value)
+        return None if inside else said
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,38 +135,46 @@ class RecordSelection(Shown):
     @property
     def sentence(self) -> str:
         """What the set does, in two or three sentences."""
-        low, high = self.ratio.min(), self.ratio.max()
-        count = f"{len(self.motions)} record{'s' if len(self.motions) > 1 else ''}"
-        bounds = f"at least {self.least:g}" + (f", at most {self.most:g}" if np.isfinite(self.most) else "")
-        said = (
-            f"The mean of {count} is {low:.2f} to {high:.2f} times the target between "
-            f"{self.periods[0]:g} and {self.periods[-1]:g} s ({bounds} is asked for)"
+        count, fewest = len(self.motions), self.target.fewest
+        bounds = say("at least {low:g}", low=self.least)
+        if np.isfinite(self.most):
+            bounds = say("at least {low:g}, at most {high:g}", low=self.least, high=self.most)
+        alone = say("The record is {low:.2f} to {high:.2f} times the target between {first:g} and {last:g} s "
+                    "({bounds} is asked for)")  # fmt: skip
+        several = say("The mean of {count} records is {low:.2f} to {high:.2f} times the target between {first:g} and "
+                      "{last:g} s ({bounds} is asked for)")  # fmt: skip
+        said = (alone if count == 1 else several).of(
+            count=count,
+            low=self.ratio.min(),
+            high=self.ratio.max(),
+            first=self.periods[0],
+            last=self.periods[-1],
+            bounds=bounds,
         )
         if self.pga_over_target is not None:
-            said += f", and {self.pga_over_target:.2f} times it at a period of 0 (at least 1)"
-        said += (
-            ": the set meets it."
-            if self.meets
-            else (": the set does not meet it; allow larger factors, a shorter range of periods, or give more records.")
-        )
-        if len(self.motions) < self.target.fewest:
-            said += f" The code wants {self.target.fewest} records at least."
-        elif len(self.motions) < FOR_MEANS:
-            said += f" With fewer than {FOR_MEANS} records codes take the largest response, not the mean."
-        if len(self.motions) > 1 and not self.unknown_events:
-            said += f" They are of {self.events} earthquakes." if self.events > 1 else " They are of one earthquake."
+            said += say(", and {zero:.2f} times it at a period of 0 (at least 1)", zero=self.pga_over_target)
+        no = say(": the set does not meet it; allow larger factors, a shorter range of periods, or give more records.")
+        words = [said + (say(": the set meets it.") if self.meets else no)]
+        if count < fewest:
+            words.append(say("The code wants {count} records at least.", count=fewest))
+        elif count < FOR_MEANS:
+            fewer = say(
+                "With fewer than {count} records codes take the largest response, not the mean.", count=FOR_MEANS
+            )
+            words.append(fewer)
+        if count > 1 and not self.unknown_events:
+            one = say("They are of one earthquake.")
+            words.append(say("They are of {count} earthquakes.", count=self.events) if self.events > 1 else one)
         if self.unknown_events:
-            names = ", ".join(self.unknown_events)
-            said += (
-                f" The files of {names} do not tell of which earthquake they are: see that it is none of the others'."
+            unknown = say(
+                "The files of {names} do not tell of which earthquake they are: see that it is none of the others'."
             )
+            words.append(unknown.of(names=joined(", ", self.unknown_events)))
         if on_structures := self.table["record"][self.table["on_structure"]].tolist():
-            names = ", ".join(on_structures)
-            said += (
-                " By the names of their stations these records were taken on structures, "
-                f"which shake otherwise than the ground: {names}."
-            )
-        return said
+            taken = say("By the names of their stations these records were taken on structures, which shake otherwise than "
+                        "the ground: {names}.")  # fmt: skip
+            words.append(taken.of(names=joined(", ", on_structures)))
+        return joined(" ", words)
 
     def summary(self) -> dict[str, Any]:
         """Plain values for JSON."""
@@ -264,12 +274,15 @@ def select_records(
             usable.append((motion, spectrum, size))
         else:
             beyond.append((motion, size))
-            allowed = f"{factors[0]:g} to {factors[1]:g} is allowed"
-            refused[motion.name] = f"it would have to be multiplied by {size:.3g}, and {allowed}"
+            refused[motion.name] = say(
+                "it would have to be multiplied by {factor:.3g}, and {f[0]:g} to {f[1]:g} is allowed",
+                factor=size,
+                f=factors,
+            )
     again = recorded_again([motion for motion, _, _ in usable])
     for k, other in again.items():
         name = usable[other][0].name
-        refused[usable[k][0].name] = f"it is the recording of {name!r} once more; a record counts once"
+        refused[usable[k][0].name] = say("it is the recording of {name!r} once more; a record counts once", name=name)
     chosen_from = [one for k, one in enumerate(usable) if k not in again]
     kept = [motion for motion, _, _ in chosen_from]
     spectra, sizes = [spectrum for _, spectrum, _ in chosen_from], [size for _, _, size in chosen_from]
@@ -317,7 +330,7 @@ def _considered(
         return reason, aim, 1.0
     spectrum = _spectrum(motion, periods, horizontal)
     if not (spectrum > 0.0).all():
-        return "it has nothing along a component", aim, 1.0
+        return say("it has nothing along a component"), aim, 1.0
     return None, spectrum, float(np.exp(np.log(aim / spectrum).mean()))
 
 
@@ -364,7 +377,7 @@ def _peak(motion: Motion, horizontal: str) -> float:
 
 
 def _scaled(motion: Motion, factor: float) -> Motion:
-    said = f"multiplied by {factor:.6g}: scaled to a target spectrum"
+    said = say("multiplied by {factor:.6g}: scaled to a target spectrum", factor=factor)
     return motion.scaled(factor).replace(processing=(*motion.processing, said))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.special import log_ndtr, ndtr
 
 from ..errors import InputError, check_kind
+from ..messages import digits, joined, say
 from ..motion.intensity_specs import ENDS, parse_measure
 from ..notebook import Shown
 from ..percent import percent
@@ -75,50 +76,61 @@ class Risk(Shown):
     @property
     def warnings(self) -> list[str]:
         """Doubts about the result, and limits of the hazard curve, in sentences."""
-        warnings = [*self.fragility.warnings, *([f"{self.doubt}."] if self.doubt else [])]
+        warnings = [*self.fragility.warnings, *([joined("", [self.doubt, "."])] if self.doubt else [])]
         warnings += [self._without_verdict] if self._without_verdict else []
         if self.fragility.evidence.measure == "im" and self.hazard.unit != "-":
-            warnings.append(
-                f"the runs do not say what their intensity is; it is taken for that of {self.hazard.name}, in "
-                f"{self.hazard.unit}: state the intensity of the runs."
+            words = say(
+                "the runs do not say what their intensity is; it is taken for that of {hazard.name}, in {hazard.unit}: "
+                "state the intensity of the runs."
             )
+            warnings.append(words.of(hazard=self.hazard))
         elif self.fragility.evidence.measure != "im" and not self.hazard.imt:
             measure, end = parse_measure(self.fragility.evidence.measure), ENDS[self.hazard.unit]
-            warnings.append(
-                f"{self.hazard.name} does not say of which intensity its column im{end} is; it is taken for {measure.name}: "
-                f"name the column {measure.key} if it is."
+            words = say(
+                "{hazard} does not say of which intensity its column im{end} is; it is taken for {im.name}: name the column "
+                "{im.key} if it is."
             )
+            warnings.append(words.of(hazard=self.hazard.name, end=end, im=measure))
         if self.rate > OFTEN:
-            warnings.append(
-                f"{self.fragility.evidence.state} {self.rate:.3g} times a year leaves no such column to ask about: check "
-                f"the intensities of the runs and {self.hazard.name}."
+            words = say(
+                "{state} {rate:.3g} times a year leaves no such column to ask about: check the intensities of the runs and "
+                "{hazard}."
             )
+            state = say(self.fragility.evidence.state)
+            warnings.append(words.of(state=state, rate=self.rate, hazard=self.hazard.name))
         if self.beyond > BEYOND * self.rate:
-            warnings.append(
-                f"{self.hazard.name} ends at {self.hazard.im[-1]:g} {self.hazard.unit}; stronger shaking could add up to "
-                f"{percent(self.beyond / max(self.rate, 1e-300))} to the rate."
-            )
+            words = say("{hazard} ends at {im:g} {unit}; stronger shaking could add up to {share} to the rate.")
+            much = percent(self.beyond / max(self.rate, 1e-300))
+            known = {"hazard": self.hazard.name, "im": self.hazard.im[-1], "unit": self.hazard.unit}
+            warnings.append(words.of(share=much, **known))
         return warnings + ([late] if (late := begins_late(self.hazard, self.weaker, self.rate)) else [])
 
     @property
     def _without_verdict(self) -> str:
         """Rate with the runs that the curve leaves out; empty where there are none."""
         told = self.fragility.summary()
-        counts = [f"{told[one]} {one}" for one in ("undecided", "failed") if told[one]]
+        names = {"undecided": say("{count} undecided"), "failed": say("{count} failed")}
+        counts = [words.of(count=told[one]) for one, words in names.items() if told[one]]
         if not counts:
             return ""
-        most, least = (f"{extreme:.3g}" if math.isfinite(extreme) else "not known" for extreme in self.extremes)
-        return (
-            f"{' and '.join(counts)} of {told['runs']} runs: counted as {self.fragility.evidence.state} the annual rate by "
-            f"{self.hazard.name} is {most}, counted as none {least}; the curve leaves them out, its interval holds both."
-        )
+        most, least = (digits(one, ".3g") if math.isfinite(one) else say("not known") for one in self.extremes)
+        return say(
+            "{counts} of {all} runs: counted as {state} the annual rate by {hazard} is {most}, counted as none {least}; the "
+            "curve leaves them out, its interval holds both.",
+            counts=joined(say(" and "), counts), all=told["runs"], state=say(self.fragility.evidence.state),
+            hazard=self.hazard.name, most=most, least=least,
+        )  # fmt: skip
 
     @property
     def sentence(self) -> str:
         """How often it comes to the state, in a sentence."""
         e = self.fragility.evidence
-        said = f"{e.name}: {e.state} {'never' if self.rate == 0.0 else f'once in {years(1.0 / self.rate)}'}."
-        return f"{said} The hazard curve is the {self.hazard.statistic}." if self.hazard.statistic else said
+        said = say("{name}: {state} never.") if self.rate == 0.0 else say("{name}: {state} once in {years}.")
+        said = said.of(name=e.name, state=say(e.state), years=years(1.0 / self.rate) if self.rate else "")
+        statistic = self.hazard.statistic
+        return joined(
+            " ", [said, say("The hazard curve is the {statistic}.", statistic=statistic) if statistic else ""]
+        )
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate risk``."""
@@ -234,7 +246,7 @@ def doubts(
     doubt = check_intensity(measure, unit, hazard)
     check_reach(hazard, log_median, beta, rate, state)
     late = begins_late(hazard, weaker_than(hazard, log_median, beta), rate)
-    return [one for one in (doubt and f"{doubt}.", late) if one]
+    return [one for one in (doubt and joined("", [doubt, "."]), late) if one]
 
 
 def weaker_than(hazard: Hazard, log_median: float, beta: float) -> float:
@@ -256,16 +268,19 @@ def begins_late(hazard: Hazard, weaker: float, rate: float) -> str:
     """Caveat on a curve that begins above shaking which matters, in a sentence; empty where it does not."""
     if weaker <= BEYOND * rate:
         return ""
-    much = percent(weaker / rate) if 0.0 < rate and weaker < MANY * rate else f"more than {MANY:g} times as much"
-    return (
-        f"{hazard.name} begins at {hazard.im[0]:g} {hazard.unit}; weaker shaking, with its first slope carried on, would "
-        f"add {much} to the rate."
-    )
+    many = say("more than {many:g} times as much", many=MANY)
+    much = percent(weaker / rate) if 0.0 < rate and weaker < MANY * rate else many
+    return say(
+        "{hazard.name} begins at {hazard.im[0]:g} {hazard.unit}; weaker shaking, with its first slope carried on, would add "
+        "{share} to the rate.", hazard=hazard, share=much,
+    )  # fmt: skip
 
 
 def years(value: float) -> str:
     """A time for people."""
-    return f"{float(f'{value:.2g}'):,.0f} years" if value >= 10.0 else f"{value:.2g} years"
+    if value < 10.0:
+        return say("{number:.2g} years", number=value)
+    return say("{number:,.0f} years", number=float(f"{value:.2g}"))
 
 
 def rates(hazard: Hazard, log_median: np.ndarray, beta: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ from ..campaign.campaign import Campaign
 from ..campaign.twins import the_twins
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_kind, check_whole
+from ..messages import joined, say
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -92,20 +93,22 @@ class Count:
 
     def words(self, low: int, high: int) -> str:
         """A number for people, or from which to which."""
-        told = [f"more than {self.most}" if one > self.most else str(one) for one in (low, high)]
-        return " to ".join(dict.fromkeys(told))
+        more = say("more than {most}", most=self.most)
+        low_, *rest = dict.fromkeys(more if one > self.most else str(one) for one in (low, high))
+        return say("{low} to {high}", low=low_, high=rest[0]) if rest else low_
 
     @property
     def sentence(self) -> str:
         """The median with its interval, for people."""
         if self.median is None:
-            return f"none of {self.failed} could be computed"
+            return say("none of {count} could be computed", count=self.failed)
         said = self.words(*self.median)
         if len(self.low) > 1:
-            said = f"median of {len(self.low)}: {said}"
             limits = self.interval
-            said += f" (95 %: {self.words(*limits)})" if limits else f" (no interval of fewer than {FEWEST})"
-        return f"{said}; {self.failed} more failed" if self.failed else said
+            known = {"count": len(self.low), "median": said, "limits": limits and self.words(*limits), "fewest": FEWEST}
+            none = say("median of {count}: {median} (no interval of fewer than {fewest})")
+            said = (say("median of {count}: {median} (95 %: {limits})") if limits else none).of(**known)
+        return joined("; ", [said, say("{count} more failed", count=self.failed) if self.failed else ""])
 
     def summary(self) -> dict[str, Any]:
         """Plain values; None for more than ``most``."""
@@ -190,15 +193,25 @@ class SequenceResult(Shown):
         if not self.events:
             return self.response.sentence
         if fell is not None:
-            which, many = f"earthquake {fell} of {len(spans)} ({spans[fell - 1].motion})", len(self.response.fallen)
-            words = [f"It falls in {which}."]
+            known = {
+                "which": fell,
+                "all": len(spans),
+                "motion": spans[fell - 1].motion,
+                "many": len(self.response.fallen),
+            }
+            words = say("It falls in earthquake {which} of {all} ({motion}).")
             if self.response.measures.blocks is not None:
-                words = [f"{many} bod{'ies fall, the first of them' if many > 1 else 'y falls'} in {which}."]
+                one = say("1 body falls in earthquake {which} of {all} ({motion}).")
+                some = say("{many} bodies fall, the first of them in earthquake {which} of {all} ({motion}).")
+                words = one if known["many"] == 1 else some
+            said = [words.of(**known)]
             if len(self.events) < len(spans):
-                words.append(f"The run ends there: {len(spans) - len(self.events)} more would have come.")
-        else:
-            words = [f"After {len(spans)} earthquake{'s' * (len(spans) > 1)}: {self.response.sentence}"]
-        return " ".join(words)
+                said.append(
+                    say("The run ends there: {count} more would have come.", count=len(spans) - len(self.events))
+                )
+            return joined(" ", said)
+        after = say("After 1 earthquake: {text}") if len(spans) == 1 else say("After {count} earthquakes: {text}")
+        return after.of(count=len(spans), text=self.response.sentence)
 
     @property
     def unsettled(self) -> tuple[int, ...]:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..messages import digits, joined, say
 from ..percent import percents
 from . import verdicts as v
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
@@ -90,14 +91,17 @@ class Share:
     @property
     def collapses(self) -> str:
         """Number of runs that collapse, with the share and its interval, in a sentence."""
-        several = "" if self.runs == 1 else "s"
         if not self.runs:
-            return f"{self.label}: no run could be computed."
-        said = f"{self.label} collapses in {self.exceeded} of {self.runs} run{several}"
-        said += f", and {self.undecided} more may, which are undecided" if self.undecided else ""
-        over = f"over {self.records} record" + ("" if self.records == 1 else "s")
-        said += f": {self.words} (95 % interval {over}: {self.interval_words})"
-        return said + (f"; {self.failed} more could not be computed." if self.failed else ".")
+            return say("{label}: no run could be computed.", label=self.label)
+        alone = say("{s.label} collapses in {s.exceeded} of 1 run")
+        words = [(alone if self.runs == 1 else say("{s.label} collapses in {s.exceeded} of {s.runs} runs")).of(s=self)]
+        words += [say(", and {count} more may, which are undecided", count=self.undecided)] if self.undecided else []
+        alone = say(": {share} (95 % interval over 1 record: {interval})")
+        over = alone if self.records == 1 else say(": {share} (95 % interval over {count} records: {interval})")
+        words.append(over.of(share=self.words, interval=self.interval_words, count=self.records))
+        return joined(
+            "", [*words, say("; {count} more could not be computed.", count=self.failed) if self.failed else "."]
+        )
 
 
 def shares(
@@ -171,7 +175,8 @@ def median_words(curve: Mapping[str, Any]) -> str:
     ends = [curve["median"], curve["median"]]
     if curve["undecided"] + curve["failed"]:
         ends = sorted(known_end(curve, key) for key in ("if_open_exceed", "if_open_do_not"))
-    return " to ".join(dict.fromkeys(within(end, curve["levels"]) for end in ends)) + unit
+    low, *rest = dict.fromkeys(within(end, curve["levels"]) for end in ends)
+    return (say("{low} to {high}", low=low, high=rest[0]) if rest else low) + unit
 
 
 def median_name(*curves: Mapping[str, Any] | None) -> str:
@@ -183,7 +188,7 @@ def median_name(*curves: Mapping[str, Any] | None) -> str:
         As there; None where there is no curve.
     """
     open_ = any(curve["undecided"] + curve["failed"] for curve in curves if curve is not None)
-    return "median (undecided both ways)" if open_ else "median"
+    return say("median (undecided both ways)") if open_ else say("median")
 
 
 def known_end(curve: Mapping[str, Any], key: str) -> float:
@@ -196,5 +201,5 @@ def within(value: float, levels: Sequence[float]) -> str:
     """An intensity, or the bound of those that were run where it lies beyond them."""
     low, high = levels
     if value > high * (1.0 + CLOSE):
-        return f"> {high:.3g}"
-    return f"≤ {low:.3g}" if value < low * (1.0 - CLOSE) else f"{value:.3g}"
+        return say("> {level:.3g}", level=high)
+    return say("≤ {level:.3g}", level=low) if value < low * (1.0 - CLOSE) else digits(value, ".3g")

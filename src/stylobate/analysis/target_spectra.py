@@ -11,6 +11,7 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, check_range
+from ..messages import say
 from ..motion.specs import parse_acceleration, parse_time
 from . import tables
 from .code_spectra import CODES, LARGEST, LONGEST, PLATEAU, assumed_of, parse_code, spectrum_of_code
@@ -97,7 +98,7 @@ def target_spectrum(text: str) -> TargetSpectrum:
         return _conditional_mean(text)
     if text.lower().endswith((".csv", ".txt", ".tsv")):
         period, level = _read(text, "sa")
-        return _over_periods(text, f"table {text}", period, level)
+        return _over_periods(text, say("table {file}", file=text), period, level)
     code, given = parse_code(text)
     spectrum = spectrum_of_code(code, given)
     assumed = assumed_of(code, given)
@@ -151,7 +152,8 @@ def _conditional_mean(text: str) -> TargetSpectrum:
     k = int(np.searchsorted(period, at))
     if not (k < len(period) and period[k] == at):
         period, mean = np.insert(period, k, at), np.insert(mean, k, math.log(level))
-    words = f"conditional mean spectrum, Sa({at:g} s) = {level / g:g} g, ε = {epsilon:.2f}"
+    words = say("conditional mean spectrum, Sa({at:g} s) = {level:g} g, ε = {epsilon:.2f}")
+    words = words.of(at=at, level=level / g, epsilon=epsilon)
     return _over_periods(text, words, period, np.exp(mean))
 
 

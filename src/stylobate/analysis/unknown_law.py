@@ -18,6 +18,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..campaign.twins import PER_LAW
+from ..messages import say
 from . import verdicts as v
 
 #: Exponents of the density of r before anything is counted, (1 − r)³: its mean 0.2 is about that of the counts of other
@@ -114,9 +115,15 @@ def _foretold(values: np.ndarray) -> tuple[int, float, float]:
 
 def few_laws(number: int) -> str:
     """Caveat on twins of so few laws; empty where there are enough, or none as one is taken as known."""
-    said = f"the twins share {number} law{'s' * (number > 1)} of the joints, too few to tell how much it decides: give more "
-    said += f"replicates, of which every {PER_LAW} share one, such as {FEW_LAWS * PER_LAW}"
-    return said * (0 < number < FEW_LAWS)
+    if not 0 < number < FEW_LAWS:
+        return ""
+    some = (
+        say("the twins share 1 law of the joints") if number == 1 else say("the twins share {count} laws of the joints")
+    )
+    more = say(
+        ", too few to tell how much it decides: give more replicates, of which every {each} share one, such as {such}"
+    )
+    return some.of(count=number) + more.of(each=PER_LAW, such=FEW_LAWS * PER_LAW)
 
 
 def share_under_another_law(

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from ..messages import joined, say
 from ..response.rows import Rows
 
 STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN = "stands", "collapsed", "undecided", "failed", "not run"
@@ -64,14 +65,13 @@ def count(verdicts: Sequence[str] | np.ndarray) -> dict[str, int]:
     return {one: int(np.count_nonzero(values == one)) for one in VERDICTS}
 
 
-def open_runs(counts: Mapping[str, Any], so: str = "not counted as collapse") -> str:
+def open_runs(counts: Mapping[str, Any], so: str = say("not counted as collapse")) -> str:
     """Number of runs without a verdict, as a sentence behind another one; empty where all have one."""
-    words = {UNDECIDED: ("is undecided", "are undecided"), FAILED: ("failed", "failed")}
-    found = [
-        f"{counts[one]} run{'' if counts[one] == 1 else 's'} {alone if counts[one] == 1 else several}"
-        for one, (alone, several) in words.items() if counts.get(one)
-    ]  # fmt: skip
-    return f" {' and '.join(found)}: {so}." if found else ""
+    undecided, failed = counts.get(UNDECIDED), counts.get(FAILED)
+    alone = say("1 run is undecided") if undecided == 1 else say("{count} runs are undecided", count=undecided)
+    failing = say("1 run failed") if failed == 1 else say("{count} runs failed", count=failed)
+    found = [text for text, number in ((alone, undecided), (failing, failed)) if number]
+    return say(" {runs}: {so}.", runs=joined(say(" and "), found), so=so) if found else ""
 
 
 def tally(verdicts: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

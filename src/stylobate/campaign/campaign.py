@@ -85,25 +85,16 @@ class Campaign:
     def __post_init__(self) -> None:
         check_whole("`replicates`", self.replicates, 0, MAX_TWINS)
         check_whole("`seed`", self.seed, 0, 2**63 - 1)
-        if not (self.scatter is None or isinstance(self.scatter, Scatter)):
-            raise InputError(
-                f"`scatter` is {as_typed(self.scatter)}; allowed is a Scatter, such as Scatter(friction=0.1).",
-                "scatter",
-            )
+        such = "a Scatter, such as Scatter(friction=0.1)"
+        check_kind("`scatter`", self.scatter, Scatter, allowed=such, optional=True)
         check_range("`tail`", self.tail, 0.0, 1e4, unit="s")
-        if not isinstance(self.whole, bool):
-            raise InputError(f"`whole` is {as_typed(self.whole)}; allowed is True or False.", "whole")
+        check_kind("`whole`", self.whole, bool, allowed="True or False")
         check_choice("`device`", self.device, DEVICES)
         if self.device == GPU and self.dask is not None:
             raise InputError("`dask` and a `device` of gpu are both given; give one of the two.", "device")
-        if not isinstance(self.mix_devices, bool):
-            raise InputError(f"`mix_devices` is {as_typed(self.mix_devices)}; allowed is True or False.", "mix_devices")
-        if not (self.progress is None or callable(self.progress)):
-            raise InputError(
-                f"progress is {as_typed(self.progress)}; allowed is a function of two numbers.", "progress"
-            )
-        if not (self.ledger is None or isinstance(self.ledger, (str, Path))):
-            raise InputError(f"ledger is {as_typed(self.ledger)}; allowed is the path of a file.", "ledger")
+        check_kind("`mix_devices`", self.mix_devices, bool, allowed="True or False")
+        check_kind("progress", self.progress, Callable, allowed="a function of two numbers", optional=True)
+        check_kind("ledger", self.ledger, (str, Path), allowed="the path of a file", optional=True)
         if self.threads is not None:
             check_range("`threads`", self.threads, 1, 1024, remedy="leave it out to use all cores")
 
@@ -116,24 +107,12 @@ class Campaign:
         without: Container[str] = (),
         **usual: Any,
     ) -> Campaign:
-        """Settings of a function that takes a campaign, fields of it as keywords, or both.
-
-        Parameters
-        ----------
-        function : str
-            Its name, for messages.
-        campaign : Campaign, optional
-        settings : mapping
-            The keywords.
-        without : container of str
-            Fields that the function does not take.
-        **usual
-            Fields with another default.
+        """Settings of a ``function`` that takes a campaign, fields of it as keywords, or both, with ``usual`` defaults.
 
         Raises
         ------
         TypeError
-            A keyword that the function does not take.
+            A keyword that is none, or one of those that the function goes ``without``.
         InputError
             A value that is not allowed, or one thing in the campaign and another in a keyword.
         """

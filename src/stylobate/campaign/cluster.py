@@ -20,7 +20,7 @@ from collections import OrderedDict, deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from ..errors import InputError, StylobateError
 from ..models.base import Case, Model, RunOptions
@@ -32,8 +32,8 @@ from .digests import samples_of
 from .local_workers import LocalWorkers
 from .worker import Chunk, law, pack, run_chunk, samples, unpack
 
-if TYPE_CHECKING:
-    from distributed import Client
+#: A client and a future of ``distributed``, whose methods are typed for coroutines as well.
+Client = Future = Any
 
 #: Workers on this machine, as an address.
 LOCAL = "local"
@@ -170,9 +170,6 @@ def computed_by(executor: Executor) -> Iterator[None]:
     finally:
         _INSTEAD.reset(token)
 
-
-#: A client and a future of ``distributed``, whose methods are typed for coroutines as well.
-Client = Future = Any
 
 #: A chunk takes about so long, and at least so long [s], and is at most so many times as large as what has been timed.
 LENGTH, SHORTEST, GROWTH = 10.0, 0.25, 8

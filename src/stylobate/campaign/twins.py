@@ -20,6 +20,7 @@ from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import WITHIN, Scatter, drawn_twins, spread_of, usual_scatter
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
+from ..messages import joined, say
 from ..models.base import Model
 from ..models.engine import engine_for
 from .campaign import MAX_TWINS, Campaign
@@ -73,12 +74,14 @@ class Twins(NamedTuple):
 
 def described(number: int, scatter: Scatter, seed: int, left_out: Sequence[str]) -> str:
     """Number of twins and their differences, in words."""
-    return f"{number} that vary by {scatter.describe()}; seed {seed}{without(left_out)}"
+    words = say("{count} that vary by {scatter}; seed {seed}", count=number, scatter=scatter.describe(), seed=str(seed))
+    return words + without(left_out)
 
 
 def without(left_out: Sequence[str]) -> str:
     """Parts of a scatter that a model leaves out, in words."""
-    return f", without {', '.join(left_out).replace('_', ' ')}, which the model does not take" if left_out else ""
+    names = joined(", ", (say(name.replace("_", " ")) for name in left_out))
+    return say(", without {names}, which the model does not take", names=names) if left_out else ""
 
 
 def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: bool = True, laws: bool = True) -> Twins:

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import reworded
+from ..messages import MESSAGES, Message, kept
 
 if TYPE_CHECKING:
     import pandas
@@ -36,7 +37,12 @@ OPTIONS = {"files": "--motion", "hazards": "--hazard"}
 
 def in_options(message: object) -> str:
     """The message of an error or a warning, with the options that give the parameters in it."""
-    return reworded(str(message), lambda name: OPTIONS.get(name, f"--{name.replace('_', '-')}"))
+
+    def words(text: str) -> str:
+        return reworded(text, lambda name: OPTIONS.get(name, f"--{name.replace('_', '-')}"))
+
+    text = str(message)
+    return text.changed(words) if isinstance(text, Message) else words(text)
 
 
 #: How messages name parameters: as options, unless a command is done for somebody who does not see these.
@@ -90,8 +96,9 @@ def as_json(value: Any, indent: int | None = None) -> str:
 
 
 def write_json(path: Path, value: Any) -> Path:
-    """Write a JSON file, whole or not at all."""
-    return write_text(path, as_json(value, indent=2))
+    """Write a JSON file, whole or not at all; what its messages are made of stands in it, for reports in other languages."""
+    messages = kept(value)
+    return write_text(path, as_json(value | {MESSAGES: messages} if messages else value, indent=2))
 
 
 def write_text(path: Path, text: str) -> Path:

@@ -42,8 +42,8 @@ class Grid(o.Group):
         return HarmonicGrid(
             modelling.column(what),
             modelling.model(self.model or "dem2d"),
-            frequency_range(self.frequencies),
-            amplitude_range(self.amplitudes),
+            frequency_range(self.frequencies or ""),
+            amplitude_range(self.amplitudes or ""),
             parse_time(self.duration or "10s"),
             parse_time(self.tail or "0s"),
         )

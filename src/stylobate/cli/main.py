@@ -121,53 +121,46 @@ def call(arguments: Sequence[str]) -> int:
     """
 
     def do() -> Any:
-        program = commands()
-        name = arguments[0] if arguments else ""
-        if name not in program.commands and (place := missing("commands", name)):
-            raise InputError(f"{name} is a command of {place}")
-        return program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
+        if arguments and arguments[0] not in commands().commands and missing("commands", arguments[0]):
+            parameters(arguments[0])
+        return commands().main(list(arguments), prog_name="stylobate", standalone_mode=False)
 
     return _done(list(map(str, arguments)), do)
 
 
-def parameters(command: str) -> dict[str, Any]:
-    """Arguments and options of a command by their names, as fields of errors and keys of requests call them."""
-    return {
-        one.name if one.param_type_name == "argument" else one.opts[0].strip("-").replace("-", "_"): one
-        for one in commands().commands[command].params
-    }
+def parameters(name: str) -> dict[str, Any]:
+    """Arguments and options of a command by their names, as fields of errors and keys of requests call them.
+
+    Raises
+    ------
+    InputError
+        There is no such command, or its package is not installed.
+    """
+    if (command := commands().commands.get(name)) is None:
+        place = missing("commands", name)
+        raise InputError(f"{name} is a command of {place}" if place else f"there is no command {name!r}.")
+    return {one.opts[0].strip("-").replace("-", "_"): one for one in command.params}
 
 
 def ask(request: Mapping[str, Any]) -> int:
-    """Do what a request asks, with no command line between.
+    """Do what a request asks, with no command line between, and return what :func:`call` does.
 
     Parameters
     ----------
     request : mapping
         The ``command``, and values of its :func:`parameters`: a text, a list of texts, or true or false.
-
-    Returns
-    -------
-    int
-        As :func:`call`.
     """
 
     def do() -> None:
-        command, known = commands().commands[request["command"]], parameters(request["command"])
-        unknown = next((name for name in request if name not in known and name != "command"), None)
-        if unknown is not None:
-            raise InputError(f"{request['command']} takes no {unknown!r}; leave it out.", unknown)
-        context = typer.Context(command)
-        values = {}
+        known, command = parameters(request["command"]), commands().commands[request["command"]]
+        for name in request.keys() - known.keys() - {"command"}:
+            raise InputError(f"{request['command']} takes no {name!r}; leave it out.", name)
+        values, context = {}, typer.Context(command)
         for name, one in known.items():
-            value = request.get(name, one.get_default(context))
+            value = one.get_default(context) if request.get(name) is None else request[name]
             if value is None and one.required:
                 raise InputError(f"`{name}` is missing; give it.", name)
-            try:
-                values[one.name] = one.process_value(context, value)
-            except _UsageError as error:
-                allowed = _number(error) or "another value"
-                raise InputError(f"`{name}` is {value!r}; allowed is {allowed}.", name) from None
+            values[one.name] = one.process_value(context, value)
         with context:
             command.callback(**values)
 
@@ -176,19 +169,17 @@ def ask(request: Mapping[str, Any]) -> int:
 
 def words_of(request: Mapping[str, Any]) -> list[str]:
     """The command line that asks the same as a request, without the program's name: what has no flag comes first."""
-    known, named, words = parameters(request["command"]), [], []
+    named, words, known = [request["command"]], [], parameters(request["command"])
     for name, value in request.items():
-        one = known.get(name)
+        one, values = known.get(name), value if isinstance(value, list) else [value]
         flag = f"--{name.replace('_', '-')}"
-        if name == "command":
-            continue
         if isinstance(value, bool):
             words += [flag] if value else getattr(one, "secondary_opts", [])[:1]
-        elif one is not None and one.param_type_name == "argument":
-            named += value if isinstance(value, list) else [value]
-        else:
-            words += [f"{flag}={text}" for text in (value if isinstance(value, list) else [value])]
-    return [request["command"], *named, *words]
+        elif getattr(one, "param_type_name", "") == "argument":
+            named += values
+        elif name != "command" and value is not None:
+            words += [f"{flag}={text}" for text in values]
+    return named + words
 
 
 def _done(words: list[str], do: Callable[[], Any]) -> int:
@@ -200,7 +191,7 @@ def _done(words: list[str], do: Callable[[], Any]) -> int:
         warnings.simplefilter("always", DamagedFileWarning)
         warnings.simplefilter("ignore", LeftOutWarning)  # commands say it with the motion, under "left out"
         warnings.simplefilter("always", PlaneOnlyWarning)
-        warnings.showwarning = _Warner()
+        warnings.showwarning = lambda message, *_, **__: console.warn(str(message))
         try:
             code = do()
         except InputError as error:
@@ -257,37 +248,18 @@ def _version(
         raise typer.Exit
 
 
-class _Warner:
-    """Prints each warning once, in one line, on standard error."""
-
-    def __call__(self, message: Any, *_: Any, **__: Any) -> None:
-        console.warn(str(message))
-
-
 def _usage(error: Any) -> str:
-    context = getattr(error, "ctx", None)
+    """What the library says of an option; of one that is no number, what was typed and what is allowed."""
+    context, message = getattr(error, "ctx", None), " ".join(error.format_message().split()).rstrip(".")
     where = context.command_path if context is not None else "stylobate"
-    message = " ".join(error.format_message().split())
-    kind = _number(error)
-    if kind is not None and (typed := _typed(getattr(getattr(error, "param", None), "opts", ()))) is not None:
-        return f"{typed[0]} is {typed[1]!r}; allowed is {kind}; see '{where} --help'."
-    return f"{message.rstrip('.')}; see '{where} --help'."
-
-
-def _number(error: Any) -> str | None:
-    """What an option should be, in words, where the library says that it is no number."""
     kinds = {"valid integer": "a whole number", "valid number": "a number"}
-    return next((words for said, words in kinds.items() if said in error.format_message()), None)
-
-
-def _typed(names: Sequence[str]) -> tuple[str, str] | None:
-    """Name and value of an option as typed; None where it has no value."""
-    words = console.COMMAND
-    for place, word in enumerate(words):
-        name, sign, value = word.partition("=")
-        if name in names and (sign or place + 1 < len(words)):
-            return name, value if sign else words[place + 1]
-    return None
+    for kind in (kinds[said] for said in kinds if said in message):
+        for place, word in enumerate(console.COMMAND):
+            name, sign, value = word.partition("=")
+            if name in error.param.opts and (sign or place + 1 < len(console.COMMAND)):
+                value = value if sign else console.COMMAND[place + 1]
+                message = f"`{name.strip('-').replace('-', '_')}` is {value!r}; allowed is {kind}"
+    return f"{message}; see '{where} --help'." if where else f"{message}."
 
 
 def _complain(what: object, code: int) -> int:

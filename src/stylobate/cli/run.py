@@ -56,7 +56,8 @@ class Settings:
         from ..analysis.certainty import certainty
         from ..simulate import simulate
 
-        campaign, options = self.campaign, self.options | {"quiet": self.campaign.quiet}
+        campaign = self.campaign
+        options: dict[str, Any] = self.options | {"quiet": campaign.quiet}
         if not campaign.replicates:
             options |= {"tail": campaign.tail, "until_decided": True, "progress": campaign.progress}
             return simulate(self.stone, motion, self.model, **options), None

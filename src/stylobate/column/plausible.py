@@ -6,6 +6,7 @@ import statistics
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
+from ..messages import joined, say
 from .joint import Joint
 from .stack import Stack
 
@@ -24,13 +25,20 @@ class Range(NamedTuple):
 
     def doubts(self, values: Iterable[tuple[str, float]]) -> list[str]:
         """The doubt about the first of some values with their names that is beyond the range; else none."""
-        unit = f" {self.unit}" if self.unit else ""
+        unit = say(" {self.unit}", self=self) if self.unit else ""
         beyond = next(((name, value) for name, value in values if not self.holds(value)), None)
         if beyond is None:
             return []
         name, value = beyond
         return [
-            f"{name} is {value:.4g}{unit}, and {self.known} {self.low:g} to {self.high:g}{unit}: check it and its unit."
+            say(
+                "{name} is {value:.4g}{unit}, and {self.known} {self.low:g} to {self.high:g}{unit}: check it and its "
+                "unit.",
+                name=name,
+                value=value,
+                unit=unit,
+                self=self,
+            )
         ]
 
 
@@ -63,7 +71,9 @@ def law_doubts(column: Stack) -> list[str]:
     """Joints of a column beyond what was measured, or that close more than joints of stone."""
     found = joint_doubts(column.joints)
     closures = zip(column.joint_closures.tolist(), column.joints, strict=True)
-    return found or closing_doubts((f"joint {i}", closure, law) for i, (closure, law) in enumerate(closures, 1))
+    return found or closing_doubts(
+        (say("joint {i}", i=i), closure, law) for i, (closure, law) in enumerate(closures, 1)
+    )
 
 
 def size_doubts(column: Stack) -> list[str]:
@@ -78,7 +88,7 @@ def size_doubts(column: Stack) -> list[str]:
         doubts = SLENDER.doubts([("the height of the column over its width", column.height / width)])
         if not doubts and column.n >= MANY:
             doubts = TALL.doubts([("the height of drums over their width", statistics.median(column.heights) / width)])
-    return doubts + DENSITY.doubts((f"the density of drum {i}", one.density) for i, one in enumerate(drums, 1))
+    return doubts + DENSITY.doubts((say("the density of drum {i}", i=i), one.density) for i, one in enumerate(drums, 1))
 
 
 def length_doubts(
@@ -96,13 +106,13 @@ def length_doubts(
         Of their lower faces, where these are not round [m].
     """
     faces = [
-        (f"the width of the {face} face of drum {i}", width)
+        (say("the width of the {face} face of drum {i}", face=face, i=i), width)
         for i, pair in enumerate(widths, 1)
         for face, width in zip(("lower", "upper"), pair, strict=True)
     ]
-    high = DRUM.doubts((f"the height of drum {i}", one) for i, one in enumerate(heights, 1))
+    high = DRUM.doubts((say("the height of drum {i}", i=i), one) for i, one in enumerate(heights, 1))
     high = high or COLUMN.doubts([("the height of the column", sum(heights))])
-    deep = WIDTH.doubts((f"the depth of drum {i}", one) for i, one in enumerate(depths, 1))
+    deep = WIDTH.doubts((say("the depth of drum {i}", i=i), one) for i, one in enumerate(depths, 1))
     return high + WIDTH.doubts(faces) + deep
 
 
@@ -111,7 +121,7 @@ def field_in_doubt(column: Stack) -> str | None:
     for key, known in (("height", DRUM), ("bottom_width", WIDTH), ("top_width", WIDTH), ("density", DENSITY)):
         for number, drum in enumerate(column.drums, 1):
             if not known.holds(getattr(drum, key)):
-                return f"drum.{number}.{key}"
+                return say("drum.{number}.{key}", number=number, key=key)
     return None
 
 
@@ -129,12 +139,12 @@ class Piece(NamedTuple):
 
 def piece_doubts(pieces: Sequence[Piece], laws: Iterable[Joint], gravity: float) -> list[str]:
     """Stones of an assembly and laws of its joints beyond what is known, each kind once."""
-    sizes = [(f"the size of block {one.name!r}", sorted(one.sides)) for one in pieces]
+    sizes = [(say("the size of block {one.name!r}", one=one), sorted(one.sides)) for one in pieces]
     doubts = STONE.doubts((name, sides[-1]) for name, sides in sizes)
-    doubts = doubts or WIDTH.doubts((f"{name} across", sides[-2]) for name, sides in sizes)
-    doubts += DENSITY.doubts((f"the density of block {one.name!r}", one.density) for one in pieces)
+    doubts = doubts or WIDTH.doubts((say("{name} across", name=name), sides[-2]) for name, sides in sizes)
+    doubts += DENSITY.doubts((say("the density of block {one.name!r}", one=one), one.density) for one in pieces)
     closed = (
-        (f"the joint under block {name!r}", density * gravity * sides[-1] / law.normal_stiffness, law)
+        (say("the joint under block {name!r}", name=name), density * gravity * sides[-1] / law.normal_stiffness, law)
         for name, sides, density, law in pieces
     )
     return doubts + (joint_doubts(laws) or closing_doubts(closed))
@@ -157,7 +167,14 @@ def joint_doubts(laws: Iterable[Joint]) -> list[str]:
 def closing_doubts(closures: Iterable[tuple[str, float, Joint]]) -> list[str]:
     """The doubt about the first joint that closes too far [m] under the weight on it; else none."""
     return CLOSURE.doubts(
-        (f"with a normal_stiffness of {law.normal_stiffness:g} N/m³ the closure of {name} by weight", 1e3 * closure)
+        (
+            say(
+                "with a normal_stiffness of {law.normal_stiffness:g} N/m³ the closure of {name} by weight",
+                law=law,
+                name=name,
+            ),
+            1e3 * closure,
+        )
         for name, closure, law in closures
     )
 
@@ -166,7 +183,10 @@ def found_doubts(column: Any) -> list[str]:
     """The doubt about the first drum of a column as found that stands near the edge of the one below; else none."""
     drums = column.as_found.drums
     return OFFSET.doubts(
-        (f"the offset of drum {one.drum} over its width", abs(one.offset) / column.drums[one.drum - 1].bottom_width)
+        (
+            say("the offset of drum {one.drum} over its width", one=one),
+            abs(one.offset) / column.drums[one.drum - 1].bottom_width,
+        )
         for one in drums
     )
 
@@ -182,14 +202,18 @@ def shape_doubts(column: Stack, name: str) -> list[str]:
     swapped = [i for i in wide if column.n == 1 or _fits(column, i, swapped=True) < _fits(column, i) * (1.0 - 1e-9)]
     end = "this is computed as given:"
     if swapped:
-        which = ", ".join(str(i + 1) for i in swapped[:5]) + (" …" if len(swapped) > 5 else "")
-        said = f"drum {which} of {name!r} widens upward (top_width > bottom_width)"
-        return [f"{said}; {end} swap the widths if it was not meant."]
+        which = joined(", ", (str(i + 1) for i in swapped[:5])) + (" …" if len(swapped) > 5 else "")
+        said = say("drum {which} of {name!r} widens upward (top_width > bottom_width)", which=which, name=name)
+        return [say("{said}; {end} swap the widths if it was not meant.", said=said, end=end)]
     narrowest = min(min(drum.bottom_width, drum.top_width) for drum in drums)
     if wide and wide[0] == 0 and drums[0].bottom_width <= narrowest * (1.0 + 1e-12):
         return [
-            f"{name!r} widens upward from its base, where it is narrowest; {end} drums are given from the bottom up, "
-            "and bottom_width before top_width."
+            say(
+                "{name!r} widens upward from its base, where it is narrowest; {end} drums are given from the bottom "
+                "up, and bottom_width before top_width.",
+                name=name,
+                end=end,
+            )
         ]
     return []
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, check_range
+from ..messages import joined, say
 from .as_found import FoundDrum
 from .column import Column
 from .joint import Joint
@@ -91,8 +92,9 @@ class Scatter:
 
     def describe(self) -> str:
         """The sizes in words."""
-        words = (f"{name.replace('_', ' ')} {100.0 * value:.3g} %" for name, value in self.given.items())
-        return ", ".join(words) or "nothing"
+        name_and_size = say("{name} {size:.3g} %")
+        words = (name_and_size.of(name=say(key.replace("_", " ")), size=100.0 * one) for key, one in self.given.items())
+        return joined(", ", words) or say("nothing")
 
 
 def usual_scatter(structure: Structure) -> Scatter:

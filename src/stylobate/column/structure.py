@@ -16,6 +16,7 @@ import numpy as np
 from .. import notebook
 from ..constants import g
 from ..errors import InputError, check_range
+from ..messages import say
 from .as_found import AS_BUILT, AsFound
 from .joint import Joint
 from .links.link import Link, Numbers
@@ -362,8 +363,8 @@ class Structure:
     def north_words(self) -> str:
         """What is known of north."""
         if self.north is None:
-            return "not stated; azimuths are from x towards y, and none is a bearing"
-        return f"x points to {self.north:g}° clockwise from north; azimuths are from x towards y"
+            return say("not stated; azimuths are from x towards y, and none is a bearing")
+        return say("x points to {self.north:g}° clockwise from north; azimuths are from x towards y", self=self)
 
     @property
     def height(self) -> float:

@@ -176,7 +176,8 @@ def checked(data: dict[str, Any], schema: type[T], source: str) -> T:
     # A misspelt key is also a missing one: the spelling is what helps.
     first = next((item for item in found if item["type"] == "extra_forbidden"), found[0])
     sentence, place = _sentence(first, schema, found)
-    error = InputError(sentence, _path(data, schema, first["loc"]), place=place)
+    error = InputError(sentence, _path(data, schema, first["loc"]))
+    error.places = (place,)
     error.place(source)
     raise error
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ..column import Column
 from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, warn
+from ..messages import joined, say
 from ..motion import Motion, beyond_axes
 from ..response import Measures, Response
 from ..response.words import round_in_the_plane
@@ -73,12 +74,12 @@ class Engine:
                 )
         left_out = beyond_axes(motion, axes)
         if "y" in left_out and structure.section == "circular":
-            warn(
-                f"{name} leaves out what shakes a round column across. {round_in_the_plane(structure)}",
-                PlaneOnlyWarning,
-            )
+            left = say("{model} leaves out what shakes a round column across.", model=name)
+            warn(joined(" ", [left, round_in_the_plane(structure)]), PlaneOnlyWarning)
         for one in left_out.values():
-            warn(f"left out of {motion.name!r}: {one}; {name} takes {' and '.join(axes)}.", LeftOutWarning)
+            takes = say("left out of {motion!r}: {what}; {model} takes {axes}.")
+            axes_ = joined(say(" and "), axes)
+            warn(takes.of(motion=motion.name, what=one, model=name, axes=axes_), LeftOutWarning)
 
     def check_start(self) -> None:
         """Refuse a start from a pose."""

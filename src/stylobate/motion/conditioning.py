@@ -14,6 +14,7 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_range, warn
+from ..messages import joined, say
 from ..percent import percent, percents
 from .integration import arias_growth, displacement
 from .motion import MAX_SAMPLES, STRONGEST, Motion, integrate
@@ -38,8 +39,8 @@ def demean(motion: Motion, pre_event: float | None = None) -> Motion:
     if pre_event is not None:
         check_range("pre_event", pre_event, motion.dt, motion.duration, unit="s")
         count = round(pre_event / motion.dt) + 1
-    part = "the record" if pre_event is None else f"the first {pre_event:g} s"
-    return _changed(motion, lambda a: a - a[:count].mean(), f"mean of {part} taken off")
+    part = say("the record") if pre_event is None else say("the first {pre_event:g} s", pre_event=pre_event)
+    return _changed(motion, lambda a: a - a[:count].mean(), say("mean of {part} taken off", part=part))
 
 
 def detrend(motion: Motion) -> Motion:
@@ -49,7 +50,7 @@ def detrend(motion: Motion) -> Motion:
         t = np.linspace(-1.0, 1.0, len(a))
         return a - a.mean() - t * ((t @ a) / (t @ t))
 
-    return _changed(motion, straight, "linear trend taken off")
+    return _changed(motion, straight, say("linear trend taken off"))
 
 
 def baseline_polynomial(motion: Motion, order: int = 6) -> Motion:
@@ -81,7 +82,9 @@ def baseline_polynomial(motion: Motion, order: int = 6) -> Motion:
         curve = sum(w * k * (k - 1) * s ** (k - 2) for w, k in zip(weights, range(2, n + 1)))
         return a - curve / total**2
 
-    return _changed(motion, corrected, f"baseline: polynomial of order {n} fitted to the displacement taken off")
+    return _changed(
+        motion, corrected, say("baseline: polynomial of order {n} fitted to the displacement taken off", n=n)
+    )
 
 
 def baseline_piecewise(motion: Motion, start: float | None = None, end: float | None = None) -> Motion:
@@ -127,7 +130,11 @@ def baseline_piecewise(motion: Motion, start: float | None = None, end: float | 
         offset[i], offset[j] = 0.5 * between, 0.5 * (between + slope)
         return a - offset
 
-    text = f"baseline: constant offsets from {i * motion.dt:g} to {j * motion.dt:g} s and after it taken off"
+    text = say(
+        "baseline: constant offsets from {first:g} to {last:g} s and after it taken off",
+        first=i * motion.dt,
+        last=j * motion.dt,
+    )
     return _changed(motion, corrected, text)
 
 
@@ -154,8 +161,9 @@ def taper(motion: Motion, length: float, *, start: bool = True, end: bool = True
             out[-count:] *= ramp[::-1]
         return out
 
-    ends = " and ".join(name for name, used in (("start", start), ("end", end)) if used) or "no end"
-    return _changed(motion, tapered, f"cosine taper of {count * motion.dt:g} s at {ends}")
+    names = [say("start") if start else "", say("end") if end else ""]
+    ends = joined(say(" and "), names) or say("no end")
+    return _changed(motion, tapered, say("cosine taper of {dt:g} s at {ends}", dt=count * motion.dt, ends=ends))
 
 
 def bandpass(
@@ -211,10 +219,19 @@ def bandpass(
         out = np.fft.irfft(np.fft.rfft(padded) * gain, size)[:total]
         return out if keep_padding else out[pad : pad + len(a)]
 
-    band = f"{low:g}" if low is not None else "0"
-    band += f" to {high:g} Hz" if high is not None else " Hz up"
-    padding = f"zeros of {pad * motion.dt:g} s at each end {'kept' if keep_padding else 'cut off again'}"
-    return _changed(motion, filtered, f"acausal Butterworth filter of order {n}, {band}; {padding}")
+    band = say("{low:g} Hz up") if high is None else say("{low:g} to {high:g} Hz")
+    band = band.of(low=low or 0.0, high=high)
+    zeros = (
+        say("zeros of {time:g} s at each end kept")
+        if keep_padding
+        else say("zeros of {time:g} s at each end cut off again")
+    )
+    padding = zeros.of(time=pad * motion.dt)
+    return _changed(
+        motion,
+        filtered,
+        say("acausal Butterworth filter of order {n}, {band}; {padding}", n=n, band=band, padding=padding),
+    )
 
 
 def resample(motion: Motion, dt: float) -> Motion:
@@ -253,7 +270,7 @@ def resample(motion: Motion, dt: float) -> Motion:
             spectrum = spectrum[: new_size // 2 + 1] * (0.5 * (1.0 + np.cos(np.pi * flank)))
         return np.fft.irfft(spectrum, new_size)[:count] * (new_size / old_size)
 
-    text = f"resampled from {motion.dt:g} to {new:g} s by way of the spectrum"
+    text = say("resampled from {motion.dt:g} to {new:g} s by way of the spectrum", motion=motion, new=new)
     return _changed(motion, at_new_step, text, dt=motion.dt * p / q)
 
 
@@ -291,7 +308,12 @@ def trim(
     t2 = float(np.interp(high, growth, motion.time)) + check_range("after", after, 0.0, 1e4, unit="s")
     i = max(0, math.floor(t1 / motion.dt))
     j = min(motion.steps - 1, math.ceil(t2 / motion.dt))
-    text = f"trimmed to {i * motion.dt:g} … {j * motion.dt:g} s ({percents(low, high)} of the Arias intensity)"
+    text = say(
+        "trimmed to {first:g} … {last:g} s ({share} of the Arias intensity)",
+        first=i * motion.dt,
+        last=j * motion.dt,
+        share=percents(low, high),
+    )
     kept = _changed(motion, lambda a: a[i : j + 1], text)
     length = min(0.25, 0.05 * kept.duration) if ends is None else check_range("ends", ends, 0.0, 0.5 * kept.duration)
     loud = [
@@ -357,8 +379,12 @@ def warn_of_scaling(motion: Motion) -> None:
     """
     if motion.metadata.get("file") and abs(motion.factor) > LARGEST_SCALING:
         warn(
-            f"{motion.metadata['file']} is scaled by {motion.factor:.4g}, more than {LARGEST_SCALING:g} times what was "
-            "recorded; check the units, or choose a stronger record.",
+            say(
+                "{motion.metadata[file]} is scaled by {motion.factor:.4g}, more than {LARGEST_SCALING:g} times what "
+                "was recorded; check the units, or choose a stronger record.",
+                motion=motion,
+                LARGEST_SCALING=LARGEST_SCALING,
+            ),
             OutOfRangeWarning,
         )
 
@@ -373,8 +399,14 @@ def warn_of_peak(motion: Motion) -> None:
     peak, axis = motion.horizontal_peak
     if peak > STRONGEST * g:
         warn(
-            f"{motion.name} peaks at {peak / g:.3g} g along {axis}, and no record has reached {STRONGEST:g} g; check the "
-            "unit, g or m/s².",
+            say(
+                "{motion.name} peaks at {number:.3g} g along {axis}, and no record has reached {STRONGEST:g} g; "
+                "check the unit, g or m/s².",
+                motion=motion,
+                number=peak / g,
+                axis=axis,
+                STRONGEST=STRONGEST,
+            ),
             OutOfRangeWarning,
         )
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..constants import g
 from ..errors import OutOfRangeWarning, check_range, warn
+from ..messages import say
 from .drift import as_asked, cure_of, cured, drift_of
 from .integration import absolute_integral, arias, displacement, square_integral, time_above
 from .motion import Motion, peak_velocity
@@ -60,13 +61,25 @@ def warn_of_velocity(motion: Motion, axes: str = "x") -> None:
         if axis not in motion.components or not (drift := displacement_drift(motion, axis)):
             continue
         own, cure = peak_ground_velocity(motion, axis), cure_of(motion)
-        remedy = "take its strength from another measure, such as sa:1s, as no conditioning that is known here mends it"
+        remedy = say(
+            "take its strength from another measure, such as sa:1s, as no conditioning that is known here mends it"
+        )
         if cure is not None:
             left = peak_ground_velocity(cured(motion, cure), axis)
-            remedy = f"correct it first ({as_asked(cure)}), which leaves {left:.3g} m/s"
+            remedy = say(
+                "correct it first ({as_asked}), which leaves {left:.3g} m/s", as_asked=as_asked(cure), left=left
+            )
         warn(
-            f"{motion.name}: the peak velocity of component {axis}, {own:.3g} m/s, {DRIFTS}: "
-            f"integrated twice, {abs(drift):.3g} m stand at the end; {remedy}.",
+            say(
+                "{motion.name}: the peak velocity of component {axis}, {own:.3g} m/s, {DRIFTS}: integrated twice, "
+                "{drift:.3g} m stand at the end; {remedy}.",
+                motion=motion,
+                axis=axis,
+                own=own,
+                DRIFTS=DRIFTS,
+                drift=abs(drift),
+                remedy=remedy,
+            ),
             OutOfRangeWarning,
         )
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, check_range
+from ..messages import say
 from .integration import square_integral
 from .motion import Motion
 
@@ -44,7 +45,10 @@ def rotated(motion: Motion, azimuth: float) -> Motion:
     if known == (None, None):
         # As if x pointed north: turning the axes clockwise turns the motion from x towards y.
         c, s = _direction(wanted)
-        text = f"turned as a whole by {wanted:g}° from x towards y (no azimuths are stated: counted from its own x)"
+        text = say(
+            "turned as a whole by {wanted:g}° from x towards y (no azimuths are stated: counted from its own x)",
+            wanted=wanted,
+        )
         return _with(motion, c * x - s * y, s * x + c * y, (wanted, wanted - 90.0), text)
     if known[0] is None or known[1] is None:
         axis, angle, other = ("x", known[0], "y") if known[1] is None else ("y", known[1], "x")
@@ -73,7 +77,7 @@ def rotated(motion: Motion, azimuth: float) -> Motion:
         first,
         second,
         (wanted, wanted - 90.0),
-        f"turned to azimuth {wanted:g}° (y to {(wanted - 90.0) % 360.0:g}°)",
+        say("turned to azimuth {wanted:g}° (y to {wanted_:g}°)", wanted=wanted, wanted_=(wanted - 90.0) % 360.0),
     )
 
 
@@ -90,7 +94,7 @@ def turned(motion: Motion, angle: float) -> Motion:
     c, s = _direction(check_range("angle", angle, -360.0, 360.0, unit="degrees"))
     x, y = _samples(motion)
     known = _azimuths(motion)
-    text = f"turned by {angle:g}° from x towards y"
+    text = say("turned by {angle:g}° from x towards y", angle=angle)
     if known[0] is None or known[1] is None:
         return _with(motion, c * x + s * y, c * y - s * x, None, text)
     clockwise = math.cos(math.radians(known[1] - known[0] - 90.0)) > 0.0
@@ -105,7 +109,7 @@ def along(motion: Motion, azimuth: float) -> Motion:
     return found.replace(
         lateral=None,
         metadata={**found.metadata, "azimuths": azimuths},
-        processing=(*found.processing, "the component across it left out"),
+        processing=(*found.processing, say("the component across it left out")),
     )
 
 
@@ -121,9 +125,11 @@ def beyond_axes(motion: Motion, axes: str) -> dict[str, str]:
     for axis, word in OTHER_AXES.items():
         peak = motion.peaks.get(axis)
         if peak is not None and axis not in axes:
-            where = "" if azimuths.get(axis) is None else f"azimuth {azimuths[axis]:g}°, "
-            more = ", more than along x" if axis == "y" and peak > motion.pga else ""
-            found[axis] = f"{word} ({where}peak {peak / g:.3g} g{more})"
+            where = "" if azimuths.get(axis) is None else say("azimuth {azimuths:g}°, ", azimuths=azimuths[axis])
+            more = say(", more than along x") if axis == "y" and peak > motion.pga else ""
+            found[axis] = say(
+                "{what} ({where}peak {peak:.3g} g{more})", what=say(word), where=where, peak=peak / g, more=more
+            )
     return found
 
 
@@ -148,7 +154,7 @@ def keep_axes(motion: Motion, axes: str) -> Motion:
         ay=None if "y" in gone else motion.y_samples,
         az=None if "z" in gone else motion.z_samples,
         metadata={**motion.metadata, "left_out": (*motion.metadata.get("left_out", ()), *gone.values())},
-        processing=(*motion.processing, *(f"left out: {one}" for one in gone.values())),
+        processing=(*motion.processing, *(say("left out: {what}", what=one) for one in gone.values())),
     )
 
 

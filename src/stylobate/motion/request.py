@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from numbers import Real
@@ -13,6 +13,7 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, warn
+from ..messages import say
 from .condition_specs import conditioned_alike
 from .conditioning import warn_of_peak, warn_of_scaling
 from .motion import FACTORS, Motion
@@ -161,48 +162,36 @@ class MotionRequest:
         cls,
         *,
         motion: Sequence[str | Path] | None = None,
-        separate: bool = False,
         azimuth: str | None = None,
-        azimuths: str | None = None,
-        condition: Sequence[str] | None = None,
-        dt: str | None = None,
-        scale: str | None = None,
-        pga: str | None = None,
         vertical: str = "on",
-        **texts: str | None,
+        **words: Any,
     ) -> MotionRequest:
-        """The request in the words that a person types: quantities with their units.
+        """The request as a person types it, by the names of options: quantities with their units.
 
         Parameters
         ----------
         motion : sequence of path, optional
             ``files``.
-        separate : bool
-        azimuth, azimuths : str, optional
-            ``30deg``; ``0:330:12``.
-        condition : sequence of str, optional
-        dt, scale, pga : str, optional
-            ``0.01s``, ``1.5``, ``0.4g``.
+        azimuth : str, optional
+            ``30deg``; or several ``azimuths``, ``0:330:12``.
         vertical : str
             ``on`` or ``off``.
-        **texts : str
-            Any of the other parameters of :class:`MotionRequest`.
+        **words
+            Any of the other parameters of :class:`MotionRequest`: ``dt="0.01s"``, ``scale="1.5"``, ``pga="0.4g"``.
         """
-        if azimuth is not None and azimuths is not None:
+        if azimuth is not None and words.get("azimuths") is not None:
             raise InputError("`azimuth` and `azimuths` are both given; give one of the two.", "azimuth")
         check_choice("`vertical`", vertical, ("on", "off"))
-        turns = () if azimuths is None else tuple(azimuth_range(azimuths).tolist())
-        return cls(
-            files=tuple(motion or ()),
-            separate=separate,
-            dt=None if dt is None else parse_time(dt, "dt"),
-            azimuths=turns if azimuth is None else (parse_angle(azimuth, "azimuth"),),
-            condition=tuple(condition or ()),
-            scale=None if scale is None else parse_number("`scale`", scale),
-            pga=None if pga is None else parse_acceleration(pga, "pga"),
-            vertical=vertical == "on",
-            **{key: value for key, value in texts.items() if value is not None},
-        )
+        read: dict[str, Callable[[Any], Any]] = {
+            "azimuths": lambda text: tuple(azimuth_range(text).tolist()),
+            "dt": lambda text: parse_time(text, "dt"),
+            "scale": lambda text: parse_number("`scale`", text),
+            "pga": lambda text: parse_acceleration(text, "pga"),
+        }
+        made = {name: read.get(name, lambda text: text)(text) for name, text in words.items() if text is not None}
+        if azimuth is not None:
+            made["azimuths"] = (parse_angle(azimuth, "azimuth"),)
+        return cls(files=tuple(motion or ()), vertical=vertical == "on", **made)
 
     @property
     def several(self) -> bool:
@@ -323,12 +312,12 @@ class MotionRequest:
     def _sized(self, motion: Motion, strongest: Motion) -> Motion:
         """The motion as large as asked for; turned ones are that of one record, with the factor of the strongest."""
         if self.scale is not None:
-            said = (*motion.processing, f"multiplied by {self.scale:g}")
+            said = (*motion.processing, say("multiplied by {self.scale:g}", self=self))
             motion = motion.scaled(self.scale).replace(processing=said)
         if self.pga is not None:
             times = strongest.scaled_to_pga(self.pga).factor / strongest.factor
             size = f"{self.pga / g:g} g"
-            text = f"multiplied by {times:.4g}: scaled to a peak of {size} along x"
+            text = say("multiplied by {times:.4g}: scaled to a peak of {size} along x", times=times, size=size)
             if len(self.azimuths) > 1:
                 motion = motion.scaled(times).replace(name=f"{motion.name}, scaled to {size}")
                 text += ", that of the strongest of these directions"

@@ -23,8 +23,9 @@ from ..column.spatial.touching import SpaceJoint
 from ..column.structure import Body, Structure
 from ..column.turning import matrix_of
 from ..constants import DEGREE
+from ..messages import digits, joined, say
 from .solids import ALONG_X, ALONG_Y, MARK, OBLIQUE, STONE, Solid, Surface, View, painted, painting_order, surface_of
-from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, in_lines, page, panel, styled
+from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, in_lines, page, panel, signed, styled
 
 #: Height of the picture of a column, and most of an assembly's [inch].
 ELEVATION_HEIGHT = 5.6
@@ -78,9 +79,9 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     _width(axes, sheet, column.drums[-1].top_width, _top(outlines[-1]), 12.0, column.section)
     if slope:
         found = column.as_found
-        side = "the right" if slope > 0.0 else "the left"
+        side = say("the right") if slope > 0.0 else say("the left")
         to = side if found.base_azimuth in (0.0, 180.0) else f"{found.base_azimuth:g}°"
-        words = f"base rises by {abs(found.base_tilt):g}° to {to}"
+        words = say("base rises by {angle:g}° to {to}", angle=abs(found.base_tilt), to=to)
         axes.annotate(words, (low[0], sheet.up(low[1], -40.0)), color=RED, fontsize=WORDS, ha="left")
     if title:
         axes.set_title(title)
@@ -142,14 +143,14 @@ def draw_chain(axes: Axes, sheet: Sheet, levels: Sequence[float], edge: float) -
     axes.plot([chain, chain], [levels[0], levels[-1]], color=BLACK, linewidth=0.6)
     every = math.ceil((len(levels) - 1) / WRITTEN)
     for low, high in list(pairwise(levels))[::every]:
-        said = f"{high - low:.3f}"
+        said = digits(high - low, ".3f")
         axes.text(sheet.up(chain, -3.0), 0.5 * (low + high), said, fontsize=WORDS, ha="right", va="center")
     for z in (levels[0], levels[-1]):
         axes.plot([sheet.up(far, -4.0), sheet.up(chain, -4.0)], [z, z], color=GREY, linewidth=0.4)
         _tick(axes, far, z)
     axes.plot([far, far], [levels[0], levels[-1]], color=BLACK, linewidth=0.6)
     words = {"fontsize": 8.5, "ha": "right", "va": "center", "rotation": 90}
-    said = f"{levels[-1] - levels[0]:.3f} m"
+    said = say("{value:.3f} m", value=levels[-1] - levels[0])
     axes.text(sheet.up(far, -3.0), 0.5 * (levels[0] + levels[-1]), said, **words)
 
 
@@ -166,26 +167,26 @@ def _words_beside(axes: Axes, sheet: Sheet, column: Column, outlines: list[np.nd
     near, far = sheet.up(edge, 12.0), sheet.up(edge, 62.0)
     tight = column.n > 9
     head = sheet.up(column.height, 4.0)
-    axes.text(far, head, "width below – above [m]", fontsize=6.5, ha="left", va="bottom", color=GREY)
+    axes.text(far, head, say("width below – above [m]"), fontsize=6.5, ha="left", va="bottom", color=GREY)
     for i, (drum, shape) in enumerate(zip(column.drums, outlines)):
         if i % every:
             continue
         middle = shape.mean(axis=0)
         axes.text(float(middle[0]), float(middle[1]), str(i + 1), fontsize=8.0, ha="center", va="center", weight="bold")
         level = float(column.joint_heights[i])
-        said = f"joint {i + 1}"
+        said = say("joint {number}", number=i + 1)
         if abs(friction[i] - usual) > 1e-9:
-            said += f", μ = {friction[i]:.3g}"
+            said += say(", μ = {value:.3g}", value=friction[i])
         if column.joints[i].ring_width is not None:
-            said += f", ring {column.joints[i].ring_width:g} m"
+            said += say(", ring {width:g} m", width=column.joints[i].ring_width)
         axes.plot([edge, sheet.up(near, -2.0)], [level, level], color=GREY, linewidth=0.4, linestyle=(0, (1, 1.5)))
         axes.text(near, level, said, fontsize=6.5, ha="left", va="center" if i else "bottom", color=GREY)
         if drum.circular or drum.top_depth is None:
-            wide = f"{round_}{drum.bottom_width:.3f} – {drum.top_width:.3f}"
+            wide = say("{round}{drum.bottom_width:.3f} – {drum.top_width:.3f}", round=round_, drum=drum)
         else:
-            wide = f"{drum.bottom_width:.3f} × {drum.depth:.3f} – {drum.top_width:.3f} × {drum.upper_depth:.3f}"
+            wide = say("{d.bottom_width:.3f} × {d.depth:.3f} – {d.top_width:.3f} × {d.upper_depth:.3f}", d=drum)
         height = level + 0.5 * drum.height
-        found = words_of_found(column.as_found, i + 1)
+        found = joined(", ", words_of_found(column.as_found, i + 1))
         axes.text(far, height, wide, fontsize=WORDS, ha="left", va="bottom" if found and not tight else "center")
         if found:
             place = (sheet.up(far, 76.0), height) if tight else (far, height)
@@ -217,7 +218,7 @@ def _width(axes: Axes, sheet: Sheet, width: float, ends: np.ndarray, away: float
         axes.plot([x, x], [z, sheet.up(level, math.copysign(4.0, away))], color=GREY, linewidth=0.4)
         _tick(axes, float(x), level)
     axes.plot(ends[:, 0], [level, level], color=BLACK, linewidth=0.6)
-    said = f"{'⌀ ' if section == 'circular' else ''}{width:.3f} m"
+    said = say("{round}{width:.3f} m", round="⌀ " if section == "circular" else "", width=width)
     axes.text(float(ends[:, 0].mean()), sheet.up(level, 3.0), said, fontsize=WORDS, ha="center", va="bottom")
 
 
@@ -234,27 +235,31 @@ def _width_where(shape: np.ndarray, at: np.ndarray) -> np.ndarray:
     return face[[int(face[:, 0].argmin()), int(face[:, 0].argmax())]]
 
 
-def words_of_found(found: AsFound, number: int) -> str:
+def words_of_found(found: AsFound, number: int) -> list[str]:
     """State as found of a drum, in words: its offset on what is below, and where that leaves it if elsewhere."""
     drum = found.of(number)
-    towards = lambda azimuth: f" to {azimuth:g}°" if azimuth else ""  # noqa: E731
+    towards = lambda azimuth: say(" to {azimuth:g}°", azimuth=azimuth) if azimuth else ""  # noqa: E731
     parts = []
     if drum.offset:
-        parts.append(f"offset {1000.0 * drum.offset:+.0f} mm{towards(drum.offset_azimuth)}")
+        parts.append(
+            say("offset {far} mm{to}", far=signed(1000.0 * drum.offset, ".0f"), to=towards(drum.offset_azimuth))
+        )
         net, azimuth = found.place(number)
         if not net:
-            parts.append("back in line")
+            parts.append(say("back in line"))
         elif any(one.offset for one in found.drums if one.drum < number):
-            parts.append(f"in all {1000.0 * net:.0f} mm to {azimuth:.0f}°")
+            parts.append(say("in all {far:.0f} mm to {azimuth:.0f}°", far=1000.0 * net, azimuth=azimuth))
     if drum.tilt:
-        parts.append(f"lean {drum.tilt:+g}°{towards(drum.tilt_azimuth)}")
+        parts.append(say("lean {angle}°{to}", angle=signed(drum.tilt, "g"), to=towards(drum.tilt_azimuth)))
     if drum.turn:
-        parts.append(f"turned {drum.turn:+g}°")
-    at = f" (right at {drum.chip_azimuth:g}°)" if drum.chip_azimuth else ""
+        parts.append(say("turned {angle}°", angle=signed(drum.turn, "g")))
+    at = say(" (right at {azimuth:g}°)", azimuth=drum.chip_azimuth) if drum.chip_azimuth else ""
     parts += [
-        f"chip {side} {1000.0 * width:.0f} mm{at}" for side, width in zip(SIDES, drum.chips, strict=True) if width
+        say("chip {side} {width:.0f} mm{at}", side=say(side), width=1000.0 * width, at=at)
+        for side, width in zip(SIDES, drum.chips, strict=True)
+        if width
     ]
-    return ", ".join(parts).replace("-", "−")
+    return parts
 
 
 def _slope(column: Column) -> float:
@@ -313,7 +318,7 @@ def dimension(axes: Axes, sheet: Sheet, along: int, low: np.ndarray, high: np.nd
         axes.plot([low[0], high[0]], [level, level], color=BLACK, linewidth=0.6)
         for x in (float(low[0]), float(high[0])):
             _tick(axes, x, level)
-        said = f"{high[0] - low[0]:.3f} m"
+        said = say("{value:.3f} m", value=high[0] - low[0])
         axes.text(0.5 * float(low[0] + high[0]), sheet.up(level, -3.0), said, fontsize=8.5, ha="center", va="top")
         return
     place = sheet.up(float(low[0]), -22.0)
@@ -321,7 +326,9 @@ def dimension(axes: Axes, sheet: Sheet, along: int, low: np.ndarray, high: np.nd
     for z in (float(low[1]), float(high[1])):
         _tick(axes, place, z)
     words = {"fontsize": 8.5, "ha": "right", "va": "center", "rotation": 90}
-    axes.text(sheet.up(place, -3.0), 0.5 * float(low[1] + high[1]), f"{high[1] - low[1]:.3f} m", **words)
+    axes.text(
+        sheet.up(place, -3.0), 0.5 * float(low[1] + high[1]), say("{value:.3f} m", value=high[1] - low[1]), **words
+    )
 
 
 # -- What stands in space before anything is run ----------------------------------------------------------------------
@@ -348,9 +355,9 @@ BESIDE = 5.0
 
 #: Elevations and plan, with what is said of each.
 SEEN = (
-    (ALONG_X, "along y: x to the right"),
-    (ALONG_Y, "against x: y to the right"),
-    (PLAN, "plan: x to the right, y upward"),
+    (ALONG_X, say("along y: x to the right")),
+    (ALONG_Y, say("against x: y to the right")),
+    (PLAN, say("plan: x to the right, y upward")),
 )
 
 
@@ -524,7 +531,7 @@ def _feet(axes: Axes, sheet: Sheet, structure: Structure, view: View, edge: floa
             line = {"arrowstyle": "|-|,widthA=0.2,widthB=0.2", "lw": 0.6, "shrinkA": 0, "shrinkB": 0}
             axes.annotate("", (start, place), (end, place), arrowprops=line)
             paper = {"pad": 0.6, "facecolor": "white", "edgecolor": "none"}
-            said = f"{end - start:.3f}"
+            said = digits(end - start, ".3f")
             axes.text(0.5 * (start + end), place, said, fontsize=6.5, ha="center", va="center", bbox=paper)
 
 
@@ -679,7 +686,7 @@ def joint_plans(structure: Structure) -> list[JointPlan]:
         sizes, words, offset = _of_round_faces(joint, on_ground)
         said += f"\n{sizes}" * bool(sizes)
         below = None if on_ground else corners[0]
-        plan = JointPlan(f"joint {number}", below, corners[1], said, words.replace(", ", "\n"), _pairs(crossing))
+        plan = JointPlan(say("joint {number}", number=number), below, corners[1], said, words, _pairs(crossing))
         found.append(replace(plan, offset=offset, marked=bool(words)))
     return found
 
@@ -696,13 +703,19 @@ def _of_round_faces(joint: SpaceJoint, on_ground: bool) -> tuple[str, str, tuple
     if not on_ground:
         moved = joint.above.middle - joint.below.middle
         if math.hypot(*moved[:2]) >= IN_LINE:
-            words.append(f"offset {1000.0 * math.hypot(*moved[:2]):.0f} mm to {_azimuth(moved):.0f}°")
+            words.append(
+                say(
+                    "offset {far:.0f} mm to {azimuth:.0f}°",
+                    far=1000.0 * math.hypot(*moved[:2]),
+                    azimuth=_azimuth(moved),
+                )
+            )
             ((x, y),) = _pairs([((joint.above.middle - joint.origin) @ joint.frame)[:2]])
             off = x, y
     for normal, bound in joint.above.edges.sides:
         lost, towards = radii[1] - bound, joint.above.frame[:, :2] @ normal
-        words.append(f"chip {1000.0 * lost:.0f} mm to {_azimuth(towards):.0f}°")
-    return sizes, ", ".join(words), off
+        words.append(say("chip {far:.0f} mm to {azimuth:.0f}°", far=1000.0 * lost, azimuth=_azimuth(towards)))
+    return sizes, joined("\n", words), off
 
 
 def _azimuth(way: np.ndarray) -> float:
@@ -730,10 +743,10 @@ def _of_column(column: Column) -> list[JointPlan]:
         turn = rotation(np.array([0.0, 0.0, 1.0]), float(at.turned[j]))[:2, :2]
         crossing = [link for link in column.placed_links if link.crosses(j) and link.mark != "sheet"]
         places = [middle + turn @ np.array(link.middle[:2]) for link in crossing]
-        words = words_of_found(column.as_found, j + 1)
+        found = joined("\n", words_of_found(column.as_found, j + 1))
         offset = float(middle[0]), float(middle[1])
-        found = words.replace(", ", "\n")
-        plans.append(JointPlan(f"joint {j + 1}", below, above, said + " m", found, _pairs(places), offset, bool(words)))
+        title = say("joint {number}", number=j + 1)
+        plans.append(JointPlan(title, below, above, said + " m", found, _pairs(places), offset, bool(found)))
     return plans
 
 

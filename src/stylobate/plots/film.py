@@ -18,13 +18,14 @@ from matplotlib.figure import Figure, SubFigure
 
 from ..atomic import replacing
 from ..errors import InputError, check_range
+from ..messages import digits, say
 from ..response import Response
 from ..response.instants import ASIDE, telling_states
 from ..response.poses import quaternions, rotation_matrices
 from ..response.words import title_of
 from .scene import Scene, draw_bodies, draw_links, draw_solids, marks_of, paint, scale_bar, seen
 from .solids import ALONG_X, ALONG_Y, COLOURS, DIFFUSE, LIGHT, OBLIQUE, View
-from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, plain, styled
+from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, plain, signed, styled
 
 #: Size [inch] and resolution of a frame.
 SIZE, DOTS_PER_INCH = (6.4, 4.8), 100
@@ -109,7 +110,7 @@ def _images(
     figure = draw_frame(scene, int(indices[0]), scene.view(indices, SHAPE))
     figure.set_dpi(DOTS_PER_INCH)
     if indices[-1] > indices[0]:  # the ground's motion for as long as the film lasts
-        figure.axes[1].set_xlim(scene.time[indices[0]], scene.time[indices[-1]])
+        figure.axes[1].set_xlim(float(scene.time[indices[0]]), float(scene.time[indices[-1]]))
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     figure.set_layout_engine("none")  # keep the given positions in every frame
@@ -455,21 +456,28 @@ def draw_filmstrip(
     draw = _strip if stood[1] > TALL * stood[0] and not any(scene.fixed) else _grid
     figure, panels = draw(scenes, outlines, frames, figure)
     peak = max(float(np.nanmax(np.abs(one.way[frames]))) for one in scenes)
-    unit, size, digits = ("m", 1.0, 2) if peak >= 0.1 else ("mm", 1000.0, 1)
-    sign = "+" if scene.signed else ""
+    unit, size, places = ("m", 1.0, 2) if peak >= 0.1 else ("mm", 1000.0, 1)
+
     shown = [(one, i, shapes) for one, strip in zip(scenes, outlines) for i, shapes in zip(frames, strip)]
     for axes, (one, index, shapes) in zip(panels, shown, strict=True):
         draw_bodies(axes, one, shapes)
         draw_links(axes, one, index, factor)
-        far = f"{round(size * one.way[index], digits) + 0.0:{sign}.{digits}f}".replace("-", "−")
+        way = round(size * one.way[index], places) + 0.0
+        far = (signed if scene.signed else digits)(way, f".{places}f")
         along = ("x ", "y ")[scenes.index(one)] if space and scene.signed else ""
         if space and not scene.signed:
             toward = "xy"[scenes.index(one)]
             axes.text(0.01, 0.0, f"{toward} →", transform=axes.transAxes, fontsize=6.5, color=GREY, ha="left", va="top")
-        axes.set_title(f"{scene.time[index]:.2f} s\n{along}{far} {unit}", fontsize=8.5, loc="center")
-    said = "" if factor == 1.0 else f" (displacements × {factor:g})"
+        words = say("{time:.2f} s\n{along}{far} {unit}", time=scene.time[index], along=along, far=far, unit=unit)
+        axes.set_title(words, fontsize=8.5, loc="center")
+    said = "" if factor == 1.0 else say(" (displacements × {factor:g})", factor=factor)
     said += ONE_DRAW * (response.structure.space_joints is not None and response.collapsed)
-    figure.suptitle(in_lines((title or title_of(response)) + said), x=0.01, ha="left", fontsize=10.0)
+    figure.suptitle(
+        title + said if title == " " else in_lines((title or title_of(response)) + said),
+        x=0.01,
+        ha="left",
+        fontsize=10.0,
+    )
     return figure
 
 

@@ -14,6 +14,7 @@ from matplotlib.patches import Ellipse, Patch, Rectangle
 
 from ..column.shapes import CircularFrustum
 from ..constants import g
+from ..messages import say
 from ..response import ENERGY_TERMS, Response
 from ..response.events import turns
 from ..response.instants import ASIDE, size_of, way_of
@@ -65,10 +66,12 @@ def draw_histories(
     for k, upper in enumerate(uppers):
         zero_line(upper)
         of = (slice(None), k) if space else ...
-        upper.plot(h.time, h.top_displacement[of], color=BLACK, linestyle=(0, (4.5, 1.6)), label="top")
-        upper.plot(h.time, h.base_displacement[of], color=RED, label="base")
+        upper.plot(h.time, h.top_displacement[of], color=BLACK, linestyle=(0, (4.5, 1.6)), label=say("top"))
+        upper.plot(h.time, h.base_displacement[of], color=RED, label=say("base"))
         upper.set_ylabel(
-            f"{'xy'[k]}, relative\nto the ground [m]" if space else "displacement\nrelative to the ground [m]"
+            say("{axis}, relative\nto the ground [m]", axis="xy"[k])
+            if space
+            else say("displacement\nrelative to the ground [m]")
         )
         _mark_collapse(upper, [(response, BLACK)])
         _focus(upper, [response], (begin, end))
@@ -89,9 +92,9 @@ def _draw_blocks(
     farthest = np.nan_to_num(response.displacement[inside]).max(axis=0, initial=0.0)
     named = sorted(moving, key=lambda i: -farthest[i])[:NAMED]
     space = response.dims == "xyz"
-    places = {"x": response.x, "y": response.y, "vertical": response.z}
+    places = {"x": response.x, "y": response.y, say("vertical"): response.z}
     if not space:
-        places = {"horizontal": response.x, "vertical": response.z}
+        places = {say("horizontal"): response.x, say("vertical"): response.z}
     figure = page(figure, (WIDTH, 3.4 + len(places)))
     panels = figure.subplots(len(places) + 1, 1, sharex=True, height_ratios=(*(2.4,) * len(places), 1.0 + 0.3 * space))
     unit, factor = ("m", 1.0) if farthest.max() >= 0.1 else ("mm", 1000.0)
@@ -104,7 +107,7 @@ def _draw_blocks(
                 axes.plot(response.time, values[:, i], color="#c8c8c8", linewidth=0.6)
         for i, line in zip(named, CYCLE):
             axes.plot(response.time, values[:, i], label=names[i], **line)
-        axes.set_ylabel(f"{word}\ndisplacement [{unit}]")
+        axes.set_ylabel(say("{direction}\ndisplacement [{unit}]", direction=word, unit=unit))
     ground = len(places)
     others = len(moving) - len(named)
     handles, labels = panels[0].get_legend_handles_labels()
@@ -116,8 +119,8 @@ def _draw_blocks(
     if window[0] <= first <= window[1]:
         for axes in panels[:ground]:
             axes.axvline(first, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
-    said = f"; in grey the other {others} blocks" if others > 0 else ""
-    panels[1].set_title(f"relative to the ground{said}", loc="right", fontsize=8.0)
+    grey = say("relative to the ground; in grey the other {count} blocks", count=others)
+    panels[1].set_title(grey if others > 0 else say("relative to the ground"), loc="right", fontsize=8.0)
     panels[0].set_title(in_lines(title or title_of(response)))
     _draw_ground(panels[ground], response, window)
     figure.align_ylabels()
@@ -175,8 +178,8 @@ def _draw_ground(axes: Axes, response: Response, window: tuple[float, float]) ->
     if response.dims == "xyz":
         axes.plot(response.time, across, color=BLUE, linewidth=0.8, linestyle=(0, (4, 1.5)), label="y")
         axes.legend(loc="upper right", ncols=2, fontsize=7.5)
-    axes.set_ylabel("ground\n[g]")
-    axes.set_xlabel("time [s]")
+    axes.set_ylabel(say("ground\n[g]"))
+    axes.set_xlabel(say("time [s]"))
     axes.set_xlim(*window)
 
 
@@ -188,7 +191,7 @@ def _mark_collapse(axes: Axes, responses: Sequence[tuple[Response, str]]) -> Non
         axes.axvline(time, color=color, linewidth=0.8, linestyle=(0, (1, 2)))
         early = time < 0.7 * response.histories.time[-1]
         axes.annotate(
-            f"collapse {time:.2f} s",
+            say("collapse {time:.2f} s", time=time),
             (time, 0.04 + 0.09 * i),
             xycoords=("data", "axes fraction"),
             xytext=(3 if early else -3, 0),
@@ -248,35 +251,37 @@ def draw_energy(
     for term, line in zip(present, CYCLE * 2):
         width = 1.8 if term == "input" else 1.0
         upper.plot(time, factor * energy[term], label=_NAMES[term], linewidth=width, **line)
-    upper.set_ylabel(f"energy [{unit}]")
+    upper.set_ylabel(say("energy [{unit}]", unit=unit))
     upper.legend(loc="upper left", ncols=3)
     bottom, top = upper.get_ylim()
     upper.set_ylim(bottom, top + 0.25 * (top - bottom))
     upper.set_title(in_lines(title or title_of(response)))
     zero_line(lower)
-    word, largest = "input", float(np.nanmax(np.abs(energy["input"])))
+    word, largest = say("input"), float(np.nanmax(np.abs(energy["input"])))
     if response.followed:  # what falls releases more than what shook it put in
         released = float(np.nanmax(-energy["gravitational"]))
-        word, largest = ("released", released) if released > largest else (word, largest)
+        word, largest = (say("released"), released) if released > largest else (word, largest)
     lower.plot(time, response.imbalance / (largest or 1.0), color=GREY)
-    lower.set_ylabel(f"imbalance\n/ {word}")
-    lower.set_xlabel("time [s]")
+    lower.set_ylabel(say("imbalance\n/ {what}", what=word))
+    lower.set_xlabel(say("time [s]"))
     lower.set_xlim(*seen(time, window))
     lower.set_title(
-        f"missing at the end: {response.energy_imbalance:.1e} of the energy at stake", loc="right", fontsize=8.0
+        say("missing at the end: {r.energy_imbalance:.1e} of the energy at stake", r=response),
+        loc="right",
+        fontsize=8.0,
     )
     figure.align_ylabels()
     return figure
 
 
 _NAMES = {
-    "input": "input",
-    "kinetic": "kinetic",
-    "gravitational": "gravity",
-    "elastic": "elastic",
-    "friction": "friction loss",
-    "viscous": "viscous loss",
-    "impact": "impact loss",
+    "input": say("input"),
+    "kinetic": say("kinetic"),
+    "gravitational": say("gravity"),
+    "elastic": say("elastic"),
+    "friction": say("friction loss"),
+    "viscous": say("viscous loss"),
+    "impact": say("impact loss"),
 }
 
 
@@ -324,25 +329,27 @@ def draw_orbit(
     base = footprint(response, factor)
     axes.add_patch(base)
     axes.plot(x, y, color=BLACK, linewidth=0.8, zorder=3)
-    axes.plot(x[0], y[0], "s", color=BLUE, markersize=5, zorder=4, label="start")
+    axes.plot(x[0], y[0], "s", color=BLUE, markersize=5, zorder=4, label=say("start"))
     if fallen:
-        axes.plot(x[-1], y[-1], "X", color=RED, markersize=7, zorder=5, label=f"collapse, {time[last]:.2f} s")
+        axes.plot(
+            x[-1], y[-1], "X", color=RED, markersize=7, zorder=5, label=say("collapse, {time:.2f} s", time=time[last])
+        )
     else:
-        axes.plot(x[-1], y[-1], "o", color=RED, markersize=5, zorder=5, label=f"end, {time[last]:.2f} s")
+        axes.plot(x[-1], y[-1], "o", color=RED, markersize=5, zorder=5, label=say("end, {time:.2f} s", time=time[last]))
     handles, labels = axes.get_legend_handles_labels()
     half = 0.5 * factor * base_size(response)
     reach = max(1.12 * float(np.abs((x, y)).max(initial=0.0)), 1e-9)
     if 1.05 * half < 4.0 * reach:  # else the base would leave nothing to see
         reach = max(reach, 1.05 * half)
-        handles, labels = [*handles, base], [*labels, "base"]
+        handles, labels = [*handles, base], [*labels, say("base")]
     else:
         base.remove()
-        axes.set_title(f"base {_length(base_size(response))} across", loc="right", fontsize=8.0)
+        axes.set_title(say("base {length} across", length=_length(base_size(response))), loc="right", fontsize=8.0)
     axes.set_xlim(-reach, reach)
     axes.set_ylim(-reach, reach)
     axes.set_aspect("equal")
-    axes.set_xlabel(f"top, along x [{unit}]")
-    axes.set_ylabel(f"top, along y [{unit}]")
+    axes.set_xlabel(say("top, along x [{unit}]", unit=unit))
+    axes.set_ylabel(say("top, along y [{unit}]", unit=unit))
     words = textwrap.fill(title or title_of(response), 52)
     if ax is not None:
         axes.legend(handles, labels, loc="best", handletextpad=0.4)
@@ -376,7 +383,7 @@ def _ends(response: Response) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _length(value: float) -> str:
-    return f"{value:g} m" if value >= 0.1 else f"{1000.0 * value:g} mm"
+    return say("{value:g} m", value=value) if value >= 0.1 else say("{value:g} mm", value=1000.0 * value)
 
 
 # -- Earthquakes one after another ------------------------------------------------------------------------------------
@@ -425,10 +432,12 @@ def draw_sequence(
     if response.collapsed:
         for axes in (upper, middle):
             axes.axvline(response.collapse_time, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
-    upper.set_ylabel(f"{'top' if response.histories.top is not None else 'farthest body'}\n[{unit}]")
-    middle.set_ylabel("largest tilt\n[°]")
-    lower.set_ylabel("ground\n[g]")
-    lower.set_xlabel("time [s]")
+    upper.set_ylabel(
+        (say("top\n[{unit}]") if response.histories.top is not None else say("farthest body\n[{unit}]")).of(unit=unit)
+    )
+    middle.set_ylabel(say("largest tilt\n[°]"))
+    lower.set_ylabel(say("ground\n[g]"))
+    lower.set_xlabel(say("time [s]"))
     lower.set_xlim(0.0, time[-1])
     upper.set_title(in_lines(title or title_of(response)))
     figure.align_ylabels()

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..column.shapes import CircularFrustum, Shape, hull
+from ..messages import digits, say
 from ..response import Response
 from ..response.poses import rotation_matrices
 from ..response.words import title_of
@@ -48,9 +49,9 @@ def panels_for(count: int, figure: Figure | SubFigure | None, **options: Any) ->
 LETTER = 0.07
 
 
-def say(figure: Figure, title: str, left_out: int) -> None:
+def put_title(figure: Figure, title: str, left_out: int) -> None:
     """The title over the panels, and how many joints have none."""
-    more = f" Without {left_out} joints that moved less." if left_out else ""
+    more = say(" Without {left_out} joints that moved less.", left_out=left_out) if left_out else ""
     letters = min(max(int(figure.get_figwidth() / LETTER), 20), 110)
     figure.suptitle(textwrap.fill(title + more, letters), x=0.02, ha="left", fontsize=8.0)
 
@@ -99,22 +100,24 @@ def draw_joints(
         axes.plot(h.time, trace, color=BROWN, linewidth=0.8, zorder=2)
         axes.axhline(i + 1, color=GREY, linewidth=0.4, zorder=1)
         axes.annotate(
-            f"{1000.0 * peak:.3g} mm",
+            say("{peak:.3g} mm", peak=1000.0 * peak),
             (1.01, i + 1),
             xycoords=("axes fraction", "data"),
             fontsize=8.0,
             va="bottom",
         )
-    axes.annotate("peak", (1.01, n + 1), xycoords=("axes fraction", "data"), fontsize=8.0, va="bottom", color=GREY)
+    axes.annotate(say("peak"), (1.01, n + 1), xycoords=("axes fraction", "data"), fontsize=8.0, va="bottom", color=GREY)
     if begin <= time <= end:
         axes.axvline(time, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
-        axes.annotate(f"collapse {time:.2f} s  ", (time, n + 1), fontsize=8.0, va="bottom", ha="right")
+        axes.annotate(
+            say("collapse {time:.2f} s", time=time) + "  ", (time, n + 1), fontsize=8.0, va="bottom", ha="right"
+        )
     axes.set_xlim(*seen(h.time, window))
     axes.set_ylim(0.85, n + 1.35)
     every = 1 if n <= 30 else math.ceil(n / 25)
     axes.set_yticks(range(1, n + 1, every))
-    axes.set_xlabel("time [s]")
-    axes.set_ylabel("joint, from the base\n(opening, each to its peak)")
+    axes.set_xlabel(say("time [s]"))
+    axes.set_ylabel(say("joint, from the base\n(opening, each to its peak)"))
     axes.set_title(in_lines(title or title_of(response)))
     return figure
 
@@ -216,9 +219,9 @@ def draw_uplift(response: Response, title: str | None = None, *, figure: Figure 
         axes.grid(color="#dddddd", linewidth=0.5)
         axes.spines["polar"].set(color=GREY, linewidth=0.6)
         toward = math.degrees(azimuth[int(peaks[i].argmax())])
-        said = f"{largest:.3g} mm, {toward:.0f}°" if largest > 5e-3 else "closed"
-        axes.set_title(f"joint {i + 1}\n{said}", fontsize=7.0, loc="center", pad=4.0)
-    say(figure, title or f"Largest uplift by direction: {title_of(response)}", len(peaks) - len(shown))
+        said = say("{far:.3g} mm, {azimuth:.0f}°", far=largest, azimuth=toward) if largest > 5e-3 else say("closed")
+        axes.set_title(say("joint {number}\n{said}", number=i + 1, said=said), fontsize=7.0, loc="center", pad=4.0)
+    put_title(figure, title or f"Largest uplift by direction: {title_of(response)}", len(peaks) - len(shown))
     return figure
 
 
@@ -259,14 +262,16 @@ def draw_residuals(response: Response, title: str | None = None, *, figure: Figu
         axes.set_xlim(-reach, reach)
         axes.set_ylim(-reach, reach)
         offset = 1000.0 * float(np.hypot(*slip[i]))
-        toward = f" to {math.degrees(math.atan2(slip[i, 1], slip[i, 0])) % 360.0:.0f}°" if offset >= 0.05 else ""
+        azimuth = math.degrees(math.atan2(slip[i, 1], slip[i, 0])) % 360.0
+        toward = say(" to {azimuth:.0f}°", azimuth=azimuth) if offset >= 0.05 else ""
         turn = round(math.degrees(twist[i]), 2) + 0.0
-        words = f"drum {i + 1}\n{offset:.1f} mm{toward}\ntwist {turn:.2f}°".replace("-", "−")
+        twisted = ("−" if turn < 0.0 else "") + digits(abs(turn), ".2f")
+        words = say("drum {number}\n{far:.1f} mm{to}\ntwist {turn}°", number=i + 1, far=offset, to=toward, turn=twisted)
         axes.set_title(words, fontsize=7.0, loc="center", pad=1.0)
     when = "At the end" if math.isnan(response.collapse_time) else "Where collapse became certain"
     drawn = "as they are" if far == turned == 1.0 else f"offsets × {far:g}, twists × {turned:g}"
     words = f"{when} ({drawn}; x to the right, y up): {title_of(response)}"
-    say(figure, title or words, len(twist) - len(shown))
+    put_title(figure, title or words, len(twist) - len(shown))
     return figure
 
 

@@ -7,13 +7,14 @@ from matplotlib.figure import Figure, SubFigure
 
 from ..analysis.record_selection import RecordSelection
 from ..constants import g
+from ..messages import say
 from ..motion import Motion, integrate
 from ..motion.motion import peak_velocity
 from ..motion.spectra import ResponseSpectrum, response_spectrum
 from .style import BLACK, BLUE, CYCLE, WIDTH, page, styled, zero_line
 
 #: Components in words.
-NAMES = {"x": "horizontal x", "y": "horizontal y", "z": "vertical z"}
+NAMES = {"x": say("horizontal x"), "y": say("horizontal y"), "z": say("vertical z")}
 
 
 @styled
@@ -40,12 +41,12 @@ def draw_motion(motion: Motion, title: str | None = None, *, figure: Figure | Su
             axes.plot(motion.time, values, color=color, linewidth=0.7)
             peak = int(abs(values).argmax())
             axes.plot(motion.time[peak], values[peak], "o", color=color, markersize=3.5, fillstyle="none")
-            said = f"peak {largest:.3g} {unit} at {motion.time[peak]:.2f} s"
+            said = say("peak {value:.3g} {unit} at {time:.2f} s", value=largest, unit=unit, time=motion.time[peak])
             axes.set_title(said, loc="right", fontsize=8.0, pad=2.0)
             axes.margins(y=0.12)
-        rows[2 * i].set_ylabel(f"{NAMES[axis]}\nacceleration [g]")
-        rows[2 * i + 1].set_ylabel("velocity\n[m/s]")
-    rows[-1].set_xlabel("time [s]")
+        rows[2 * i].set_ylabel(say("{axis}\nacceleration [g]", axis=NAMES[axis]))
+        rows[2 * i + 1].set_ylabel(say("velocity\n[m/s]"))
+    rows[-1].set_xlabel(say("time [s]"))
     rows[-1].set_xlim(0.0, motion.duration)
     figure.suptitle(title or motion.name, x=0.01, ha="left", fontsize=10.0)
     figure.align_ylabels()
@@ -89,9 +90,9 @@ def draw_spectra(
         axes.grid(which="both")
         axes.set_ylim(bottom=0.0)
         axes.margins(x=0.0)
-    upper.set_ylabel("pseudo-acceleration [g]")
-    lower.set_ylabel("relative displacement [m]")
-    lower.set_xlabel("period [s]")
+    upper.set_ylabel(say("pseudo-acceleration [g]"))
+    lower.set_ylabel(say("relative displacement [m]"))
+    lower.set_xlabel(say("period [s]"))
     upper.legend(loc="upper right")
     level = next(iter(found.values())).damping
     upper.set_title(title or f"{motion.name}, {100.0 * level:g} % damping")

@@ -21,6 +21,7 @@ from matplotlib.text import Text
 
 from ..atomic import replacing
 from ..errors import check_all, check_choice, check_kind
+from ..messages import digits
 
 P = ParamSpec("P")
 Drawn = TypeVar("Drawn", Figure, tuple[Figure, ...])
@@ -229,3 +230,8 @@ def _make_plain(drawn: Artist) -> None:
 def zero_line(axes: Axes) -> None:
     """A thin line at zero."""
     axes.axhline(0.0, color=GREY, linewidth=0.6, zorder=0)
+
+
+def signed(value: float, form: str) -> str:
+    """A number with its sign, the true minus."""
+    return ("−" if value < 0.0 else "+") + digits(abs(value), form)

@@ -147,17 +147,18 @@ def measures_of_bodies(
     collapsed = bool(fell_at)
     first = fell_at[0][1] if collapsed else math.nan
     until = time <= first if collapsed else slice(None)
+    lies = at_rest or not collapsed  # where debris rolls on, nothing is what will remain
     return Measures(
         outcome=classify(collapsed, failed, opened, max(_largest(shares), _largest(free_shares))),
         decided=not failed and (at_rest or collapsed),
         collapse_time=first,
         peak_rotation=float(tilt[until].max()),
         peak_joint_opening=float(opening[until].max(initial=0.0)),
-        residual_joint_slip=float(slip.max(initial=0.0)),
+        residual_joint_slip=float(slip.max(initial=0.0)) if lies else math.nan,
         residuals=residuals,
         collapse=Collapse(first, None, FELL, azimuth_of_fall(each, fell_at), touched) if collapsed else None,
         blocks=BlockMeasures(
-            fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, each,
+            fell_at, float(moved[until].max()), float(moved[-1].max()) if lies else math.nan, at_rest, in_equilibrium, each,
             None if touched is None else touched.time,
         ),
         **numbers,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..messages import joined, say
 from ..outcome import Outcome
 
 if TYPE_CHECKING:
@@ -25,37 +26,41 @@ def sentence_of_blocks(response: Recorded) -> str:
     assert blocks is not None
     moving = [i for i, held in enumerate(response.bodies.fixed) if not held]
     if response.outcome is Outcome.FAILED:
-        why = f" Reason: {m.reason}." if m.reason else ""
-        return f"The computation could not be completed; this is no verdict on the assembly.{why}"
+        failed = say("The computation could not be completed; this is no verdict on the assembly.")
+        return joined(" ", [failed, say("Reason: {reason}.", reason=m.reason) if m.reason else ""])
     if response.outcome is Outcome.COLLAPSED:
         order = [name for name, _ in blocks.fell_at]
-        said = f"{len(order)} of {len(moving)} blocks fell, the first at {m.collapse_time:.2f} s: {_names(order)}."
-        words = [said, f"{_first(response)}{_widest(response)}."]
+        said = say("{fallen} of {all} blocks fell, the first at {time:.2f} s: {names}.", fallen=len(order),
+                   all=len(moving), time=m.collapse_time, names=_names(order))  # fmt: skip
+        words = [said, _first(response) + _widest(response) + "."]
         if blocks.displaced:
-            words.append(f"Shifted, but standing: {_names(blocks.displaced)}.")
+            words.append(say("Shifted, but standing: {names}.", names=_names(blocks.displaced)))
         if len(order) < len(moving) and not blocks.at_rest:
-            words.append("Not all is at rest at the end: what has not fallen by then may yet fall.")
-        return " ".join(words) + _moving(response)
-    all_of_them = {1: "The block is", 2: "Both blocks are"}.get(len(moving), f"All {len(moving)} blocks are")
-    in_place = f"{all_of_them} in place" if response.decided else "Nothing has fallen so far"
+            words.append(say("Not all is at rest at the end: what has not fallen by then may yet fall."))
+        return joined(" ", [*words, _moving(response)])
+    in_place = {1: say("The block is in place"), 2: say("Both blocks are in place")}.get(
+        len(moving), say("All {count} blocks are in place", count=len(moving))
+    )
+    in_place = in_place if response.decided else say("Nothing has fallen so far")
     if response.outcome is Outcome.AT_REST:
-        return f"{in_place}: no joint opened."
+        return say("{in_place}: no joint opened.", in_place=in_place)
     if response.outcome is Outcome.ROCKED:
-        return f"{in_place}: joints opened and closed, none is shifted{_widest(response)}."
+        closed = say("{in_place}: joints opened and closed, none is shifted", in_place=in_place)
+        return closed + _widest(response) + "."
     gone = response.displacement[-1]
     far = max(moving, key=lambda i: gone[i])
-    others = ", the others by less" if len(moving) > 1 else ""
-    shifted = f"{response.bodies.names[far]} by {_length(float(gone[far]))}{others}"
-    where = ", but shifted" if response.decided else "; out of place at the end"
-    return f"{in_place}{where}: {shifted}{_widest(response)}.{_moving(response)}"
+    words = [in_place, say(", but shifted") if response.decided else say("; out of place at the end")]
+    words.append(say(": {body} by {far}", body=response.bodies.names[far], far=_length(float(gone[far]))))
+    words += [say(", the others by less") * (len(moving) > 1), _widest(response), "."]
+    return joined(" ", [joined("", words), _moving(response)])
 
 
 def _moving(response: Recorded) -> str:
     """What rolls on after a wait for rest, in a sentence; empty where nothing does."""
     moving = moving_at_end(response) if response.provenance.get("until_rest") else {}
-    fast = _names(f"{name} ({speed:.2g} m/s)" for name, speed in moving.items())
-    words = f" Still moving at the end: {fast}. How far they come is not computed: nothing here resists rolling."
-    return words if moving else ""
+    fast = _names(say("{name} ({speed:.2g} m/s)", name=name, speed=speed) for name, speed in moving.items())
+    still = say("Still moving at the end: {names}.", names=fast)
+    return joined(" ", [still, say("How far they come is not computed: nothing here resists rolling.")]) * bool(moving)
 
 
 def moving_at_end(response: Recorded) -> dict[str, float]:
@@ -86,10 +91,16 @@ def _first(response: Recorded) -> str:
     assert blocks is not None
     name, collapse = blocks.fell_at[0][0], m.collapse
     if collapse is None or collapse.azimuth is None:
-        return f"First fell {name}, straight down"
+        return say("First fell {body}, straight down", body=name)
     if response.dims == "xz":
-        return f"First fell {name}, to the {collapse.side}"
-    return f"First fell {name}, towards azimuth {round(math.degrees(collapse.azimuth)) % 360}° (from x towards y)"
+        left = collapse.side == "left"
+        return (
+            say("First fell {body}, to the left", body=name)
+            if left
+            else say("First fell {body}, to the right", body=name)
+        )
+    towards = round(math.degrees(collapse.azimuth)) % 360
+    return say("First fell {body}, towards azimuth {azimuth}° (from x towards y)", body=name, azimuth=towards)
 
 
 def _widest(response: Recorded) -> str:
@@ -97,16 +108,18 @@ def _widest(response: Recorded) -> str:
     opened, slid = (_joint_told(response, what) for what in ("opening", "slip"))
     words = []
     if opened is not None:
-        words.append(f"{_joint(opened)} opened most, by {_length(opened['opening_m'])}")
-    if slid is not None:
-        same = opened is not None and slid["joint"] == opened["joint"]
-        words.append(f"{'it' if same else _joint(slid)} slid most, by {_length(slid['slip_m'])}")
-    then = "until then " if response.collapsed else ""
-    return f"; {then}{', and '.join(words)}" if words else ""
+        words.append(say("the joint of {one} and {other} opened most, by {far}", **_joint(opened, "opening_m")))
+    if slid is not None and opened is not None and slid["joint"] == opened["joint"]:
+        words.append(say("it slid most, by {far}", far=_length(slid["slip_m"])))
+    elif slid is not None:
+        words.append(say("the joint of {one} and {other} slid most, by {far}", **_joint(slid, "slip_m")))
+    then = say("; until then ") if response.collapsed else "; "
+    return then + joined(say(", and "), words) if words else ""
 
 
-def _joint(told: dict[str, Any]) -> str:
-    return f"the joint of {told['between'][0]} and {told['between'][1]}"
+def _joint(told: dict[str, Any], far: str) -> dict[str, Any]:
+    """Values of a sentence on a joint: the bodies that it joins, and how far it went."""
+    return {"one": told["between"][0], "other": told["between"][1], "far": _length(told[far])}
 
 
 def _joint_told(response: Recorded, what: str) -> dict[str, Any] | None:
@@ -129,8 +142,9 @@ def _joint_told(response: Recorded, what: str) -> dict[str, Any] | None:
 def _names(names: Any) -> str:
     """Names, the first of many."""
     told = list(names)
-    return ", ".join(told[:MOST_NAMES]) + (f" and {len(told) - MOST_NAMES} more" if len(told) > MOST_NAMES else "")
+    more = len(told) - MOST_NAMES
+    return joined(", ", told[:MOST_NAMES]) + (say(" and {count} more", count=more) if more > 0 else "")
 
 
 def _length(value: float) -> str:
-    return f"{value:.2f} m" if value >= 1.0 else f"{1000.0 * value:.3g} mm"
+    return say("{value:.2f} m", value=value) if value >= 1.0 else say("{value:.3g} mm", value=1000.0 * value)

@@ -6,6 +6,8 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from ..messages import say
+
 #: A part turned over the edge of its support; slid off it; or fell, where no joint can be named.
 OVERTURNED, SLID_OFF, FELL = "overturned", "slid off", "fell"
 
@@ -89,6 +91,8 @@ def in_plane(time: float, joint: int, side: float, *, slid_off: bool = False) ->
 def what_is_lost(lost: Collapse, drums: int) -> str:
     """The part of a column of so many drums that is lost, and how, in words."""
     joint = lost.joint or 1
-    part = "the whole column" if joint == 1 else f"drums {joint} to {drums}" if joint < drums else f"drum {drums}"
-    how = f"left the support at joint {joint}" if lost.mechanism == SLID_OFF else f"overturned about joint {joint}"
-    return f"{part} {how}"
+    part = say("drums {first} to {last}", first=joint, last=drums) if joint < drums else say("drum {drum}", drum=drums)
+    part = say("the whole column") if joint == 1 else part
+    if lost.mechanism == SLID_OFF:
+        return say("{part} left the support at joint {joint}", part=part, joint=joint)
+    return say("{part} overturned about joint {joint}", part=part, joint=joint)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..messages import joined, say
 from ..percent import percent
 
 #: Names of the histories of links, in the order in which models record them.
@@ -18,7 +19,7 @@ NAMES = ("shear", "tension", "slip", "elongation")
 AT_CAPACITY = 1.0 - 1e-9
 
 #: What the columns of the table count as given way, in a sentence beside it.
-YIELDS = "A link at its capacity yields or slips, and stays so."
+YIELDS = say("A link at its capacity yields or slips, and stays so.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,33 +145,39 @@ def sentence_of(links: Sequence[LinkMeasures]) -> str:
     if not kinds:
         return ""
     counted = [link for link in links if link.kind in kinds]
-    many = kinds.pop() + "s" if len(kinds) == 1 else "links"
     broken = sorted((one for one in counted if one.broken), key=lambda one: one.broken_at)
     full = [one for one in counted if not one.broken and one.utilisation >= AT_CAPACITY]
+    known = {
+        "kind": say(counted[0].kind), "kinds": say(kinds.pop() + "s") if len(kinds) == 1 else say("links"),
+        "count": len(counted), "broken": len(broken), "full": _at_capacity(full) if full else "",
+    }  # fmt: skip
     if not broken and full:
-        if len(counted) == 1:
-            return f"The {full[0].kind} did not break, but was at its capacity. {YIELDS}"
-        which = "Neither of both" if len(counted) == 2 else f"None of {len(counted)}"
-        return f"{which} {many} broke, but {_at_capacity(full)}. {YIELDS}"
+        said = {1: say("The {kind} did not break, but was at its capacity."),
+                2: say("Neither of both {kinds} broke, but {full}.")}  # fmt: skip
+        return joined(
+            " ", [said.get(len(counted), say("None of {count} {kinds} broke, but {full}.")).of(**known), YIELDS]
+        )
     if not broken:
         most = max(counted, key=lambda one: one.utilisation)
-        all_of_them = {1: f"The {most.kind} is", 2: f"Both {many} are"}.get(
-            len(counted), f"All {len(counted)} {many} are"
-        )
-        share = f"; the {most.name} bore {percent(most.utilisation)} of what it can" if most.utilisation else ""
-        return f"{all_of_them} whole{share}."
-    first = broken[0]
-    where = f" in joint {first.joint}" if first.joint else f", the {first.name}"
+        said = {1: say("The {kind} is whole"), 2: say("Both {kinds} are whole")}
+        bore = say("; the {link} bore {share} of what it can", link=most.name, share=percent(most.utilisation))
+        whole = said.get(len(counted), say("All {count} {kinds} are whole")).of(**known)
+        return joined("", [whole, bore if most.utilisation else "", "."])
+    first, alone = broken[0], len(counted) == 1
     which = (
-        f"The {first.kind} broke" if len(counted) == 1 else f"{len(broken)} of {len(counted)} {many} broke, the first"
+        say("The {kind} broke at {time:.2f} s")
+        if alone
+        else say("{broken} of {count} {kinds} broke, the first at {time:.2f} s")
     )
-    stone = sum(one.limited_by == "stone" for one in broken)
-    others = f" The stone around {stone} of those broke first." if stone else ""
-    others += f" Of those that did not break, {_at_capacity(full)}. {YIELDS}" if full else ""
-    return f"{which} at {first.broken_at:.2f} s{where}.{others}"
+    where = say(" in joint {joint}.", joint=first.joint) if first.joint else say(", the {link}.", link=first.name)
+    words = [which.of(time=first.broken_at, **known) + where]
+    if stone := sum(one.limited_by == "stone" for one in broken):
+        words.append(say("The stone around {count} of those broke first.", count=stone))
+    return joined(" ", [*words, *([say("Of those that did not break, {full}.", **known), YIELDS] if full else [])])
 
 
 def _at_capacity(full: Sequence[LinkMeasures]) -> str:
     """Which links were at their capacity: how many, and one of them by name."""
-    one = f"the {full[0].name}"
-    return f"{one} was at its capacity" if len(full) == 1 else f"{len(full)} were at their capacity, such as {one}"
+    if len(full) == 1:
+        return say("the {link} was at its capacity", link=full[0].name)
+    return say("{count} were at their capacity, such as the {link}", count=len(full), link=full[0].name)

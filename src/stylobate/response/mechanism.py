@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..column import Column
+from ..messages import joined, say
 from .histories import Histories
 from .measures import Measures
 
@@ -63,35 +64,40 @@ class Mechanism:
     def describe(self) -> str:
         """The mechanism in one or two sentences."""
         n = len(self.fallen) + len(self.standing)
+        far = _length(max((abs(offset) for offset in self.offsets), default=0.0))
         if not self.fallen and not self.joint:
-            largest = max((abs(offset) for offset in self.offsets), default=0.0)
-            what = f"All {n} drums stand" if n > 1 else "The column stands"
-            return f"{what}; the largest residual offset is {_length(largest)}."
+            if n > 1:
+                return say("All {count} drums stand; the largest residual offset is {length}.", count=n, length=far)
+            return say("The column stands; the largest residual offset is {length}.", length=far)
         words = []
         if self.joint:
-            what = "The column" if self.joint == 1 else f"The part above joint {self.joint}"
-            how = "as one body" if self.as_one_body else "and broke up"
-            words.append(
-                f"{what} slid off its support."
-                if self.slid_off
-                else f"{what} overturned {how} about joint {self.joint}."
-            )
+            what = say("The column") if self.joint == 1 else say("The part above joint {joint}", joint=self.joint)
+            how = say("as one body") if self.as_one_body else say("and broke up")
+            turned = say("{part} overturned {how} about joint {joint}.", part=what, how=how, joint=self.joint)
+            words.append(say("{part} slid off its support.", part=what) if self.slid_off else turned)
         if self.fallen and n == 1:
-            words.append(f"It fell to the {self.fell_to[0]} at {self.fell_at[0]:.2f} s.")
+            left = self.fell_to[0] == "left"
+            side = say("It fell to the left at {time:.2f} s.") if left else say("It fell to the right at {time:.2f} s.")
+            words.append(side.of(time=self.fell_at[0]))
         elif self.fallen:
-            sides = ", ".join(
-                f"{self.fell_to.count(side)} to the {side}" for side in ("left", "right") if side in self.fell_to
-            )
-            first, last = f"{min(self.fell_at):.2f} s", f"{max(self.fell_at):.2f} s"
-            when = f"at {first}" if len(self.fallen) == 1 else f"the first at {first}, the last at {last}"
-            words.append(f"{len(self.fallen)} of {n} drums fell ({sides}), {when}.")
-        if self.standing:
-            largest = max(abs(offset) for offset in self.offsets)
-            verb = "stands" if len(self.standing) == 1 else "stand"
-            words.append(f"{len(self.standing)} {verb}, offset by up to {_length(largest)}.")
+            left, right = (self.fell_to.count(side) for side in ("left", "right"))
+            sides = [
+                say("{count} to the left", count=left) * bool(left),
+                say("{count} to the right", count=right) * bool(right),
+            ]
+            when = say("at {time:.2f} s", time=self.fell_at[0])
+            if len(self.fallen) > 1:
+                first, last = min(self.fell_at), max(self.fell_at)
+                when = say("the first at {first:.2f} s, the last at {last:.2f} s", first=first, last=last)
+            values = {"fallen": len(self.fallen), "all": n, "sides": joined(", ", sides), "when": when}
+            words.append(say("{fallen} of {all} drums fell ({sides}), {when}.", **values))
+        if len(self.standing) == 1:
+            words.append(say("1 stands, offset by up to {length}.", length=far))
+        elif self.standing:
+            words.append(say("{count} stand, offset by up to {length}.", count=len(self.standing), length=far))
         if self.at_rest is False:
-            words.append("Not all lies still yet.")
-        return " ".join(words)
+            words.append(say("Not all lies still yet."))
+        return joined(" ", words)
 
 
 def find_mechanism(
@@ -144,4 +150,4 @@ def find_mechanism(
 
 
 def _length(value: float) -> str:
-    return f"{value:.2f} m" if value >= 1.0 else f"{1000.0 * value:.3g} mm"
+    return say("{value:.2f} m", value=value) if value >= 1.0 else say("{value:.3g} mm", value=1000.0 * value)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..constants import LONGEST_WAIT, g
+from ..messages import joined, say
 from ..outcome import Outcome
 from .block_words import sentence_of_blocks
 from .links import sentence_of as sentence_of_links
@@ -28,15 +29,15 @@ def sentence_of(response: Recorded) -> str:
     m = response.measures
     links = sentence_of_links(m.links)
     if m.blocks is not None:
-        return f"{sentence_of_blocks(response)} {links if m.outcome is not Outcome.FAILED else ''}".rstrip()
+        return joined(" ", [sentence_of_blocks(response), links if m.outcome is not Outcome.FAILED else ""])
     if m.collapsed:
-        return f"{_of_collapse(response)} {links}".rstrip()
-    words = [m.outcome.sentence_of(len(response.bodies.names)), *([links] if links else [])]
+        return joined(" ", [_of_collapse(response), links])
+    words = [m.outcome.sentence_of(len(response.bodies.names)), links]
     if m.reason:
-        words.append(f"Reason: {m.reason}.")
+        words.append(say("Reason: {reason}.", reason=m.reason))
     if not m.decided and m.outcome is not Outcome.FAILED:
         words.append(_undecided(response))
-    return " ".join(words)
+    return joined(" ", words)
 
 
 #: Damping of a run in space, by the names of the parameters, and the value with which there is none.
@@ -60,22 +61,22 @@ def opening_words(opens: Mapping[str, float] | None) -> str:
     """What rocks a column statically, beside that on rigid joints, and whether its toe is wide; empty if unknown."""
     if opens is None:
         return ""
-    soft, rigid, toe = opens["acceleration"] / g, opens["rigid"] / g, opens["toe"]
-    words = f"{soft:.4g} g; on rigid joints {rigid:.4g} g"
-    if toe <= WIDE_TOE:
+    soft, rigid, toe = opens["acceleration"] / g, opens["rigid"] / g, 100.0 * opens["toe"]
+    words = say("{soft:.4g} g; on rigid joints {rigid:.4g} g", soft=soft, rigid=rigid)
+    if opens["toe"] <= WIDE_TOE:
         return words
-    return f"{words}. Its toe reaches {100.0 * toe:.2g} % of the width in: is normal_stiffness in N/m³?"
+    return words + say(". Its toe reaches {share:.2g} % of the width in: is normal_stiffness in N/m³?", share=toe)
 
 
 #: What stands before all that rests on wobbles without damping.
-UNDAMPED_WOBBLE = (
-    "Wobbling was not damped, and in space a verdict can hang on that, either way: see how many of a population fall "
-    "with a stiffness damping of 1e-4 s, and of 1e-3 s, or with losses = stone (2 to 35 times the computing time), before "
-    "relying on it."
+UNDAMPED_WOBBLE = say(
+    "Wobbling was not damped, and in space a verdict can hang on that, either way: see how many of a population "
+    "fall with a stiffness damping of 1e-4 s, and of 1e-3 s, or with losses = stone (2 to 35 times the computing "
+    "time), before relying on it."
 )
 
 #: What stands before all that rests on round columns in a plane; of several drums they leave it by themselves.
-ROUND_IN_THE_PLANE = "Round columns, computed in a plane: in space they can fall under much weaker motions"
+ROUND_IN_THE_PLANE = say("Round columns, computed in a plane: in space they can fall under much weaker motions")
 
 
 def round_in_the_plane(structure: Structure) -> str:
@@ -83,14 +84,15 @@ def round_in_the_plane(structure: Structure) -> str:
     if structure.section != "circular":
         return ""
     several = structure.stack is not None and structure.stack.n > 1
-    too = ", under one component too" if several else ""
-    return f"{ROUND_IN_THE_PLANE}{too}; compute them in space (dem3d) before relying on it."
+    too = say(", under one component too") * several
+    return joined("", [ROUND_IN_THE_PLANE, too, say("; compute them in space (dem3d) before relying on it.")])
 
 
 #: What stands beside whatever rests on assemblies in space whose bodies struck one another.
-STRUCK_IN_SPACE = (
-    "Assemblies in space are new: where bodies strike one another the outcome depends on how stiff a base is beside the "
-    "contact, and a fall is one draw of many; near the limit repeat with half the step and twice the stiffness."
+STRUCK_IN_SPACE = say(
+    "Assemblies in space are new: where bodies strike one another the outcome depends on how stiff a base is "
+    "beside the contact, and a fall is one draw of many; near the limit repeat with half the step and twice the "
+    "stiffness."
 )
 
 
@@ -141,7 +143,7 @@ def doubt_of(response: Recorded) -> str:
                 return ""
             struck = struck_in_space(response.structure) if blocks.hangs_on_strikes else ""
             opened = response.outcome is not Outcome.AT_REST
-            return f"{struck} {wobble_in_space(response.structure, known) if opened else ''}".strip()
+            return joined(" ", [struck, wobble_in_space(response.structure, known) if opened else ""])
         several = len(response.bodies.names) > 1 and response.outcome in (Outcome.ROCKED, Outcome.DISPLACED)
         return round_in_the_plane(response.structure) if several else ""
     wobbled = slenderness is not None and space.peak_tilt > WOBBLES * slenderness
@@ -163,7 +165,7 @@ def longer_tail(given: float) -> str:
     given : float
         How long it went on after the motion [s].
     """
-    return f"a tail of {max(SHORTEST_TAIL, 2.0 * given):g} s"
+    return say("a tail of {tail:g} s", tail=max(SHORTEST_TAIL, 2.0 * given))
 
 
 #: The least time after a motion in which a run may become certain [s].
@@ -184,13 +186,15 @@ def to_decide(structure: Structure, parameters: Mapping[str, Any], tail: float, 
         Whether it went on after it for its verdict, as runs of campaigns do (``until_decided``).
     """
     if structure.stack is None and structure.slenderness is None:
-        return "follow it with `until_rest`, or damp it (stiffness_damping)"
+        return say("follow it with `until_rest`, or damp it (stiffness_damping)")
     free = parameters.get("pivot_friction", 1.0) < 1.0 and not parameters.get("planar")
     moved = any(drum.offset or drum.tilt or drum.chipped for drum in structure.as_found.drums)
     if free and moved and structure.section == "circular":
-        return "no tail decides it, as drums that pivot freely turn with their offsets, slopes and chips at no cost"
+        return say(
+            "no tail decides it, as drums that pivot freely turn with their offsets, slopes and chips at no cost"
+        )
     steps = "stiffness_damping" in parameters  # only what steps drums waits
-    return f"go on with {longer_tail(tail + LONGEST_WAIT * (waited and steps))}"
+    return say("go on with {tail}", tail=longer_tail(tail + LONGEST_WAIT * (waited and steps)))
 
 
 def _undecided(response: Recorded) -> str:
@@ -202,11 +206,12 @@ def _undecided(response: Recorded) -> str:
     waited = bool(known.get("until_decided"))
     cure = to_decide(response.structure, known.get("parameters", {}), float(known.get("tail_s", 0.0)), waited)
     if response.structure.pretensioned:
-        return (
-            f"The verdict may still change: at the end it is not at rest ({cure}), or it is, and what its pretension "
-            "holds could overturn it if it came free, which no tail decides."
+        return say(
+            "The verdict may still change: at the end it is not at rest ({cure}), or it is, and what its "
+            "pretension holds could overturn it if it came free, which no tail decides.",
+            cure=cure,
         )
-    return f"The verdict may still change: at the end it is far from rest; {cure}."
+    return say("The verdict may still change: at the end it is far from rest; {cure}.", cure=cure)
 
 
 def describe(response: Recorded) -> str:
@@ -228,20 +233,19 @@ def describe(response: Recorded) -> str:
 
 
 def length(value: float) -> str:
-    """A length for people."""
-    return f"{value:.2f} m" if not abs(value) < 1.0 else f"{1000.0 * value:.3g} mm"
+    """A length for people: in m, or in mm below a metre."""
+    return say("{value:.3g} mm", value=1000.0 * value) if abs(value) < 1.0 else say("{value:.2f} m", value=value)
 
 
 def _of_collapse(response: Recorded) -> str:
     m, mechanism = response.measures, response.mechanism
     words = [m.outcome.sentence_of(len(response.bodies.names))]
     if m.reason:
-        words.append(f"Reason: {m.reason}.")
+        words.append(say("Reason: {reason}.", reason=m.reason))
     if mechanism is not None:
-        words.append(f"That was certain at {m.collapse_time:.2f} s.")
-    if m.collapse is not None and m.collapse.touched is not None and m.collapse.touched.bodies is not None:
-        one, other = m.collapse.touched.bodies
-        words.append(f"First to touch were {one} and {other}, at {m.collapse.touched.time:.2f} s.")
+        words.append(say("That was certain at {time:.2f} s.", time=m.collapse_time))
+    if m.collapse is not None and (touched := m.collapse.touched) is not None and touched.bodies is not None:
+        words.append(say("First to touch were {t.bodies[0]} and {t.bodies[1]}, at {t.time:.2f} s.", t=touched))
     if mechanism is not None:
         words.append(mechanism.describe())
-    return " ".join(words)
+    return joined(" ", words)

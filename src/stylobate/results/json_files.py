@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..messages import MESSAGES, restored
 from ..reading import read_bytes, shown
 
 #: Largest JSON file of a result [bytes].
@@ -28,4 +29,8 @@ def read_json(path: Path) -> dict[str, Any]:
         raise InputError(f"{shown(path)} is no JSON that can be read ({error}); run again.") from None
     if not isinstance(found, dict):
         raise InputError(f"{shown(path)} holds no object as stylobate writes it; run again.")
-    return found
+    messages = found.pop(MESSAGES, {})
+    try:
+        return restored(found, messages)
+    except (AttributeError, KeyError, TypeError, ValueError):
+        raise InputError(f"{shown(path)} holds messages as nobody writes them; run again.") from None

@@ -14,14 +14,15 @@ from markupsafe import Markup
 
 from stylobate.analysis.difference import NO_MEASURE
 from stylobate.atomic import output_folder
-from stylobate.column.spatial.placing import NUMBERED
 from stylobate.errors import InputError, StylobateError
+from stylobate.messages import Message, joined, say
 from stylobate.results import Kind, Numbers, Result, RunResult, SeveralRuns, read_results
 from stylobate.version import __version__
 
 from . import page
-from .language import Language, language_of, speaking
+from .language import Language, language_of, numbered, speaking
 from .others import sections_of
+from .page import Own
 from .pdf import print_pdf
 from .project import Project, front_sections
 from .record import NOTE, SOURCES, files_section
@@ -33,25 +34,25 @@ TEMPLATE = Path(__file__).with_name("case.html")
 
 #: Names of the kinds of results.
 TITLES = {
-    "run": "run in time",
-    "runs": "runs in time",
-    "critical": "critical amplitude",
-    "domain": "safe–unsafe domain",
-    "probability": "probability of collapse",
-    "pushover": "pushover",
-    "limit": "limit analysis",
-    "compare": "models compared",
-    "states": "states compared",
-    "suite": "suite of records",
-    "ida": "incremental dynamic analysis",
-    "fragility": "fragility",
-    "risk": "risk",
-    "survival": "survival",
-    "infer": "what shaking it was",
-    "sequence": "earthquakes until it falls",
-    "records": "records chosen",
-    "calibrate": "losses from a measured history",
-    "study": "study",
+    "run": say("run in time"),
+    "runs": say("runs in time"),
+    "critical": say("critical amplitude"),
+    "domain": say("safe–unsafe domain"),
+    "probability": say("probability of collapse"),
+    "pushover": say("pushover"),
+    "limit": say("limit analysis"),
+    "compare": say("models compared"),
+    "states": say("states compared"),
+    "suite": say("suite of records"),
+    "ida": say("incremental dynamic analysis"),
+    "fragility": say("fragility"),
+    "risk": say("risk"),
+    "survival": say("survival"),
+    "infer": say("what shaking it was"),
+    "sequence": say("earthquakes until it falls"),
+    "records": say("records chosen"),
+    "calibrate": say("losses from a measured history"),
+    "study": say("study"),
 }
 
 
@@ -118,9 +119,12 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
     cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
     end = [files_section(found), page.Section(SOURCES, [page.Points(list(map(page.Own, cited)))])]
     names = _heading(found, project)
-    kinds = ", ".join(dict.fromkeys(language.say(TITLES[one.kind.value]) for one in found))
+    kinds = joined(", ", dict.fromkeys(TITLES[one.kind.value] for one in found))
     day = date.today().isoformat()
-    lead = [f"{kinds[:1].upper()}{kinds[1:]}. {language.say(f'Written on {day} by stylobate {__version__}.')}"]
+    written = say(
+        "{kinds:capital}. Written on {day} by stylobate {version}.", kinds=kinds, day=Own(day), version=Own(__version__)
+    )
+    lead = [language.say(written)]
     notes = _notes([case["notes"] for case in cases]) if len(cases) > 1 else []
     values = {
         "notes": page.kinds([language.item(one) for one in notes]),
@@ -132,23 +136,34 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
         "end": [page.part(language.section(section)) for section in end],
         "project": project,
         "language": language.tag,
-        "say": language.say,
+        "words": {name: language.say(text) for name, text in WORDS.items()},
         "foot": Markup('"' + PAGES.sub(r'" counter(\1) "', re.sub(r'["\\\\<]', "", language.say(FOOT))) + '"'),
         "spoken": page.kinds(_spoken(language)),
     }
-    files = [page.write_html(target, TEMPLATE, title=title or language.say(f"Report: {names}"), **values)]
+    files = [
+        page.write_html(
+            target, TEMPLATE, title=title or language.say(say("Report: {names}", names=Own(names))), **values
+        )
+    ]
     if pdf:
         _log.info("printing %s.", target.name)
         files.append(print_pdf(target, target.with_suffix(".pdf")))
     return files
 
 
+#: Words of the template.
+WORDS = {
+    "prepared": say("Prepared by, date"), "checked": say("Checked by, date"), "signature": say("Signature"),
+    "appendix": say("Appendix: the results in full"), "name": say("name"), "role": say("role"), "place": say("place"),
+    "date": say("date"),
+}  # fmt: skip
+
 #: Foot of a printed page, and the counters of a style sheet in it.
-FOOT, PAGES = "page {page} of {pages}", re.compile(r"\{(pages?)\}")
+FOOT, PAGES = say("page {page} of {pages}"), re.compile(r"\{(pages?)\}")
 
 #: What a report in another language says of itself before anything else.
-SPOKEN_IN = "Names, commands, parameters of the program and what is cited are as they are."
-PARTS_IN_ENGLISH = "Parts in English, because they are not translated or are pictures drawn before: {sections}."
+SPOKEN_IN = say("Names, commands, parameters of the program and what is cited are as they are.")
+PARTS_IN_ENGLISH = say("Parts in English, because they are not translated or are pictures drawn before: {sections}.")
 
 
 def _spoken(language: Language) -> list[page.Item]:
@@ -157,8 +172,7 @@ def _spoken(language: Language) -> list[page.Item]:
         return []
     said = [language.say(SPOKEN_IN)]
     if language.english:
-        words = language.table.get(PARTS_IN_ENGLISH, PARTS_IN_ENGLISH)
-        said.append(words.replace("{sections}", ", ".join(language.english)))
+        said.append(language.say(PARTS_IN_ENGLISH.of(sections=Own(", ".join(language.english)))))
     return [page.Note(said, "fair" if language.english else "")]
 
 
@@ -182,7 +196,7 @@ def _names(found: Sequence[Result]) -> set[str]:
     bodies = [body.name for stands in standing for body in stands.bodies if not (body.fixed and body.name == "ground")]
     given = {
         *motions,
-        *(name for name in bodies if not NUMBERED.fullmatch(name)),
+        *(name for name in bodies if not numbered(name)),
         *(label for label in labels if label not in NO_MEASURE),
         *(one.name for one in found),
         *(stands.name for one in found for stands in one.structures),
@@ -196,16 +210,16 @@ def _case(
     """A case as the template takes it; its verdict is what the verdicts of its first section begin with."""
     sections = _sections_of(result, all_)
     notes = [item for item in sections[0].items if isinstance(item, page.Note) and "verdict" in item.look]
-    verdict = " ".join(text for note in notes for text in note.texts[: note.first])
+    verdict = joined(" ", (text for note in notes for text in note.texts[: note.first]))
     said = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
-    known = [text.removeprefix(NOTE) for text in said if text.startswith(NOTE)]
+    known = [text.values["text"] for text in said if isinstance(text, Message) and text.template == NOTE]
     sources = [item for part in sections if part.title == SOURCES for item in part.items]
     rest = [part for part in sections[1:] if part.title != SOURCES]
     parts = [sections[0], *(_once(part, number, shown) for part in rest)]
     return {
         "cited": [text for item in sources if isinstance(item, page.Points) for text in item.texts],
         "title": _title(result, language),
-        "verdict": "\n".join(map(language.say, verdict.split("\n"))),
+        "verdict": language.say(verdict),
         "notes": known,
         "parts": [page.part(language.section(section)) for section in parts],
     }
@@ -219,11 +233,11 @@ def _once(section: page.Section, number: int, shown: dict[bytes, int]) -> page.S
         return shown.setdefault(known, number)
 
     if (case := earlier(section.items)) < number:
-        return page.Section(section.title, [f"As in case {case}."])
+        return page.Section(section.title, [say("As in case {case}.", case=case)])
     items: list[page.Item] = []
     for item in section.items:
         if isinstance(item, (page.Rows, page.Facts, page.Picture)) and (case := earlier(item)) < number:
-            items += [*filter(None, [item.caption]), f"As in case {case}."]
+            items += [*filter(None, [item.caption]), say("As in case {case}.", case=case)]
         else:
             items.append(item)
     return page.Section(section.title, items)
@@ -235,9 +249,10 @@ def _notes(notes: Sequence[Sequence[str]]) -> list[page.Item]:
     for number, texts in enumerate(notes, start=1):
         for text in dict.fromkeys(texts):
             told.setdefault(text, []).append(number)
+    on, on_all = say("On {cases}: {text}"), say("On all of them: {text}")
     each = [
-        f"On {'all of them' if len(numbers) == len(notes) else ', '.join(map(str, numbers))}: {text}"
-        for text, numbers in told.items()
+        (on_all if len(cases) == len(notes) else on).of(cases=", ".join(map(str, cases)), text=text)
+        for text, cases in told.items()
     ]
     return [page.Note(each, "fair")] if each else []
 

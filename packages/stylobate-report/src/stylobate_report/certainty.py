@@ -7,6 +7,7 @@ from typing import Any
 
 from stylobate.analysis.debris import OVER_ALL, only_as_seen
 from stylobate.analysis.population import set_against
+from stylobate.messages import digits, joined, say
 from stylobate.percent import percent, percents
 
 from . import numbers as n
@@ -15,69 +16,73 @@ from .page import Facts, Item, Rows, Section
 #: Scattered parts in words, by what the twins are.
 PARTS = {
     "columns": {
-        "friction": "friction of each joint",
-        "joint_stiffness": "stiffness of each joint",
-        "density": "density of each drum",
-        "width": "width of each drum",
-        "height": "height of each drum",
-        "offset": "place of each drum on the one below, over the width",
-        "stiffness_damping": "damping of the joints, half of it common to three",
-        "rolling_resistance": "resistance to rolling, half of it common to three",
-        "law": "laws by which round faces carry otherwise, their share",
+        "friction": say("friction of each joint"),
+        "joint_stiffness": say("stiffness of each joint"),
+        "density": say("density of each drum"),
+        "width": say("width of each drum"),
+        "height": say("height of each drum"),
+        "offset": say("place of each drum on the one below, over the width"),
+        "stiffness_damping": say("damping of the joints, half of it common to three"),
+        "rolling_resistance": say("resistance to rolling, half of it common to three"),
+        "law": say("laws by which round faces carry otherwise, their share"),
     },
     "assemblies": {
-        "friction": "friction of each stone's contacts",
-        "joint_stiffness": "stiffness of each stone's contacts",
-        "density": "density of each stone",
-        "offset": "place in plan of each stone, or group that moves together, over the side of its smallest joint",
+        "friction": say("friction of each stone's contacts"),
+        "joint_stiffness": say("stiffness of each stone's contacts"),
+        "density": say("density of each stone"),
+        "offset": say("place in plan of each stone, or group that moves together, over the side of its smallest joint"),
     },
 }
 
 #: One of several of a kind, with its article.
-ONE_OF = {"columns": "a column", "assemblies": "an assembly"}
+ONE_OF = {"columns": say("a column"), "assemblies": say("an assembly")}
 
 #: Text of a cell with the columns like one.
-OF_TWINS = (
-    "Those like it that collapse: their share, of how many, and in brackets its 95 % interval; from which to which where "
-    "some are undecided."
+OF_TWINS = say(
+    "Those like it that collapse: their share, of how many, and in brackets its 95 % interval; from which to "
+    "which where some are undecided."
 )
 
 #: Words for a spread.
-PERCENTILES = "16th / 50th / 84th percentile"
+PERCENTILES = say(", 16th / 50th / 84th percentile")
 
 
 def certainty_sentence(summary: Mapping[str, Any]) -> str:
     """Certainty of the verdict of a run, in one or two sentences."""
     known = summary.get("certainty")
     if not isinstance(known, Mapping):
-        return (
-            "How sure this verdict is was not computed: it is that of exactly this geometry, these properties and this "
-            "motion, and near collapse small differences decide."
+        return say(
+            "How sure this verdict is was not computed: it is that of exactly this geometry, these properties "
+            "and this motion, and near collapse small differences decide."
         )
     fell, stood, open_ = (int(known.get(key, 0)) for key in ("collapsed", "stands", "undecided"))
     number, like = fell + stood + open_, str(known.get("like", "columns"))
     if not number:
-        return f"How sure this verdict is, is not known: none of the {like} like this one could be computed."
+        none = say("How sure this verdict is, is not known: none of the {like} like this one could be computed.")
+        return none.of(like=say(like))
     low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
-    level = percent(known.get("confidence", 0.95))
-    how_many = "none" if not fell else "all" if fell == number else str(fell)
-    said = f"Of {number} {like} like this one, {how_many} collapse{'s' if fell == 1 else ''}"
-    if low is not None and high is not None:
-        share = percents(fell / number, (fell + open_) / number)
-        said += (
-            f" ({share}): under this motion and in this model the probability of collapse is {percents(low, high)}, "
-        )
-        said += f"with {level} confidence"
-        if alone := known.get("interval_of_columns"):
-            said += f" ({percents(*alone)} if the law of its joints were known)"
-    said += f". {open_} of them had not come to rest and {'is' if open_ == 1 else 'are'} counted both ways." * bool(
-        open_
+    how_many = say("none") if not fell else say("all") if fell == number else str(fell)
+    words = say("Of {count} {like} like this one, {fell} collapse")
+    said = (say("Of {count} {like} like this one, {fell} collapses") if fell == 1 else words).of(
+        count=number, like=say(like), fell=how_many
     )
-    said += "." * (not open_)
+    if low is not None and high is not None:
+        said += say(
+            " ({share}): under this motion and in this model the probability of collapse is {range}, with {level} confidence",
+            share=percents(fell / number, (fell + open_) / number), range=percents(low, high),
+            level=percent(known.get("confidence", 0.95)),
+        )  # fmt: skip
+        if alone := known.get("interval_of_columns"):
+            said += say(" ({alone} if the law of its joints were known)", alone=percents(*alone))
+    texts = [said + "."]
+    if open_:
+        both = say("{count} of them had not come to rest and are counted both ways.")
+        texts.append(
+            (say("1 of them had not come to rest and is counted both ways.") if open_ == 1 else both).of(count=open_)
+        )
     if known.get("failed"):
-        said += f" {known['failed']} more could not be computed."
-    beside = beside_them(summary)
-    return f"{said} {beside}" if beside else said
+        texts.append(say("{count} more could not be computed.", count=known["failed"]))
+    return joined(" ", [*texts, beside_them(summary)])
 
 
 def beside_them(summary: Mapping[str, Any]) -> str:
@@ -98,57 +103,71 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
     low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
     like = str(known.get("like", "columns"))
     one = ONE_OF.get(like, "structure")
+    counts = joined(" / ", (str(known.get(name, 0)) for name in ("collapsed", "stands", "undecided", "failed")))
     pairs = [
-        (
-            f"{like} computed: collapse / stand / undecided / could not be computed",
-            " / ".join(str(known.get(one, 0)) for one in ("collapsed", "stands", "undecided", "failed")),
-        ),
-        ("probability of collapse, estimated", n.plain(summary.get("collapse_probability"))),
+        (say("{like} computed: collapse / stand / undecided / could not be computed", like=say(like)), counts),
+        (say("probability of collapse, estimated"), n.plain(summary.get("collapse_probability"))),
     ]
     if low is not None and high is not None:
-        pairs.append(
-            (
-                f"{percent(known.get('confidence', 0.95))} interval of it, from their number alone"
-                + (" and that of their laws" if "laws" in known else ""),
-                percents(low, high),
-            )
-        )
+        level = say("{level} interval of it, from their number alone", level=percent(known.get("confidence", 0.95)))
+        pairs.append((level + (say(" and that of their laws") if "laws" in known else ""), percents(low, high)))
     if alone := known.get("interval_of_columns"):
-        pairs.append((f"the same if the law of its joints were known; {known['laws']} laws", percents(*alone)))
+        pairs.append(
+            (say("the same if the law of its joints were known; {known[laws]} laws", known=known), percents(*alone))
+        )
     if laws := summary.get("under_other_laws"):
-        pairs.append(("under other laws", str(laws)))
+        pairs.append((say("under other laws"), laws))
     for key, words in (
-        ("peak_top_displacement_m", f"peak displacement of the top, {PERCENTILES}"),
-        ("residual_top_displacement_m", f"residual displacement of the top, {PERCENTILES}"),
-        ("peak_displacement_m", f"peak displacement of a body, {PERCENTILES}"),
-        ("residual_displacement_m", f"residual displacement of a body, {PERCENTILES}"),
-        ("peak_rotation_rad", f"peak rotation [rad], {PERCENTILES}"),
+        ("peak_top_displacement_m", say("peak displacement of the top") + PERCENTILES),
+        (
+            "residual_top_displacement_m",
+            say("residual displacement of the top") + PERCENTILES,
+        ),
+        ("peak_displacement_m", say("peak displacement of a body") + PERCENTILES),
+        ("residual_displacement_m", say("residual displacement of a body") + PERCENTILES),
+        ("peak_rotation_rad", say("peak rotation [rad]") + PERCENTILES),
     ):
         spread = known.get(key)
         if isinstance(spread, list):
             shown = [
-                "collapse" if one is None else n.length(one) if key.endswith("_m") else f"{one:.4f}" for one in spread
+                say("collapse") if one is None else n.length(one) if key.endswith("_m") else digits(one, ".4f")
+                for one in spread
             ]
             own = None if summary.get("collapsed") else summary.get(key)
-            here = "" if own is None else f"; this run {n.length(own) if key.endswith('_m') else f'{own:.4f}'}"
-            pairs.append((words, " / ".join(shown) + here))
+            far = n.length(own) if key.endswith("_m") else digits(own or 0.0, ".4f")
+            here = "" if own is None else say("; this run {value}", value=far)
+            pairs.append((words, joined(" / ", shown) + here))
     scatter = known.get("scatter") or {}
     parts = PARTS.get(like, {})
-    sizes = [f"{parts.get(key, key)}: {100.0 * float(size):g} %" for key, size in scatter.items() if size]
-    pairs.append(("what varies (coefficient of variation)", "\n".join(sizes) or "nothing"))
+    size_of = say("{part}: {size:g} %")
+    sizes = [
+        size_of.of(part=parts.get(key, say(key)), size=100.0 * float(size)) for key, size in scatter.items() if size
+    ]
+    pairs.append((say("what varies (coefficient of variation)"), joined("\n", sizes) or say("nothing")))
     if known.get("left_out"):
-        pairs.append(("does not vary, because the model does not take it", ", ".join(map(str, known["left_out"]))))
+        pairs.append(
+            (
+                say("does not vary, because the model does not take it"),
+                joined(", ", (say(one.replace("_", " ")) for one in known["left_out"])),
+            )
+        )
     if known.get("offsets_reduced"):
-        pairs.append(("with offsets halved or left out, as stones would overlap", n.plain(known["offsets_reduced"])))
-    pairs.append(("seed of the random numbers", n.plain(known.get("seed"))))
+        pairs.append(
+            (say("with offsets halved or left out, as stones would overlap"), n.plain(known["offsets_reduced"]))
+        )
+    pairs.append((say("seed of the random numbers"), n.plain(known.get("seed"))))
     items: list[Item] = [
-        f"Nobody knows {one} to the last digit. The same motion was computed for {like} that differ from this one by as "
-        "much as a survey leaves open; the share of them that collapses says how far the verdict can be relied on. It does "
-        "not say how probable this earthquake is, nor how well the model fits nature.",
+        say(
+            "Nobody knows {one} to the last digit. The same motion was computed for {like} that differ from this one "
+            "by as much as a survey leaves open; the share of them that collapses says how far the verdict can be "
+            "relied on. It does not say how probable this earthquake is, nor how well the model fits nature.",
+            one=one,
+            like=say(like),
+        ),
         Facts(pairs),
         *_bodies(known),
     ]
-    return Section("How sure the verdict is", items)
+    return Section(say("How sure the verdict is"), items)
 
 
 def _bodies(known: Mapping[str, Any]) -> list[Item]:
@@ -157,12 +176,12 @@ def _bodies(known: Mapping[str, Any]) -> list[Item]:
     if not bodies:
         return []
     header = [
-        "body",
-        "fell",
-        "undecided",
-        "probability",
-        "at the end, along x [m]",
-        "along y [m]",
+        say("body"),
+        say("fell"),
+        say("undecided"),
+        say("probability"),
+        say("at the end, along x [m]"),
+        say("along y [m]"),
         "50 % within [m]",
         "90 % within [m]",
     ]
@@ -172,14 +191,17 @@ def _bodies(known: Mapping[str, Any]) -> list[Item]:
             str(one["fell"]),
             str(one["undecided"]),
             percents(one["interval_low"], one["interval_high"]),
-            *(f"{one[key]:.2f}" for key in ("middle_x_m", "middle_y_m", "region_50_m", "region_90_m")),
+            *(digits(one[key], ".2f") for key in ("middle_x_m", "middle_y_m", "region_50_m", "region_90_m")),
         ]
         for name, one in sorted(bodies.items(), key=lambda pair: (-pair[1]["fell"], -pair[1]["undecided"]))
     ]
     seen = only_as_seen(max(sum(one[key] for key in ("fell", "stood", "undecided")) for one in bodies.values()))
     said = (
-        f"Bodies that fell, or are undecided, in some of them: {OVER_ALL}, the median way in plan from where each stood to "
-        "where it was when its run ended, and within which distances of that half and 90 % of the runs left it. Where a "
-        "body lies in one run is one draw."
-    ) + f" {seen[:1].upper()}{seen[1:]}." * bool(seen)
+        say(
+            "Bodies that fell, or are undecided, in some of them: {over}, the median way in plan from where each "
+            "stood to where it was when its run ended, and within which distances of that half and 90 % of the runs "
+            "left it. Where a body lies in one run is one draw.",
+            over=OVER_ALL,
+        )
+    ) + (say(" {seen:capital}.", seen=seen) if seen else "")
     return [Rows(header, rows, said, numbers=True)]

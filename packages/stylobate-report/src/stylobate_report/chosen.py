@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 
+from stylobate.messages import digits, joined, say
 from stylobate.percent import percent
 from stylobate.results import Numbers
 
 from . import numbers as n
-from .page import Facts, Item, Note, Rows
+from .page import Facts, Item, Note, Own, Rows
 from .pictures import kept
 from .tables import table
 
@@ -20,18 +21,24 @@ CHOSEN = ("record", "factor", "compared_by", "misfit", "least_ratio", "largest_r
 def records_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """How well a set of records follows its target, and each of them."""
     s = result.summary
-    items: list[Item] = [Facts([("target", s["target_words"]), ("the set meets it", n.plain(s["meets"]))])]
-    caption = "Records chosen, each multiplied by one factor; ratios are those of its own spectrum to the target."
+    items: list[Item] = [Facts([(say("target"), s["target_words"]), (say("the set meets it"), n.plain(s["meets"]))])]
+    caption = say("Records chosen, each multiplied by one factor; ratios are those of its own spectrum to the target.")
     items.append(table(s["records"], CHOSEN, caption))
-    items += kept(result.pictures, "records", "Spectra of the scaled records, their mean, the target, and the misfit.")
+    items += kept(
+        result.pictures, "records", say("Spectra of the scaled records, their mean, the target, and the misfit.")
+    )
     if drifting := [str(one["record"]) for one in s["records"] if one.get("drift_m")]:
-        said = "Displacements of these records drift after double integration; correct the baseline first:"
-        items.append(Note([said, ", ".join(drifting)], "fair"))
+        said = say("Displacements of these records drift after double integration; correct the baseline first:")
+        items.append(Note([said, joined(", ", drifting)], "fair"))
     if s["refused"]:
-        body = [[str(name), str(why)] for name, why in s["refused"].items()]
-        items.append(Rows(["record", "why it was not considered"], body, "Records that were not considered."))
-    items.append("A rocking column has no period of its own: the set that follows a spectrum need not harm it most.")
-    return (str(s["sentence"]), "" if s["meets"] else " fair"), items
+        body = [[Own(name), why] for name, why in s["refused"].items()]
+        items.append(
+            Rows([say("record"), say("why it was not considered")], body, say("Records that were not considered."))
+        )
+    items.append(
+        say("A rocking column has no period of its own: the set that follows a spectrum need not harm it most.")
+    )
+    return (s["sentence"], "" if s["meets"] else " fair"), items
 
 
 def calibration_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -39,22 +46,42 @@ def calibration_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s, body = result.summary, []
     for name, unit in (("stiffness_damping", "s"), ("rolling_resistance", "–")):
         if one := s.get(name):
-            body.append([f"{name} [{unit}]", *(n.plain(one[key]) for key in ("value", "low", "high", "told"))])
-    header = ["loss", "value", "low", "high", "told by the history"]
-    items: list[Item] = [Rows(header, body, f"Losses, with the ends of {percent(s['confidence'])}.", numbers=True)]
-    pairs = [("history", str(s["history"])), ("first tilt", n.angle(s["first_tilt_rad"]))]
-    pairs.append(("noise of the history", f"{math.degrees(s['noise_rad']):.2g}°"))
-    pairs.append(("decrements", str(s["decrements"])))
-    pairs.append(("difference from computed decrements", f"{100.0 * s['discrepancy']:.2g} %"))
-    pairs.append(("normal stiffness that the damping belongs to", f"{s['normal_stiffness']:.3g} N/m³"))
+            numbers = (n.plain(one[key]) for key in ("value", "low", "high", "told"))
+            body.append([Own(f"{name} [{unit}]"), *numbers])
+    header = [say("loss"), say("value"), say("low"), say("high"), say("told by the history")]
+    items: list[Item] = [
+        Rows(
+            header,
+            body,
+            say("Losses, with the ends of {confidence}.", confidence=percent(s["confidence"])),
+            numbers=True,
+        )
+    ]
+    pairs = [(say("history"), Own(s["history"])), (say("first tilt"), n.angle(s["first_tilt_rad"]))]
+    pairs.append((say("noise of the history"), say("{noise_rad:.2g}°", noise_rad=math.degrees(s["noise_rad"]))))
+    pairs.append((say("decrements"), str(s["decrements"])))
+    pairs.append(
+        (say("difference from computed decrements"), say("{discrepancy:.2g} %", discrepancy=100.0 * s["discrepancy"]))
+    )
+    pairs.append((say("normal stiffness that the damping belongs to"), say("{s[normal_stiffness]:.3g} N/m³", s=s)))
     if laws := s.get("laws"):
-        pairs.append(("laws of round faces", ", ".join(f"{law} {percent(share)}" for law, share in laws.items())))
+        pairs.append(
+            (
+                say("laws of round faces"),
+                joined(", ", (say("{law} {share}", law=law, share=percent(share)) for law, share in laws.items())),
+            )
+        )
     if rest := s.get("restitution"):
-        limits = f"{rest['value']:.3f} ({rest['low']:.3f} to {rest['high']:.3f})"
-        pairs += [("restitution by successive extremes", limits), ("of a rigid block", f"{rest['housner']:.3f}")]
+        limits = say("{rest[value]:.3f} ({rest[low]:.3f} to {rest[high]:.3f})", rest=rest)
+        pairs += [
+            (say("restitution by successive extremes"), limits),
+            (say("of a rigid block"), digits(rest["housner"], ".3f")),
+        ]
     items += [
         Facts(pairs),
-        *kept(result.pictures, "calibration", "The measured history, and motions with these losses."),
+        *kept(result.pictures, "calibration", say("The measured history, and motions with these losses.")),
     ]
-    items.append("Losses are those of this column on this joint and at these tilts; elsewhere they are an assumption.")
-    return (str(s["sentence"]), "" if s["reached"] else " bad"), items
+    items.append(
+        say("Losses are those of this column on this joint and at these tilts; elsewhere they are an assumption.")
+    )
+    return (s["sentence"], "" if s["reached"] else " bad"), items

@@ -7,6 +7,7 @@ from typing import Any
 
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.critical_words import as_recorded
+from stylobate.messages import digits, joined, say
 from stylobate.percent import percents
 from stylobate.results import Numbers
 
@@ -30,36 +31,38 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     records = s.get("records") or []
     pairs = [
-        ("runs", n.plain(s["runs"])),
-        (" / ".join(v.MADE), " / ".join(n.plain(s.get(one)) for one in v.MADE)),
+        (say("runs"), n.plain(s["runs"])),
+        (joined(" / ", map(say, v.MADE)), joined(" / ", (n.plain(s.get(one)) for one in v.MADE))),
     ]
     if (own := s.get("as_recorded")) is not None:
-        pairs.append(("the record as it is", as_recorded(own)))
+        pairs.append((say("the record as it is"), as_recorded(own)))
     items: list[Item] = [Facts(pairs)]
     if s.get("collapse_probability"):
         items += _twins(s)
     if s.get("alternation"):
         rows = [
-            [f"{one['from_g']:.4g}", f"{one['to_g']:.4g}", one["verdict"], str(one["runs"])] for one in s["alternation"]
+            [digits(one["from_g"], ".4g"), digits(one["to_g"], ".4g"), say(one["verdict"]), str(one["runs"])]
+            for one in s["alternation"]
         ]
         items.append(
             Rows(
-                ["from [g]", "to [g]", "verdict", "runs"],
+                [say("from [g]"), say("to [g]"), say("verdict"), say("runs")],
                 rows[:MOST],
-                "How verdicts on the column itself follow one another with growing amplitude.",
+                say("How verdicts on the column itself follow one another with growing amplitude."),
                 numbers=True,
             )
         )
     if records:
         items.append(_by_record(records))
-    items += kept(result.pictures, "critical", "Verdict and response at every amplitude of the grid.")
+    items += kept(result.pictures, "critical", say("Verdict and response at every amplitude of the grid."))
     items += kept(
         result.pictures,
         "probability",
-        "Share of those like this one that collapse, over the amplitude, with its interval.",
+        say("Share of those like this one that collapse, over the amplitude, with its interval."),
     )
-    items += kept(result.pictures, "directions", "By direction of the motion.")
-    said = s["sentence"] if own is None else f"{s['sentence']} The record as it is, {as_recorded(own)}."
+    items += kept(result.pictures, "directions", say("By direction of the motion."))
+    recorded = say("The record as it is, {recorded}.", recorded=as_recorded(own)) if own is not None else ""
+    said = joined(" ", [s["sentence"], recorded])
     return (said, "" if s["lowest_collapse_g"] is None else " bad"), items
 
 
@@ -67,21 +70,31 @@ def _twins(s: dict[str, Any]) -> list[Item]:
     """Columns like the one of a critical amplitude: by which amplitude shares of them fall, and the share at each."""
     told, scale = s["certainty"], [None] * len(s["amplitudes_g"]) if s.get("factors") is None else s["factors"]
     shown, like = told | told.get("bounds", {}), told.get("like", "columns")
+    fallen = say("{share} % of {count} {like} like this one have fallen by")
     pairs = [
-        (f"{share} % of {s['replicates']} {like} like this one have fallen by", f"{n.plain(shown[name])} g")
+        (fallen.of(share=share, count=s["replicates"], like=say(like)), say("{at} g", at=n.plain(shown[name])))
         for share in (16, 50, 84)
         if shown.get(name := f"critical_{share}_g") is not None
     ]
     limits = zip(s["collapse_interval_low"], s["collapse_interval_high"])
     counts = zip(*(s[f"twins_{one}"] for one in v.MADE))
     rows = [
-        [f"{a:.4g}", n.plain(factor), *map(str, verdicts), _share(*verdicts[:3]), percents(*interval)]
+        [digits(a, ".4g"), n.plain(factor), *map(str, verdicts), _share(*verdicts[:3]), percents(*interval)]
         for a, factor, verdicts, interval in zip(s["amplitudes_g"], scale, counts, limits)
     ]
-    header = ["amplitude [g]", "factor of the record", *v.MADE, "share that collapses", "95 % interval of it"]
-    left_out = " A share from which to which counts the undecided both ways." if any(s["twins_undecided"]) else ""
-    left_out += f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
-    return [Facts(pairs), Rows(header, rows[:MOST], f"Those like this one, by amplitude.{left_out}", numbers=True)]
+    header = [
+        say("amplitude [g]"),
+        say("factor of the record"),
+        *map(say, v.MADE),
+        say("share that collapses"),
+        say("95 % interval of it"),
+    ]
+    left_out = say(" A share from which to which counts the undecided both ways.") if any(s["twins_undecided"]) else ""
+    left_out += say(" The first {MOST} of {rows}.", MOST=MOST, rows=len(rows)) if len(rows) > MOST else ""
+    return [
+        Facts(pairs),
+        Rows(header, rows[:MOST], say("Those like this one, by amplitude.") + left_out, numbers=True),
+    ]
 
 
 def _share(fell: int, stood: int, undecided: int) -> str:
@@ -93,6 +106,8 @@ def _by_record(records: Sequence[Mapping[str, Any]]) -> Rows:
     alone = "critical_50_g" not in records[0]
     keys = [key for key in BY_RECORD if key in records[0] and not (alone and key.startswith("lowest"))]
     rows = [[n.plain(record.get("bounds", {}).get(key, record.get(key))) for key in keys] for record in records[:MOST]]
-    caption = "By motion; ≤ and > mark bounds, where no amplitude on the other side was stood, or brought collapse."
-    left_out = f" The first {MOST} of {len(records)}." if len(records) > MOST else ""
+    caption = say(
+        "By motion; ≤ and > mark bounds, where no amplitude on the other side was stood, or brought collapse."
+    )
+    left_out = say(" The first {MOST} of {records}.", MOST=MOST, records=len(records)) if len(records) > MOST else ""
     return Rows([n.named(key) for key in keys], rows, caption + left_out, numbers=True)

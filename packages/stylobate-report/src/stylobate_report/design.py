@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from stylobate.analysis.compare import Comparison as SideBySide
 from stylobate.analysis.design_tables import OPEN, as_read, basis_of, clearances, governing, where, worst_of
 from stylobate.analysis.design_values import WHICH_LEVEL, design_values
+from stylobate.messages import joined, say
 from stylobate.motion.intensity_specs import parse_measure
 from stylobate.results import Comparison, Numbers, Result
 
@@ -24,13 +25,14 @@ MOST = 40
 
 #: Columns of the tables, by heading; clearances go without the last two of what has a capacity.
 SHOWN = {
-    "state": "state", "level": "level", "link": "link", "quantity": "quantity", "unit": "unit", "84 %": "value_84",
-    "from": "low_84", "to": "high_84", "undecided": "undecided", "over capacity": "use_value_84", "at most": "use_high_84",
+    say("state"): "state", say("level"): "level", say("link"): "link", say("quantity"): "quantity", say("unit"): "unit",
+    "84 %": "value_84", say("from"): "low_84", say("to"): "high_84", say("undecided"): "undecided",
+    say("over capacity"): "use_value_84", say("at most"): "use_high_84",
 }  # fmt: skip
 
 #: The same of what bears least, and of when and where to a force acts, which older tables do not tell.
-LIMITED = {"limited by": "limited_by"}
-ACTS = {"at [s]": "instant_84_s", "towards [°]": "azimuth_84_deg"}
+LIMITED = {say("limited by"): "limited_by"}
+ACTS = {say("at [s]"): "instant_84_s", say("towards [°]"): "azimuth_84_deg"}
 
 
 class Design(NamedTuple):
@@ -66,16 +68,17 @@ def design_of(result: Result) -> Design | None:
         return Design(values, _as_scaled(runs["factor"], runs["pga_g"]))
     states = tables.get("states")
     measure = "factor" if states is None or not len(states) else str(states["measure"].iloc[0])
-    return Design(values, "× {}" if measure == "factor" else f"{measure} {{}} {parse_measure(measure).unit}")
+    im = "×" if measure == "factor" else measure
+    return Design(values, f"{im} {{level}} {'' if measure == 'factor' else parse_measure(measure).unit}".rstrip())
 
 
 def _as_scaled(factors: Iterable[float], peaks: Iterable[float]) -> str:
     """How the one level of some motions is told: by their peak acceleration [g] where it is one, else by their factors."""
-    for form, numbers in (("pga {} g", peaks), ("× {}", factors)):
+    for form, numbers in (("pga {level} g", peaks), ("× {level}", factors)):
         low, high = min(numbers), max(numbers)
         if 0.0 < high and high - low <= 1e-6 * high:
-            return form.format(n.plain(low))
-    return f"× {n.plain(low)}–{n.plain(high)}"
+            return form.format(level=f"{low:.4g}")
+    return f"× {low:.4g}–{high:.4g}"
 
 
 def design_items(design: Design | None, pictures: dict[str, Path]) -> list[Item]:
@@ -90,31 +93,33 @@ def design_items(design: Design | None, pictures: dict[str, Path]) -> list[Item]
     if design is None:
         return []
     values, level = design
-    meant = f"what 84 % of the motions do not exceed, and its 95 % interval {basis_of(values)}."
-    open_ = OPEN
-    if where(values) and "told" in values:
-        open_ += f" {WHICH_LEVEL}"
+    meant = say("{where}: what 84 % of the motions do not exceed, and its 95 % interval {basis}.").of(
+        where=where(values), basis=basis_of(values)
+    )
+    which = WHICH_LEVEL if where(values) and "told" in values else ""
     items: list[Item] = []
     if len(worst := worst_of(values)):
-        caption = (
-            f"Design values{where(values)}: {meant} Both also over the capacity; links used most come first. {open_} "
-        )
-        caption += "The file design.csv holds every level, quantity, and 50 and 95 %."
         limited, acts = (told if set(told.values()) <= set(worst) else {} for told in (LIMITED, ACTS))
+        texts = [
+            say("Design values") + meant,
+            say("Both also over the capacity; links used most come first."),
+            OPEN,
+            which,
+        ]
+        texts.append(say("The file design.csv holds every level, quantity, and 50 and 95 %."))
         if limited:
-            caption += " The capacity is that of the link in its stone, with which it is computed."
+            texts.append(say("The capacity is that of the link in its stone, with which it is computed."))
         if acts:
-            caption += " Forces are told at an instant of the run that governs; shear pushes the body above "
-            caption += "towards an azimuth."
+            texts.append(say("Forces are told at an instant of the run that governs; shear pushes the body above towards an "
+                             "azimuth."))  # fmt: skip
         if len(worst) > MOST:
-            caption += " Rows beyond these are of links that are used less, and stand there."
-        items.append(_rows(worst, SHOWN | limited | acts, caption, level))
-        caption = (
-            "Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all "
-        )
-        items += kept(pictures, "design", caption + "that ran.")
+            texts.append(say("Rows beyond these are of links that are used less, and stand there."))
+        items.append(_rows(worst, SHOWN | limited | acts, joined(" ", texts), level))
+        caption = say("Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all "
+                      "that ran.")  # fmt: skip
+        items += kept(pictures, "design", caption)
     if len(wide := clearances(values)):
-        caption = f"Clearance that layers need around the foot{where(values)}: {meant} {open_}"
+        caption = joined(" ", [say("Clearance that layers need around the foot") + meant, OPEN, which])
         items.append(_rows(wide, dict(list(SHOWN.items())[:-2]), caption, level))
     return items
 
@@ -131,5 +136,5 @@ def _rows(values: pandas.DataFrame, shown: dict[str, str], caption: str, level: 
 
 
 def _texts(values: pandas.DataFrame, shown: dict[str, str], level: str) -> list[list[str]]:
-    rows = as_read(values.assign(level=[level.format(n.plain(one)) for one in values["level"].tolist()]))
+    rows = as_read(values.assign(level=[say(level, level=n.plain(one)) for one in values["level"].tolist()]))
     return [[n.plain(one[key]) for key in shown.values()] for one in rows.to_dict("records")]

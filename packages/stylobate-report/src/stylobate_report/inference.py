@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from stylobate.messages import digits, joined, say
 from stylobate.results import Numbers
 
 from .page import Facts, Item, Note
@@ -18,39 +19,54 @@ def inference_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         table(
             rows,
             keys,
-            "Posterior with the ends of 90 %; the shapes tell what they leave less than 0.9 of the prior's spread.",
+            say(
+                "Posterior with the ends of 90 %; the shapes tell what they leave less than 0.9 of the prior's spread."
+            ),
         )
     ]
-    items += kept(result.pictures, "infer", "Posterior of the shaking; the prior is grey.")
+    items += kept(result.pictures, "infer", say("Posterior of the shaking; the prior is grey."))
     if odd:
-        said = "; ".join(f"{one['observation']}, where the rest predicts {one['expected']}" for one in odd)
-        items.append(Note([f"Not as shaking alone would leave it: {said}."], "verdict bad"))
+        said = joined(
+            "; ", (say("{one[observation]}, where the rest predicts {one[expected]}", one=one) for one in odd)
+        )
+        items.append(Note([say("Not as shaking alone would leave it: {said}.", said=said)], "verdict bad"))
     seen = [one | {"chance": check["chance"]} for one, check in zip(s["observations"], s["checks"], strict=True)]
     if seen:
-        caption = "Spread of ln PGV over the prior's with an observation alone and without it; chance by all else."
+        caption = say("Spread of ln PGV over the prior's with an observation alone and without it; chance by all else.")
         items.append(table(seen, ["observation", "spread_alone", "spread_without", "chance"], caption))
-    items += kept(result.pictures, "observations", "Which observation tells what.")
+    items += kept(result.pictures, "observations", say("Which observation tells what."))
     if s["records"]:
         items.append(
             table(
-                s["records"], ["record", "probability", "bayes_factor_against_others"], "Records that it may have been."
+                s["records"],
+                ["record", "probability", "bayes_factor_against_others"],
+                say("Records that it may have been."),
             )
         )
-    least = "at least " * bool(s["bayes_factor_is_at_least"])
+    factor = digits(s["bayes_factor_no_earthquake"], ".3g")
     pairs = [
-        ("simulations / that match / accepted", f"{s['simulations']} / {s['matching']} / {s['accepted']}"),
-        ("Bayes factor against no earthquake", f"{least}{s['bayes_factor_no_earthquake']:.3g}"),
+        (
+            say("simulations / that match / accepted"),
+            " / ".join(str(s[key]) for key in ("simulations", "matching", "accepted")),
+        ),
+        (
+            say("Bayes factor against no earthquake"),
+            say("at least {factor}", factor=factor) if s["bayes_factor_is_at_least"] else factor,
+        ),
     ]
     if lasted := s.get("survival"):
         year = lasted["earthquake"]
         pairs += [
-            ("Chance of having outlasted all other shaking", f"{lasted['chance']:.2g}, by {lasted['hazard']}"),
             (
-                "Earthquakes that leave what is seen",
-                f"once in {1.0 / lasted['annual_rate_of_such_earthquakes']:,.3g} years",
+                say("Chance of having outlasted all other shaking"),
+                say("{lasted[chance]:.2g}, by {lasted[hazard]}", lasted=lasted),
             ),
-            ("Year of the earthquake", f"{year['median']:.0f}, {year['low']:.0f} to {year['high']:.0f}"),
+            (
+                say("Earthquakes that leave what is seen"),
+                say("once in {years:,.3g} years", years=1.0 / lasted["annual_rate_of_such_earthquakes"]),
+            ),
+            (say("Year of the earthquake"), say("{year[median]:.0f}, {year[low]:.0f} to {year[high]:.0f}", year=year)),
         ]
     items.append(Facts(pairs))
-    items += kept(result.pictures, "matches", "The ruin beside the draws that are nearest to it, in plan.")
-    return (str(s["sentence"]), " bad" if odd else ""), items
+    items += kept(result.pictures, "matches", say("The ruin beside the draws that are nearest to it, in plan."))
+    return (s["sentence"], " bad" if odd else ""), items

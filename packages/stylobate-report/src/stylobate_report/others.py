@@ -20,6 +20,7 @@ from stylobate.bibliography import cite, cite_run
 from stylobate.campaign.twins import described
 from stylobate.column import Column
 from stylobate.constants import g
+from stylobate.messages import joined, say
 from stylobate.results import Comparison, Kind, Numbers, Result, RunResult, StudyFolder
 from stylobate.results.kinds import Grid
 
@@ -29,7 +30,7 @@ from .chosen import calibration_result, records_result
 from .critical import critical_result
 from .design import design_items, design_of
 from .inference import inference_result
-from .page import Facts, Item, Note, Rows, Section
+from .page import Facts, Item, Note, Own, Rows, Section
 from .pictures import kept
 from .record import (
     asked_section,
@@ -70,23 +71,23 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
     else:
         verdict, body = _TELL[result.kind](result)
         note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
-        parts = [Section("Result", [note, *warnings_of(result, _doubts(result))]), asked_section(result)]
+        parts = [Section(say("Result"), [note, *warnings_of(result, _doubts(result))]), asked_section(result)]
         alone = (
             result.kind in FROM_RUNS and "monuments" not in result.summary
         )  # several sites name no runs of one column
         parts += [basis_section(result)] if alone else []
         for label, structure in zip(labels, result.structures[:5], strict=False):
             section = structure_section(structure)
-            section = replace(section, title=f"The state “{label}”") if label else section
+            section = replace(section, title=say("The state “{label}”", label=label)) if label else section
             parts.append(section)
         parts += [motions_section(result)] if asked is not None and asked.motions else []
-        parts.append(Section("What was found", body))
+        parts.append(Section(say("What was found"), body))
     if result.kind is Kind.PUSHOVER and columns:
         parts.append(code_check(columns[0], result, run))
     if columns and result.kind not in (Kind.LIMIT, Kind.PUSHOVER, Kind.STATES):
         statics = statics_section(columns[0], None)
         if labels[0]:
-            statics = replace(statics, items=[f"Of the state “{labels[0]}”.", *statics.items])
+            statics = replace(statics, items=[say("Of the state “{label}”.", label=labels[0]), *statics.items])
         parts.append(statics)
     models = [str(model["name"]) for model in asked.models] if asked is not None else []
     models = models or [str(result.summary[key]) for key in ("model",) if key in result.summary]
@@ -119,13 +120,13 @@ def _states(result: Result, columns: Sequence[Column]) -> list[Section]:
     assert isinstance(result, Numbers)
     labels = [str(state["label"]) for state in result.summary["states"]]
     lead = [*advice_notes(result), _scope(result.kind), *warnings_of(result)]
-    parts = [Section("Result", lead), Section("What was found", states_items(result)), asked_section(result)]
+    parts = [Section(say("Result"), lead), Section(say("What was found"), states_items(result)), asked_section(result)]
     parts += [motions_section(result)] if result.asked is not None and result.asked.motions else []
     for number, (label, structure) in enumerate(zip(labels, result.structures)):
         column = structure.stack
         if number == 0 or column is None or not columns:
             whole = structure_section(structure)
-            parts.append(replace(whole, title=f"The state “{label}”"))
+            parts.append(replace(whole, title=say("The state “{label}”", label=label)))
         else:
             parts.append(state_section(column, label, columns[0], labels[0]))
     return [*parts, *([statics_of_states(dict(zip(labels, columns)))] if columns else [])]
@@ -134,23 +135,23 @@ def _states(result: Result, columns: Sequence[Column]) -> list[Section]:
 def _doubts(result: Result) -> list[str]:
     """Doubts about a result: because of its model, or of the runs of others that it rests on."""
     if result.kind not in FROM_RUNS:
-        return [str(result.summary["doubt"])] if result.summary.get("doubt") else []
+        return [result.summary["doubt"]] if result.summary.get("doubt") else []
     curves = result.summary.get("curves") or [result.summary]
-    return list(dict.fromkeys(str(text) for curve in curves for text in curve.get("warnings") or ()))
+    return list(dict.fromkeys(text for curve in curves for text in curve.get("warnings") or ()))
 
 
 def _scope(kind: Kind) -> str:
     """Limits of a result."""
     if kind in (Kind.PUSHOVER, Kind.LIMIT):
-        return (
-            "Forces at rest tell when rocking begins and how far the column can lean; whether it stands an earthquake, only "
-            "runs in time tell."
+        return say(
+            "Forces at rest tell when rocking begins and how far the column can lean; whether it stands an "
+            "earthquake, only runs in time tell."
         )
     if kind is Kind.RECORDS:
-        return "This says how the records follow the target. It says nothing about any column under them."
-    return (
-        "This holds for the columns, motions and models named below; what they leave out stands under them. It is no check "
-        "against a code."
+        return say("This says how the records follow the target. It says nothing about any column under them.")
+    return say(
+        "This holds for the columns, motions and models named below; what they leave out stands under them. It "
+        "is no check against a code."
     )
 
 
@@ -160,32 +161,44 @@ def _scope(kind: Kind) -> str:
 def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
     s, data = result.summary, result.data
     if result.kind is Kind.DOMAIN:
-        sentence = (
-            f"{s['collapsed']} of {s['cells']} cells of frequency and amplitude collapse the column, {s['stands']} leave it "
-            "standing."
+        sentence = say(
+            "{s[collapsed]} of {s[cells]} cells of frequency and amplitude collapse the column, {s[stands]} "
+            "leave it standing.",
+            s=s,
         )
-        caption = "Safe–unsafe domain: verdict of each cell over frequency and amplitude."
+        caption = say("Safe–unsafe domain: verdict of each cell over frequency and amplitude.")
     else:
-        sentence = (
-            f"Of {s['cells']} cells, all {s['replicates']} columns like this one stand in {s['all_stand']} and all "
-            f"collapse in {s['all_collapse']}; in {s['some_collapse']} it hangs on small differences"
-            + (f", and {s['no_verdict']} have no verdict." if s["no_verdict"] else ".")
-        )
-        caption = f"Probability of collapse from {s['replicates']} columns like this one in every cell."
+        sentence = say(
+            "Of {s[cells]} cells, all {s[replicates]} columns like this one stand in {s[all_stand]} and all "
+            "collapse in {s[all_collapse]}; in {s[some_collapse]} it hangs on small differences{rest}",
+            s=s, rest=say(", and {count} have no verdict.", count=s["no_verdict"]) if s["no_verdict"] else ".",
+        )  # fmt: skip
+        caption = say("Probability of collapse from {s[replicates]} columns like this one in every cell.", s=s)
     f, a = data.frequencies, data.amplitudes / g
     pairs = [
-        ("frequencies", f"{f[0]:g} to {f[-1]:g} Hz, {len(f)}"),
-        ("amplitudes", f"{a[0]:g} to {a[-1]:g} g, {len(a)}"),
-        ("motion of each cell", f"harmonic from rest, {float(data.provenance['duration']):g} s"),
-        ("undecided / failed", f"{s.get('undecided', 0)} / {s.get('failed', 0)}"),
-        ("static acceleration that opens the first joint", f"{float(s['uplift_g']):.4g} g"),
+        (say("frequencies"), say("{low:g} to {high:g} Hz, {count}", low=f[0], high=f[-1], count=len(f))),
+        (say("amplitudes"), say("{low:g} to {high:g} g, {count}", low=a[0], high=a[-1], count=len(a))),
+        (
+            say("motion of each cell"),
+            say("harmonic from rest, {duration:g} s", duration=float(data.provenance["duration"])),
+        ),
+        (
+            say("undecided / failed"),
+            f"{s.get('undecided', 0)} / {s.get('failed', 0)}",
+        ),
+        (say("static acceleration that opens the first joint"), say("{uplift_g:.4g} g", uplift_g=float(s["uplift_g"]))),
     ]
     if isinstance(data, CollapseProbability):
         left_out = data.provenance["left_out"]
-        pairs.insert(3, ("columns like this one", described(data.replicates, data.scatter, data.seed, left_out)))
+        pairs.insert(3, (say("columns like this one"), described(data.replicates, data.scatter, data.seed, left_out)))
         if data.motion_scatter.given:
-            pairs.insert(4, ("motions of a cell", f"vary by {data.motion_scatter.describe()}"))
-    text = "The motions are harmonic. They show how the column answers to frequency and amplitude; they are no earthquakes."
+            pairs.insert(
+                4, (say("motions of a cell"), say("vary by {scatter}", scatter=data.motion_scatter.describe()))
+            )
+    text = say(
+        "The motions are harmonic. They show how the column answers to frequency and amplitude; they are no "
+        "earthquakes."
+    )
     return (sentence + open_runs(s), ""), [Facts(pairs), *kept(result.pictures, result.kind.value, caption), text]
 
 
@@ -198,36 +211,42 @@ def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         keys[-1] = "peak_displacement_m"
     body = [[one.label, *counts_of(one)] for one in found]
     items: list[Item] = [
-        Rows(["column", *COUNTED], body, f"Of the same motions for every column. {COUNTED_HOW}", numbers=True)
+        Rows(
+            [say("column"), *COUNTED],
+            body,
+            joined(" ", [say("Of the same motions for every column."), COUNTED_HOW]),
+            numbers=True,
+        )
     ]
-    caption = "One row per motion; all measures are in suite.csv."
+    caption = say("One row per motion; all measures are in suite.csv.")
     if any(row[CHANCE] for row in rows):
-        caption += f" {OF_TWINS}"
+        caption = joined(" ", [caption, OF_TWINS])
     items.append(table(rows, keys, caption, "verdict"))
-    items += kept(result.pictures, "suite", "Peak response against a measure of the records.")
-    items += kept(result.pictures, "directions", "Share of collapses by direction.")
+    items += kept(result.pictures, "suite", say("Peak response against a measure of the records."))
+    items += kept(result.pictures, "directions", say("Share of collapses by direction."))
     items += design_items(design_of(result), result.pictures)
-    return (" ".join(one.collapses for one in found), " bad" if any(one.exceeded for one in found) else ""), items
+    return (joined(" ", (one.collapses for one in found)), " bad" if any(one.exceeded for one in found) else ""), items
 
 
 def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     fell = sum(capacity.get("collapses_from") is not None for capacity in s["capacities"])
-    sentence = f"Scaled upwards, {fell} of {len(s['capacities'])} curves end in collapse"
-    sentence += f"; {median_of(s)}." if s["capacities"] else "."
+    curves = s["capacities"]
+    sentence = say("Scaled upwards, {fell} of {all} curves end in collapse", fell=fell, all=len(curves))
+    sentence = joined("; ", [sentence, median_of(s) if curves else ""]) + "."
     rows = [{"motion": capacity["record"], **capacity} for capacity in s["capacities"]]
     keys = ["motion", "realisation", "stands_until", "collapses_from", "resurrections", "runs", "open"]
-    items: list[Item] = [table(rows, keys, "Capacity under each motion.")]
-    items += kept(result.pictures, "ida", "Response over the intensity, a curve for each record.")
+    items: list[Item] = [table(rows, keys, say("Capacity under each motion."))]
+    items += kept(result.pictures, "ida", say("Response over the intensity, a curve for each record."))
     if max((one.get("records") or 0 for one in s.get("measures") or ()), default=0) >= FEWEST:
         items.append(
             table(
                 s["measures"],
                 ["measure", "unit", "beta", "beta_low", "beta_high", "sigma_ln_edp", "records"],
-                "Which measure of the motions tells most: the smaller its dispersion β, the more.",
+                say("Which measure of the motions tells most: the smaller its dispersion β, the more."),
             )
         )
-        items += kept(result.pictures, "measures", "Dispersion of the capacities in each measure.")
+        items += kept(result.pictures, "measures", say("Dispersion of the capacities in each measure."))
     return (sentence + open_runs(s), ""), items
 
 
@@ -235,25 +254,25 @@ def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
     rows = result.table.astype(object).where(result.table.notna(), None).to_dict("records")
     if result.responses:
         for row in rows:
-            open_ = "" if row["decided"] or row["outcome"] == "failed" else ", undecided"
-            row["outcome"] = str(row["outcome"]).replace("_", " ") + open_
-        said = "; ".join(f"{row['model']} {row['outcome']}" for row in rows)
+            open_ = "" if row["decided"] or row["outcome"] == "failed" else say(", undecided")
+            row["model"], row["outcome"] = Own(row["model"]), say(str(row["outcome"]).replace("_", " ")) + open_
+        said = joined("; ", (say("{row[model]} {row[outcome]}", row=row) for row in rows))
         top = "peak_top_displacement_m" in result.table
-        moves = "Top displacement" if top else "Displacement of the body that has moved farthest"
-        sentence, caption = f"Models under one motion: {said}.", f"{moves} of each model under the same motion."
+        farthest = say("Displacement of the body that has moved farthest of each model under the same motion.")
+        caption = say("Top displacement of each model under the same motion.") if top else farthest
+        sentence = say("Models under one motion: {said}.", said=said)
         went = [f"{when}_{'top_' * top}displacement_m" for when in ("peak", "residual")]
         keys = ["model", "outcome", "collapse_time_s", *went, "energy_imbalance"]
     else:
-        said = ", ".join(
-            f"{row.get('first')} and {row.get('second')} differ in {row.get('differing')} of {row.get('comparable')} cells"
-            + (f" and are undecided in {row['undecided']} more" if row.get("undecided") else "")
-            for row in rows
-        )
-        sentence, caption = f"Models over one domain: {said}.", "Boundaries of the domains."
+        differ = say("{row[first]} and {row[second]} differ in {row[differing]} of {row[comparable]} cells{open}")
+        more = say(" and are undecided in {count} more")
+        open_ = [more.of(count=row["undecided"]) if row.get("undecided") else "" for row in rows]
+        said = joined(", ", (differ.of(row=row, open=text) for row, text in zip(rows, open_, strict=True)))
+        sentence, caption = say("Models over one domain: {said}.", said=said), say("Boundaries of the domains.")
         keys = list(rows[0])[:7] if rows else []
-    text = "Where models differ, the difference says how far a verdict hangs on the model; none of them is nature."
+    text = say("Where models differ, the difference says how far a verdict hangs on the model; none of them is nature.")
     return (sentence, ""), [
-        table(rows, keys, "Measures side by side."),
+        table(rows, keys, say("Measures side by side.")),
         *kept(result.pictures, "comparison", caption),
         *design_items(design_of(result), result.pictures),
         text,
@@ -266,15 +285,22 @@ def _study(result: StudyFolder) -> tuple[tuple[str, str], list[Item]]:
     from .pictures import picture
 
     s = result.summary
-    sentence = f"{s['finished']} of {s['cases']} cases of the study are finished: "
-    sentence += f"{s['collapsed']} collapse, {s['stands']} stand."
+    words = say(
+        "{s[finished]} of {s[cases]} cases of the study are finished: {s[collapsed]} collapse, {s[stands]} stand."
+    )
+    sentence = words.of(s=s)
     axes = result.study.plan.axes
-    pairs = [(name, str(len(axes[name]))) for name in ("columns", "motions", "levels", "models")]
-    pairs.append(("realisations of each column", str(axes["realisations"] or "none: each column as given")))
+    pairs = [(say(name), str(len(axes[name]))) for name in ("columns", "motions", "levels", "models")]
+    pairs.append((say("realisations of each column"), str(axes["realisations"] or say("none: each column as given"))))
     items: list[Item] = [Facts(pairs)]
     items.append(_shares_of_study(result.study))
     for name, response in result.histories.items():
-        items.append(picture(plots.draw_filmstrip(response), f"Film strip of the {name} case: {response.sentence}"))
+        film = (
+            say("Film strip of the median case: {said}")
+            if name == "median"
+            else say("Film strip of the worst case: {said}")
+        )
+        items.append(picture(plots.draw_filmstrip(response), film.of(said=response.sentence)))
     return (sentence + open_runs(s), ""), items
 
 
@@ -288,10 +314,12 @@ def _shares_of_study(study: StudyResult) -> Rows:
         each = codes[:, :, :, place].reshape(len(names), -1)
         for (column, model), share in zip(names, shares(dict(enumerate(each)), records)):
             rows.append([column, model, n.plain(level), *counts_of(share)])
-    caption = f"Of the cases that are finished and could be computed for every column and model. {COUNTED_HOW}"
-    left_out = f" The first {MOST} of {len(rows)} rows." if len(rows) > MOST else ""
+    caption = joined(
+        " ", [say("Of the cases that are finished and could be computed for every column and model."), COUNTED_HOW]
+    )
+    left_out = say(" The first {MOST} of {rows} rows.", MOST=MOST, rows=len(rows)) if len(rows) > MOST else ""
     rows.sort(key=lambda row: row[:2])
-    header = ["column", "model", f"level ({axes.get('measure')})", *COUNTED]
+    header = [say("column"), say("model"), say("level ({measure})", measure=axes.get("measure")), *COUNTED]
     return Rows(header, rows[:MOST], caption + left_out, numbers=True)
 
 

@@ -14,30 +14,28 @@ from matplotlib.text import Text
 
 from stylobate.plots.style import DOTS_PER_INCH
 
-from .language import SPOKEN, Language
+from .language import SPOKEN, WORD, Language
 from .page import Picture
 
 
 def picture(figure: Figure, caption: str) -> Picture:
-    """A figure as a picture of the page, its texts in the language of the report."""
-    english = False
+    """A figure as a picture of the page, its texts and numbers in the language of the report."""
     if (language := SPOKEN.get()) is not None and language.foreign:
         for text in figure.findobj(Text):
             assert isinstance(text, Text)
-            text.set_text("\n".join(map(language.say, text.get_text().split("\n"))))
-            english |= language.is_english(text.get_text(), 1)
+            text.set_text(language.say(text.get_text()))
         for axis in figure.findobj(Axis):
             assert isinstance(axis, Axis)
             ticks: Any = axis.get_major_formatter()
             ticks.format_ticks = partial(_ticks, language, ticks.format_ticks)
     content = io.BytesIO()
     figure.savefig(content, format="png", dpi=DOTS_PER_INCH, facecolor="white", metadata={"Software": None})
-    return Picture(content.getvalue(), caption, DOTS_PER_INCH, english)
+    return Picture(content.getvalue(), caption, DOTS_PER_INCH)
 
 
 def _ticks(language: Language, made: Callable[[Any], list[str]], places: Any) -> list[str]:
-    """Numbers of an axis, as readers of a language write them."""
-    return list(map(language.figures, made(places)))
+    """Numbers of an axis, as readers of a language write them, and names along it."""
+    return [language.say(one) if WORD.search(one) else language.numbers(one) for one in made(places)]
 
 
 def kept(pictures: dict[str, Path], name: str, caption: str) -> list[Picture]:

@@ -13,6 +13,7 @@ from pydantic import field_validator
 from stylobate.analysis.design_tables import OPEN
 from stylobate.column.toml import Table, read_table
 from stylobate.errors import InputError
+from stylobate.messages import joined, say
 from stylobate.reading import shown
 from stylobate.results import Result, RunResult, SeveralRuns
 from stylobate.version import __version__
@@ -56,7 +57,7 @@ def read_project(path: str | Path) -> Project:
     for key, value in project:
         if any(not text.strip() for text in ([value] if isinstance(value, str) else value or [])):
             raise InputError(f"{shown(path)}: {key} is empty; write it, or leave an optional key out.")
-    if project.language.endswith(".toml"):
+    if project.language.endswith(".po"):
         project = project.model_copy(update={"language": str(Path(path).parent / project.language)})
     language_of(project.language)
     return project
@@ -73,16 +74,18 @@ def front_sections(project: Project, results: Sequence[Result], cases: Sequence[
         The case of each result, whose ``verdict`` is its answer: it is repeated as it stands there.
     """
     apart = ("role", "place", "language")
-    known = [(key, Own(value)) for key, value in project if isinstance(value, str) and key not in apart]
+    known = [(say(key), Own(value)) for key, value in project if isinstance(value, str) and key not in apart]
     answers = [[str(k), Own(case["title"]), Own(case["verdict"])] for k, case in enumerate(cases, start=1)]
-    said = list(map(Own, project.assumptions or ())) or ["None are told in the project file."]
+    said = list(map(Own, project.assumptions or ())) or [say("None are told in the project file.")]
     return [
-        Section("Project", [Facts(known)]),
-        Section("Answers", [Rows(["case", "result", "answer"], answers)]),
+        Section(say("Project"), [Facts(known)]),
+        Section(say("Answers"), [Rows([say("case"), say("result"), say("answer")], answers)]),
         *_design_values(results),
-        Section("Assumptions of this report", [Points(said), "What the models assume stands with each case."]),
-        Section("Limits: what is not covered", _limits(results)),
-        Section("Sources of the results", _sources(results)),
+        Section(
+            say("Assumptions of this report"), [Points(said), say("What the models assume stands with each case.")]
+        ),
+        Section(say("Limits: what is not covered"), _limits(results)),
+        Section(say("Sources of the results"), _sources(results)),
     ]
 
 
@@ -90,22 +93,28 @@ def _design_values(results: Sequence[Result]) -> list[Section]:
     """Of every state the design value that governs, where there are some."""
     designed = [(str(k), one) for k, result in enumerate(results, start=1) if (one := design_of(result)) is not None]
     body = [[k, *row] for k, one in designed for row in governing_rows(one)]
-    caption = (
-        "Of every state the link that is used most, at the level that is told: what 84 % of the motions do not exceed, and "
-        "its 95 % interval. A ductile link at its capacity bears no more; its slip then tells how far it is used. "
-        f"{OPEN} What else bears how much, and at which other levels, stands with each case."
+    caption = say(
+        "Of every state the link that is used most, at the level that is told: what 84 % of the motions do not "
+        "exceed, and its 95 % interval. A ductile link at its capacity bears no more; its slip then tells how "
+        "far it is used."
     )
-    return [Section("Design values that govern", [Rows(["case", *SHOWN], body, caption, numbers=True)])] if body else []
+    other = say("What else bears how much, and at which other levels, stands with each case.")
+    caption = joined(" ", [caption, OPEN, other])
+    return (
+        [Section(say("Design values that govern"), [Rows([say("case"), *SHOWN], body, caption, numbers=True)])]
+        if body
+        else []
+    )
 
 
 def _limits(results: Sequence[Result]) -> list[Item]:
     """Limits of the models of all results, each model once."""
     names = dict.fromkeys(name for one in results for name in _models(one))
     kinds = {name: kind for name in names if (kind := known_model(name)) is not None}
-    items: list[Item] = ["The results are no check against a code. Where models end:"] if kinds else []
+    items: list[Item] = [say("The results are no check against a code. Where models end:")] if kinds else []
     for name, kind in kinds.items():
-        items += [f"{titled(name)}:", Points(kind.limits)]
-    return items or ["The results are no check against a code; their limits stand with each case."]
+        items += [titled(name) + ":", Points(list(map(say, kind.limits)))]
+    return items or [say("The results are no check against a code; their limits stand with each case.")]
 
 
 def _models(result: Result) -> list[str]:
@@ -118,8 +127,11 @@ def _models(result: Result) -> list[str]:
 
 def _sources(results: Sequence[Result]) -> list[Item]:
     """Programs, and the digest by which the signature holds for the files that are listed at the end."""
-    listed = "".join(f"{file.digest}  {file.name}\n" for _, file in files_of(results))
+    listed = joined("", (say("{file.digest}  {file.name}\n", file=file) for _, file in files_of(results)))
     computed = dict.fromkeys(one.asked.version for one in results if one.asked is not None)
-    pairs = [("computed by stylobate", ", ".join(computed) or "not known"), ("written by stylobate", __version__)]
-    pairs.append(("SHA-256 of the list of files", hashlib.sha256(listed.encode()).hexdigest()))
-    return [Facts(pairs), "The files with their digests, and what is cited, stand at the end of the appendix."]
+    pairs = [
+        (say("computed by stylobate"), joined(", ", computed) or say("not known")),
+        (say("written by stylobate"), __version__),
+    ]
+    pairs.append((say("SHA-256 of the list of files"), Own(hashlib.sha256(listed.encode()).hexdigest())))
+    return [Facts(pairs), say("The files with their digests, and what is cited, stand at the end of the appendix.")]

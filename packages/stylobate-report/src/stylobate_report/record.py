@@ -7,6 +7,7 @@ from typing import Any
 
 from stylobate.bibliography import Citation
 from stylobate.errors import InputError
+from stylobate.messages import joined, say
 from stylobate.models.base import Model
 from stylobate.models.registry import model_class
 from stylobate.results import Result, SeveralRuns
@@ -16,11 +17,11 @@ from stylobate.version import __version__
 from . import numbers as n
 from .page import Code, Facts, Item, Note, Own, Points, Rows, Section
 
-#: Beginning of a text that the reader must know before relying on a result.
-NOTE = "Note: "
+#: What the reader must know before relying on a result.
+NOTE = say("Note: {text}")
 
 #: Title of the section on what to cite.
-SOURCES = "Sources to cite"
+SOURCES = say("Sources to cite")
 
 #: Options that are results, told elsewhere.
 FOUND = ("limit_analysis_g",)
@@ -35,7 +36,7 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
     pairs = list(more)
     if asked is not None:
         if asked.models and not any(name == "model" for name, _ in more):
-            pairs.append(("model", ", ".join(titled(model["name"]) for model in asked.models)))
+            pairs.append((say("model"), joined(", ", (titled(model["name"]) for model in asked.models))))
         options = {
             key: value
             for key, value in asked.options.items()
@@ -43,52 +44,67 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
         }
         pairs += [(n.named(key), n.plain(value)) for key, value in options.items()]
         if asked.day:
-            pairs.append(("computed on", asked.day))
+            pairs.append((say("computed on"), Own(asked.day)))
     else:
-        items.append("The folder does not hold the command line: it was written by a version that did not keep it.")
-    return Section("What was asked", [*items, *([Facts(pairs)] if pairs else [])])
+        items.append(
+            say("The folder does not hold the command line: it was written by a version that did not keep it.")
+        )
+    return Section(say("What was asked"), [*items, *([Facts(pairs)] if pairs else [])])
 
 
 def basis_section(result: Result) -> Section:
     """The runs that a result rests on: where they lie, of which command, and what is not known of them."""
-    title = "What it was computed from"
+    title = say("What it was computed from")
     sources = result.asked.sources if result.asked is not None else ()
     if not sources:
-        text = "Not known: the folder does not keep what runs it was computed from. Compute it again to have them told here."
+        text = say(
+            "Not known: the folder does not keep what runs it was computed from. Compute it again to have them told "
+            "here."
+        )
         return Section(title, [Note([text], "fair")])
     items: list[Item] = []
     for source in sources:
         records = list(source["records"])
-        state = {True: ", as written", False: ", changed by somebody since it was written", None: ""}[
+        alone, several = say("{runs} of 1 record"), say("{runs} of {count} records")
+        state = {True: say(", as written"), False: say(", changed by somebody since it was written"), None: ""}[
             source["unchanged"]
         ]
         pairs = [
-            ("runs", f"{source['runs']} of {len(records)} record{'' if len(records) == 1 else 's'}"),
-            ("column or state, as the table calls it", ", ".join(source["columns"]) or "not told"),
-            ("model, as the table calls it", ", ".join(source["models"]) or "not told"),
-            ("records", ", ".join(records[:MOST_NAMES]) + (", …" if len(records) > MOST_NAMES else "")),
-            (f"SHA-256 of {source['table']}", f"{source['sha256']}{state}"),
+            (
+                say("runs"),
+                (alone if len(records) == 1 else several).of(runs=source["runs"], count=len(records)),
+            ),
+            (say("column or state, as the table calls it"), joined(", ", source["columns"]) or say("not told")),
+            (say("model, as the table calls it"), joined(", ", source["models"]) or say("not told")),
+            (say("records"), joined(", ", records[:MOST_NAMES]) + (", …" if len(records) > MOST_NAMES else "")),
+            (
+                say("SHA-256 of {file}", file=source["table"]),
+                Own(source["sha256"]) + state,
+            ),
         ]
         if source["command"] is not None:
             pairs.append(
-                ("computed by", f"{typed(source['command'])}\non {source['day']}, version {source['version']}")
+                (
+                    say("computed by"),
+                    Own(typed(source["command"])) + say("\non {source[day]}, version {source[version]}", source=source),
+                )
             )
         items.append(Facts(pairs, Own(source["path"])))
         if source["command"] is None:
-            items.append(Note([NOT_TOLD.format(why=source["not_told"])], "fair"))
+            items.append(Note([NOT_TOLD.of(why=source["not_told"])], "fair"))
         elif source["unchanged"] is False:
-            items.append(Note([CHANGED.format(table=source["table"])], "fair"))
+            items.append(Note([CHANGED.of(table=source["table"])], "fair"))
     return Section(title, items)
 
 
 #: Doubt about a table of runs beside which no file tells what the command was asked.
-NOT_TOLD = (
+NOT_TOLD = say(
     "Not known: {why} Which column stood, in which model with which parameters, and "
     "the motions with their digests and scale factors are not told; whoever signs this has to know them from elsewhere."
 )
 
 #: Doubt about a table that somebody has changed.
-CHANGED = (
+CHANGED = say(
     "{table} is not as stylobate wrote it: whether its runs are those of the columns, models and motions below is not "
     "known."
 )
@@ -108,11 +124,14 @@ def model_section(names: Iterable[str]) -> Section:
     for name in dict.fromkeys(names):
         kind = known_model(name)
         if kind is None:
-            items.append(f"This version of stylobate does not know the model {name}.")
+            items.append(say("This version of stylobate does not know the model {name}.", name=name))
             continue
-        items += [f"{kind.title[:1].upper()}{kind.title[1:]} ({name}) assumes:", Points(kind.assumptions)]
-        items += ["It ends here:", Points(kind.limits)]
-    return Section("What the model assumes, and where it ends", items)
+        items += [
+            say("{title:capital} ({name}) assumes:", title=say(kind.title), name=name),
+            Points(list(map(say, kind.assumptions))),
+        ]
+        items += [say("It ends here:"), Points(list(map(say, kind.limits)))]
+    return Section(say("What the model assumes, and where it ends"), items)
 
 
 def known_model(name: str) -> type[Model] | None:
@@ -129,13 +148,14 @@ def warnings_of(result: Result, more: Sequence[str] = ()) -> list[Item]:
     if result.asked is not None:
         found += result.asked.warnings
         if result.asked.version != __version__:
-            found.append(f"Computed by version {result.asked.version}; this report is written by {__version__}.")
+            words = say("Computed by version {version}; this report is written by {own}.")
+            found.append(words.of(version=result.asked.version, own=__version__))
     changed = [file.name for file in result.files if file.unchanged is False]
     if changed:
-        found.append(
-            f"Changed by somebody since stylobate wrote {'it' if len(changed) == 1 else 'them'}: {', '.join(changed)}."
-        )
-    return [Note([f"{NOTE}{text}" for text in dict.fromkeys(found)], "fair")] if found else []
+        alone = say("Changed by somebody since stylobate wrote it: {names}.")
+        words = alone if len(changed) == 1 else say("Changed by somebody since stylobate wrote them: {names}.")
+        found.append(words.of(names=joined(", ", changed)))
+    return [Note([say(NOTE, text=text) for text in dict.fromkeys(found)], "fair")] if found else []
 
 
 def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapping[str, Any]) -> Section:
@@ -145,19 +165,22 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
         items.append(
             Facts(
                 [(Own(key), Own(v) if isinstance(v, str) else n.plain(v)) for key, v in parameters.items()],
-                "Parameters of the model by their names in the program, in SI units; –: not set.",
+                say("Parameters of the model by their names in the program, in SI units; –: not set."),
             )
         )
-    known = {key: str(value) for key, value in versions.items() if value not in (None, "")}
-    items.append(Facts([*known.items(), ("folder", Own(result.folder))], "Versions and inputs"))
-    return Section("Parameters, versions and digests", items)
+    known = {say(key): Own(value) for key, value in versions.items() if value not in (None, "")}
+    items.append(Facts([*known.items(), (say("folder"), Own(result.folder))], say("Versions and inputs")))
+    return Section(say("Parameters, versions and digests"), items)
 
 
 def files_section(results: Sequence[Result]) -> Section:
     """Files of all results, by the number of the result, with their digests."""
-    state = {True: "as written", False: "changed since", None: "no list to check by"}
-    body = [[str(k), Own(file.name), file.digest, state[file.unchanged]] for k, file in files_of(results)]
-    return Section("Files this report rests on", [Rows(["case", "file", "SHA-256", "state"], body, numbers=True)])
+    state = {True: say("as written"), False: say("changed since"), None: say("no list to check by")}
+    body = [[str(k), Own(file.name), Own(file.digest), state[file.unchanged]] for k, file in files_of(results)]
+    return Section(
+        say("Files this report rests on"),
+        [Rows([say("case"), say("file"), Own("SHA-256"), say("state")], body, numbers=True)],
+    )
 
 
 def files_of(results: Sequence[Result]) -> list[tuple[int, FileFact]]:
@@ -175,7 +198,7 @@ def sources_section(citation: Citation) -> Section:
     package, *_ = [line for line in citation.text.splitlines() if line.startswith("  ")]
     items: list[Item] = [Points([Own(package.strip()), *(Own(reference.text) for reference in citation.references)])]
     if citation.motion:
-        items += ["And the source of the ground motion:", Points([Own("; ".join(citation.motion.values()))])]
+        items += [say("And the source of the ground motion:"), Points([Own(joined("; ", citation.motion.values()))])]
     return Section(SOURCES, items)
 
 
@@ -186,13 +209,13 @@ def versions_of(result: Result) -> dict[str, str]:
         return {}
     found = {"stylobate": asked.version, "Python": asked.python, "machine": asked.machine}
     digests = [str(structure.get("digest", "")) for structure in asked.structures]
-    return found | ({"digest of what stood": "\n".join(digests)} if digests else {})
+    return found | ({"digest of what stood": joined("\n", digests)} if digests else {})
 
 
 def titled(name: str) -> str:
     """A model by its title, its name behind."""
     kind = known_model(name)
-    return name if kind is None else f"{kind.title} ({name})"
+    return name if kind is None else say("{model} ({name})", model=say(kind.title), name=name)
 
 
 def _typed(word: str) -> str:

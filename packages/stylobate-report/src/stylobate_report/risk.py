@@ -9,10 +9,11 @@ from stylobate.analysis.fragility_curve import between
 from stylobate.analysis.risk import years
 from stylobate.analysis.side_by_side import median_words
 from stylobate.analysis.verdicts import open_runs
+from stylobate.messages import digits, joined, say
 from stylobate.results import Numbers
 
 from . import numbers as n
-from .page import Facts, Item, Note
+from .page import Facts, Item, Note, Own
 from .pictures import kept
 from .tables import table
 
@@ -23,7 +24,7 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     one = curves[0]
     said = [_of_curve(each) for each in curves[:MOST_TOLD]]
     if len(curves) > MOST_TOLD:
-        said.append(f"{len(curves) - MOST_TOLD} more curves stand in the table.")
+        said.append(say("{most_told} more curves stand in the table.", most_told=len(curves) - MOST_TOLD))
     for each in curves:
         each["records"] = None if each.get("records_are_one") else each["records"]
         each["known of the median"] = median_words(each) if each.get("outside") else None
@@ -31,75 +32,97 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
             each["median_undecided_both_ways"] = median_words(each)
     keys = ["name", "im", "levels", "known of the median", "median", "median_low", "median_high"]
     keys += ["median_undecided_both_ways", "beta", "records", "runs", "undecided", "p_value"]
-    items: list[Item] = [table(curves, keys, "Lognormal curves: median, its interval, dispersion β, and p of the fit.")]
-    items += kept(result.pictures, "fragility", f"Probability over the intensity, with its interval over {_over(one)}.")
+    items: list[Item] = [
+        table(curves, keys, say("Lognormal curves: median, its interval, dispersion β, and p of the fit."))
+    ]
+    items += kept(
+        result.pictures,
+        "fragility",
+        say("Probability over the intensity, with its interval over {over}.", over=_over(one)),
+    )
     if float(one.get("p_value") or 1.0) < 0.05:
-        items.append(Note(["A lognormal curve fits these points badly; read the points, not the curve."], "fair"))
-    items.append(_HOLDS.format(_over(one)))
-    return ("\n".join(said), ""), items
+        items.append(Note([say("A lognormal curve fits these points badly; read the points, not the curve.")], "fair"))
+    items.append(_HOLDS.of(what=_over(one)))
+    return (joined("\n", said), ""), items
 
 
 def _of_curve(one: Mapping[str, Any]) -> str:
     """What one curve says, in sentences."""
-    unit = "" if one.get("unit") in (None, "-") else f" {one['unit']}"
     limits = between(one.get("median_low"), one.get("median_high"), one.get("unit") or "-")
-    sentence = f"{one['sentence']} The 95 % interval of the median is {limits}."
+    texts = [one["sentence"], say("The 95 % interval of the median is {limits}.", limits=limits)]
     if one.get("outside"):
-        levels = " to ".join(f"{level:.3g}" for level in one["levels"])
-        where = "above" if one["median"] > one["levels"][1] else "below"
-        sentence = (
-            f"{one['name']}: the fitted median of {one['state']} ({one['im']}) lies {where} all runs ({levels}{unit}); "
+        above = say(
+            "{one[name]}: the fitted median of {state} ({one[im]}) lies above all runs ({levels}); 95 % interval: {limits}."
         )
-        sentence += f"95 % interval: {limits}."
+        below = say(
+            "{one[name]}: the fitted median of {state} ({one[im]}) lies below all runs ({levels}); 95 % interval: {limits}."
+        )
+        words = above if one["median"] > one["levels"][1] else below
+        texts = [
+            words.of(
+                one=one,
+                state=say(one["state"]),
+                levels=between(*one["levels"], one.get("unit") or "-", 3),
+                limits=limits,
+            )
+        ]
     elif one.get("bracket"):
-        sentence += " How capacities scatter is not seen."
-    return sentence + open_runs(one, "left out of the curve, and counted both ways in its interval")
+        texts.append(say("How capacities scatter is not seen."))
+    return joined(" ", texts) + open_runs(one, say("left out of the curve, and counted both ways in its interval"))
 
 
 #: Most curves whose medians are told in sentences.
 MOST_TOLD = 6
 
 #: Limits of the intervals of a fragility.
-_HOLDS = "The interval is over {}: it does not hold what the model or the survey may be wrong about."
+_HOLDS = say("The interval is over {what}: it does not hold what the model or the survey may be wrong about.")
 
 
 def _over(curve: Mapping[str, Any]) -> str:
     """Population of the interval of a curve."""
-    return "runs" if curve.get("records_are_one") else "records"
+    return say("runs") if curve.get("records_are_one") else say("records")
 
 
 def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """Rate per year, and its basis."""
     s = result.summary
     period = s.get("return_period_y")
-    sentence = f"{s.get('name', 'The column')}: {s.get('state', 'collapse')} " + (
-        f"once in {years(period)} on average." if isinstance(period, float) else "never, under this hazard."
+    once, never = say("{name}: {state} once in {years} on average."), say("{name}: {state} never, under this hazard.")
+    state, rare = say(s.get("state", "collapse")), isinstance(period, float)
+    sentence = (once if rare else never).of(
+        name=s.get("name", say("The column")), state=state, years=years(period) if rare else ""
     )
     low, high = n.plain(s.get("annual_rate_low")), n.plain(s.get("annual_rate_high"))
     known, unit = s.get("fragility") or {}, "" if s.get("unit") in (None, "-") else f" {s['unit']}"
     if s.get("hazard_statistic"):
-        sentence += f" The hazard curve is the {s['hazard_statistic']}."
+        sentence += say(" The hazard curve is the {statistic}.", statistic=say(s["hazard_statistic"]))
     if n.NONE not in (low, high):
-        sentence += f" The annual rate lies between {low} and {high} (95 %)."
+        sentence += say(" The annual rate lies between {low} and {high} (95 %).", low=low, high=high)
     pairs = [
-        ("annual rate [1/year]", f"{n.plain(s['annual_rate'])} ({low} to {high}, 95 %)"),
-        ("hazard", n.plain(s.get("hazard"))),
-        *([("statistic of the hazard", s["hazard_statistic"])] if s.get("hazard_statistic") else []),
-        ("intensity", f"{n.plain(s.get('im'))}{unit and f' [{unit.strip()}]'}"),
+        (
+            say("annual rate [1/year]"),
+            say("{annual_rate} ({low} to {high}, 95 %)", annual_rate=n.plain(s["annual_rate"]), low=low, high=high),
+        ),
+        (say("hazard"), Own(s.get("hazard"))),
+        *([(say("statistic of the hazard"), say(s["hazard_statistic"]))] if s.get("hazard_statistic") else []),
+        (
+            say("intensity"),
+            f"{s.get('im')}{unit and f' [{unit.strip()}]'}",
+        ),
     ]
     if known:
         median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
-        levels = " to ".join(f"{level:.3g}" for level in known["levels"])
+        levels = joined(" to ", (digits(level, ".3g") for level in known["levels"]))
         counted = [*(["records"] * (_over(known) == "records")), "runs", "exceeded", "undecided", "failed"]
         pairs += [
-            ("median of the fragility", f"{median_words(known)} ({median}, 95 %)"),
-            ("dispersion β of the fragility", f"{n.plain(known['beta'])} ({beta}, 95 %)"),
-            ("intensities of its runs", f"{levels}{unit}"),
-            (" / ".join(counted), " / ".join(str(known[one]) for one in counted)),
-            ("p of its fit", n.plain(known["p_value"])),
+            (say("median of the fragility"), say("{median_words} ({median}, 95 %)", median_words=median_words(known), median=median)),
+            (say("dispersion β of the fragility"), say("{beta_} ({beta}, 95 %)", beta_=n.plain(known["beta"]), beta=beta)),
+            (say("intensities of its runs"), say("{levels}{unit}", levels=levels, unit=unit)),
+            (joined(" / ", map(say, counted)), joined(" / ", (str(known[one]) for one in counted))),
+            (say("p of its fit"), n.plain(known["p_value"])),
         ]  # fmt: skip
-    items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", "Where the rate comes from, by intensity.")]
-    items.append(_HOLDS.format(_over(known)))
+    items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", say("Where the rate comes from, by intensity."))]
+    items.append(_HOLDS.of(what=_over(known)))
     return (sentence, ""), items
 
 
@@ -117,19 +140,26 @@ def survival_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         "survival_probability_high",
         "weight",
     ]
-    said = ", ".join(f"{hazard['hazard']}: {_survives(hazard)}" for hazard in s["hazards"])
-    sentence = (
-        f"Probability that the column would still stand after {n.plain(s.get('age_y'))} years, by hazard curve: {said}."
+    said = joined(
+        ", ",
+        (say("{hazard[hazard]}: {survives}", hazard=hazard, survives=_survives(hazard)) for hazard in s["hazards"]),
     )
-    items: list[Item] = [table(s["hazards"], keys, "Hazard curves compared.")]
-    items += kept(result.pictures, "survival", "Probability of having stood, over the years.")
+    sentence = say(
+        "Probability that the column would still stand after {age_y} years, by hazard curve: {said}.",
+        age_y=n.plain(s.get("age_y")),
+        said=said,
+    )
+    items: list[Item] = [table(s["hazards"], keys, say("Hazard curves compared."))]
+    items += kept(result.pictures, "survival", say("Probability of having stood, over the years."))
     return (sentence, ""), items
 
 
 def _survives(hazard: Mapping[str, Any]) -> str:
     """A probability with its interval, where it has one."""
     best, low, high = (hazard.get(f"survival_probability{end}") for end in ("", "_low", "_high"))
-    return f"{best:.2g}" + (f" ({low:.2g}–{high:.2g}, 95 %)" if low is not None and high is not None else "")
+    return digits(best, ".2g") + (
+        say(" ({low:.2g}–{high:.2g}, 95 %)", low=low, high=high) if low is not None and high is not None else ""
+    )
 
 
 def _weighing(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -142,14 +172,18 @@ def _weighing(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         table(
             shown,
             keys,
-            "Branches: weight before and after, if each site had its own earthquakes and if all shook every site; and the "
-            "probability of what is seen, with 95 % over what is not known of fragilities and ages.",
+            say(
+                "Branches: weight before and after, if each site had its own earthquakes and if all shook every "
+                "site; and the probability of what is seen, with 95 % over what is not known of fragilities and ages."
+            ),
         )
     ]
-    items += kept(result.pictures, "survival", "Branches, monuments and hazard curves, grey before and blue after.")
-    caption = "What each monument tells of the branches, by itself and beside the others [bits]."
+    items += kept(
+        result.pictures, "survival", say("Branches, monuments and hazard curves, grey before and blue after.")
+    )
+    caption = say("What each monument tells of the branches, by itself and beside the others [bits].")
     items.append(table(s["monuments"], ["monument", "seen", "bits_alone", "bits_beside_others"], caption))
-    caption = f"Exceeded once in 475 years, by the mean curve [{s['unit']}]."
+    caption = say("Exceeded once in 475 years, by the mean curve [{s[unit]}].", s=s)
     items.append(table(s["sites"], ["site", "once_in_475_years_before", "once_in_475_years"], caption))
-    items.append(f"Earthquakes are taken as {s['earthquakes']}. Hazards beyond the branches are not in it.")
-    return (str(s["sentence"]), ""), items
+    items.append(say("Earthquakes are taken as {s[earthquakes]}. Hazards beyond the branches are not in it.", s=s))
+    return (s["sentence"], ""), items

@@ -15,6 +15,7 @@ from stylobate.analysis.side_by_side import codes_of, shares
 from stylobate.analysis.verdicts import verdict
 from stylobate.bibliography import cite_run
 from stylobate.constants import g
+from stylobate.messages import digits, joined, say
 from stylobate.outcome import Outcome
 from stylobate.percent import percent
 from stylobate.response import Response
@@ -23,7 +24,7 @@ from stylobate.results import RunResult, SeveralRuns
 
 from . import numbers as n
 from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sentence
-from .page import Facts, Item, Note, Rows, Section
+from .page import Facts, Item, Note, Own, Rows, Section
 from .pictures import picture
 from .record import asked_section, model_section, record_section, sources_section, titled, versions_of, warnings_of
 from .sequence import sequence_section
@@ -39,9 +40,9 @@ LOOKS = {"at_rest": "good", "rocked": "good", "displaced": "fair", "collapsed": 
 
 
 #: Caption of the uplift of joints.
-UPLIFT = (
-    "Largest uplift along the rim of the drum above each joint, by direction. Where that rim lies beyond the face below, it "
-    "is larger than the opening, which is measured where faces overlap."
+UPLIFT = say(
+    "Largest uplift along the rim of the drum above each joint, by direction. Where that rim lies beyond the "
+    "face below, it is larger than the opening, which is measured where faces overlap."
 )
 
 
@@ -55,7 +56,7 @@ def run_sections(run: RunResult) -> list[Section]:
     r, summary = run.response, run.summary
     column = r.structure.stack
     asked = run.asked.motions[0] if run.asked is not None and run.asked.motions else None
-    parts = [Section("Verdict", [_verdict(run), *warnings_of(run, _doubts(run))]), asked_section(run, _asked(r))]
+    parts = [Section(say("Verdict"), [_verdict(run), *warnings_of(run, _doubts(run))]), asked_section(run, _asked(r))]
     parts.append(structure_section(r.structure))
     parts.append(motion_section(run.motion, r, asked, column))
     parts += sequence_section(run)
@@ -82,15 +83,17 @@ def verdict_look(response: Response, doubted: bool = False) -> str:
 
 def _verdict(run: RunResult) -> Note:
     r = run.response
-    texts = [" ".join([r.sentence, *_how_far(r)])]
+    texts = [joined(" ", [r.sentence, *_how_far(r)])]
     if r.structure.scattered:
         if r.outcome is not Outcome.FAILED:
             texts.append(certainty_sentence(run.summary))
     else:
         texts.append(
-            "How sure this verdict is was not computed: only columns and assemblies in space are computed with varied "
-            "properties. It is that of exactly this geometry, these joints and this motion, and near collapse small "
-            "differences decide."
+            say(
+                "How sure this verdict is was not computed: only columns and assemblies in space are computed with "
+                "varied properties. It is that of exactly this geometry, these joints and this motion, and near "
+                "collapse small differences decide."
+            )
         )
     texts += filter(None, [_doubt(run)])
     return Note(
@@ -102,36 +105,37 @@ def _verdict(run: RunResult) -> Note:
 
 def _doubt(run: RunResult) -> str:
     """What stands beside its verdict: as told with those like it, whichever the version that wrote it of the run itself."""
-    return str(run.summary.get("doubt") or doubt_of(run.response))
+    return run.summary.get("doubt") or doubt_of(run.response)
 
 
 def _how_far(r: Response) -> list[str]:
     """When it fell, or how far it moved and where it rests."""
     m = r.measures
     if m.collapsed:
-        return [f"The collapse was certain {m.collapse_time:.2f} s after the start."]
+        return [say("The collapse was certain {m.collapse_time:.2f} s after the start.", m=m)]
     width, angle = r.structure.base_width, r.structure.slenderness
     if r.outcome is Outcome.FAILED or width is None or angle is None:
         return []
-    share = m.peak_top_displacement / width
-    said = (
-        f"Its top moved by up to {n.length(m.peak_top_displacement)}, {share:.2f} of the width of the base, and "
-        f"{'rests' if r.decided else 'was at the end'} {n.length(m.residual_top_displacement)} from where it stood."
+    rests = say(
+        "Its top moved by up to {far}, {share:.2f} of the width of the base, and rests {left} from where it stood."
     )
+    was = say("Its top moved by up to {far}, {share:.2f} of the width of the base, and was at the end {left} from where it "
+              "stood.")  # fmt: skip
+    far, left = n.length(m.peak_top_displacement), n.length(m.residual_top_displacement)
+    said = [(rests if r.decided else was).of(far=far, share=m.peak_top_displacement / width, left=left)]
     plain = len(r.structure.shapes) == 1 and not (r.structure.as_found or r.structure.links) and r.dims != "xyz"
     if plain and math.isfinite(m.peak_rotation):
-        said += (
-            f" It turned by up to {m.peak_rotation / angle:.2f} of the slenderness α, at which it is "
-            "balanced on its edge."
-        )
-    return [said]
+        turned = say("It turned by up to {share:.2f} of the slenderness α, at which it is balanced on its edge.")
+        said.append(turned.of(share=m.peak_rotation / angle))
+    return said
 
 
 def _scope(run: RunResult) -> str:
-    return (
-        f"This is the verdict of one model, {titled(run.response.model)}, under the one motion below. It is no statement "
-        "about other earthquakes, and no check against a code. What the model leaves out stands under “What the model "
-        "assumes, and where it ends”."
+    return say(
+        "This is the verdict of one model, {model}, under the one motion below. It is no statement about other "
+        "earthquakes, and no check against a code. What the model leaves out stands under “What the model "
+        "assumes, and where it ends”.",
+        model=titled(run.response.model),
     )
 
 
@@ -140,107 +144,116 @@ def _doubts(run: RunResult) -> list[str]:
     if not r.decided and r.outcome is not Outcome.FAILED:
         known, waited = r.provenance, bool(r.provenance.get("until_decided"))
         cure = to_decide(r.structure, known.get("parameters", {}), float(known.get("tail_s", 0.0)), waited)
-        doubts.append(f"the run ended before the verdict was certain; {cure}: do not rely on it before.")
+        doubts.append(say("the run ended before the verdict was certain; {cure}: do not rely on it before.", cure=cure))
     if abs(r.energy_imbalance) > IMBALANCE:
         doubts.append(
-            f"the energy balance misses {percent(abs(r.energy_imbalance))} of the energy at stake: halve the time step "
-            "(a smaller step factor) and compare."
+            say(
+                "the energy balance misses {energy_imbalance} of the energy at stake: halve the time step (a smaller "
+                "step factor) and compare.",
+                energy_imbalance=percent(abs(r.energy_imbalance)),
+            )
         )
-    if left_out := [str(one) for one in r.provenance.get("left_out", ())]:
-        doubts.append(f"left out of the motion, which the model does not take: {'; '.join(left_out)}.")
+    asked = run.asked.motions if run.asked is not None else ()
+    if left_out := (asked[0].get("left_out") if asked else None) or r.provenance.get("left_out"):
+        words = say("left out of the motion, which the model does not take: {names}.")
+        doubts.append(words.of(names=joined("; ", left_out)))
     return doubts
 
 
 def _asked(r: Response) -> list[tuple[str, str]]:
     p = r.provenance
-    pairs = [("structure", r.structure.name), ("motion", str(p.get("motion", n.NONE)))]
-    pairs.append(("model", f"{r.model}, step {r.time_step:.3g} s, {r.steps} steps"))
-    pairs.append(("time computed", f"{float(r.time[-1]):.2f} s from the start of the motion"))
+    pairs = [(say("structure"), Own(r.structure.name)), (say("motion"), Own(p.get("motion", n.NONE)))]
+    pairs.append((say("model"), say("{r.model}, step {r.time_step:.3g} s, {r.steps} steps", r=r)))
+    pairs.append((say("time computed"), say("{time:.2f} s from the start of the motion", time=float(r.time[-1]))))
     if opens := opening_words(p.get("opening")):
-        pairs.append(("largest static acceleration that it stands", opens))
+        pairs.append((say("largest static acceleration that it stands"), opens))
     if (stepped := r.measures.stepped) is not None:
-        pairs.append(("of which stepped", f"{stepped[2]:.2f} s, without the quiet in which the column lies at rest"))
+        pairs.append(
+            (
+                say("of which stepped"),
+                say("{stepped[2]:.2f} s, without the quiet in which the column lies at rest", stepped=stepped),
+            )
+        )
     if p.get("until_rest"):
-        pairs.append(("followed", "until everything lies still"))
+        pairs.append((say("followed"), say("until everything lies still")))
     else:
-        pairs.append(("quiet time asked for after the motion", f"{float(p.get('tail_s', 0.0)):g} s"))
+        tail = say("{time:g} s", time=float(p.get("tail_s", 0.0)))
+        pairs.append((say("quiet time asked for after the motion"), tail))
     return pairs
 
 
-def _less_the_fall(r: Response) -> str:
-    if not r.collapsed:
-        return ""
-    return (
-        f". Peaks are those before the fall; the pictures below go on to {r.time[-1]:.2f} s and show the fall itself."
-    )
-
-
 def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]:
-    items: list[Item] = [Facts(_measures(r), f"Measures of the response{_less_the_fall(r)}")]
-    space = r.dims == "xyz"
-    until = f" The dotted line is where the collapse became certain, at {r.collapse_time:.2f} s." if r.collapsed else ""
-    what = (
-        "displacement of top and base relative to the ground"
-        if r.histories.top is not None
-        else "displacement of the blocks"
-    )
-    items.append(
-        picture(plots.draw_histories(r, " "), f"Histories: {what}, over the acceleration of the ground.{until}")
-    )
-    one_draw = ""
+    before = say("Measures of the response. Peaks are those before the fall; the pictures below go on to {time:.2f} s and show "
+                 "the fall itself.", time=r.time[-1])  # fmt: skip
+    items: list[Item] = [Facts(_measures(r), before if r.collapsed else say("Measures of the response"))]
+    space, top = r.dims == "xyz", r.histories.top is not None
+    of_top = say("Histories: displacement of top and base relative to the ground, over the acceleration of the ground.")
+    texts = [of_top if top else say("Histories: displacement of the blocks, over the acceleration of the ground.")]
+    if r.collapsed:
+        texts.append(say("The dotted line is where the collapse became certain, at {r.collapse_time:.2f} s.", r=r))
+    items.append(picture(plots.draw_histories(r, " "), joined(" ", texts)))
+    sides = say("Film strip: what stood, at chosen instants, seen along y (x to the right) and against x (y to the right), in "
+                "true proportion unless the title says a factor.")  # fmt: skip
+    plain = say("Film strip: what stood, at chosen instants, in true proportion unless the title says a factor.")
+    most = say("Under each time: how far the block that moved most is from where it was.")
+    texts = [sides if space else plain]
+    texts.append(say("Under each time: how far its top is from where it was.") if top else most)
     if r.structure.space_joints is not None and r.collapsed:
-        one_draw = " Where pieces come to lie is one draw of many: take regions over assemblies like it (`replicates`)."
-    which = "its top" if r.histories.top is not None else "the block that moved most"
-    views = ", seen along y (x to the right) and against x (y to the right)" if space else ""
-    items.append(
-        picture(
-            plots.draw_filmstrip(r, title=" "),
-            f"Film strip: what stood, at chosen instants{views}, in true proportion unless the title says a factor. Under "
-            f"each time: how far {which} is from where it was.{one_draw}",
+        texts.append(
+            say("Where pieces come to lie is one draw of many: take regions over assemblies like it (`replicates`).")
         )
-    )
-    if r.histories.top is not None:
-        items.append(picture(plots.draw_joints(r, " "), "Opening of every joint over time, each to its own peak."))
-    if space and r.histories.top is not None:
-        items.append(picture(plots.draw_orbit(r, " "), "Orbit of the top in plan, relative to the base."))
+    items.append(picture(plots.draw_filmstrip(r, title=" "), joined(" ", texts)))
+    if top:
+        items.append(picture(plots.draw_joints(r, " "), say("Opening of every joint over time, each to its own peak.")))
+    if space and top:
+        items.append(picture(plots.draw_orbit(r, " "), say("Orbit of the top in plan, relative to the base.")))
         items.append(picture(plots.draw_uplift(r, " "), UPLIFT))
         items.append(
             picture(
                 plots.draw_residuals(r, " "),
-                "Each drum over what it stands on, in plan, at the end or where the collapse became certain. "
-                "Offsets and twists may be drawn larger; the numbers are true.",
+                say(
+                    "Each drum over what it stands on, in plan, at the end or where the collapse became certain. "
+                    "Offsets and twists may be drawn larger; the numbers are true."
+                ),
             )
         )
     joints = _joints(r, summary)
-    return [Section("What it did", [*items, *joints])]
+    return [Section(say("What it did"), [*items, *joints])]
 
 
 def _measures(r: Response) -> list[tuple[str, str]]:
     m = r.measures
-    until = "" if not m.collapsed else " before the fall" if m.blocks is None else " until the first block fell"
-    pairs = [("outcome", r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided"))]
+    until = (
+        "" if not m.collapsed else say(" before the fall") if m.blocks is None else say(" until the first block fell")
+    )
+    pairs = [(say("outcome"), _outcome(r))]
     if m.collapsed:
-        pairs.append(("collapse certain at", f"{m.collapse_time:.2f} s"))
+        pairs.append((say("collapse certain at"), say("{m.collapse_time:.2f} s", m=m)))
     if not math.isnan(m.peak_top_displacement):
         base = r.structure.base_width
-        share = "" if base is None else f" ({m.peak_top_displacement / base:.2f} base widths)"
-        pairs.append((f"peak displacement of the top{until}", n.length(m.peak_top_displacement) + share))
+        share = "" if base is None else say(" ({base:.2f} base widths)", base=m.peak_top_displacement / base)
+        pairs.append((say("peak displacement of the top") + until, n.length(m.peak_top_displacement) + share))
     if m.blocks is not None:
-        pairs.append((f"peak displacement of a block{until}", n.length(m.blocks.peak_displacement)))
+        pairs.append((say("peak displacement of a block") + until, n.length(m.blocks.peak_displacement)))
         if r.fell_at:
-            pairs.append(("fell", ", ".join(f"{name} ({when:.2f} s)" for name, when in r.fell_at.items())))
+            fell = (say("{name} ({time:.2f} s)", name=name, time=when) for name, when in r.fell_at.items())
+            pairs.append((say("fell"), joined(", ", fell)))
     if not m.collapsed:
         if not math.isnan(m.residual_top_displacement):
-            pairs.append(("residual displacement of the top", n.length(m.residual_top_displacement)))
+            pairs.append((say("residual displacement of the top"), n.length(m.residual_top_displacement)))
         if m.blocks is not None:
-            pairs.append(("residual displacement of a block", n.length(m.blocks.residual_displacement)))
-        pairs.append(("largest residual slip of a joint", n.length(m.residual_joint_slip)))
-    pairs.append((f"peak rotation{until}", n.angle(m.peak_rotation)))
-    pairs.append((f"peak opening of a joint{until}", n.length(m.peak_joint_opening)))
+            pairs.append((say("residual displacement of a block"), n.length(m.blocks.residual_displacement)))
+        pairs.append((say("largest residual slip of a joint"), n.length(m.residual_joint_slip)))
+    pairs.append((say("peak rotation") + until, n.angle(m.peak_rotation)))
+    pairs.append((say("peak opening of a joint") + until, n.length(m.peak_joint_opening)))
     if m.space is not None:
-        pairs.append((f"peak tilt{until}", n.angle(m.space.peak_tilt)))
-        pairs.append((f"peak twist of a joint{until}", n.angle(m.space.peak_twist)))
+        pairs.append((say("peak tilt") + until, n.angle(m.space.peak_tilt)))
+        pairs.append((say("peak twist of a joint") + until, n.angle(m.space.peak_twist)))
     return pairs
+
+
+def _outcome(r: Response) -> str:
+    return say(r.outcome.label.replace("_", " ")) + ("" if r.decided else say(", undecided"))
 
 
 def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
@@ -250,36 +263,43 @@ def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
     if r.measures.blocks is not None:
         return [*_bodies(r), *_joints_of_blocks(r, opening)]
     slip, twist = summary.get("residual_slip_per_joint_m"), summary.get("residual_twist_per_joint_rad")
-    header = ["joint", "peak opening [mm]", "residual slip [mm]"] + (["residual twist [°]"] if twist else [])
+    header = [say("joint"), say("peak opening [mm]"), say("residual slip [mm]")] + (
+        [say("residual twist [°]")] if twist else []
+    )
     body = []
     for i, gap in enumerate(opening):
-        row = [str(i + 1), n.NONE if gap is None else f"{1000.0 * gap:.2f}"]
+        row = [str(i + 1), n.NONE if gap is None else digits(1000.0 * gap, ".2f")]
         one = slip[i] if isinstance(slip, list) and i < len(slip) else None
-        row.append(n.NONE if one is None else f"{1000.0 * one:.2f}")
+        row.append(n.NONE if one is None else digits(1000.0 * one, ".2f"))
         if twist:
-            row.append(n.NONE if twist[i] is None else f"{math.degrees(twist[i]):.2f}")
+            row.append(n.NONE if twist[i] is None else digits(math.degrees(twist[i]), ".2f"))
         body.append(row)
-    fallen = (
-        f" Openings are the largest recorded until the collapse was certain, the beginning of the fall included, which the "
-        f"measures above leave out. Slips and twists are those at the end; {n.NONE}: the joint that failed and all above."
-        if r.collapsed
-        else ""
-    )
-    return [Rows(header, body, f"Joints, from the base up.{fallen}", numbers=True)]
+    texts = [say("Joints, from the base up.")]
+    if r.collapsed:
+        texts.append(say("Openings are the largest recorded until the collapse was certain, the beginning of the fall included, "
+                         "which the measures above leave out. Slips and twists are those at the end; –: the joint that failed "
+                         "and all above."))  # fmt: skip
+    return [Rows(header, body, joined(" ", texts), numbers=True)]
 
 
 def _bodies(r: Response) -> list[Item]:
     """Each body of an assembly: its tilt, when and to which side it fell, how far it is displaced."""
     blocks = r.measures.blocks
     assert blocks is not None
-    header = ["body", "peak tilt [°]", "fell at [s]", "towards azimuth [°]", "residual displacement [mm]"]
+    header = [
+        say("body"),
+        say("peak tilt [°]"),
+        say("fell at [s]"),
+        say("towards azimuth [°]"),
+        say("residual displacement [mm]"),
+    ]
     body = []
     for one in blocks.bodies:
-        side = n.NONE if one.fall_azimuth is None else f"{math.degrees(one.fall_azimuth):.0f}"
-        far = n.NONE if one.fell_at is not None else f"{1000.0 * math.hypot(*one.moved):.2f}"
-        fell = n.NONE if one.fell_at is None else f"{one.fell_at:.2f}"
-        body.append([one.name, f"{math.degrees(one.peak_tilt):.2f}", fell, side, far])
-    said = "Bodies that can move; tilts over the whole run, the fall included. Azimuths from x towards y."
+        side = n.NONE if one.fall_azimuth is None else digits(math.degrees(one.fall_azimuth), ".0f")
+        far = n.NONE if one.fell_at is not None else digits(1000.0 * math.hypot(*one.moved), ".2f")
+        fell = n.NONE if one.fell_at is None else digits(one.fell_at, ".2f")
+        body.append([one.name, digits(math.degrees(one.peak_tilt), ".2f"), fell, side, far])
+    said = say("Bodies that can move; tilts over the whole run, the fall included. Azimuths from x towards y.")
     return [Rows(header, body, said, numbers=True)] if body else []
 
 
@@ -288,31 +308,39 @@ def _joints_of_blocks(r: Response, opening: list[float | None]) -> list[Item]:
     structure, gone = r.structure, r.collapsed
     joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
     slip = np.linalg.norm(r.slip[-1], axis=-1)
-    header = ["joint", "between", "peak opening [mm]", *([] if gone else ["residual slip [mm]", "residual twist [°]"])]
+    header = [
+        say("joint"),
+        say("between"),
+        say("peak opening [mm]"),
+        *([] if gone else [say("residual slip [mm]"), say("residual twist [°]")]),
+    ]
     body = []
     for k, (joint, gap) in enumerate(zip(joints, opening, strict=True)):
-        names = f"{structure.bodies[joint.lower].name} – {structure.bodies[joint.upper].name}"
-        row = [str(k + 1), names, n.NONE if gap is None else f"{1000.0 * gap:.2f}"]
-        row += [] if gone else [f"{1000.0 * slip[k]:.2f}", f"{math.degrees(r.twist[-1, k]):.2f}"]
+        names = joined(" – ", (structure.bodies[joint.lower].name, structure.bodies[joint.upper].name))
+        row = [str(k + 1), names, n.NONE if gap is None else digits(1000.0 * gap, ".2f")]
+        row += [] if gone else [digits(1000.0 * slip[k], ".2f"), digits(math.degrees(r.twist[-1, k]), ".2f")]
         body.append(row)
-    return [Rows(header, body, "Joints" + " until the first body fell" * gone + ".", numbers=True)] if body else []
+    caption = say("Joints until the first body fell.") if gone else say("Joints.")
+    return [Rows(header, body, caption, numbers=True)] if body else []
 
 
 def _energy(r: Response) -> Section:
     share = abs(r.energy_imbalance)
-    text = (
-        "The energy that the motion put in is found again as kinetic energy, height, elastic energy of the joints and what "
-        f"friction, damping and impacts took. Missing at the end: {100.0 * share:.2g} % of the energy at stake, the "
-        "largest of what was put in, what it takes to overturn, and what a fall sets free. A run that misses more than "
-        f"{percent(IMBALANCE)} is warned of under the verdict."
+    text = say(
+        "The energy that the motion put in is found again as kinetic energy, height, elastic energy of the "
+        "joints and what friction, damping and impacts took. Missing at the end: {share:.2g} % of the energy at "
+        "stake, the largest of what was put in, what it takes to overturn, and what a fall sets free. A run that "
+        "misses more than {imbalance} is warned of under the verdict.",
+        share=100.0 * share,
+        imbalance=percent(IMBALANCE),
     )
     return Section(
-        "Energy balance",
+        say("Energy balance"),
         [
             text,
             picture(
                 plots.draw_energy(r, " "),
-                "Energy over time (gravity: of height), and below the share that the balance misses.",
+                say("Energy over time (gravity: of height), and below the share that the balance misses."),
             ),
         ],
     )
@@ -327,7 +355,7 @@ def _versions(run: RunResult) -> dict[str, Any]:
         "machine": p.get("machine"),
         "digest of what stood": p.get(f"{run.response.structure.kind}_digest") or known.get("digest of what stood"),
         "digest of the motion": p.get("motion_digest"),
-        "states recorded every": f"{float(p.get('output_interval_s', math.nan)):g} s",
+        "states recorded every": say("{time:g} s", time=float(p.get("output_interval_s", math.nan))),
     }
 
 
@@ -350,37 +378,43 @@ def several_sections(found: SeveralRuns) -> list[Section]:
     runs = found.runs
     codes = codes_of(np.array([verdict(run.response.summary()) for run in runs]))
     (share,) = shares({runs[0].response.structure.name: codes}, [_record_of(run) for run in runs])
-    header = ["motion", "PGA [g]", "outcome", CHANCE, "peak displacement", "folder"]
+    header = [say("motion"), say("PGA [g]"), say("outcome"), CHANCE, say("peak displacement"), say("folder")]
     body = []
     for run in runs:
         r, s = run.response, run.summary
         m = r.measures
         moved = m.peak_top_displacement if m.blocks is None else m.blocks.peak_displacement
-        peak = n.NONE if run.motion is None else f"{run.motion.horizontal_peak[0] / g:.3f}"
-        outcome = r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided")
+        peak = n.NONE if run.motion is None else digits(run.motion.horizontal_peak[0] / g, ".3f")
         body.append(
             [
-                str(r.provenance.get("motion", "")),
+                Own(r.provenance.get("motion", "")),
                 peak,
-                outcome,
+                _outcome(r),
                 chance_words(s) or n.NONE,
                 n.length(moved),
-                run.folder.name,
+                Own(run.folder.name),
             ]
         )
-    looks = {name.replace("_", " "): look for name, look in LOOKS.items()}
+    looks = {say(name.replace("_", " ")): look for name, look in LOOKS.items()}
     worst = worst_of(runs)
     doubts = each_doubt(_doubt(run) for run in runs)
     lead = Section(
-        "All runs",
+        say("All runs"),
         [
             Note([share.collapses, *doubts], "verdict bad" if share.exceeded else "verdict", first=1 + len(doubts)),
-            Rows(header, body, f"One row per motion. {OF_TWINS}", mark=2, looks=looks, numbers=True),
+            Rows(
+                header,
+                body,
+                joined(" ", [say("One row per motion."), OF_TWINS]),
+                mark=2,
+                looks=looks,
+                numbers=True,
+            ),
         ],
     )
-    title = f"The run with the most harm: {runs[worst].response.provenance.get('motion', '')}"
+    title = say("The run with the most harm: {motion}", motion=Own(runs[worst].response.provenance.get("motion", "")))
     return [
         lead,
-        Section(title, ["Every other run has a folder of its own, which can be reported by itself."]),
+        Section(title, [say("Every other run has a folder of its own, which can be reported by itself.")]),
         *run_sections(runs[worst]),
     ]

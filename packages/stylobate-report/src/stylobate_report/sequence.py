@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from stylobate import plots
+from stylobate.messages import joined, say
 from stylobate.motion import Span
 from stylobate.response.events import events_of
 from stylobate.results import Numbers, RunResult
 
 from . import numbers as n
-from .page import Item, Rows, Section
+from .page import Item, Own, Rows, Section
 from .pictures import picture
 from .tables import MOST, table
 
-HEADER = ("", "earthquake", "outcome so far", "largest turn", "slip added", "fell", "links broken", "came to rest")
+HEADER = (
+    *("", say("earthquake"), say("outcome so far"), say("largest turn"), say("slip added"), say("fell")),
+    *(say("links broken"), say("came to rest")),
+)
 
 
 def sequence_section(run: RunResult) -> list[Section]:
@@ -27,34 +31,37 @@ def sequence_section(run: RunResult) -> list[Section]:
         alone = one["alone"]
         cells = [
             str(one["earthquake"]),
-            one["motion"],
-            one["outcome"].replace("_", " "),
+            Own(one["motion"]),
+            say(one["outcome"].replace("_", " ")),
             n.angle(alone["peak_rotation_rad"]),
         ]
         cells += [
             n.length(alone["added_slip_m"]),
-            ", ".join(alone["fallen"]) or "–",
-            ", ".join(alone["links_broken"]) or "–",
+            joined(", ", alone["fallen"]) or "–",
+            joined(", ", alone["links_broken"]) or "–",
         ]
-        body.append([*cells, "yes" if alone["at_rest"] else "no"])
-    caption = "Each earthquake began as the one before had left the structure; slip added is the largest of a joint."
-    if len(told) > MOST:
-        caption += f" The first {MOST} of {len(told)}."
+        body.append([*cells, say("yes") if alone["at_rest"] else say("no")])
+    caption = say(
+        "Each earthquake began as the one before had left the structure; slip added is the largest of a joint."
+    )
+    caption = joined(" ", [caption, n.first_of(MOST, len(told))])
     items: list[Item] = [
-        str(run.summary.get("sentence", "")),
+        run.summary.get("sentence", ""),
         Rows(HEADER, body, caption, mark=2, looks=LOOKS, numbers=True),
     ]
     if events:
-        shown = "Displacement and largest tilt over all earthquakes; rest is grey, dots are what each leaves behind."
+        shown = say(
+            "Displacement and largest tilt over all earthquakes; rest is grey, dots are what each leaves behind."
+        )
         items.append(picture(plots.draw_sequence(run.response, events, " "), shown))
         items.append(
-            picture(plots.draw_ends(run.response, events, " "), "The structure before, and at the end of each.")
+            picture(plots.draw_ends(run.response, events, " "), say("The structure before, and at the end of each."))
         )
-    return [Section("Earthquake by earthquake", items)]
+    return [Section(say("Earthquake by earthquake"), items)]
 
 
 #: Marks of outcomes, in the words of the table.
-LOOKS = {"at rest": "good", "rocked": "good", "collapsed": "bad"}
+LOOKS = {say("at rest"): "good", say("rocked"): "good", say("collapsed"): "bad"}
 
 
 def until_fall_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -64,14 +71,23 @@ def until_fall_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         result.tables["until_fall"].astype(object).where(result.tables["until_fall"].notna(), None).to_dict("records")
     )
     one = rows[0]
-    sentence = f"Earthquakes until it falls, {one['motion']} again and again: {one['earthquakes']}."
+    sentence = say("Earthquakes until it falls, {one[motion]} again and again: {one[earthquakes]}.", one=one)
     if len(rows) > 1:
-        sentence = f"Earthquakes until it falls, over {len(rows)} kinds, each again and again: {over['sentence']}."
+        sentence = say(
+            "Earthquakes until it falls, over {rows} kinds, each again and again: {over[sentence]}.",
+            rows=len(rows),
+            over=over,
+        )
     keys = ["motion", "earthquakes", "median_low", "median_high", "interval_low", "interval_high"]
     keys += ["runs", "not_fallen", "failed", "most"]
-    caption = f"Each kind by itself, with {n.plain(s.get('rest_s'))} s of quiet ground after each earthquake."
+    caption = say(
+        "Each kind by itself, with {rest_s} s of quiet ground after each earthquake.", rest_s=n.plain(s.get("rest_s"))
+    )
     fell = any(row["runs"] and row["not_fallen"] < row["runs"] for row in rows)
     return (sentence, " bad" * fell), [
         table(rows, keys, caption),
-        "Each earthquake finds what the one before has left; the next of a kind is its copy, which no two earthquakes are.",
+        say(
+            "Each earthquake finds what the one before has left; the next of a kind is its copy, which no two "
+            "earthquakes are."
+        ),
     ]

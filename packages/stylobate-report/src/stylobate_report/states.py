@@ -7,7 +7,8 @@ from typing import Any
 from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER
 from stylobate.analysis.evidence import evidence
 from stylobate.analysis.fragility_checks import FEWEST
-from stylobate.analysis.side_by_side import median_name, median_words, shares
+from stylobate.analysis.side_by_side import median_words, shares
+from stylobate.messages import digits, joined, say
 from stylobate.motion.intensity_specs import parse_measure
 from stylobate.percent import percents
 from stylobate.response.links import YIELDS
@@ -34,46 +35,50 @@ def advice_notes(result: Numbers) -> list[Item]:
 def states_items(result: Numbers) -> list[Item]:
     """The paired results, the counts over the same runs, the picture, and what the links bore."""
     s = result.summary
-    verb = "collapse" if s["state"] == "collapse" else f"exceed {s['state']}"
+    verb = say("collapse") if s["state"] == "collapse" else say("exceed {s[state]}", s=s)
     basis = [
-        f"“{difference['state']}” against “{difference['against']}”. {difference['basis']}"
+        say("“{difference[state]}” against “{difference[against]}”. {difference[basis]}", difference=difference)
         for difference in s["differences"]
     ]
     items: list[Item] = [Points(basis + _at_capacity(s["links"]))]
-    shown = verb.replace("collapse", "collapses").replace("exceed ", "exceeds ")
-    header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "95 % of the share", "failed"]
-    header.append(
-        median_name(*(state["fragility"] or None for state in s["states"])).replace("median", "median intensity")
-    )
+    share = say("share that collapses") if s["state"] == "collapse" else say("share that exceeds {s[state]}", s=s)
+    header = [say("state"), say("same runs"), verb, say("do not"), say("undecided"), share, say("95 % of the share")]
+    open_ = any(one["fragility"] and one["fragility"]["undecided"] + one["fragility"]["failed"] for one in s["states"])
+    header += [say("failed"), say("median intensity (undecided both ways)") if open_ else say("median intensity")]
     body = []
     for state in s["states"]:
         row = [state["label"], *(n.plain(state[key]) for key in ("same_runs", "exceeded", "not_exceeded", "undecided"))]
         body.append(
             [*row, _share(state, "share"), _share(state, "interval"), str(state["failed"]),
-             median_words(state["fragility"]) if state["fragility"] else "no curve"]
+             median_words(state["fragility"]) if state["fragility"] else say("no curve")]
         )  # fmt: skip
-    caption = (
-        "The same motions and levels for every state, and the same slightly different columns or assemblies where these "
-        "are drawn; runs that failed in one of them are left out of all. Undecided: the run ended before its verdict was "
-        "certain; share, interval and median are with none and with all of them counted in; the interval is over records. "
-        "A pair of runs is undecided where either of them is. Shares are of all levels together, as many as were asked for: "
-        "they compare states, and are no probability of collapse."
+    caption = say(
+        "The same motions and levels for every state, and the same slightly different columns or assemblies "
+        "where these are drawn; runs that failed in one of them are left out of all. Undecided: the run ended "
+        "before its verdict was certain; share, interval and median are with none and with all of them counted "
+        "in; the interval is over records. A pair of runs is undecided where either of them is. Shares are of "
+        "all levels together, as many as were asked for: they compare states, and are no probability of collapse."
     )
     if not all(state["fragility"] for state in s["states"]):
-        caption += f" No curve: all runs of a state end alike, or they are of fewer than {FEWEST} records."
+        few = say("No curve: all runs of a state end alike, or they are of fewer than {fewest} records.", fewest=FEWEST)
+        caption = joined(" ", [caption, few])
     items.append(Rows(header, body, caption, numbers=True))
     items += _by_level(result)
     banded = next((state["label"] for state in s["states"] if state["fragility"]), None)
-    band = "" if banded is None else f", the band that of “{banded}”"
-    left = f"Left: fragility curves{band}; two thin ones where runs are undecided: if all exceeded, and if none did. "
-    right = f"{'Right: difference' if banded else 'Difference'} of the share, pair by pair; left of zero is better. "
-    right += "Thick: undecided runs counted both ways"
-    wide = any(difference["records"] >= FEWEST for difference in s["differences"])
-    items += kept(
-        result.pictures,
-        "states",
-        f"{left if banded else ''}{right}{'; thin: 95 % interval over records' if wide else ''}.",
+    curves = say(
+        "Left: fragility curves, the band that of “{state}”; two thin ones where runs are undecided: if all exceeded, and if "
+        "none did.", state=banded,
+    )  # fmt: skip
+    right = say(
+        "Right: difference of the share, pair by pair; left of zero is better. Thick: undecided runs counted both ways"
     )
+    alone = say(
+        "Difference of the share, pair by pair; left of zero is better. Thick: undecided runs counted both ways"
+    )
+    wide = any(difference["records"] >= FEWEST for difference in s["differences"])
+    thin = say("; thin: 95 % interval over records") if wide else ""
+    texts = [curves, right + thin + "."] if banded else [alone + thin + "."]
+    items += kept(result.pictures, "states", joined(" ", texts))
     if s["links"]:
         items.append(_links(s["links"]))
     if best := s.get("best"):
@@ -89,10 +94,11 @@ def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
         mine = [link for link in links if link["state"] == state]
         full, broken = (max(mine, key=lambda one: one.get(key, 0)) for key in ("at_capacity", "broken"))
         if full.get("at_capacity", 0):
-            words = f"“{state}”: {full['link']}{', most of all,' * (len(mine) > 1)} was at its capacity in "
-            words += f"{full['at_capacity']} of {full['runs']} runs"
-            words += f"; {broken['link']} broke in {broken['broken']}" if broken["broken"] else ", and none broke"
-            said.append(f"{words}. {YIELDS}")
+            most = say("“{state}”: {f[link]}, most of all, was at its capacity in {f[at_capacity]} of {f[runs]} runs")
+            only = say("“{state}”: {f[link]} was at its capacity in {f[at_capacity]} of {f[runs]} runs")
+            words = (most if len(mine) > 1 else only).of(state=state, f=full)
+            broke = say("; {b[link]} broke in {b[broken]}.", b=broken) if broken["broken"] else say(", and none broke.")
+            said.append(joined(" ", [words + broke, YIELDS]))
     return said
 
 
@@ -115,31 +121,32 @@ def _by_level(result: Numbers) -> list[Item]:
     body = []
     for level in levels:
         found = shares({one.name: one.codes[one.im == level] for one in told}, told[0].records[told[0].im == level])
-        words = (f"{one.words} ({one.interval_words})" if one.runs else n.NONE for one in found)
-        body.append([f"{level:.4g}", str(found[0].runs), *words])
+        words = (say("{one.words} ({one.interval_words})", one=one) if one.runs else n.NONE for one in found)
+        body.append([digits(level, ".4g"), str(found[0].runs), *words])
     measure = str(table["measure"].iloc[0])
-    unit = f" [{parse_measure(measure).unit}]" if measure != "factor" else ""
-    caption = (
-        "Share by level, of the same runs; from which to which where runs are undecided. In brackets its 95 % interval over "
-        "records."
+    level = say("factor") if measure == "factor" else f"{measure} [{parse_measure(measure).unit}]"
+    caption = say(
+        "Share by level, of the same runs; from which to which where runs are undecided. In brackets its 95 % "
+        "interval over records."
     )
-    return [Rows([f"{measure}{unit}", "same runs", *labels], body, caption, numbers=True)]
+    return [Rows([level, say("same runs"), *labels], body, caption, numbers=True)]
 
 
 def _links(links: list[dict[str, Any]]) -> Rows:
     body = [[n.plain(link.get(key)) for key in BORNE.values()] for link in links[:MOST]]
-    left_out = f" The first {MOST} of {len(links)}; links.csv holds all." if len(links) > MOST else ""
-    return Rows(list(BORNE), body, BORE + left_out, numbers=True)
+    first = say("The first {most} of {all}; links.csv holds all.", most=MOST, all=len(links))
+    return Rows(list(BORNE), body, joined(" ", [BORE, first if len(links) > MOST else ""]), numbers=True)
 
 
 #: Columns of the table of links, by heading, and its caption.
 BORNE = {
-    "state": "state", "link": "link", "runs": "runs", "broke in": "broken", "at capacity in": "at_capacity",
-    "largest force over capacity": "largest_over_capacity", "median": "median_over_capacity", "limited by": "limited_by",
+    say("state"): "state", say("link"): "link", say("runs"): "runs", say("broke in"): "broken",
+    say("at capacity in"): "at_capacity", say("largest force over capacity"): "largest_over_capacity",
+    say("median"): "median_over_capacity", say("limited by"): "limited_by",
 }  # fmt: skip
-BORE = (
-    "What the links bore; 1: at its capacity, it yields or breaks. The capacity is that of the link in its stone: of bar, "
-    "anchor and stone the least, as far as these are known."
+BORE = say(
+    "What the links bore; 1: at its capacity, it yields or breaks. The capacity is that of the link in its "
+    "stone: of bar, anchor and stone the least, as far as these are known."
 )
 
 #: Most rows of a table of links.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import starmap
 from typing import Any
 
 import numpy as np
@@ -15,11 +16,12 @@ from stylobate.column.links.placed import stone_words
 from stylobate.column.plausible import unit_doubts
 from stylobate.column.structure import Structure
 from stylobate.constants import g
+from stylobate.messages import digits, joined, say
 from stylobate.plots import draw_elevation, draw_views
 from stylobate.plots.drawing import joint_plans
 
 from . import numbers as n
-from .page import Facts, Item, Picture, Points, Rows, Section
+from .page import Facts, Item, Own, Picture, Points, Rows, Section
 from .pictures import picture
 
 #: Most rows of a table of drums or blocks in a report; the column file holds them all.
@@ -29,44 +31,64 @@ MOST = 60
 def structure_section(structure: Structure) -> Section:
     """The section on what stands."""
     column = structure.stack
-    return Section(f"The {structure.kind}", _blocks(structure) if column is None else _column(column))
+    titles = {"column": say("The column"), "assembly": say("The assembly"), "specimen": say("The specimen")}
+    return Section(titles[structure.kind], _blocks(structure) if column is None else _column(column))
 
 
 def state_section(column: Column, label: str, first: Column, against: str) -> Section:
     """The section on a state of a column: what it differs by from the first one, and all of it where its stones differ."""
     same = column.replace(name=first.name, links=first.links, as_found=first.as_found) == first
     if not same:
-        text = f"Its drums or joints are not those of “{against}”: all of it is listed."
-        return Section(f"The state “{label}”", [text, *_column(column)])
+        text = say("Its drums or joints are not those of “{against}”: all of it is listed.", against=against)
+        return Section(say("The state “{label}”", label=label), [text, *_column(column)])
     changed = [
-        (column.links != first.links, _number(len(column.links), "link"), str(len(first.links) or "none")),
-        (column.as_found != first.as_found, *("as found" if one.as_found else "as built" for one in (column, first))),
+        (column.links != first.links, _links_of(column), str(len(first.links)) if first.links else say("none")),
+        (
+            column.as_found != first.as_found,
+            *(say("as found") if one.as_found else say("as built") for one in (column, first)),
+        ),
     ]
-    differs = "; ".join(f"{mine} instead of {other}" for changes, mine, other in changed if changes)
-    text = f"Drums and joints are those of “{against}”. What differs: {differs or 'nothing'}."
-    return Section(f"The state “{label}”", [text, _elevation(column), *_found_and_links(column)])
+    differs = joined(
+        "; ", (say("{mine} instead of {other}", mine=mine, other=other) for changes, mine, other in changed if changes)
+    )
+    text = say(
+        "Drums and joints are those of “{against}”. What differs: {what}.",
+        against=against,
+        what=differs or say("nothing"),
+    )
+    return Section(say("The state “{label}”", label=label), [text, _elevation(column), *_found_and_links(column)])
 
 
-def _number(count: int, what: str) -> str:
-    return f"{count or 'no'} {what}{'' if count == 1 else 's'}"
+def _links_of(column: Column) -> str:
+    count = len(column.links)
+    some = say("1 link") if count == 1 else say("{count} links", count=count)
+    return some if count else say("no links")
 
 
 def _column(column: Column) -> list[Item]:
     round_ = column.section == "circular"
-    found: list[Item] = [Facts(_properties(column), "Properties"), _drums(column, round_), _elevation(column)]
+    found: list[Item] = [Facts(_properties(column), say("Properties")), _drums(column, round_), _elevation(column)]
     found += _found_and_links(column)
-    return [*found, *(f"Beyond what columns of stone are known to be: {doubt}" for doubt in unit_doubts(column))]
+    return [
+        *found,
+        *(say("Beyond what columns of stone are known to be: {doubt}", doubt=doubt) for doubt in unit_doubts(column)),
+    ]
 
 
 def _elevation(column: Column) -> Picture:
-    words = "diameters (⌀)" if column.section == "circular" else "widths in the plane of motion"
-    links = " with links" if column.links else ""
-    caption = f"Elevation of {column.name}{links}, seen along y with x to the right: heights and {words} in m."
+    words = say("diameters (⌀)") if column.section == "circular" else say("widths in the plane of motion")
+    links = say(" with links") if column.links else ""
+    caption = say(
+        "Elevation of {column.name}{links}, seen along y with x to the right: heights and {words} in m.",
+        column=column,
+        links=links,
+        words=words,
+    )
     if column.links:
-        caption += " Blue: links."
+        caption = joined(" ", [caption, say("Blue: links.")])
     if column.as_found:
-        caption += " Filled red: drums that are not where they were built, over the column as built (dashed); "
-        caption += "red words: what was measured."
+        caption = joined(" ", [caption, say("Filled red: drums that are not where they were built, over the column as built "
+                                            "(dashed); red words: what was measured.")])  # fmt: skip
     return picture(draw_elevation(column), caption)
 
 
@@ -96,51 +118,64 @@ def what_opens(column: Column, in_space: bool = False) -> tuple[float, str]:
     joint = int(every.argmin())
     least = float(every[joint])
     if towards is None:
-        where = "; the weaker side along x" if column.as_found else ""
+        where = say("; the weaker side along x") if column.as_found else ""
     elif column.section == "circular" and not column.as_found:
-        where = "; in every direction"
+        where = say("; in every direction")
     else:
-        where = f"; pushed towards {towards[joint]:.0f}°, the weakest of all directions"
-    return least, f"{n.acceleration(least)} (joint {joint + 1}{where})"
+        where = say("; pushed towards {towards:.0f}°, the weakest of all directions", towards=towards[joint])
+    return least, say("{least} (joint {joint}{where})", least=n.acceleration(least), joint=joint + 1, where=where)
 
 
 def _properties(column: Column) -> list[tuple[str, str]]:
     return [
-        ("section", column.section),
-        ("drums", str(column.n) if column.n > 1 else "1, a monolith"),
-        ("height", f"{column.height:.3f} m"),
-        ("width of the base in contact", f"{column.base_width:.3f} m"),
-        ("mass", f"{column.mass:.0f} kg"),
-        ("centroid above the base", f"{column.centroid_height:.3f} m"),
-        ("from the edge of the base to the centroid, R", f"{column.radius:.3f} m"),
-        ("slenderness α, of R from the vertical", n.angle(column.slenderness)),
-        ("frequency parameter p, as one rigid block", f"{column.frequency_parameter:.3f} rad/s"),
-        ("static acceleration that opens the first joint", what_opens(column)[1]),
-        ("north", column.north_words),
+        (say("section"), say(column.section)),
+        (say("drums"), str(column.n) if column.n > 1 else say("1, a monolith")),
+        (say("height"), say("{column.height:.3f} m", column=column)),
+        (say("width of the base in contact"), say("{column.base_width:.3f} m", column=column)),
+        (say("mass"), say("{column.mass:.0f} kg", column=column)),
+        (say("centroid above the base"), say("{column.centroid_height:.3f} m", column=column)),
+        (say("from the edge of the base to the centroid, R"), say("{column.radius:.3f} m", column=column)),
+        (say("slenderness α, of R from the vertical"), n.angle(column.slenderness)),
+        (
+            say("frequency parameter p, as one rigid block"),
+            say("{column.frequency_parameter:.3f} rad/s", column=column),
+        ),
+        (say("static acceleration that opens the first joint"), what_opens(column)[1]),
+        (say("north"), column.north_words),
     ]
 
 
 def _drums(column: Column, round_: bool) -> Rows:
-    header = ["drum", "height [m]", "⌀ below [m]" if round_ else "width below [m]"]
-    header += ["⌀ above [m]" if round_ else "width above [m]", *([] if round_ else ["depth [m]"])]
-    header += ["density [kg/m³]", "mass [kg]", "joint below: μ [–]", "k_n [N/m³]", "k_s [N/m³]", "opens at [g]"]
+    header = [say("drum"), say("height [m]"), say("⌀ below [m]") if round_ else say("width below [m]")]
+    header += [say("⌀ above [m]") if round_ else say("width above [m]"), *([] if round_ else [say("depth [m]")])]
+    header += [
+        say("density [kg/m³]"),
+        say("mass [kg]"),
+        say("joint below: μ [–]"),
+        "k_n [N/m³]",
+        "k_s [N/m³]",
+        say("opens at [g]"),
+    ]
     cohesive = any(joint.cohesion for joint in column.joints)
-    header += ["cohesion [Pa]"] if cohesive else []
+    header += [say("cohesion [Pa]")] if cohesive else []
     body = []
     for i in reversed(range(min(column.n, MOST))):
         drum, joint = column.drums[i], column.joint_laws[i]
-        depth = f"{drum.depth:.3f}" + ("" if drum.top_depth is None else f" – {drum.upper_depth:.3f}")
-        row = [str(i + 1), f"{drum.height:.3f}", f"{drum.bottom_width:.3f}", f"{drum.top_width:.3f}"]
+        depth = digits(drum.depth, ".3f") + (
+            "" if drum.top_depth is None else say(" – {drum.upper_depth:.3f}", drum=drum)
+        )
+        row = [str(i + 1), digits(drum.height, ".3f"), digits(drum.bottom_width, ".3f"), digits(drum.top_width, ".3f")]
         row += [] if round_ else [depth]
-        row += [f"{drum.density:.0f}", f"{drum.mass:.0f}", f"{column.friction[i]:.3f}"]
-        row += [f"{joint.normal_stiffness:.3g}", f"{joint.shear_stiffness:.3g}"]
-        row.append(f"{column.joint_uplift_accelerations[i] / g:.3f}")
-        body.append(row + ([f"{joint.cohesion:.3g}"] if cohesive else []))
-    left_out = f"; of {column.n} drums the lowest {MOST}" if column.n > MOST else ""
-    caption = (
-        "Drums and the joints under them, joint 1 under drum 1, from the top down"
-        f"{left_out}. μ is the friction coefficient, k_n and k_s the normal and shear stiffness per "
-        "area; “opens at” is the horizontal acceleration that would open the joint if it acted steadily."
+        row += [digits(drum.density, ".0f"), digits(drum.mass, ".0f"), digits(column.friction[i], ".3f")]
+        row += [digits(joint.normal_stiffness, ".3g"), digits(joint.shear_stiffness, ".3g")]
+        row.append(digits(column.joint_uplift_accelerations[i] / g, ".3f"))
+        body.append(row + ([digits(joint.cohesion, ".3g")] if cohesive else []))
+    left_out = say("; of {all} drums the lowest {most}", all=column.n, most=MOST) if column.n > MOST else ""
+    caption = say(
+        "Drums and the joints under them, joint 1 under drum 1, from the top down{left_out}. μ is the friction "
+        "coefficient, k_n and k_s the normal and shear stiffness per area; “opens at” is the horizontal "
+        "acceleration that would open the joint if it acted steadily.",
+        left_out=left_out,
     )
     return Rows(header, body, caption, numbers=True)
 
@@ -149,33 +184,42 @@ def _links(column: Column) -> Rows:
     body = []
     for link in column.links:
         values = link.to_dict()
-        where = [f"joint {values.pop('joint')}"] if "joint" in values else []
-        where += [f"{end} drum {values.pop(f'{end}_drum')}" for end in ("from", "to") if f"{end}_drum" in values]
-        at = " / ".join(f"{one:g}" for one in values.pop("at", (0.0, 0.0)))
+        joint, low, high = (values.pop(key, None) for key in ("joint", "from_drum", "to_drum"))
+        where = [
+            say("joint {joint}", joint=joint) if joint is not None else "",
+            say("from drum {drum}", drum=low) if low is not None else "",
+            say("to drum {drum}", drum=high) if high is not None else "",
+        ]
+        at = joined(" / ", (digits(one, "g") for one in values.pop("at", (0.0, 0.0))))
         kind, name = values.pop("kind"), values.pop("name", "")
-        rest = ", ".join(f"{key.replace('_', ' ')} {n.plain(value)}" for key, value in values.items())
-        body.append([f"{name} ({kind})" if name else kind, ", ".join(where) or n.NONE, at, rest or n.NONE])
-    caption = (
-        "Links that strengthen the column; lengths in m, forces in N, stiffness in N/m. What is not given follows from the "
-        "material."
+        kind, rest = say(kind), joined(", ", starmap(_property, values.items()))
+        called = say("{name} ({kind})", name=Own(name), kind=kind) if name else kind
+        body.append([called, joined(", ", where) or n.NONE, at, rest or n.NONE])
+    caption = say(
+        "Links that strengthen the column; lengths in m, forces in N, stiffness in N/m. What is not given "
+        "follows from the material."
     )
-    return Rows(["link", "where", "at x / y [m]", "properties"], body, caption, numbers=True)
+    return Rows([say("link"), say("where"), "at x / y [m]", say("properties")], body, caption, numbers=True)
+
+
+def _property(key: str, value: Any) -> str:
+    return say("{name} {value}", name=say(key.replace("_", " ")), value=n.plain(value))
 
 
 def _chips(drum: FoundDrum, deep: bool) -> str:
     """Loss of the lower face [mm], and where the right of a round one is."""
     if not drum.chipped:
         return n.NONE
-    said = " / ".join(f"{1000.0 * chip:.0f}" for chip in drum.chips[: 4 if deep else 2])
-    return said + (f", right at {drum.chip_azimuth:g}°" if drum.chip_azimuth else "")
+    said = joined(" / ", (digits(1000.0 * chip, ".0f") for chip in drum.chips[: 4 if deep else 2]))
+    return said + (say(", right at {azimuth:g}°", azimuth=drum.chip_azimuth) if drum.chip_azimuth else "")
 
 
 def _place(found: AsFound, drum: FoundDrum) -> str:
     """Where the offsets up to a drum leave it."""
     far, azimuth = found.place(drum.drum)
     if not far:
-        return "back in line" if drum.offset else n.NONE
-    return f"{1000.0 * far:.1f} mm to {azimuth:.0f}°"
+        return say("back in line") if drum.offset else n.NONE
+    return say("{far:.1f} mm to {azimuth:.0f}°", far=1000.0 * far, azimuth=azimuth)
 
 
 def _as_found(column: Column) -> Rows:
@@ -184,38 +228,39 @@ def _as_found(column: Column) -> Rows:
     body = [
         [
             str(drum.drum),
-            f"{1000.0 * drum.offset:+.1f}" if drum.offset else n.NONE,
-            f"{drum.offset_azimuth:g}" if drum.offset else n.NONE,
+            digits(1000.0 * drum.offset, "+.1f") if drum.offset else n.NONE,
+            digits(drum.offset_azimuth, "g") if drum.offset else n.NONE,
             _place(found, drum),
-            f"{drum.tilt:+.3g}" if drum.tilt else n.NONE,
-            f"{drum.tilt_azimuth:g}" if drum.tilt else n.NONE,
-            f"{drum.turn:+.3g}" if drum.turn else n.NONE,
+            digits(drum.tilt, "+.3g") if drum.tilt else n.NONE,
+            digits(drum.tilt_azimuth, "g") if drum.tilt else n.NONE,
+            digits(drum.turn, "+.3g") if drum.turn else n.NONE,
             _chips(drum, deep),
         ]
         for drum in found.drums
     ]
     header = [
-        "drum",
-        "offset [mm]",
-        "to azimuth [°]",
-        "in all",
-        "lean [°]",
-        "azimuth [°]",
-        "turned [°]",
-        f"chips left / right{' / front / back' if deep else ''} [mm]",
+        say("drum"),
+        say("offset [mm]"),
+        say("to azimuth [°]"),
+        say("in all"),
+        say("lean [°]"),
+        say("azimuth [°]"),
+        say("turned [°]"),
+        say("chips left / right / front / back [mm]") if deep else say("chips left / right [mm]"),
     ]
-    base = f" The base rises by {found.base_tilt:g}°" + (
-        f" to azimuth {found.base_azimuth:g}°." if found.base_azimuth else "."
+    rises = say("The base rises by {f.base_tilt:g}°.", f=found)
+    if found.base_azimuth:
+        rises = say("The base rises by {f.base_tilt:g}° to azimuth {f.base_azimuth:g}°.", f=found)
+    caption = say(
+        "As found: each drum over the joint under it; what stands on it goes along. “In all” is where the "
+        "offsets up to a drum leave it, from its place as built. Azimuths are from x towards y."
     )
-    caption = (
-        "As found: each drum over the joint under it; what stands on it goes along. “In all” is where the offsets up to "
-        "a drum leave it, from its place as built. Azimuths are from x towards y." + (base if found.base_tilt else "")
-    )
+    caption = joined(" ", [caption, rises if found.base_tilt else ""])
     return Rows(header, body, caption, numbers=True)
 
 
 #: Caption of what is as found in an assembly.
-FOUND_AT = (
+FOUND_AT = say(
     "As found: round faces that do not lie in line, and what the upper one has lost. Azimuths are from x towards y."
 )
 
@@ -225,7 +270,11 @@ def _found_at(structure: Structure) -> list[list[str]]:
     plans = zip(joint_plans(structure), structure.space_joints or ())
     names = [one.name for one in structure.bodies]
     return [
-        [str(k), f"{names[joint.lower]} – {names[joint.upper]}", plan.found.replace("\n", ", ")]
+        [
+            str(k),
+            say("{names} – {names_2}", names=names[joint.lower], names_2=names[joint.upper]),
+            plan.found,
+        ]
         for k, (plan, joint) in enumerate(plans, 1)
         if plan.found
     ][:MOST]
@@ -238,48 +287,62 @@ _TOLD = ("kind", "between", "at", "to", "name")
 def _blocks(structure: Structure) -> list[Item]:
     contacts = structure.space_joints
     joints_of: Sequence[Any] = structure.face_pairs if contacts is None else contacts
-    seen = "Elevation" if contacts is None else "Elevations, plan and view"
-    caption = f"{seen} of {structure.name}, with the size of all of it in m; supports that are held are grey."
-    caption += " Blue: links." if structure.links else ""
+    caption = say("Elevation of {name}, with the size of all of it in m; supports that are held are grey.")
+    if contacts is not None:
+        caption = say(
+            "Elevations, plan and view of {name}, with the size of all of it in m; supports that are held are grey."
+        )
+    caption = joined(" ", [caption.of(name=structure.name), say("Blue: links.") if structure.links else ""])
     bodies = structure.bodies[structure.first :]
     near = [one for one in bodies if np.ptp(one.corners, axis=0).max() <= FAR_AWAY]
     held = sum(one.fixed for one in near)
     facts = [
-        ("blocks", f"{sum(not one.fixed for one in bodies)} that can move" + (f", {held} held" if held else "")),
-        ("joints", str(len(joints_of))),
-        ("ground", "none" if structure.ground is None else f"level at z = {structure.ground:g} m"),
-        ("north", structure.north_words),
+        (
+            say("blocks"),
+            say("{sum} that can move", sum=sum(not one.fixed for one in bodies))
+            + (say(", {held} held", held=held) if held else ""),
+        ),
+        (say("joints"), str(len(joints_of))),
+        (
+            say("ground"),
+            say("none")
+            if structure.ground is None
+            else say("level at z = {structure.ground:g} m", structure=structure),
+        ),
+        (say("north"), structure.north_words),
     ]
     body = []
     for one in near[:MOST]:
         size, depth = np.ptp(one.shape.outline, axis=0), np.ptp(one.shape.mesh().vertices[:, 1])
-        kind = "held" if one.fixed else f"{one.mass:.0f}"
-        body.append([one.name, f"{size[0]:.3f}", f"{size[1]:.3f}", f"{depth:.3f}", kind])
+        kind = say("held") if one.fixed else digits(one.mass, ".0f")
+        body.append([one.name, digits(size[0], ".3f"), digits(size[1], ".3f"), digits(depth, ".3f"), kind])
     rows = Rows(
-        ["block", "width [m]", "height [m]", "depth [m]", "mass [kg]"],
+        [say("block"), say("width [m]"), say("height [m]"), say("depth [m]"), say("mass [kg]")],
         body,
-        "Blocks, from edge to edge along their own axes.",
+        say("Blocks, from edge to edge along their own axes."),
         numbers=True,
     )
     laws = [
         [
-            f"{structure.bodies[joint.lower].name} – {structure.bodies[joint.upper].name}",
-            f"{joint.law.tan_phi:.3f}",
-            f"{joint.law.normal_stiffness:.3g}",
-            f"{joint.law.shear_stiffness:.3g}",
+            say(
+                "{name} – {name_2}", name=structure.bodies[joint.lower].name, name_2=structure.bodies[joint.upper].name
+            ),
+            digits(joint.law.tan_phi, ".3f"),
+            digits(joint.law.normal_stiffness, ".3g"),
+            digits(joint.law.shear_stiffness, ".3g"),
         ]
         for joint in joints_of[:MOST]
     ]
     joints = Rows(
-        ["joint", "μ [–]", "k_n [N/m³]", "k_s [N/m³]"],
+        [say("joint"), "μ [–]", "k_n [N/m³]", "k_s [N/m³]"],
         laws,
-        "Joints. μ is the friction coefficient, k_n and k_s the normal and shear stiffness per area.",
+        say("Joints. μ is the friction coefficient, k_n and k_s the normal and shear stiffness per area."),
         numbers=True,
     )
     drawn = draw_elevation(structure) if contacts is None else draw_views(structure)
     found: list[Item] = [picture(drawn, caption), Facts(facts), rows, *([joints] if laws else [])]
     if contacts is not None and (seen_at := _found_at(structure)):
-        found.append(Rows(["joint", "between", "as found"], seen_at, FOUND_AT, numbers=True))
+        found.append(Rows([say("joint"), say("between"), say("as found")], seen_at, FOUND_AT, numbers=True))
     return [*found, _links_between_blocks(structure), *_stone(structure)] if structure.links else found
 
 
@@ -288,9 +351,14 @@ def _links_between_blocks(assembly: Structure) -> Rows:
     axes = {"x": 0, "z": 2} if assembly.space_joints is None else {"x": 0, "y": 1, "z": 2}
     for link, placed in zip(assembly.links, assembly.placed_links, strict=True):
         given = link.to_dict()
-        numbers = [f"{key.replace('_', ' ')} {n.plain(given[key])}" for key in given if key not in _TOLD]
+        numbers = [_property(key, given[key]) for key in given if key not in _TOLD]
         ends = [placed.low, placed.high] if placed.two_ended else [placed.low]
-        at = " to ".join(" / ".join(f"{end[k]:.4g}" for k in axes.values()) for end in ends)
-        body.append([placed.name, " – ".join(link.between or ()), at, ", ".join(numbers) or n.NONE])
-    caption = "Links between the blocks; lengths in m, forces in N, stiffness in N/m. “governs” names formulas."
-    return Rows(["link", "between", f"at {' / '.join(axes)} [m]", "properties"], body, caption, numbers=True)
+        at = joined(say(" to "), (joined(" / ", (digits(end[k], ".4g") for k in axes.values())) for end in ends))
+        body.append([placed.name, joined(" – ", link.between or ()), at, joined(", ", numbers) or n.NONE])
+    caption = say("Links between the blocks; lengths in m, forces in N, stiffness in N/m. “governs” names formulas.")
+    return Rows(
+        [say("link"), say("between"), say("at {axes} [m]", axes=" / ".join(axes)), say("properties")],
+        body,
+        caption,
+        numbers=True,
+    )

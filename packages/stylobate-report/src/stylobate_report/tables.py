@@ -6,27 +6,22 @@ from collections.abc import Sequence
 from typing import Any
 
 from stylobate.analysis.side_by_side import Share
+from stylobate.messages import joined, say
 
 from . import numbers as n
-from .page import Rows
+from .page import Own, Rows
 
 #: Most rows of a table of a result; the CSV file in the folder holds them all.
 MOST = 40
 
 #: Columns of tables of shares, and what they are.
 COUNTED = (
-    "same runs",
-    "records",
-    "collapse",
-    "stand",
-    "undecided",
-    "share that collapses",
-    "95 % interval",
-    "failed or missing",
+    *(say("same runs"), say("records"), say("collapse"), say("stand"), say("undecided"), say("share that collapses")),
+    *(say("95 % interval"), say("failed or missing")),
 )
-COUNTED_HOW = (
-    "The share that collapses is told with none and with all of the undecided counted in; so is its interval, over records, "
-    "each of which counts once."
+COUNTED_HOW = say(
+    "The share that collapses is told with none and with all of the undecided counted in; so is its interval, "
+    "over records, each of which counts once."
 )
 
 
@@ -36,12 +31,33 @@ def counts_of(one: Share) -> list[str]:
     return [*map(str, counts), one.words or n.NONE, one.interval_words or n.NONE, str(one.failed)]
 
 
+#: Keys of columns that hold names, which are in no language.
+NAMES = (
+    "name",
+    "column",
+    "motion",
+    "record",
+    "candidate",
+    "hazard",
+    "monument",
+    "site",
+    "model",
+    "im",
+    "measure",
+    "unit",
+)
+
+
+def _cell(key: str, value: Any) -> str:
+    return Own(value) if key in NAMES and isinstance(value, str) else n.plain(value)
+
+
 def table(rows: Sequence[Any], keys: Sequence[str], caption: str, mark: str | None = None) -> Rows:
     """Rows by the keys that any of them has; ``mark`` is the key of a verdict, by which cells are coloured."""
     there = [key for key in keys if any(row.get(key) not in (None, "") for row in rows)]
-    left_out = f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
-    body = [[n.plain(row.get(key)) for key in there] for row in rows[:MOST]]
+    caption = joined(" ", [caption, n.first_of(MOST, len(rows))])
+    body = [[_cell(key, row.get(key)) for key in there] for row in rows[:MOST]]
     place = there.index(mark) if mark in there else None
-    looks = {"stands": "good", "collapsed": "bad"}
+    looks = {say("stands"): "good", say("collapsed"): "bad"}
     header = [n.named(key) for key in there]
-    return Rows(header, body, caption + left_out, mark=place, looks=looks, numbers=True)
+    return Rows(header, body, caption, mark=place, looks=looks, numbers=True)

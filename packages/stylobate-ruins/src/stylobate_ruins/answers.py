@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from stylobate.messages import joined, say
+
 from . import abc
 from .ruin import Fact
 from .simulations import Simulations
@@ -17,7 +19,7 @@ from .traces import EVENTS, errors, features, left_by, matches
 TOLD = {"pgv_m_s": "m/s", "pga_g": "g", "period_s": "s", "azimuth_deg": "°"}
 
 #: What they are called.
-CALLED = {"pgv_m_s": "PGV", "pga_g": "PGA", "period_s": "period", "azimuth_deg": "azimuth"}
+CALLED = {"pgv_m_s": "PGV", "pga_g": "PGA", "period_s": say("period"), "azimuth_deg": say("azimuth")}
 
 #: Fewest draws that a posterior may rest on, and the share that is accepted of those that match all events.
 FEWEST, SHARE = 100, 0.3
@@ -199,9 +201,9 @@ class Answers:
 def words_of(name: str, one: Posterior) -> str:
     """A posterior with its interval, for people."""
     unit = f" {TOLD[name]}" if TOLD[name] != "°" else "°"
-    return f"{one.median:.3g}{unit}, {one.low:.3g} to {one.high:.3g}"
+    return say("{p.median:.3g}{unit}, {p.low:.3g} to {p.high:.3g}", p=one, unit=unit)
 
 
 def listed(words: Sequence[str]) -> str:
     """Words as an enumeration."""
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+    return joined(say(" and "), [joined(", ", words[:-1]), words[-1]])

@@ -13,6 +13,7 @@ import numpy as np
 
 from stylobate.campaign.campaign import RUNS, Campaign
 from stylobate.errors import InputError, check_kind
+from stylobate.messages import joined, say
 from stylobate.notebook import Shown
 
 from . import abc
@@ -118,35 +119,35 @@ class Inference(Shown):
         """The answer, in a few sentences."""
         pgv, said = self.posterior["pgv_m_s"], [one.sentence for one in self.odd]
         if pgv.informative:
-            start = "If shaking alone did all of it, the" if said else "The"
-            said.append(f"{start} peak ground velocity was {words_of('pgv_m_s', pgv)} (90 %).")
+            all_of_it = say("If shaking alone did all of it, the peak ground velocity was {pgv} (90 %).")
+            words = all_of_it if said else say("The peak ground velocity was {pgv} (90 %).")
+            said.append(words.of(pgv=words_of("pgv_m_s", pgv)))
         told = [name for name, one in self.posterior.items() if one.informative and name != "pgv_m_s"]
-        said += [
-            f"{CALLED[name].capitalize() if name != 'pga_g' else 'PGA'} {words_of(name, self.posterior[name])}."
-            for name in told
-        ]
+        word = say("{name:capital} {value}.")
+        said += [word.of(name=CALLED[name], value=words_of(name, self.posterior[name])) for name in told]
         untold = [CALLED[name] for name, one in self.posterior.items() if not one.informative]
         if untold:
-            said.append(f"The shapes do not tell {listed(untold)}: what they leave is the prior.")
+            said.append(say("The shapes do not tell {names}: what they leave is the prior.", names=listed(untold)))
         factor, at_least = self.bayes_factor
         if self.answers.facts:
-            least = "at least " * at_least
-            if factor >= 1.0:
-                said.append(
-                    f"What is seen is {least}{factor:.3g} times as probable with such an earthquake as with none."
-                )
-            else:
-                said.append(
-                    f"What is seen is {1.0 / factor:.3g} times as probable without any such earthquake as with one."
-                )
-        if self.taken.effective < 0.5 * FEWEST:
-            said.append(
-                f"Draws that count as {self.taken.effective:.0f} carry all of this, and intervals are as wide as that asks "
-                "for; raise simulations."
+            with_, least = (
+                say("What is seen is {factor:.3g} times as probable with such an earthquake as with none."),
+                say("What is seen is at least {factor:.3g} times as probable with such an earthquake as with none."),
             )
+            without = say("What is seen is {factor:.3g} times as probable without any such earthquake as with one.")
+            words = (
+                without.of(factor=1.0 / factor) if factor < 1.0 else (least if at_least else with_).of(factor=factor)
+            )
+            said.append(words)
+        if self.taken.effective < 0.5 * FEWEST:
+            few = say(
+                "Draws that count as {number:.0f} carry all of this, and intervals are as wide as that asks for; raise "
+                "simulations."
+            )
+            said.append(few.of(number=self.taken.effective))
         if self.outlasted is not None:
             said.append(self.outlasted.sentence(self.answers.matching(self.answers.facts)))
-        return " ".join(said)
+        return joined(" ", said)
 
     @property
     def table(self) -> pandas.DataFrame:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from stylobate.messages import say
+
 from . import abc
 from .ruin import Fact
 from .traces import EVENTS, LEAST_OFFSET, LEAST_TWIST, LENGTHS
@@ -44,8 +46,9 @@ class Checked:
     @property
     def sentence(self) -> str:
         """What stands out, in a sentence."""
-        chance = "" if "of a hundred" in self.expected else f" (chance {max(self.chance, 1e-3):.2g})"
-        return f"Odd: {self.label}, where all else that is seen predicts {self.expected}{chance}."
+        chance = say(" (chance {chance:.2g})", chance=max(self.chance, 1e-3))
+        odd = say("Odd: {c.label}, where all else that is seen predicts {c.expected}{chance}.")
+        return odd.of(c=self, chance="" if "of a hundred" in self.expected else chance)
 
     def summary(self) -> dict[str, Any]:
         """Plain values."""
@@ -95,7 +98,9 @@ def _number(answers: Answers, fact: Fact, rest: list[Fact]) -> tuple[float, str]
         middle = abc.middle_direction(predicted, taken.weights, 360.0)
         off = np.abs(abc.apart(predicted, middle, 360.0))
         share = float(taken.weights[off >= abs(float(abc.apart(seen[0], middle, 360.0)))].sum())
-        return (share * taken.effective + 0.5) / (taken.effective + 1.0), f"a fall towards {middle:.0f}°"
+        return (share * taken.effective + 0.5) / (taken.effective + 1.0), say(
+            "a fall towards {azimuth:.0f}°", azimuth=middle
+        )
     scale = max(fact.sd, LEAST_OFFSET if fact.kind in LENGTHS else LEAST_TWIST)
     taken = answers.foretold(rest, np.arcsinh(np.linalg.norm(answers.values[fact], axis=1) / scale))
     level = taken.targets[:, 0]
@@ -104,6 +109,6 @@ def _number(answers: Answers, fact: Fact, rest: list[Fact]) -> tuple[float, str]
     off = (float(np.arcsinh(length / scale)) - mean) / max(sd, 1e-12)
     low, high = scale * np.sinh(np.maximum(abc.quantiles(level, taken.weights)[[0, 2]], 0.0))
     factor, unit = (1e3, "mm") if fact.kind in LENGTHS else (1.0, "°")
-    return float(
-        2.0 * t.sf(abs(off), max(1.0, taken.effective - 1.0))
-    ), f"{factor * low:.2g} to {factor * high:.3g} {unit}"
+    return float(2.0 * t.sf(abs(off), max(1.0, taken.effective - 1.0))), say(
+        "{low:.2g} to {high:.3g} {unit}", low=factor * low, high=factor * high, unit=unit
+    )

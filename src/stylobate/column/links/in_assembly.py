@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError, suggest
+from ...messages import say
 from ..block import Block, FaceJoint
 from .link import LEAST_LENGTH, Link, in_space, point
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, for_each, place_all, placed
@@ -81,7 +82,8 @@ def placed_between(
         numbers = replace(numbers, lift=math.inf)
     if math.isfinite(numbers.lift):
         where["stroke"] = numbers.lift
-    called = link.name or f"{link.kind} between {link.between[0]} and {link.between[1]}"
+    between = say("{kind} between {l.between[0]} and {l.between[1]}", kind=say(link.kind), l=link)
+    called = link.name or between
     return placed(
         numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark, lower=lower, upper=upper,
         low=low, high=high, **where,
@@ -182,7 +184,8 @@ def _in_joint(
                 "inward.",
                 "at",
             )
-    edge = min(s - low, high - s)
+    aside = min(0.5 * bodies[body].depth - abs(y) for body in (joint.lower, joint.upper) if not bodies[body].fixed)
+    edge = min(s - low, high - s, aside)
     inside = edge - 0.5 * link.numbers.diameter
     looked_at = link.numbers.edge < math.inf  # in the column that brings it along
     if link.numbers.diameter and inside < RIM and not looked_at:
@@ -203,8 +206,7 @@ def _in_joint(
             )
     link.check_joint(joint.law)
     x, z = (float(one) for one in left + s * t)
-    aside = min(0.5 * bodies[body].depth - abs(y) for body in (joint.lower, joint.upper) if not bodies[body].fixed)
-    edge = link.numbers.edge if looked_at else min(edge, aside)
+    edge = link.numbers.edge if looked_at else edge
     return joint.lower, joint.upper, (x, y, z), (float(t[0]), float(t[1])), edge
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
+from ...messages import say
 from ..drum import Drum
 from ..stack import Stack
 from .kinds import Line
@@ -75,7 +76,7 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
     link.check_joint(stack.joints[upper])
     place = (*link.at, float(stack.joint_heights[upper]))
     half = numbers.lift if math.isfinite(numbers.lift) else STROKE * float(stack.heights[upper])
-    called = link.name or f"{link.kind} in joint {link.joint}"
+    called = link.name or say("{kind} in joint {joint}", kind=say(link.kind), joint=link.joint)
     numbers = replace(numbers, edge=edge if pin else math.inf)
     return _placed(link, numbers, called, stack, (upper, upper + 1), (place, place), joint=link.joint, stroke=half)
 
@@ -106,8 +107,12 @@ def _line(link: Line, stack: Stack) -> PlacedLink:
         _check_hole(link, stack, low, high, numbers.diameter)
     else:
         _check_way(link, stack, low, high)
-    ends = f"{'the base' if link.from_drum == 0 else f'drum {link.from_drum}'} to drum {upper}"
-    called = link.name or f"{link.kind} from {ends}"
+    ends = (
+        say("{kind} from the base to drum {upper}")
+        if link.from_drum == 0
+        else say("{kind} from drum {lower} to drum {upper}")
+    )
+    called = link.name or ends.of(kind=say(link.kind), lower=link.from_drum, upper=upper)
     return _placed(link, numbers, called, stack, bodies, (low, high))
 
 

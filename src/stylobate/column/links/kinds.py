@@ -9,6 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 from ...constants import DEGREE
 from ...errors import InputError, check_choice
 from ..joint import Joint
+from .anchorage import RANGES
 from .link import LONGEST, MATERIALS, STIFFEST, STRONGEST, THICKEST, Lies, Link, Mark, Numbers, Site
 
 #: Behaviour of a dowel at its capacity: it yields, snaps, or crushes the stone so that its hole grows.
@@ -43,15 +44,15 @@ class Pin(Link):
     def _check(self) -> None:
         super()._check()
         self._material(self.material, self.diameter)
-        self._range("diameter", 1e-3, 1.0, "m")
-        self._range("embedment", 1e-3, LONGEST, "m")
+        for name in ("diameter", "embedment", "stone_strength"):
+            low, high, unit = RANGES[name]
+            self._range(name, low, high, unit)
         self._range("shear_stiffness", 0.0, STIFFEST, "N/m")
         self._capacity("shear_capacity")
         self._range("clearance", 0.0, 1.0, "m")
         self._range("hole", 1e-3, 2.0, "m")
         self._range("ultimate_slip", 0.0, LONGEST, "m", open_low=True)
         self._range("stone_modulus", 1e6, 1e12, "Pa")
-        self._range("stone_strength", 1e4, 1e10, "Pa")
         if self.failure is not None:
             check_choice("failure", self.failure, FAILURES, of=f"a {self.kind}")
         if self.material is None and self.shear_stiffness is None:

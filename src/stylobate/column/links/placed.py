@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from ...errors import InputError, within
+from ...messages import joined, say
 from ..turning import UPRIGHT, Quaternion, matrix_of
 from . import COLUMN_KINDS
 from .anchorage import StoneAround, in_stone
@@ -283,13 +284,13 @@ def pull_on_part(
 
 
 #: What follows where the stone gives way first: of capacities that are computed, and of those that are given.
-BREAKS = "Computed is that the stone breaks there, and the link then holds nothing."
-GIVEN = "That capacity is given, and taken as it is: it has to be known of the link in this stone."
+BREAKS = say("Computed is that the stone breaks there, and the link then holds nothing.")
+GIVEN = say("That capacity is given, and taken as it is: it has to be known of the link in this stone.")
 
 
 #: What limit analysis does not see of it.
-LATE = (
-    " A limit analysis lets all links hold their capacity together: stone that breaks one by one bears less (pushover)."
+LATE = say(
+    "A limit analysis lets all links hold their capacity together: stone that breaks one by one bears less (pushover)."
 )
 
 
@@ -311,28 +312,33 @@ def stone_words(links: Sequence[PlacedLink]) -> str:
         weak = [way for way in ways if way[-1] == given]
         if weak:
             _, link, how, bears, holds, stone, _ = min(weak, key=lambda way: way[0])
-            bar = f"the bar holds {1e-3 * holds:.4g} kN" if math.isfinite(holds) else "the bar is without a limit"
-            told.append(
-                f"The stone gives way before {len({one.name for _, one, *_ in weak})} of {len(anchors)} links do, first "
-                f"around {link.name}: at {1e-3 * bears:.4g} kN in {how}, where {bar} ({stone.source}). {words}"
-            )
+            bar = say("the bar holds {force:.4g} kN", force=1e-3 * holds)
+            bar = bar if math.isfinite(holds) else say("the bar is without a limit")
+            said = say(
+                "The stone gives way before {number} of {all} links do, first around {link}: at {force:.4g} kN in {how}, where "
+                "{bar} ({source}).",
+                number=len({one.name for _, one, *_ in weak}), all=len(anchors), link=link.name, force=1e-3 * bears,
+                how=say(how), bar=bar, source=stone.source,
+            )  # fmt: skip
+            told += [said, words]
     if known and not told:
-        told.append(
-            f"The stone around {len(known)} of {len(anchors)} links bears more than they hold, by EN 1992-4 carried over "
-            "from concrete."
+        more = say(
+            "The stone around {number} of {all} links bears more than they hold, by EN 1992-4 carried over from concrete."
         )
+        told.append(more.of(number=len(known), all=len(anchors)))
     if len(known) < len(anchors):
-        told.append(
-            f"The stone around {len(anchors) - len(known)} of {len(anchors)} links was not checked, for want of an edge, a "
-            "diameter or an embedment: stone_at_anchor tells what it bears."
+        unknown = say(
+            "The stone around {number} of {all} links was not checked, for want of an edge, a diameter or an embedment: "
+            "stone_at_anchor tells what it bears."
         )
-    return " ".join(told)
+        told.append(unknown.of(number=len(anchors) - len(known), all=len(anchors)))
+    return joined(" ", told)
 
 
 def stone_at_limit(links: Sequence[PlacedLink]) -> str:
     """The same beside a limit analysis, which takes all links as ductile."""
     late = any(link.breaks_stone for link in links)
-    return stone_words(links) + LATE * late
+    return joined(" ", [stone_words(links), LATE if late else ""])
 
 
 def stone_that_breaks(links: Sequence[PlacedLink]) -> str:
@@ -341,6 +347,5 @@ def stone_that_breaks(links: Sequence[PlacedLink]) -> str:
     weak = [link for link in anchors if link.breaks_stone]
     if not weak:
         return ""
-    return (
-        f"The stone gives way before {len(weak)} of {len(anchors)} links do: their capacity here is that of the stone."
-    )
+    said = say("The stone gives way before {number} of {all} links do: their capacity here is that of the stone.")
+    return said.of(number=len(weak), all=len(anchors))

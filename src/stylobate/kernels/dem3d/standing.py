@@ -5,7 +5,8 @@ Legend (j joint, and the drum above it)::
     stand[j]   m rough        mass of the drum [kg], tan φ of the joint
                along across   half widths of the drum's lower face [m]; of round drums both its radius
                under beside   the same of the face below it, infinite of the base
-               weight moment over toe  see shared/overturning.py
+               over           height of the centroid of the part above over the joint [m]
+               edge toe others  see shared/overturning.py
 """
 
 import math
@@ -18,9 +19,7 @@ from .corner import clamped
 from .pose import in_space
 from .support import corner_of
 
-STAND_TYPE = np.dtype(
-    [(name, np.float64) for name in "m rough along across under beside weight moment over toe".split()]
-)
+STAND_TYPE = np.dtype([(name, np.float64) for name in "m rough along across under beside over edge toe others".split()])
 
 #: Share of its margin that a drum on another one may walk off while it wobbles [-].
 WALK = 0.4
@@ -107,7 +106,7 @@ def lowest_barrier(stand, slip, turns, cornered, gravity, walks):
         if half <= 0.0:
             return 0.0
         half *= 1.0 - WALK if walks and j > 0 else 1.0
-        lowest = min(lowest, barrier(stand, j, half, d.over, loose, gravity * mass))
+        lowest = min(lowest, barrier(d, half, d.over, loose, gravity * mass))
     return lowest
 
 

@@ -119,7 +119,7 @@ def lowest_found(found, stand, slip, turns, up, cornered, gravity, walks):
             return 0.0, mx * up[0] + my * up[1] + mz * up[2]
         half *= 1.0 - WALK if walks and j > 0 else 1.0
         height = arm[2] / against[2] + half * math.sqrt(1.0 - level * level)
-        lowest = min(lowest, barrier(stand, j, half * level, height, loose, gravity * mass * level))
+        lowest = min(lowest, barrier(face, half * level, height, loose, gravity * mass * level))
     return lowest, mx * up[0] + my * up[1] + mz * up[2]
 
 

@@ -6,9 +6,7 @@ Legend (axes along and normal to the base, from the middle of its contact)::
                tilt           inclination of its axis to the normal of its lower face [rad]
                left right     from the middle of that face to its ends, chips off [m];  under  half width of the face below
                rough          tan φ of the joint under it
-               weight         above that joint [N];  moment  the largest that the joint can carry [N m]
-               over           height of the centroid of the part above over that joint [m]
-               toe            what the joint gives with its load on its edge [J]
+               edge toe others  see shared/overturning.py
                lean cx cz ox oz low high   the drums put down flat with their offsets: inclination of the joint [rad],
                               centroid and middle of the face below [m], ends of the contact along it [m]
 """
@@ -24,7 +22,7 @@ from .point_joint import face
 STAND_TYPE = np.dtype(
     [
         (name, np.float64)
-        for name in ("m hc h tilt left right under rough weight moment over toe lean cx cz ox oz low high".split())
+        for name in ("m hc h tilt left right under rough edge toe others lean cx cz ox oz low high".split())
     ]
 )
 
@@ -75,7 +73,7 @@ def lowest_barrier(stand, gravity, slope):
             if across <= 0.0:
                 return 0.0
             # on a slope the end farther off may be the lower barrier, as it lies lower
-            lowest = min(lowest, barrier(stand, j, across, ax * ux + az * uz, loose, gravity * mass))
+            lowest = min(lowest, barrier(d, across, ax * ux + az * uz, loose, gravity * mass))
     return lowest
 
 

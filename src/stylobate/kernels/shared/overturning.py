@@ -1,7 +1,7 @@
 """Overturning of a part of a stack: when it is lost for good, and what energy lifts it over its edge.
 
-Legend: ``stand[i]`` holds of every joint at least ``weight`` above it [N], ``moment``, the largest that it can carry [N m],
-``over``, the height of the centroid above over it [m], and ``toe``, what it gives with its load on its edge [J].
+Legend: a row ``d`` of what stands holds of every joint at least its half width ``edge`` [m] and, with the part above on that
+edge, what the joint gives itself, ``toe``, and what all others do, ``others`` [J]: see ``models/shared/toes.py``.
 """
 
 import math
@@ -20,32 +20,14 @@ def going_and_lost(out, outward, turning, holding):
 
 
 @kernel
-def given_by_toes(stand, j, half, height):
-    """Energy of all joints, at most, while the part above joint j stands on an edge ``half`` from under its centroid [J].
+def barrier(d, half, height, loose, weight):
+    """Energy that lifts the part above a joint over an edge ``half`` beside and ``height`` under its centroid.  # Eq. (V1)
 
-    A joint gives more than in proportion to the square of the moment that it carries: with the moment's share of the
-    largest one squared, the toe's energy bounds it.
-    """
-    given = 0.0
-    for i in range(stand.shape[0]):
-        d = stand[i]
-        carried = min(d.moment, stand[j].moment)
-        if i == j:
-            carried = d.moment
-        elif i > j:  # above j all lean alike
-            carried = min(d.moment, d.weight * d.over * half / height)
-        given += d.toe * (carried / d.moment) ** 2
-    return given
-
-
-@kernel
-def barrier(stand, j, half, height, loose, weight):
-    """Energy that lifts the part above joint j over an edge ``half`` beside and ``height`` under its centroid.  # Eq. (V1)
-
-    Where a joint above is so slippery, ``loose`` its tan φ, that it slides first, that of sliding and lifting together.
+    Where a joint above is so slippery, ``loose`` its tan φ, that it slides first, that of sliding and lifting together. What
+    the other joints give rises at least with the square of the moment on them, and that with ``half``.
     """
     radius = math.hypot(half, height)
     slides = loose < half / radius
     slip = min(loose, 1.0)  # none slides beyond that; the root is real
     rise = slip * half - height * (1.0 - math.sqrt(1.0 - slip * slip)) if slides else radius - height
-    return weight * rise - given_by_toes(stand, j, half, height)
+    return weight * rise - d.toe - d.others * (half / d.edge) ** 2

@@ -41,16 +41,16 @@ def found_numbers(column: Column) -> tuple[np.ndarray, np.ndarray, float]:
 def numbers_for(column: Column, toes: np.ndarray) -> np.ndarray:
     """Numbers of a column for the law, see ``kernels/dem3d/standing.py``.
 
-    ``toes`` is what each joint gives with its load on its edge (:mod:`stylobate.models.shared.toes`) [J], shape (n,).
+    ``toes`` is what each joint, and what all others give with the part above it on its edge
+    (:mod:`stylobate.models.shared.toes`) [J], shape (2, n).
     """
     from ...kernels.dem3d.standing import STAND_TYPE
 
     stand: Any = np.zeros(column.n, STAND_TYPE)
     drums, below = column.drums, column.drums[:-1]
-    stand["m"], stand["rough"], stand["toe"] = column.masses, column.friction, toes
+    stand["m"], stand["rough"], stand["over"] = column.masses, column.friction, column.parts_above[1]
+    stand["edge"], (stand["toe"], stand["others"]) = 0.5 * column.joint_widths, toes
     stand["along"], stand["across"] = np.transpose([(0.5 * drum.bottom_width, 0.5 * drum.depth) for drum in drums])
     stand["under"] = [math.inf, *(0.5 * drum.top_width for drum in below)]
     stand["beside"] = [math.inf, *(0.5 * drum.upper_depth for drum in below)]
-    stand["weight"], stand["moment"] = column.joint_weights, column.joint_weights * 0.5 * column.joint_widths
-    stand["over"] = column.parts_above[1]
     return stand

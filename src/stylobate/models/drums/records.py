@@ -39,7 +39,7 @@ class Packed:
     barrier : float
         Lowest energy that overturns it [J].
     stand : array
-        For the verdict: of a column in the plane what its joints give with their load on their edge [J], shape (n,), in
+        For the verdict: of a column in the plane what joints give (``models/shared/toes.py``) [J], shape (2, n), in
         space its numbers in ``kernels/dem3d/standing.py``; of a body least heights by tilt [m].
     axes : array, optional
         Axes that histories tell, in those of the records; of a body, shape (3, 3).

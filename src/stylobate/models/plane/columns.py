@@ -170,14 +170,15 @@ class ColumnLanes(LaneRuns):
         offsets: overturning as one body about the nearer end of the contact, m g (R − H); where some joint above is so
         slippery that it slides first, tan φ below the sine of the critical angle, sliding and lifting together:
         m g [tan φ b − H (1 − √(1 − tan² φ))]. On a slope H and b are measured along and across gravity, and friction is what
-        the slope of the joint leaves of it. Soft joints give, and the barrier is lower by that.
+        the slope of the joint leaves of it. Soft joints give, and the barrier is lower by that,
+        Eq. (V5).
         """
         from ...kernels.plane.standing import all_stand
 
         columns, records = [self.column(lane) for lane in lanes], self.records
         stand, offsets = zip(*map(numbers_for, columns), strict=True)
         stand = np.array([one.view(float) for one in stand]).view(stand[0].dtype)  # numpy stacks records field by field
-        stand["toe"] = [self.packed[lane].stand for lane in lanes]
+        stand["toe"], stand["others"] = np.array([self.packed[lane].stand for lane in lanes]).swapaxes(0, 1)
         gravity, slope = np.array([(one.gravity, one.as_found.base_tilt * DEGREE) for one in columns]).T
         where, stays = np.array(lanes, dtype=np.int64), np.zeros(len(lanes), dtype=bool)
         numbers = offsets + slip, gravity.copy(), slope.copy(), energy

@@ -14,7 +14,7 @@ from ...constants import DEGREE
 
 @lru_cache(maxsize=4096)
 def numbers_for(column: Column) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers of the drums for the law, put down flat as found, but for their toes; their offsets as found [m]."""
+    """Numbers of the drums for the law, put down flat as found, but for what joints give; their offsets as found [m]."""
     from ...kernels.plane.standing import STAND_TYPE, put_down
 
     found = [column.as_found.of(i + 1) for i in range(column.n)]
@@ -26,8 +26,7 @@ def numbers_for(column: Column) -> tuple[np.ndarray, np.ndarray]:
     stand["left"] = bottom - [one.chip_left for one in found]
     stand["right"] = bottom - [one.chip_right for one in found]
     stand["under"] = [math.inf, *(0.5 * drum.top_width for drum in column.drums[:-1])]
-    stand["weight"], stand["moment"] = column.joint_weights, column.joint_weights * 0.5 * column.joint_widths
-    stand["over"] = column.parts_above[1]
+    stand["edge"] = 0.5 * column.joint_widths
     offsets = np.array([one.offset for one in found])
     put_down(stand, offsets)
     return stand, offsets

@@ -144,14 +144,12 @@ def _pack(column: Column, model: RigidBlock) -> Packed:
 
 
 def _toes(column: Column, strength: float | None) -> np.ndarray:
-    """Energy of joints with their load on their edge [J], shape (n,); a joint that crushes carries it further in."""
+    """Energy that joints give [J], shape (2, n); a joint that crushes carries its load further in."""
     kn, km, _ = joint_stiffness(column)
     half = 0.5 * column.joint_widths
-    toes = point_toes(column, kn / column.joint_areas, 1.0 / (1.0 + half**2 * kn / km))
-    if strength is None:
-        return toes
-    inset = half * column.joint_weights / (strength * column.joint_areas)
-    return toes + column.joint_weights * inset * half / np.hypot(half, column.parts_above[1])
+    inset = 0.0 if strength is None else half * column.joint_weights / (strength * column.joint_areas)
+    crushed = column.joint_weights * inset * half / np.hypot(half, column.parts_above[1])
+    return point_toes(column, kn / column.joint_areas, 1.0 / (1.0 + half**2 * kn / km), crushed)
 
 
 def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -6,6 +6,7 @@ import math
 
 from ...column import Column
 from ...errors import warn
+from ...messages import say
 from ...motion import Motion
 
 
@@ -14,11 +15,12 @@ def warn_sliding(column: Column, alpha: float, name: str, remedy: str) -> None:
     joint = min(range(column.n), key=lambda i: column.joints[i].tan_phi)
     friction = column.joints[joint].tan_phi
     if math.tan(alpha) > friction:
-        where = "" if column.n == 1 else f" of joint {joint + 1}"
-        warn(
-            f"tan α = {math.tan(alpha):.3f} is above the friction coefficient {friction:.3f}{where}: the column slides "
-            f"before it rocks, and {name} as it is set has no sliding; {remedy}."
+        where = "" if column.n == 1 else say(" of joint {joint}", joint=joint + 1)
+        words = say(
+            "tan α = {slope:.3f} is above the friction coefficient {friction:.3f}{where}: the column slides before it rocks, and "
+            "{model} as it is set has no sliding; {remedy}."
         )
+        warn(words.of(slope=math.tan(alpha), friction=friction, where=where, model=name, remedy=remedy))
 
 
 def warn_of_free_flight(column: Column, motion: Motion) -> None:

@@ -1,12 +1,21 @@
-"""Energy of joints when their load stands on their edge: soft joints overturn with less energy than rigid ones."""
+"""Energy of joints when the part above one of them stands on its edge: soft joints overturn with less than rigid ones.
+
+Two numbers of each joint, shape (2, n): what it gives itself with its load on its edge, and what all others do under the
+moments that they carry then.  # Eq. (V5)
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
 from ...column import Column
+from .opening import on_beds, on_rims
+
+#: Turns of joints by shares of their largest moments [rad], and energies that they store by their turns [J]; shapes (n, k).
+Bending = tuple[Callable[[np.ndarray], np.ndarray], Callable[[np.ndarray], np.ndarray]]
 
 #: The toe's laws are those of a short arc: with this factor they bound what a true one gives.
 SHORT_ARC = 1.05
@@ -14,12 +23,15 @@ SHORT_ARC = 1.05
 #: Of the half width of a face that a chip leaves less of, this much is reckoned with [-]: its toe is beyond all barriers.
 LEAST_LEFT = 0.1
 
+#: Most rounds in which the moments of soft joints follow from their turns, and a change of one that is none any more [-].
+ROUNDS, CLOSE = 300, 1e-6
+
 
 def rim_toes(column: Column, kn: np.ndarray) -> np.ndarray:
     """By how much gravitational and elastic energy are less with the weight on the edge of each joint than rigidly [J].
 
-    Beyond what the closed joint gives under the same weight, shape (n,). A toe on a spring of N ∝ eᵖ that is pressed by e
-    lowers the energy by N e p/(p + 1). Here of joints that carry on their rim.
+    Beyond what the closed joint gives under the same weight; and by what the others do, shape (2, n). A toe on a spring of
+    N ∝ eᵖ that is pressed by e lowers the energy by N e p/(p + 1). Here of joints that carry on their rim.
 
     Parameters
     ----------
@@ -31,19 +43,22 @@ def rim_toes(column: Column, kn: np.ndarray) -> np.ndarray:
     height = column.parts_above[1]
     # N = 4/3 k_n (R/2) R √2 e^1.5 / √(R sin α)
     stiffness = (2.0 * np.sqrt(2.0) / 3.0) * kn * radius**2 / np.sqrt(radius * radius / np.hypot(radius, height))
-    return _chipped(column, SHORT_ARC * 0.6 * weight * (weight / stiffness) ** (2.0 / 3.0) - _closed(column, kn))
+    toes = SHORT_ARC * 0.6 * weight * (weight / stiffness) ** (2.0 / 3.0) - _closed(column, kn)
+    return _with_others(column, toes, _of_discs(column, kn, on_rims()))
 
 
 def bed_toes(column: Column, kn: np.ndarray) -> np.ndarray:
     """As :func:`rim_toes`, of joints on an elastic bed; of rings the toe is found from the law itself."""
     if column.on_rings:
         rings = np.array([_ring_toe(column, float(kn[j]), j) for j in range(column.n)])
-        return _chipped(column, rings - _closed(column, kn))
+        toes = rings - _closed(column, kn)
+        return _with_others(column, toes, _by_square(column, toes))
     weight, radius = column.joint_weights, 0.5 * column.joint_widths
     # N = 8 √2/15 k_n √R e^2.5 / (tan α)^1.5
     steepness = (column.parts_above[1] / radius) ** 1.5
     stiffness = (8.0 * np.sqrt(2.0) / 15.0) * kn * np.sqrt(radius) * steepness
-    return _chipped(column, SHORT_ARC * 5.0 / 7.0 * weight * (weight / stiffness) ** 0.4 - _closed(column, kn))
+    toes = SHORT_ARC * 5.0 / 7.0 * weight * (weight / stiffness) ** 0.4 - _closed(column, kn)
+    return _with_others(column, toes, _of_discs(column, kn, on_beds()))
 
 
 def _ring_toe(column: Column, kn: float, j: int) -> float:
@@ -88,21 +103,99 @@ def disc_on_bed(kn: float, radius: float, depth: float, slope: float) -> tuple[f
     return force, 0.5 * kn * radius**2 * (depth * depth * area + 2.0 * depth * edge * first + edge * edge * second)
 
 
-def point_toes(column: Column, kn: np.ndarray, share: float | np.ndarray) -> np.ndarray:
-    """As :func:`rim_toes`, of joints whose edge has a share of the joint's stiffness: a corner, the last of some points."""
-    closed = _closed(column, kn)
-    return _chipped(column, SHORT_ARC * closed / share - closed)
+def point_toes(
+    column: Column, kn: np.ndarray, share: float | np.ndarray, crushed: float | np.ndarray = 0.0
+) -> np.ndarray:
+    """As :func:`rim_toes`, of joints whose edge has a share of the joint's stiffness: a corner, the last of some points.
 
-
-def _chipped(column: Column, toes: np.ndarray) -> np.ndarray:
-    """Toes of faces that chips leave smaller: they bound what is given under a moment by its share of the largest, squared.
-
-    That largest one is of the whole face; of what is left it is smaller as its smallest half width is, and the area is
-    smaller by no more than the square of that.
+    ``crushed`` is what crushing takes beside that [J].
     """
+    closed = _closed(column, kn)
+    toes = SHORT_ARC * closed / share - closed + crushed
+    return _with_others(column, toes, _by_square(column, toes))
+
+
+def _by_square(column: Column, toes: np.ndarray) -> Bending:
+    """Joints give more than in proportion to the square of their moment: the toe's energy bounds it."""
+    most, toes = (column.joint_weights * 0.5 * column.joint_widths)[:, None], toes[:, None]
+    full = 2.0 * toes / most
+
+    def storing(turn: np.ndarray) -> np.ndarray:
+        return most * np.where(turn < full, 0.5 * turn**2 / np.maximum(full, 1e-300), turn - 0.5 * full)
+
+    return lambda share: full * share, storing
+
+
+def _of_discs(column: Column, kn: np.ndarray, law: tuple[np.ndarray, np.ndarray]) -> Bending:
+    """Discs by the force and the lever of their law."""
+    turn, lever = (
+        law[0][-1] / law[0][::-1],
+        law[1][::-1],
+    )  # over the turn at which a joint begins to open, and the radius
+    stored = 0.5 * lever[0] + np.append(0.0, np.cumsum(0.5 * (lever[1:] + lever[:-1]) * np.diff(turn)))
+    half = 0.5 * column.joint_widths
+    most, first = column.joint_weights * half, column.joint_weights / (kn * column.joint_areas * half)
+    most, first, edge = most[:, None], first[:, None], (half / column.parts_above[1])[:, None]
+
+    def turning(share: np.ndarray) -> np.ndarray:
+        over = np.where(share <= lever[0], share / lever[0], np.interp(share, lever, turn))
+        return np.minimum(first * over, edge)  # none turns by more than puts the part above on its edge
+
+    def storing(turned: np.ndarray) -> np.ndarray:
+        over = turned / first
+        beyond = np.interp(over, turn, stored) + lever[-1] * np.maximum(over - turn[-1], 0.0)
+        return most * first * np.where(over <= 1.0, 0.5 * lever[0] * over**2, beyond)
+
+    return turning, storing
+
+
+def _with_others(column: Column, toes: np.ndarray, bending: Bending) -> np.ndarray:
+    """What each joint gives, and what all others do with the part above it on its edge [J], shape (2, n).
+
+    With moments M on the joints the parts above lean, and joints turn, by r = L⁻¹ M, L_ij = g B_max(i,j), B the mass above
+    times the height of its centroid. The energy over rest is V = Σ U_i(r_i) − ½ Mᵀ r, of all M_j = W_j b_j least where the
+    others bear these moments, M_i = U_i'(r_i). On rigid joints that is for M = L_j W_j b_j/L_jj; what is told here is how
+    much less it is on these. What joints turn makes moments larger: they rise from those on rigid joints, as L less what
+    holds M_j has no negative entry.  # Eq. (V5)
+    """
+    mass, height = column.parts_above
+    most, order = column.joint_weights * 0.5 * column.joint_widths, np.arange(column.n)
+    leaning = column.gravity * (mass * height)[np.maximum.outer(order, order)]
+    least = _least(leaning, most, bending)
+    others = SHORT_ARC * np.maximum(0.5 * most**2 / leaning.diagonal() - least, 0.0)
+    # Faces that chips leave smaller give more: their largest moment is smaller as their smallest half width is, and their
+    # area by no more than the square of that.
     chips = np.array([max(column.as_found.of(i + 1).chips) for i in range(column.n)])
     left = 1.0 - chips / np.array([0.5 * min(drum.bottom_width, drum.depth) for drum in column.drums])
-    return toes / np.maximum(left, LEAST_LEFT) ** 4
+    more = np.maximum(left, LEAST_LEFT) ** -4
+    return np.stack((toes * more, others * more.max()))
+
+
+def _least(leaning: np.ndarray, most: np.ndarray, bending: Bending) -> np.ndarray:
+    """Least V with each part on its edge, but for what that joint gives [J], shape (n,).
+
+    Where another joint would come to its edge before, a column does not pass M_j = ϑ W_j b_j for less either, ϑ < 1: the
+    largest ϑ that leaves the others closed enough is taken. Minus infinity where half of the moment does not.
+    """
+    order, ways = np.arange(len(most)), leaning / leaning.diagonal()  # column j: with part j on its edge
+    shares = np.ones(len(most))
+    while True:
+        moments, turns = ways * (shares * most), np.zeros_like(leaning)
+        for _ in range(ROUNDS):
+            before, turns = turns, bending[0](np.minimum(moments / most[:, None], 1.0))
+            turns[order, order] = 0.0
+            borne = leaning @ turns
+            moments = ways * (shares * most - borne.diagonal()) + borne
+            if np.abs(turns - before).max() < CLOSE * np.abs(turns).max(initial=0.0):
+                break
+        beyond = (moments - np.diag(moments.diagonal()) >= most[:, None]).any(axis=0)
+        shares = np.where(beyond, shares - 0.05, shares)
+        if not beyond.any() or shares.min() < 0.5:
+            break
+    turns = np.linalg.solve(leaning, moments)
+    stored = bending[1](np.abs(turns))
+    stored[order, order] = shares * most * turns.diagonal()
+    return np.where(beyond, -math.inf, (stored - 0.5 * moments * turns).sum(axis=0))
 
 
 def _closed(column: Column, kn: np.ndarray) -> np.ndarray:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...constants import g
 from ...errors import InputError, OutOfRangeWarning, warn
+from ...messages import joined, say
 from ...percent import percent
 from ..drift import as_asked, best_of, cures_of
 from ..events import moment_of
@@ -391,9 +392,14 @@ def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str)
                     break
                 step *= 0.5
         new, departure = at(step)
-    note = (
-        f"resampled linearly from unequal steps ({steps.min():.4g} to {steps.max():.4g} s, median {median:.4g} s) "
-        f"to {step:.6g} s; departs by up to {departure:.2%} of the peak at the original times"
+    note = say(
+        "resampled linearly from unequal steps ({min:.4g} to {max:.4g} s, median {median:.4g} s) to {step:.6g} "
+        "s; departs by up to {departure:.2%} of the peak at the original times",
+        min=steps.min(),
+        max=steps.max(),
+        median=median,
+        step=step,
+        departure=departure,
     )
     return step, new, note
 
@@ -518,8 +524,13 @@ def common_span(
     if not any(later) and len(set(lengths)) == 1:
         return values, components[0], ""
     told = [f"{axis}: {length}" for axis, length in zip(axes, lengths)]
-    told += [f"{axis} begins {steps * step:g} s later" for axis, steps in zip(axes, later) if steps]
-    note = f"cut to the common {'span' if any(later) else 'length'} of {count} samples ({', '.join(told)})"
+    begins = say("{axis} begins {time:g} s later")
+    told += [begins.of(axis=axis, time=steps * step) for axis, steps in zip(axes, later) if steps]
+    span, length_ = (
+        say("cut to the common span of {count} samples ({names})"),
+        say("cut to the common length of {count} samples ({names})"),
+    )
+    note = (span if any(later) else length_).of(count=count, names=joined(", ", told))
     return values, components[later.index(max(later))], note
 
 
@@ -649,7 +660,7 @@ def oriented(component: Component) -> Component:
     component.azimuth = azimuth if component.azimuth is None and not vertical else component.azimuth
     if sign < 0.0:
         component.values = -component.values
-        component.processing.append("sign turned: the file counts downward as positive, here upward is")
+        component.processing.append(say("sign turned: the file counts downward as positive, here upward is"))
     return component
 
 
@@ -707,9 +718,9 @@ def assemble(
     values, last, note = common_span(used, axes, step)
     if note:
         processing.append(note)
-        warn(f"{name}: {note}.")
+        warn(say("{name}: {note}.", name=name, note=note))
     for axis, one in zip(axes, used):
-        processing += [f"{axis}: {text}" for text in one.processing]
+        processing += [say("{axis}: {text}", axis=axis, text=text) for text in one.processing]
     _warn_of_peak(values, step, name)
     _warn_of_offset(values, name)
     facts = used[0].facts | {key: last.facts[key] for key in ("start_time", "first_time") if key in last.facts}
@@ -781,8 +792,12 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
             )
     if 0.0 < max(peaks.values()) < SMALLEST_PEAK:
         _doubt(
-            f"{name}: the peak is {max(peaks.values()):.3g} g, which shakes no column; check the unit, and whether these "
-            "are accelerations."
+            say(
+                "{name}: the peak is {max:.3g} g, which shakes no column; check the unit, and whether these are "
+                "accelerations.",
+                name=name,
+                max=max(peaks.values()),
+            )
         )
     for axis, array in values.items():
         fastest = float(np.abs(integrate(array, step)).max())
@@ -801,8 +816,15 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
         mean = float(array.mean()) if array.size else 0.0
         if peak > 0.0 and abs(mean) > OFFSET_SHARE * peak:
             _doubt(
-                f"{name}: the mean of component {axis} is {mean / g:.3g} g, {percent(abs(mean) / peak)} of its peak, as "
-                "when an instrument's offset was left in; take it off (`condition='demean'`) unless it is meant."
+                say(
+                    "{name}: the mean of component {axis} is {mean:.3g} g, {share} of its peak, as when an "
+                    "instrument's offset was left in; take it off ({step}) unless it is meant.",
+                    name=name,
+                    axis=axis,
+                    mean=mean / g,
+                    share=percent(abs(mean) / peak),
+                    step="`condition='demean'`",
+                )
             )
 
 

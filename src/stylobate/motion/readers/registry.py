@@ -12,6 +12,7 @@ from pathlib import Path
 
 from ...added import RECORDS, entries, missing
 from ...errors import InputError, check_all, check_kind, warn
+from ...messages import say
 from ...reading import shown
 from ..motion import Motion
 from ..recordings import recorded_again
@@ -322,8 +323,8 @@ def read_suite(
             refused[shown(path.name)] = str(error)
             continue
         if motion.digest in names:
-            refused[shown(path.name)] = (
-                f"it holds the motion of {names[motion.digest]!r} once more; a record counts once"
+            refused[shown(path.name)] = say(
+                "it holds the motion of {names!r} once more; a record counts once", names=names[motion.digest]
             )
         elif motion.name in names.values():
             raise InputError(f"two records are called {motion.name!r}; results go by names: rename one of the files.")
@@ -341,11 +342,12 @@ def read_suite(
     if again:
         pairs = [f"{motions[one].name!r} of {motions[other].name!r}" for one, other in again.items()]
         named = ", ".join(pairs[:TOLD]) + (", …" if len(pairs) > TOLD else "")
-        warn(
-            f"{len(again)} of {len(motions)} records are recordings of others once more, scaled, turned, filtered or "
-            f"written otherwise ({named}): a selection for a target takes each recording once; elsewhere they count as "
-            "records of their own, and intervals are narrower than what is known: leave them out."
+        words = say(
+            "{count} of {all} records are recordings of others once more, scaled, turned, filtered or written otherwise "
+            "({names}): a selection for a target takes each recording once; elsewhere they count as records of their own, and "
+            "intervals are narrower than what is known: leave them out."
         )
+        warn(words.of(count=len(again), all=len(motions), names=named))
     return Suite(tuple(motions), refused)
 
 

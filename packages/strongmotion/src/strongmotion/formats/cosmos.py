@@ -12,6 +12,7 @@ import numpy as np
 
 from stylobate.constants import g
 from stylobate.errors import InputError
+from stylobate.messages import say
 from stylobate.motion.readers.numbers import NUMBER, fortran_width, read_numbers
 from stylobate.motion.readers.record import (
     CUT,
@@ -198,8 +199,12 @@ def _scale(component: Component, unit: str, reals: np.ndarray, file: str, line: 
     zero = float(component.values.mean())
     component.values = (component.values - zero) * (size * g)
     component.processing.append(
-        f"counts × {size:.6g} g, after the zero level of {zero:.6g} counts (their mean) was taken off: raw counts "
-        "have no zero of their own"
+        say(
+            "counts × {size:.6g} g, after the zero level of {zero:.6g} counts (their mean) was taken off: raw counts "
+            "have no zero of their own",
+            size=size,
+            zero=zero,
+        )
     )
 
 

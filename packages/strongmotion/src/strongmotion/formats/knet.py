@@ -6,6 +6,7 @@ import re
 from datetime import datetime, timedelta
 
 from stylobate.errors import InputError
+from stylobate.messages import say
 from stylobate.motion.readers.numbers import read_numbers
 from stylobate.motion.readers.record import CUT, Component, check_count, check_peak, check_step, oriented
 from stylobate.motion.readers.source import Source
@@ -64,7 +65,12 @@ def read(source: Source) -> tuple[list[Component], dict]:
     check_peak(component.values, peak or None, 0.01, file, line, wrong=0.1)  # of their own zero level
     component.metadata = {"unit": "counts", "m_s2_per_count": size, "direction_as_found": raw}
     component.processing.insert(
-        0, f"counts × {size:.6g} m/s², after the zero level of {zero:.6g} counts (their mean) was taken off"
+        0,
+        say(
+            "counts × {size:.6g} m/s², after the zero level of {zero:.6g} counts (their mean) was taken off",
+            size=size,
+            zero=zero,
+        ),
     )
     place = {"1": "borehole", "2": "borehole", "3": "borehole", "4": "surface", "5": "surface", "6": "surface"}.get(raw)
     station = header.get("station code", ("", 0))[0] or None

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from stylobate.errors import InputError
+from stylobate.messages import say
 from stylobate.motion.earthquakes import is_station_xml, obspy_for
 from stylobate.motion.readers.record import CUT, Component, direction
 from stylobate.motion.readers.source import Source
@@ -143,8 +144,12 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
     component.metadata |= {key: str(trace.stats[key]) for key in ("network", "station", "location")}
     component.metadata["start_time"] = str(trace.stats.starttime)
     component.processing.append(
-        f"counts / {per_m_s2:.6g} per m/s², after the zero level of {zero:.6g} counts (their mean) was "
-        "taken off; the response is taken as flat"
+        say(
+            "counts / {per_m_s2:.6g} per m/s², after the zero level of {zero:.6g} counts (their mean) was taken off; "
+            "the response is taken as flat",
+            per_m_s2=per_m_s2,
+            zero=zero,
+        )
     )
     dip = channel.dip
     by_code, component.vertical, _ = direction(trace.stats.channel)
@@ -163,7 +168,7 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
             )
     if dip is not None and dip > 45.0:  # SEED counts the dip downward
         component.values = -component.values
-        component.processing.append("sign turned: the channel counts downward as positive, here upward is")
+        component.processing.append(say("sign turned: the channel counts downward as positive, here upward is"))
     azimuth = by_code if channel.azimuth is None else channel.azimuth
     component.azimuth = None if component.vertical or azimuth is None else float(azimuth) % 360.0
     return component
@@ -242,7 +247,7 @@ def _told(channel: Any) -> str:
     if sensitivity is not None and sensitivity.value is not None:
         size = f"{sensitivity.value:.6g} {sensitivity.output_units} per {sensitivity.input_units}"
     azimuth, dip = ("?" if one is None else f"{one:g}°" for one in (channel.azimuth, channel.dip))
-    return f"{size}, azimuth {azimuth}, dip {dip}"
+    return say("{size}, azimuth {azimuth}, dip {dip}", size=size, azimuth=azimuth, dip=dip)
 
 
 def _beside(source: Source) -> list[Source]:

@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from stylobate.errors import InputError, warn
+from stylobate.messages import say
 from stylobate.motion.readers.numbers import count_numbers, read_numbers
 from stylobate.motion.readers.record import (
     CUT,
@@ -76,7 +77,13 @@ def read(source: Source) -> tuple[list[Component], dict]:
         component = Component(values * 0.01, np.nan, time=time, first=float(time[0]))
     _check_peaks(component, reals, file, at + 6)
     if left_out:
-        component.processing.append(f"{left_out} numbers beyond the {stated} that the header promises were left out")
+        component.processing.append(
+            say(
+                "{left_out} numbers beyond the {stated} that the header promises were left out",
+                left_out=left_out,
+                stated=stated,
+            )
+        )
     component.label = _label(int(integers[12]), int(integers[13]), lines[5], file)
     component.metadata["unit"] = "cm/s2"
     head = [line.strip().strip("*") for line in lines[:TEXT_LINES]]

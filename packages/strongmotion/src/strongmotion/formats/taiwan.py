@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from stylobate.errors import InputError
+from stylobate.messages import say
 from stylobate.motion.readers.numbers import NUMBER, read_numbers
 from stylobate.motion.readers.record import (
     Component,
@@ -67,7 +68,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
         component = Component(values * 0.01, dt, one["label"], first=float(times[0]))
         if sign and one["label"] != "U":
             component.values = -component.values
-            component.processing.append("sign turned, as the line that names the columns says (-)")
+            component.processing.append(say("sign turned, as the line that names the columns says (-)"))
         elif sign:
             component.label = "-U"
         components.append(oriented(component))

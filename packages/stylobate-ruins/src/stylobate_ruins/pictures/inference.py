@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Circle
 
+from stylobate.messages import say
 from stylobate.plots.style import BLACK, BLUE, GREY, RED, SAND, WIDTH, in_lines, page, styled
 
 from .. import abc
@@ -131,7 +132,7 @@ def draw_matches(inference: Inference, title: str | None = None, *, figure: Figu
     other = _best_that_differs(inference)
     panels: list[tuple[str, int | None]] = [("as it is seen", None)]
     panels += [(_of_draw(inference, int(k)), int(k)) for k in order]
-    panels += [(f"differs: {_of_draw(inference, other)}", other)] if other is not None else []
+    panels += [(say("differs: {of_draw}", of_draw=_of_draw(inference, other)), other)] if other is not None else []
     widths = [_width(structure) for structure in ruin.simulated]
     reach = 1.5 * max(widths, default=1.0)
     rows = -(-len(panels) // 3)

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from stylobate.analysis.risk import years
+from stylobate.messages import say
 from stylobate.plots.fragility import NARROW
 from stylobate.plots.style import BLACK, BLUE, GREY, panel, styled
 
@@ -39,5 +40,9 @@ def draw_survival(result: Survival, title: str | None = None, *, ax: Axes | None
     axes.set(xlim=(0.0, 1.02), ylim=(len(at) - 0.6, -0.8))
     axes.set_xlabel("probability that it would still stand [-]")
     axes.grid(True, axis="x")
-    axes.set_title(title or f"{years(result.age)} without {result.risks[0].fragility.evidence.state}", fontsize=9)
+    axes.set_title(
+        title
+        or say("{years} without {result.risks[0].fragility.evidence.state}", years=years(result.age), result=result),
+        fontsize=9,
+    )
     return figure

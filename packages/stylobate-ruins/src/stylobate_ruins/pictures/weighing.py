@@ -7,6 +7,7 @@ import math
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
+from stylobate.messages import say
 from stylobate.motion.intensity_specs import parse_measure
 from stylobate.percent import percents
 from stylobate.plots.style import BLACK, BLUE, GREY, WIDTH, in_lines, page, styled
@@ -48,7 +49,11 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
     left.set_xlabel("weight of the branch [-]")
     left.legend(fontsize=7.5)
     if len(order) < len(result.weight):
-        left.set_title(f"the first {len(order)} of {len(result.weight)} branches", fontsize=8.0, color=GREY)
+        left.set_title(
+            say("the first {order} of {weight} branches", order=len(order), weight=len(result.weight)),
+            fontsize=8.0,
+            color=GREY,
+        )
     told = result.told
     at = np.arange(len(told))
     right.barh(at, [one["bits_alone"] for one in told], 0.5, color="#dddddd", label="by itself")

@@ -1,0 +1,151 @@
+"""Messages: English templates with values, which are English as texts and which a report renders in its language."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from itertools import chain
+from string import Formatter
+from typing import Any, Self, SupportsIndex
+
+_FORMATTER = Formatter()
+
+#: Longest format of a value in a file: none of ours is longer, and a width of many digits would fill the memory.
+LONGEST_FORMAT = 7
+
+#: Key of a file of results under which it holds its messages by their places.
+MESSAGES = "messages"
+
+
+class Message(str):
+    """A text that knows how it was made; wherever a text will do, it is the English one.
+
+    Attributes
+    ----------
+    template : str
+        English with fields as of :meth:`str.format`, which a catalogue translates; empty for a text of several messages.
+    values : dict
+        Of the fields, by what stands in them: numbers, messages, and texts that belong to the reader, such as names.
+    parts : tuple of str
+        Messages and other texts that it is put together from.
+    """
+
+    template: str
+    values: Mapping[str, Any]
+    parts: tuple[str, ...]
+
+    def __new__(
+        cls, text: str, template: str = "", values: Mapping[str, Any] | None = None, parts: Iterable[str] = ()
+    ) -> Self:
+        self = super().__new__(cls, text)
+        self.template, self.values, self.parts = template, values or {}, tuple(parts)
+        return self
+
+    def __str__(self) -> str:
+        return self
+
+    def __add__(self, other: str) -> str:
+        return joined("", (self, other))
+
+    def __radd__(self, other: str) -> str:
+        return joined("", (other, self))
+
+    def __mul__(self, times: SupportsIndex) -> str:
+        return joined("", (self,) * times.__index__())
+
+    def __format__(self, spec: str) -> str:
+        text = super().__str__()
+        return text[:1].upper() + text[1:] if spec == "capital" else format(text, spec)
+
+    def of(self, **values: Any) -> Message:
+        """The message of its template with these values."""
+        return say(self.template, **values)
+
+    def changed(self, change: Callable[[str], str]) -> Message:
+        """The message with its texts changed, such as names of parameters to those of options."""
+        if self.parts:
+            return joined("", (one.changed(change) if isinstance(one, Message) else change(one) for one in self.parts))
+        values = {
+            key: one.changed(change) if isinstance(one, Message) else change(one) if isinstance(one, str) else one
+            for key, one in self.values.items()
+        }
+        template = change(self.template)
+        return Message(filled(template, values) if values else template, template, values)
+
+
+def say(template: str, /, **values: Any) -> Message:
+    """A message of a template and its values; without values the template is the text.
+
+    A field may reach into a value, as ``{run.time:.2f}`` or ``{s[runs]}``: the message keeps what it finds there. A field
+    ``{name:capital}`` begins with a capital letter, in every language.
+    """
+    if not values:
+        return Message(template, template)
+    names = {name for _, name, _, _ in _FORMATTER.parse(template) if name}
+    return Message(
+        template.format(**values), template, {one: _FORMATTER.get_field(one, (), values)[0] for one in names}
+    )
+
+
+def digits(value: Any, form: str = "") -> Message:
+    """A number in a format, as readers of each language write it."""
+    return say(f"{{value:{form}}}", value=value)
+
+
+def joined(between: str, texts: Iterable[str]) -> str:
+    """Texts one after another, those that are empty left out, with what they are made of."""
+    each = [text for text in texts if text]
+    parts = [one for k, text in enumerate(each) for one in (between * (k > 0), text) if one]
+    if not any(isinstance(one, Message) for one in parts):
+        return "".join(parts)
+    flat = chain.from_iterable(one.parts if isinstance(one, Message) and one.parts else (one,) for one in parts)
+    return Message("".join(parts), parts=flat)
+
+
+def filled(template: str, values: Mapping[str, Any], written: Callable[[Any, str], str] = format) -> str:
+    """A template with what its fields hold, each written in its format."""
+    texts = []
+    for text, name, form, conversion in _FORMATTER.parse(template):
+        texts.append(text)
+        if name is not None:
+            texts.append(written(_FORMATTER.convert_field(values[name], conversion), form or ""))
+    return "".join(texts)
+
+
+def kept(value: Any, place: str = "") -> dict[str, Any]:
+    """All messages in the plain values of a result by their places, for the file that holds it."""
+    if isinstance(value, Message):
+        return {place: _plain(value)}
+    each = value.items() if isinstance(value, Mapping) else enumerate(value) if isinstance(value, (list, tuple)) else ()
+    return {key: one for name, inside in each for key, one in kept(inside, f"{place}/{name}").items()}
+
+
+def restored(value: Any, messages: Mapping[str, Any], place: str = "") -> Any:
+    """The plain values of a result with their messages, where their English texts are still those of the file."""
+    if isinstance(value, str) and place in messages:
+        found = _made(messages[place])
+        return found if found == value else value
+    if isinstance(value, dict):
+        return {key: restored(one, messages, f"{place}/{key}") for key, one in value.items()}
+    return (
+        [restored(one, messages, f"{place}/{k}") for k, one in enumerate(value)] if isinstance(value, list) else value
+    )
+
+
+def _plain(value: Any) -> Any:
+    if not isinstance(value, Message):
+        return value.item() if hasattr(value, "item") else value
+    if not value.template:
+        return {"parts": [_plain(part) for part in value.parts]}
+    values = {key: _plain(one) for key, one in value.values.items()}
+    return {"template": value.template, "values": values} if values else {"template": value.template}
+
+
+def _made(value: Any) -> Any:
+    if not isinstance(value, dict):
+        return value
+    if "parts" in value:
+        return joined("", map(_made, value["parts"]))
+    template, values = value["template"], {key: _made(one) for key, one in value.get("values", {}).items()}
+    if any(len(form or "") > LONGEST_FORMAT for _, _, form, _ in _FORMATTER.parse(template)):
+        raise ValueError(f"a format of {template!r} is too long")
+    return Message(filled(template, values) if values else template, template, values)
