@@ -35,7 +35,7 @@ def _models(incomplete: str) -> list[str]:
 
 def _columns(incomplete: str) -> list[str]:
     """Presets and column files that begin so, for the completion of a shell."""
-    from ..column.presets import PRESETS
+    from ..column.presets import ASSEMBLIES, PRESETS
 
     folder, _, start = incomplete.rpartition("/")
     there = Path(folder or ("/" if incomplete.startswith("/") else "."))
@@ -45,7 +45,7 @@ def _columns(incomplete: str) -> list[str]:
     found = [
         f"{folder}/{file.name}" if "/" in incomplete else file.name for file in files if file.name.startswith(start)
     ]
-    return [*(name for name in PRESETS if name.startswith(incomplete)), *found]
+    return [*(name for name in (*PRESETS, *ASSEMBLIES) if name.startswith(incomplete)), *found]
 
 
 ColumnName = Annotated[

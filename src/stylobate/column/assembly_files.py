@@ -17,7 +17,7 @@ from .links import link_from_dict
 from .links.tables import BlockLinkTable, links_between
 from .materials import Material, material
 from .plausible import Piece, piece_doubts
-from .presets import PRESETS
+from .presets import ASSEMBLIES, PRESETS
 from .spatial.assembly import SpatialAssembly
 from .spatial.files import spatial_assembly
 from .spatial.tables import SpatialTable, describes_space, refuse_mixed
@@ -69,7 +69,7 @@ def is_assembly(path: str | Path) -> bool:
 
 
 def load_structure(text: str | Path) -> Column | Assembly | SpatialAssembly:
-    """The column preset of that name, or what the file of that path describes: a column or an assembly.
+    """The preset of that name, or what the file of that path describes: a column or an assembly.
 
     Raises
     ------
@@ -77,6 +77,8 @@ def load_structure(text: str | Path) -> Column | Assembly | SpatialAssembly:
         There is neither, or the file cannot be used.
     """
     name = str(text)
+    if name in ASSEMBLIES:
+        return read_assembly(ASSEMBLIES[name])
     if name not in PRESETS and (Path(name).exists() or name.endswith(".toml")) and is_assembly(name):
         return read_assembly(name)
     return load_column(name)

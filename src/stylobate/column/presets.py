@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from ..errors import InputError, suggest
 from .catalogue import CATALOGUE, KnownColumn
 from .column import Column
@@ -13,6 +15,9 @@ PAPER_BLOCK_MODULUS = 2.5e9
 PAPER = ("paper-monolithic", "paper-12-drums")
 
 PRESETS = tuple(CATALOGUE)
+
+#: Assemblies by name: files, with source and licence in their first lines.
+ASSEMBLIES = {"evora": Path(__file__).with_name("evora.toml")}
 
 
 def known_column(name: str) -> KnownColumn:

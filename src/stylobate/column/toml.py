@@ -320,7 +320,12 @@ def toml_text(tables: Mapping[str, Any], comments: Iterable[str] = ()) -> str:
             parts += [_list_of_tables(f"{key}.{name}", one) for name, one in value.items() if _listed(one)]
         elif isinstance(value, list) and _listed(value):
             parts.append(_list_of_tables(key, value))
-    return "".join(parts)
+    return re.sub(r"(?<== )\[[\[\]\d\s.,e+-]*\](?=\n)", lambda array: _in_a_line(array[0]), "".join(parts))
+
+
+def _in_a_line(array: str) -> str:
+    """An array of numbers, which is written with one in a line, in one line."""
+    return re.sub(r",\s*]", "]", re.sub(r"\[\s+", "[", re.sub(r",\s+(?=[\[\d-])", ", ", array)))
 
 
 def _headed(value: Any) -> bool:

@@ -50,10 +50,19 @@ class Face(NamedTuple):
     normal: np.ndarray
 
 
+class Closed(NamedTuple):
+    """What lay between two faces that were brought into one plane: numbers of their stones, largest gap and overlap [m]."""
+
+    one: int
+    other: int
+    gap: float
+    overlap: float
+
+
 def brought_together(
-    shapes: Sequence[Frustum | Hull], ground: float | None, tolerance: float, facing: float
-) -> tuple[list[Frustum | Hull], float]:
-    """Stones whose faces share a plane where they touch, and how far a corner moved at most [m].
+    shapes: Sequence[Frustum | Hull], ground: float | None, tolerance: float, closing: float, facing: float
+) -> tuple[list[Frustum | Hull], float, list[Closed]]:
+    """Stones whose faces share a plane where they touch, how far a corner moved at most [m], and what was closed.
 
     A plane is that of the least squares of the corners on it, or the ground; ends of a drum stay parallel. A stone of which
     a corner would move farther than the tolerance stays as it is.
@@ -63,8 +72,8 @@ def brought_together(
     shapes : sequence of Frustum or Hull
     ground : float or None
         Its level [m].
-    tolerance : float
-        Largest gap or overlap that is closed [m].
+    tolerance, closing : float
+        Largest overlap, and largest gap, that is closed [m].
     facing : float
         Angle to which faces look at one another, and triangles of a hull are one face [rad].
     """
@@ -74,8 +83,9 @@ def brought_together(
     if ground is not None:
         square = np.array([(x, y, ground) for x, y in (low[:2], (high[0], low[1]), high[:2], (low[0], high[1]))])
         faces.append(Face(-1, (), square, np.array([0.0, 0.0, 1.0])))
-    contacts = _contacts(faces, tolerance, facing)
-    group = _groups(len(faces), [*contacts, *_level(faces, contacts, min(tolerance, LEVEL))])
+    closed = _contacts(faces, tolerance, closing, facing)
+    contacts = list(closed)
+    group = _groups(len(faces), [*contacts, *_level(faces, contacts, min(closing, LEVEL))])
     touching = {group[i] for i, _ in contacts}
     on = {name: [face for face, one in zip(faces, group, strict=True) if one == name] for name in touching}
     ends: dict[int, dict[int, int]] = {}
@@ -92,7 +102,7 @@ def brought_together(
     planes: dict[int, Plane] = {}
     for kind in {alike[name] for name in touching}:
         planes |= _planes({name: on[name] for name in touching if alike[name] == kind}, ground)
-    moved, most = list(shapes), 0.0
+    moved, most, kept = list(shapes), 0.0, set[int]()
     for stone, shape in enumerate(shapes):
         found = [
             (face.members, planes[group[i]])
@@ -100,9 +110,11 @@ def brought_together(
             if face.stone == stone and group[i] in planes
         ]
         new, shift = _on_planes(shape, found)
-        if shift <= tolerance:
+        if shift <= max(tolerance, closing):
             moved[stone], most = new, max(most, shift)
-    return moved, most
+        else:
+            kept.add(stone)
+    return moved, most, [one for one in closed.values() if not kept & {one.one, one.other}]
 
 
 def _faces(stone: int, shape: Frustum | Hull, facing: float) -> list[Face]:
@@ -146,21 +158,22 @@ def _groups(count: int, links: Iterable[tuple[int, ...]]) -> list[int]:
     return connected_components(coo_array((np.ones(len(one)), (one, other)), shape=(count, count)))[1].tolist()
 
 
-def _contacts(faces: Sequence[Face], tolerance: float, facing: float) -> list[tuple[int, int]]:
-    """Pairs of faces of different stones that lie on one another within a tolerance [m], by their numbers."""
+def _contacts(faces: Sequence[Face], tolerance: float, closing: float, facing: float) -> dict[tuple[int, int], Closed]:
+    """Pairs of faces of different stones that overlap, or are apart, by no more than is closed, by their numbers."""
     stones = sorted({face.stone for face in faces})
     own = {stone: [i for i, face in enumerate(faces) if face.stone == stone] for stone in stones}
     boxes = {k: np.concatenate([faces[i].corners for i in own[k]]) for k in stones}
     low, high = ({k: f(box, axis=0) for k, box in boxes.items()} for f in (np.min, np.max))
-    found = []
+    found = {}
     for one, other in combinations(stones, 2):
-        if (low[one] > high[other] + tolerance).any() or (low[other] > high[one] + tolerance).any():
+        if (low[one] > high[other] + closing).any() or (low[other] > high[one] + closing).any():
             continue
         normals = [np.array([faces[i].normal for i in own[k]]) for k in (one, other)]
         for a, b in np.argwhere(normals[0] @ normals[1].T < -math.cos(facing)).tolist():
             pair = own[one][a], own[other][b]
-            if _touch(faces[pair[0]], faces[pair[1]], tolerance):
-                found.append(pair)
+            apart = _apart(faces[pair[0]], faces[pair[1]])
+            if apart is not None and apart.max() <= closing and -apart.min() <= tolerance:
+                found[pair] = Closed(one, other, max(float(apart.max()), 0.0), max(float(-apart.min()), 0.0))
     return found
 
 
@@ -177,8 +190,8 @@ def _level(faces: Sequence[Face], contacts: Sequence[tuple[int, int]], tolerance
     return [(order[a], order[b]) for a, b in np.argwhere(near & near.T).tolist() if a < b]
 
 
-def _touch(one: Face, other: Face, tolerance: float) -> bool:
-    """Whether two faces that look at one another are within a tolerance wherever one is over the other."""
+def _apart(one: Face, other: Face) -> np.ndarray | None:
+    """How far two faces that look at one another are apart at the corners of their overlap [m]; None where there is none."""
     normal = one.normal - other.normal
     normal = normal / np.linalg.norm(normal)
     across = np.linalg.svd(normal[None])[2][1:]
@@ -190,15 +203,15 @@ def _touch(one: Face, other: Face, tolerance: float) -> bool:
         outward = np.array([after[1] - corner[1], corner[0] - after[0]])
         over = cut(over, outward, float(outward @ corner))
         if len(over) < 3:
-            return False
+            return None
     if _area(over) <= CONTACT * min(map(_area, flat)):
-        return False
+        return None
     levels = []
     for face in (one, other):  # heights of its plane over the corners of the overlap
         slope = across @ face.normal / (face.normal @ normal)
         middle = face.corners.mean(axis=0)
         levels.append(middle @ normal - (over - across @ middle) @ slope)
-    return float(np.abs(levels[0] - levels[1]).max()) <= tolerance
+    return levels[1] - levels[0]
 
 
 def _area(polygon: np.ndarray) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -17,7 +18,7 @@ from stylobate.column.block import FAR_AWAY, length_of
 from stylobate.column.files import tables_of
 from stylobate.column.shapes import Mesh
 from stylobate.column.spatial.files import spatial_assembly
-from stylobate.column.spatial.mesh import MESHES, UPWARD, MeshPart, read_stones, unit_of, upward
+from stylobate.column.spatial.mesh import MESHES, UPWARD, MeshPart, check_closed, read_stones, unit_of, upward
 from stylobate.column.spatial.tables import SpatialTable
 from stylobate.column.structure import Structure
 from stylobate.column.tables import made_of
@@ -26,13 +27,13 @@ from stylobate.errors import InputError, check_range, within
 from stylobate.reading import shown
 
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
-from .contact_planes import ROUGH, SMOOTH, brought_together
+from .contact_planes import ROUGH, SMOOTH, Closed, brought_together
 from .fitting import hull_of
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND
 from .stones import ROUNDING, assembly_tables, column_tables, distance_of, fit_all, near
 from .survey import WORKBOOKS, survey_tables, survey_text
-from .three_dec import read_three_dec
+from .three_dec import SAME, read_three_dec
 
 #: Endings of what is written; of what is read besides column and assembly files.
 WRITTEN = (".toml", ".json", ".csv", ".obj", ".ply", ".stl", ".glb")
@@ -65,10 +66,15 @@ class Reading:
         Of a mesh.
     tolerance : float
         Largest distance of a mesh from what stands for it [m].
+    closing : float, optional
+        Largest gap between faces that is closed [m]; the tolerance unless given, of polyhedra, whose hulls leave no gap that
+        is not theirs, 1 mm.
     ground : float, None or False
         Level of the ground [m]; None for the lowest point, False for none.
     fixed : sequence of str
         Names of stones that move with the ground.
+    glued : sequence of str
+        Parts that are one stone, by their names with + between them; faces that they share vanish.
     columns : str, optional
         Of a survey whose row of names is not ours, such as ``drum, height [cm], bottom_width [cm], top_width [cm], -``.
     north : float, optional
@@ -88,17 +94,21 @@ class Reading:
         columns: str | None = None,
         north: float | None = None,
         up: str | None = None,
+        closing: float | None = None,
+        glued: tuple[str, ...] = (),
     ) -> None:
         if becomes not in KINDS:
             raise InputError(f"`as` is {becomes!r}; allowed are {', '.join(KINDS)}.", "as")
         if up not in (None, *UPWARD):
             raise InputError(f"`up` is {up!r}; allowed are {', '.join(UPWARD)}.", "up")
         check_range("`tolerance`", tolerance, 0.0, 1.0, unit="m", field="tolerance")
+        if closing is not None:
+            check_range("`closing`", closing, 0.0, 1.0, unit="m", field="closing")
         if isinstance(ground, float):
             check_range("level of the ground", ground, -FAR_AWAY, FAR_AWAY, unit="m", field="ground")
         self.material, self.becomes, self.unit = material, becomes, unit
         self.tolerance, self.ground, self.fixed = tolerance, ground, fixed
-        self.columns, self.north, self.up = columns, north, up
+        self.columns, self.north, self.up, self.closing, self.glued = columns, north, up, closing, glued
 
 
 def convert(model: str, path: Path, reading: Reading, layout: str = "dem") -> tuple[Structure, list[str], list[Path]]:
@@ -215,7 +225,7 @@ def stand_up(
         raise InputError(
             f"{where} says nothing of stone and joints; name a material, such as `material='marble'`.", "material"
         )
-    parts, notes = _near_the_origin(parts)
+    parts, notes = _near_the_origin(_one_stone(parts, reading.glued, where))
     rounding = max(part.rounding for part, *_ in parts)
     notes += [f"its numbers are rounded by up to {near(rounding)} (single precision)"] if rounding > ROUNDING else []
     level, parts = _without_ground(parts)
@@ -247,18 +257,26 @@ def stand_up(
             if reading.ground is None and (level is not None or not any(one.fixed for one in stones)):
                 ground = round(min(one.shape.lowest for one in stones) if level is None else level, 7) + 0.0
 
-            def level_at(facing: float) -> tuple[Structure, dict[str, Any], float]:
-                shapes, shift = brought_together([one.shape for one in stones], ground, tolerance, facing)
+            def level_at(facing: float) -> tuple[Structure, dict[str, Any], float, list[Closed]]:
+                shapes, closing = [one.shape for one in stones], TOLERANCE if stated is not None else tolerance
+                closing = closing if reading.closing is None else reading.closing
+                shapes, shift, closed = brought_together(shapes, ground, tolerance, closing, facing)
                 level_stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
                 tables = assembly_tables(name, level_stones, material, ground) | (stated or {})
-                return spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder), tables, shift
+                return (
+                    spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder),
+                    tables,
+                    shift,
+                    closed,
+                )
 
             try:
-                structure, tables, shift = level_at(SMOOTH)
+                structure, tables, shift, closed = level_at(SMOOTH)
             except InputError:
-                structure, tables, shift = level_at(ROUGH)
+                structure, tables, shift, closed = level_at(ROUGH)
             if shift > ROUNDING:
                 words.append(f"faces that touch were brought into common planes: corners moved by up to {near(shift)}")
+            words += _largest(closed, [*names, "the ground"])
             words.append(
                 "no ground: the supports carry it" if ground is None else f"the ground lies at z = {ground:.6g} m"
             )
@@ -298,6 +316,62 @@ def _without_ground(parts: Sequence[Part]) -> tuple[float | None, list[Part]]:
     """Level of a part called ``ground`` [m], as exports have it, and the others."""
     level = next((float(part.points[part.used, 2].max()) for part, *_ in parts if part.name == "ground"), None)
     return level, [one for one in parts if one[0].name != "ground"]
+
+
+def _one_stone(parts: Sequence[Part], glued: Sequence[str], where: str) -> list[Part]:
+    """Parts with those that are glued joined to one surface, without the faces that they share, by the name of the first.
+
+    Raises
+    ------
+    InputError
+        A name that is not there or twice, a stone of one part, parts of two densities, or one part of it fixed.
+    """
+    rest = {part.name: (part, fixed, density) for part, fixed, density in parts}
+    for text in glued:
+        names = [one.strip() for one in text.split("+")]
+        unknown = next((one for one in names if one not in rest), None)
+        if unknown is not None:
+            raise InputError(
+                f"`glued` names {unknown!r}, which {where} does not hold; it holds {_some([*rest])}.", "glued"
+            )
+        some = [rest[one] for one in names]
+        if len({*names}) < max(len(names), 2) or len({tuple(facts) for _, *facts in some}) > 1:
+            raise InputError(
+                f"`glued` is {text!r}; allowed are two or more different parts of one density, all of them fixed or none.",
+                "glued",
+            )
+        whole = _joined([part for part, *_ in some])
+        check_closed(whole, f"{text!r} of {where}")
+        rest = {name: one for name, one in rest.items() if name not in names[1:]} | {names[0]: (whole, *some[0][1:])}
+    return [*rest.values()]
+
+
+def _joined(parts: Sequence[MeshPart]) -> MeshPart:
+    """One surface of several, without the faces that two of them share; vertices nearer than ``SAME`` are one."""
+    from scipy.spatial import KDTree
+
+    points = np.concatenate([part.points for part in parts])
+    own = [min(near) for near in KDTree(points).query_ball_point(points, SAME)]
+    starts = np.cumsum([0, *(len(part.points) for part in parts)]).tolist()
+    faces = [
+        tuple(own[start + i] for i in face) for part, start in zip(parts, starts, strict=False) for face in part.faces
+    ]
+    lines = [line for part in parts for line in part.lines or (0,) * len(part.faces)]
+    times = Counter(map(frozenset, faces))
+    kept = [k for k, face in enumerate(faces) if times[frozenset(face)] == 1]
+    return replace(parts[0], points=points, faces=tuple(faces[k] for k in kept), lines=tuple(lines[k] for k in kept))
+
+
+def _largest(closed: Sequence[Closed], names: Sequence[str]) -> list[str]:
+    """How many gaps and overlaps were closed, and the largest of each."""
+    words = []
+    for kind in ("gap", "overlap"):
+        some = sorted((getattr(one, kind), one.one, one.other) for one in closed if getattr(one, kind) > ROUNDING)
+        if some:
+            size, one, other = some[-1]
+            many = f"{len(some)} {kind}s, the largest" if len(some) > 1 else f"the {kind}"
+            words.append(f"{many} of {near(size)} between {names[one]!r} and {names[other]!r}, closed")
+    return words
 
 
 def _some(names: list[str]) -> str:

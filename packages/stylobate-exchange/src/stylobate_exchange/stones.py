@@ -24,8 +24,8 @@ from .fitting import Frustum, Hull, within_tolerance
 STRAIGHT = 0.05
 
 
-#: What is nearer than this is where it was told [m].
-ROUNDING = 1e-6
+#: What is nearer than this is where it was told [m]; decimals of corners in files.
+ROUNDING, DIGITS = 1e-6, 7
 
 
 def near(distance: float) -> str:
@@ -95,7 +95,7 @@ def assembly_tables(name: str, stones: Sequence[Fitted], stone: str | None, grou
         if isinstance(one.shape, Frustum):
             entry = _drum(one.shape)
         else:
-            entry["vertices"] = one.shape.corners.tolist()
+            entry["vertices"] = (one.shape.corners.round(DIGITS) + 0.0).tolist()
         facts: dict[str, Any] = {"name": called} | ({"fixed": True} if one.fixed else {})
         facts |= {} if one.density is None else {"density": one.density}
         if part:

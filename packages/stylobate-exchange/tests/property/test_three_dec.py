@@ -1,6 +1,7 @@
 """Data files of 3DEC: polyhedra, ranges and properties, what is refused by its line, and a model of 156 blocks."""
 
 import re
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -71,6 +72,45 @@ def test_what_is_not_known_is_refused_by_its_line(old, new, says, tmp_path):
         read_model(tmp_path / "a.dat", Reading())
 
 
+def prism(x: float, low: float, high: float) -> str:
+    """A command for a stone 0.8 m square, from x on, in region 3."""
+    ring = [(x, 0.1), (x + 0.8, 0.1), (x + 0.8, 0.9), (x, 0.9)]
+    lower, upper = (" ".join(f"({a:.6g},{b:.6g},{z:.6g})" for a, b in ring) for z in (low, high))
+    return f"\npoly region 3 prism a {lower} b {upper}"
+
+
+def test_gaps_stay_open_unless_closing_says_otherwise(tmp_path):
+    """A stone 0.8 mm over another is let down; a slit of 30 mm beside it stays, whatever hulls are allowed."""
+    path = tmp_path / "a.dat"
+    path.write_text(PAIR.split("poly region 2 face")[0] + PAIR[PAIR.index("prop mat 1") :] + prism(0.1, 1.5008, 2.0))
+    structure, _, words = read_model(path, Reading(tolerance=0.05))
+    assert len(structure.space_joints) == 2
+    assert "the gap of 0.8 mm between 'region 2 1' and 'region 3 1', closed" in words
+    path.write_text(path.read_text() + prism(0.93, 0.5, 1.5))
+    assert len(read_model(path, Reading(tolerance=0.05))[0].space_joints) == 3
+    structure, _, words = read_model(path, Reading(tolerance=0.05, closing=0.04))
+    assert len(structure.space_joints) == 4
+    assert any(word.startswith("2 gaps, the largest of 30 mm between") for word in words)
+
+
+def test_glued_parts_are_one_stone(tmp_path):
+    """Halves that share a face are one box of their mass, without a joint between them."""
+    path = tmp_path / "a.dat"
+    halves = prism(0.1, 0.5, 1.5) + prism(0.9, 0.5, 1.5)
+    path.write_text(PAIR.split("poly region 2")[0] + PAIR[PAIR.index("prop mat 1") :] + halves)
+    structure, *_ = read_model(path, Reading(glued=("region 3 1 + region 3 2",)))
+    assert [stone.name for stone in structure.stones] == ["Plinth 1", "region 3 1"]
+    assert structure.stones[1].mass == pytest.approx(1.6 * 0.8 * 2600.0, rel=1e-9)
+    assert len(structure.space_joints) == 1
+    for glued, says in (
+        ("region 3 1 + block 7", "`glued` names 'block 7', which .* does not hold"),
+        ("region 3 1", "allowed are two or more different parts of one density"),
+        ("region 3 1 + Plinth 1", "allowed are two or more different parts of one density"),
+    ):
+        with pytest.raises(st.InputError, match=says):
+            read_model(path, Reading(glued=(glued,)))
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(not EVORA.exists(), reason="needs ../shared/monuments/evora")
 def test_the_temple_of_evora():
@@ -80,8 +120,11 @@ def test_the_temple_of_evora():
     """
     with pytest.raises(st.InputError, match=r"out of plane by [\d.]+ mm.*or allow more with `tolerance=0\.05`"):
         read_model(EVORA, Reading())
-    structure, _, words = read_model(EVORA, Reading(tolerance=0.05))
-    assert len(structure.stones) == 156
+    assert len(read_model(EVORA, Reading(tolerance=0.05))[0].stones) == 156
+    halves = tuple(f"Column_{column} 1 + Column_{column} 2" for column in ("A1", "A2"))
+    structure, _, words = read_model(EVORA, Reading(tolerance=0.05, ground=0.0, glued=halves))
+    assert len(structure.stones) == 154
+    assert replace(structure, name="evora").digest == load_structure("evora").digest
     assert [stone.name for stone in structure.stones if stone.fixed] == ["podium 1"]
     text = re.sub(r";.*|&", "", EVORA.read_text())
     total = 0.0
@@ -100,4 +143,4 @@ def test_the_temple_of_evora():
         marble = 2 <= int(region) <= 15 and (4.33 <= centre[2] <= 4.70 or 11.0 <= centre[2] <= 12.02)
         total += volume * (2563.0 if marble else 2625.0)
     assert sum(stone.mass for stone in structure.stones) == pytest.approx(total, rel=1e-3)
-    assert any("brought into common planes: corners moved by up to 23.8 mm" in word for word in words)
+    assert "2 gaps, the largest of 0.86 mm between 'Arch_West 2' and 'Arch_West 3', closed" in words

@@ -70,7 +70,7 @@ def first_of(most: int, all_: int) -> str:
 
 #: Words that columns of tables, options and outcomes are called by, here for the catalogues alone.
 WORDS = (
-    say("client"), say("site"), say("engineer"), say("reference"), say("date"), say("displaced"), say("rocked"),
+    say("client"), say("computed"), say("age"), say("labels"), say("edp"), say("site"), say("engineer"), say("reference"), say("date"), say("displaced"), say("rocked"),
     say("collapsed"), say("stands"), say("undecided"), say("failed"), say("at rest"), say("circular"),
     say("rectangular"), say("stone"), say("link"), say("steel"), say("bronze"), say("iron"), say("lead"),
     say("titanium"), say("stainless steel"), say("iron in lead"), say("machine"), say("digest of what stood"),

@@ -21,6 +21,7 @@ from ..rocking.model import Rocking
 from ..shared.lanes import MOST_SAMPLES, run_alike
 from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
 from .equations import BeamMatrices
+from ...messages import say
 
 if TYPE_CHECKING:
     from .state import PackedBeam
@@ -69,7 +70,7 @@ class Beam(Engine):
                     f"time_step is {model.time_step:g} s; allowed is up to {largest:.3g} s ({which}), or leave it out."
                 )
         if not model.sliding:
-            warn_sliding(seen, seen.slenderness, model.name, "with sliding=true the beam slides")
+            warn_sliding(seen, seen.slenderness, model.name, say("with sliding=true the beam slides"))
         if abs(model.initial_rotation) >= seen.slenderness:
             raise InputError(
                 f"initial_rotation is {model.initial_rotation:g} rad; allowed is less than the slenderness "

@@ -183,13 +183,13 @@ class Loose:
             lower, upper = (int(self.packed.shape["body"][e[name]]) for name in "ab")
             points, frame, area = self._carried(e, upper)
             spring = e["ks"] * np.eye(3) + (e["kn"] - e["ks"]) * np.outer(frame[:, 2], frame[:, 2])
+            own = np.concatenate([np.arange(6 * number, 6 * number + 6) for number in (upper, lower)])
             for point in points:
-                row = np.zeros((3, 6 * n))
-                for number, sign in ((upper, 1.0), (lower, -1.0)):
-                    x, y, z = point - self.place(number)
-                    row[:, 6 * number : 6 * number + 3] = sign * np.eye(3)
-                    row[:, 6 * number + 3 : 6 * number + 6] = sign * np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]])
-                stiffness += area / len(points) * row.T @ spring @ row
+                arms = (1.0, *(point - self.place(upper))), (-1.0, *(point - self.place(lower)))
+                rows = np.hstack(
+                    [s * np.hstack((np.eye(3), [[0, z, -y], [-z, 0, x], [y, -x, 0]])) for s, x, y, z in arms]
+                )
+                stiffness[np.ix_(own, own)] += area / len(points) * rows.T @ spring @ rows
         omega = highest_frequency(root.T @ stiffness @ root, np.ones(6 * n))
         for i in np.flatnonzero(self.free):
             struck = math.sqrt(float(self.law[:, :, 0].max()) * self._largest_face(i) * float(u["im"][i, 0]))

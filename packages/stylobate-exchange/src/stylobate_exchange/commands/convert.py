@@ -20,8 +20,9 @@ def convert(
     kind: str = o.option("assembly|column", "What stones of a mesh become.", "assembly", flag="--as"),
     mesh_unit: str = o.option("m|cm|mm|inch|foot", "Of a mesh.", "m", flag="--unit"),
     up: str | None = o.option("y|z", "Axis of a mesh that is upward; y of glTF, z of others if not given."),
-    tolerance: str = o.option(
-        "LENGTH", "Largest distance of a mesh from what stands for it, and of faces that touch.", "1mm"
+    tolerance: str = o.option("LENGTH", "Largest distance of a mesh from what stands for it.", "1mm"),
+    closing: str | None = o.option(
+        "LENGTH", "Largest gap between faces that is closed; --tolerance if not given, 1mm of 3DEC."
     ),
     ground: str | None = o.option(
         "LEVEL|none", "Where the ground lies; the lowest point if not given, none where there are supports."
@@ -30,6 +31,7 @@ def convert(
         "NAMES", 'Columns of a survey: "drum, height [cm], bottom_width [cm], top_width [cm], -", - to leave one out.'
     ),
     fixed: list[str] | None = o.option("NAME", "A stone that moves with the ground; may be repeated."),
+    glued: list[str] | None = o.option("NAME+NAME", "Parts that are one stone; may be repeated."),
     north: float | None = o.option(
         "DEG", "Bearing of the x axis of a survey that states bearings, clockwise from north."
     ),
@@ -47,8 +49,9 @@ def convert(
     from ..convert import convert as converted
 
     reading = Reading(
-        material, kind, mesh_unit, _length(tolerance), _level(ground), tuple(fixed or ()), columns, north, up
-    )
+        material, kind, mesh_unit, _length(tolerance, "tolerance"), _level(ground), tuple(fixed or ()), columns, north,
+        up, None if closing is None else _length(closing, "closing"), tuple(glued or ()),
+    )  # fmt: skip
     structure, words, files = converted(model, execution.place(to), reading, compas)
     words = [console.in_options(line) for line in words]
     moving = sum(not body.fixed for body in structure.bodies)
@@ -62,7 +65,7 @@ def convert(
         print(f"  {line}")
 
 
-def _length(text: str) -> float:
+def _length(text: str, option: str) -> float:
     """A length such as ``5mm`` in m; a number alone is in m."""
     stem, factor = text.strip(), 1.0
     for unit, size in (("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)):
@@ -72,7 +75,7 @@ def _length(text: str) -> float:
     try:
         return factor * float(stem)
     except ValueError:
-        raise InputError(f"`tolerance` is {text!r}; allowed is a length such as 1mm.", "tolerance") from None
+        raise InputError(f"`{option}` is {text!r}; allowed is a length such as 1mm.", option) from None
 
 
 def _level(text: str | None) -> float | bool | None:
