@@ -72,8 +72,8 @@ SPACE_PICTURES = ["orbit", "uplift", "residuals"]
 
 
 def run(
-    column: o.StructureName,
-    model: o.ModelName = "dem2d",
+    column: str = o.STRUCTURE,
+    model: str = o.model(),
     *,
     motions: o.Motions,
     following: o.Following,
