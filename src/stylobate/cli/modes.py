@@ -18,7 +18,7 @@ def modes(
     number: int = o.option("N", "How many modes of each kind are listed.", "3", read=o.whole),
     measured: str | None = o.option(
         "F±S,…",
-        "Measured frequencies with standard deviations, such as 1.27Hz±3%,6.5Hz±6%,torsion 9.0Hz±6%: the joints' stiffness.",
+        "Measured frequencies ± one standard deviation, such as 1.27Hz±3%,6.5Hz±6%,torsion 9.0Hz±6%: the joints' stiffness.",
     ),
     ground: str | None = o.option(
         "GROUND", "Under what was measured: rigid, or vs=200:400m/s,half_width=4m of the footing."
