@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,25 +22,18 @@ if TYPE_CHECKING:
     from .files import Files
 
 
-def time(text: str, name: str) -> float:
-    """A time as typed [s]."""
-    from ..motion.specs import parse_time
+def _quantity(kind: str) -> Callable[[str, str], float]:
+    """What reads a quantity as typed, with its unit, in SI; errors carry the name of its option."""
 
-    return parse_time(text, name)
+    def read(text: str, name: str) -> float:
+        from ..motion import specs
 
+        return getattr(specs, f"parse_{kind}")(text, name)
 
-def acceleration(text: str, name: str) -> float:
-    """An acceleration as typed [m/s²]."""
-    from ..motion.specs import parse_acceleration
-
-    return parse_acceleration(text, name)
+    return read
 
 
-def pressure(text: str, name: str) -> float:
-    """A pressure or strength as typed [Pa]."""
-    from ..motion.specs import parse_pressure
-
-    return parse_pressure(text)
+time, acceleration, pressure = map(_quantity, ("time", "acceleration", "pressure"))
 
 
 def number(text: str, name: str, example: str = "such as 0.5") -> float:

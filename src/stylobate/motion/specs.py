@@ -123,9 +123,10 @@ def parse_time(text: str, name: str | None = None) -> float:
     return _quantity(text, "time", "5s", name)
 
 
-def parse_pressure(text: str) -> float:
-    """A pressure or strength such as ``2MPa`` in Pa; a number alone is in Pa."""
-    return _in_units(text, "pressure", PRESSURE_UNITS, "Pa", "'2MPa' (Pa, kPa, MPa, GPa)")
+def parse_pressure(text: str, name: str | None = None) -> float:
+    """A pressure or strength such as ``2MPa`` in Pa; a number alone is in Pa; ``name`` of the parameter, for errors."""
+    with within("", *([name] if name else [])):
+        return _in_units(text, "pressure", PRESSURE_UNITS, "Pa", "'2MPa' (Pa, kPa, MPa, GPa)")
 
 
 def parse_frequency(text: str, name: str | None = None) -> float:
