@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 
 def modes(
-    column: o.StructureName,
-    model: o.ModelName | None = None,
+    column: str = o.STRUCTURE,
+    model: str | None = o.model(None),
     number: str = o.option("N", "How many modes of each kind are listed.", "3"),
     measured: str | None = o.option(
         "F±S,…",

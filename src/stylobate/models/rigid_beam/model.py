@@ -12,16 +12,15 @@ import numpy as np
 
 from ...column import Column
 from ...errors import InputError, check_choice, check_range, warn
+from ...messages import say
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..engine import Engine
-from ..rocking.block import RockingBlock
+from ..rocking.block import RockingBlock, warn_of_free_flight, warn_sliding
 from ..rocking.model import Rocking
 from ..shared.lanes import MOST_SAMPLES, run_alike
-from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
-from .equations import BeamMatrices
-from ...messages import say
+from .state import BeamMatrices
 
 if TYPE_CHECKING:
     from .state import PackedBeam
