@@ -1,4 +1,4 @@
-# make install | demo | live | test | test-cpus | test-pythons | test-gpu | bench-gpu | kernels | wheel | test-wheel | ptx | fuzz | check | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
+# make install | demo | live | test | test-cpus | test-pythons | test-gpu | bench-gpu | kernels | wheel | test-wheel | ptx | fuzz | check | messages | format | bench | peers | thresholds | references | populations | ruins | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
@@ -25,7 +25,7 @@ endif
 # What is imported is compiled when it is first imported, and kept: a tenth of what is installed.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: install demo live test test-cpus test-pythons test-gpu bench-gpu ptx kernels wheel test-wheel fuzz check format bench peers thresholds references populations ruins docs lock clean
+.PHONY: install demo live test test-cpus test-pythons test-gpu bench-gpu ptx kernels wheel test-wheel fuzz check messages format bench peers thresholds references populations ruins docs lock clean
 
 install: $(STAMP)
 	@:
@@ -104,6 +104,11 @@ check: install
 	$(BIN)/ruff format --check .
 	$(BIN)/basedpyright
 	$(BIN)/lint-imports --no-logo
+	$(BIN)/python .ci/messages.py check
+
+# The catalogues of reports from the messages in the sources: what is new waits for its translation, what is gone goes.
+messages: install
+	@$(BIN)/python .ci/messages.py
 
 format: install
 	$(BIN)/ruff check --fix .

@@ -25,8 +25,8 @@ def one_alone(like: str) -> str:
     if not like:
         return ""
     return say(
-        "Near the boundary small differences decide, and one alone says little: with {count} replicates, {count} {like} like "
-        "it run as well.", count=15, like=say(like),
+        "Near the boundary small differences decide, and one alone says little: with {count} replicates, "
+        "{count} {like} like it run as well.", count=15, like=say(like),
     )  # fmt: skip
 
 
@@ -68,8 +68,9 @@ def sentence_of_suite(s: Mapping[str, Any], kind: str = "column", like: str = "c
                 motions=several, **known)  # fmt: skip
     words += say(", {count} it or one like it", count=lowest) if twins else ""
     words += say(
-        ". Most harm: {worst[motion]}, which collapses it{or_like} {already}at {worst[lowest_collapse_factor]:.3g} times the "
-        "record, {worst[lowest_collapse_g]:.4g} g, the smallest factor at which any {surely}does.",
+        ". Most harm: {worst[motion]}, which collapses it{or_like} {already}at "
+        "{worst[lowest_collapse_factor]:.3g} times the record, {worst[lowest_collapse_g]:.4g} g, the "
+        "smallest factor at which any {surely}does.",
         worst=worst, already=say("already ") * ("lowest_collapse_g" in worst["bounds"]), **known,
     )  # fmt: skip
     below = say("Runs below that factor without a verdict, which may be collapses: {count}.", count=s["open_below"])

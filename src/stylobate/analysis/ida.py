@@ -259,8 +259,8 @@ def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
     if beyond:
         name = max(beyond, key=beyond.__getitem__)
         words = say(
-            "{count} of {all} records are multiplied by more than {most:g}, {name!r} by {factor:.3g}: scaled so far, they are no "
-            "longer those of earthquakes; leave out the weak ones."
+            "{count} of {all} records are multiplied by more than {most:g}, {name!r} by {factor:.3g}: scaled "
+            "so far, they are no longer those of earthquakes; leave out the weak ones."
         )
         known = {"count": len(beyond), "all": len(factors), "most": WARNED, "name": name, "factor": beyond[name]}
         warn(words.of(**known), OutOfRangeWarning)

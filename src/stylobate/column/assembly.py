@@ -25,7 +25,7 @@ from .block import (
 )
 from .column import GRAVITIES
 from .joint import Joint, given
-from .links.in_assembly import in_numbers, place_between
+from .links.in_assembly import Scene, in_numbers, place_between
 from .links.link import Link
 from .links.placed import PlacedLink
 from .structure import Bed, FacePair, Structure, face_between
@@ -156,7 +156,7 @@ class Assembly(Structure):
     @cached_property
     def placed_links(self) -> tuple[PlacedLink, ...]:
         """All links in numbers, in their order."""
-        return place_between(self.bodies, self.joints, self.links, self.name)
+        return place_between(Scene(self.bodies, self.joints), self.links, self.name)
 
     def law_between(self, one: Block, other: Block) -> Joint:
         """Law of the contacts of two bodies, the second of which comes later; with what lies between them."""

@@ -121,7 +121,7 @@ def field_in_doubt(column: Stack) -> str | None:
     for key, known in (("height", DRUM), ("bottom_width", WIDTH), ("top_width", WIDTH), ("density", DENSITY)):
         for number, drum in enumerate(column.drums, 1):
             if not known.holds(getattr(drum, key)):
-                return say("drum.{number}.{key}", number=number, key=key)
+                return f"drum.{number}.{key}"
     return None
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..analysis.evidence import STOOD
 from ..errors import InputError
+from ..messages import say
 from ..models.registry import MODELS, model_class
 from ..own_files import LIST, OwnFiles, digest
 from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, cautions_in_space, undamped
@@ -45,7 +46,7 @@ class Source:
         command = COMMANDS.get(self.table.stem)
         file = self.table.parent / asked_file(command or "")
         if command is None or not file.is_file() or not OwnFiles(self.table.parent).lists(self.table):
-            return f"{self.table.name} lies beside no results of stylobate."
+            return say("{table.table.name} lies beside no results of stylobate.", table=self)
         try:
             return Asked.read(file)
         except InputError as error:

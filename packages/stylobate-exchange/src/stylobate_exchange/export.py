@@ -7,6 +7,7 @@ import io
 import shutil
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,6 +21,9 @@ from stylobate.response.links import NAMES as LINKS
 from .mesh_writers import FIXED, GROUND, STONE, Glb, Named, obj_text
 from .recording import Recording
 from .vtk_files import collection, grids
+
+if TYPE_CHECKING:
+    from meshio import Mesh as Grid
 
 #: Endings of files that a response is written to, and those of one instant only.
 ENDINGS, ONE_INSTANT = (".glb", ".pvd", ".vtu", ".obj", ".csv"), (".vtu", ".obj")
@@ -79,8 +83,8 @@ def export_response(
         paths = [path, *(path.with_name(f"{path.stem}-{kind}.vtu") for kind in list(made)[1:])]
         for one in paths[1:]:
             refuse_existing(one)
-        for one, text in zip(paths, made.values(), strict=True):
-            _write(one, text.encode())
+        for one, grid in zip(paths, made.values(), strict=True):
+            _write_grid(one, grid)
         return paths
     content = {".glb": _glb, ".obj": _obj, ".csv": _table}[suffix](recording)
     return [_write(path, content)]
@@ -89,6 +93,12 @@ def export_response(
 def _write(path: Path, content: bytes) -> Path:
     with replacing(path) as partial:
         partial.write_bytes(content)
+    return path
+
+
+def _write_grid(path: Path, grid: Grid) -> Path:
+    with replacing(path) as partial:
+        grid.write(partial, "vtu")
     return path
 
 
@@ -154,8 +164,8 @@ def _series(recording: Recording, path: Path) -> list[Path]:
     try:
         files, made = [], []
         for number, (index, time) in enumerate(zip(recording.instants.tolist(), recording.time.tolist())):
-            for part, (kind, text) in enumerate(grids(recording, index).items()):
-                made.append(_write(folder / f"{kind}-{number:04d}.vtu", text.encode()))
+            for part, (kind, grid) in enumerate(grids(recording, index).items()):
+                made.append(_write_grid(folder / f"{kind}-{number:04d}.vtu", grid))
                 files.append((time, part, f"{folder.name}/{made[-1].name}"))
         names = "".join(f"{i},{_quoted(name)}\r\n" for i, name in enumerate(recording.response.bodies.names))
         made.append(_write(folder / "bodies.csv", f"body,name\r\n{names}".encode()))

@@ -1,5 +1,6 @@
 """What is written for other tools is read back by their own libraries: glTF, VTK, OBJ and tables of a response."""
 
+import base64
 import builtins
 import csv
 import functools
@@ -9,6 +10,8 @@ import math
 import shutil
 import subprocess
 import threading
+import zlib
+from xml.etree import ElementTree
 
 import matplotlib.image
 import meshio
@@ -230,6 +233,36 @@ def test_vtk_of_an_instant(in_space, tmp_path):
     assert joints.cell_data["slip"][0][1] == pytest.approx([0.0, 0.1, 0.0])
     assert links.cell_data["shear"][0] == pytest.approx([200.0])
     assert links.points[:, :2] == pytest.approx(np.zeros((2, 2)))  # a dowel stays in what is below its joint
+
+
+def test_vtk_is_laid_out_as_its_manual_says(in_space, tmp_path):
+    """By the standard library alone: polyhedra (42), their faces by number of corners, and offsets behind each cell."""
+    (path, *_) = export_response(in_space, tmp_path / "a.vtu", at=1.0)
+    root = ElementTree.parse(path).getroot()
+    kinds = {"Int64": "<i8", "UInt8": "|u1", "Float64": "<f8"}
+
+    def array(name):
+        (found,) = [
+            one for one in root.iter("DataArray") if one.get("Name") == name and one.get("NumberOfComponents") != "3"
+        ]
+        text = found.text.strip()
+        count = int.from_bytes(base64.b64decode(text[:8])[:4], "little")  # of blocks; their sizes are behind it
+        head = 4 * -(-4 * (3 + count) // 3)
+        sizes = np.frombuffer(base64.b64decode(text[:head]), "<u4")
+        data, blocks = base64.b64decode(text[head:]), []
+        for size in sizes[3:].tolist():
+            blocks.append(zlib.decompress(data[:size]))
+            data = data[size:]
+        return np.frombuffer(b"".join(blocks), kinds[found.get("type")]).tolist()
+
+    assert root.get("type") == "UnstructuredGrid"
+    assert array("types") == [42] * 3
+    assert array("offsets") == [8, 16, 24]
+    assert array("connectivity") == list(range(24))
+    faces, ends = array("faces"), array("faceoffsets")
+    assert len(faces) == ends[-1]
+    assert [faces[start] for start in (0, *ends[:-1])] == [6, 6, 6]  # boxes
+    assert array("body") == [1, 2, 2]
 
 
 def test_vtk_over_time(in_plane, tmp_path):

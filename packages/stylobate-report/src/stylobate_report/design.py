@@ -115,8 +115,8 @@ def design_items(design: Design | None, pictures: dict[str, Path]) -> list[Item]
         if len(worst) > MOST:
             texts.append(say("Rows beyond these are of links that are used less, and stand there."))
         items.append(_rows(worst, SHOWN | limited | acts, joined(" ", texts), level))
-        caption = say("Links over their capacity: not exceeded under 84 % of the motions, with the interval; arrow: beyond all "
-                      "that ran.")  # fmt: skip
+        caption = say("Links over their capacity: not exceeded under 84 % of the motions, with the interval; "
+                      "arrow: beyond all that ran.")  # fmt: skip
         items += kept(pictures, "design", caption)
     if len(wide := clearances(values)):
         caption = joined(" ", [say("Clearance that layers need around the foot") + meant, OPEN, which])

@@ -243,7 +243,9 @@ def catalogue_of(path: Path) -> dict[str, str]:
 def write_template(path: Path) -> Path:
     """Write a catalogue of all messages of a report without their translations."""
     text = re.sub(r"\nmsgstr .*\n(?:\".*\n)*", '\nmsgstr ""\n', file_of(LANGUAGES[0]).read_text(encoding="utf-8"))
-    head = f'msgid ""\nmsgstr ""\n"Language: \\n"\n"Content-Type: text/plain; charset=utf-8\\n"\n"{DECIMAL}: .\\n"\n"{GROUPS}: ,\\n"\n'
+    lines = ("Language: ", "Content-Type: text/plain; charset=utf-8", f"{DECIMAL}: .", f"{GROUPS}: ,")
+    lines = ("Language: ", "Content-Type: text/plain; charset=utf-8", f"{DECIMAL}: .", f"{GROUPS}: ,")
+    head = 'msgid ""\nmsgstr ""\n' + "".join(f'"{line}\\n"\n' for line in lines)
     with replacing(path) as partial:
         partial.write_text(head + text[text.index("\n\n") :], encoding="utf-8")
     return path

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 from stylobate.constants import g
@@ -60,7 +61,9 @@ def plain(value: Any) -> str:
         return (
             joined(", ", (say("{key}: {value}", key=say(key), value=plain(one)) for key, one in value.items())) or NONE
         )
-    return value if isinstance(value, (Message, Own)) else say(str(value))
+    if isinstance(value, (Message, Own)):
+        return value
+    return say(value) if isinstance(value, str) and re.fullmatch("[A-Za-z -]+", value) else Own(value)
 
 
 def first_of(most: int, all_: int) -> str:
@@ -68,50 +71,33 @@ def first_of(most: int, all_: int) -> str:
     return say("The first {most} of {all}.", most=most, all=all_) if all_ > most else ""
 
 
-#: Words that columns of tables, options and outcomes are called by, here for the catalogues alone.
+#: Words that columns of tables, options and outcomes are called by, for the catalogues alone.
 WORDS = (
-    say("client"), say("site"), say("engineer"), say("reference"), say("date"), say("displaced"), say("rocked"),
-    say("collapsed"), say("stands"), say("undecided"), say("failed"), say("at rest"), say("circular"),
-    say("rectangular"), say("stone"), say("link"), say("steel"), say("bronze"), say("iron"), say("lead"),
-    say("titanium"), say("stainless steel"), say("iron in lead"), say("machine"), say("digest of what stood"),
-    say("digest of the motion"), say("states recorded every"), say("shear"), say("tension"), say("peak shear"),
-    say("peak tension"), say("peak slip"), say("peak elongation"), say("parameter"), say("spread over prior"),
-    say("informative"), say("observation"), say("spread alone"), say("spread without"), say("chance"),
-    say("probability"), say("bayes factor against others"), say("im"), say("level"), say("levels"), say("median low"),
-    say("median high"), say("median undecided both ways"), say("p value"), say("known of the median"),
-    say("associated"), say("non-associated"), say("flow"), say("tail"), say("simulations"), say("seed"),
-    say("hazards"), say("limit state"), say("replicates"), say("shear force"), say("slip"), say("elongation"),
-    say("against"), say("station"), say("station name"), say("network"), say("event"), say("start time"),
-    say("stage"), say("terms"), say("uncorrected"), say("corrected"), say("simulated"), say("raw counts"),
-    say("rocking"), say("rocking right"), say("rocking left"), say("sliding"), say("sliding right"),
-    say("sliding left"), say("twisting"), say("dowel"), say("dowels"), say("tie"), say("ties"), say("clamp"),
-    say("clamps"), say("core"), say("cores"), say("layer"), say("layers"), say("bar"), say("bars"), say("drum"),
-    say("column"), say("capital"), say("architrave"), say("block"), say("columns"), say("assemblies"),
-    say("assembly"), say("specimen"), say("friction"), say("joint stiffness"), say("density"), say("width"),
-    say("height"), say("offset"), say("depth"), say("law"), say("stiffness damping"), say("rolling resistance"),
-    say("clearance"), say("shear stiffness"), say("shear capacity"), say("axial stiffness"), say("axial capacity"),
-    say("pretension"), say("ultimate slip"), say("ultimate elongation"), say("damping"), say("thickness"),
-    say("area"), say("friction coefficient"), say("from height"), say("to height"), say("modulus"),
-    say("yield strength"), say("stone strength"), say("stone modulus"), say("edge"), say("hole"), say("bond"),
-    say("shape factor"), say("shear modulus"), say("ultimate strain"), say("shear strength"), say("normal stiffness"),
-    say("stroke"), say("length"), say("material"), say("diameter"), say("embedment"), say("kind"), say("at"),
-    say("as recorded"), say("critical"), say("critical factor"), say("all collapse above"), say("lowest collapse"),
-    say("lowest collapse factor"), say("critical 16"), say("critical 50"), say("critical 84"), say("compared by"),
-    say("misfit"), say("least ratio"), say("largest ratio"), say("pga"), say("pgv"), say("magnitude"),
-    say("distance km"), say("drift"), say("factor"), say("outcome"), say("verdict"), say("peak top displacement"),
-    say("residual top displacement"), say("peak displacement"), say("residual displacement"), say("collapse time"),
-    say("energy imbalance"), say("stands until"), say("collapses from"), say("resurrections"), say("runs"),
-    say("open"), say("beta"), say("beta low"), say("beta high"), say("hazard statistic"), say("survival probability"),
-    say("survival probability low"), say("survival probability high"), say("weight"), say("mean"), say("max"),
-    say("median"), say("measure"), say("unit"), say("records"), say("record"), say("motion"), say("motions"),
-    say("models"), say("realisation"), say("states"), say("factors"), say("count"), say("periods"), say("as built"),
-    say("as found"), say("second horizontal component"), say("vertical component"), say("left"), say("right"),
-    say("front"), say("back"), say("low"), say("high"), say("value"), say("name"), say("hazard"), say("control"),
-    say("displacement"), say("force n"), say("capacity n"), say("yields"), say("action"), say("not fallen"),
-    say("most"), say("earthquakes"), say("interval low"), say("interval high"), say("monument"), say("seen"),
-    say("years"), say("condition"), say("signs"), say("azimuths"), say("vertical"), say("horizontal"),
-    say("limit analysis g"), say("pattern"), say("direction"), say("collapse"), say("share low"), say("share high"),
-    say("use"), say("use high"), say("difference low"), say("difference high"), say("alike"), say("candidate"),
-    say("bits alone"), say("bits beside others"), say("sigma ln edp"), say("reversed"), say("amplitudes"),
-    say("frequencies"), say("duration"),
-)  # fmt: skip
+    "client|computed|age|labels|edp|site|engineer|reference|date|displaced|rocked|collapsed|stands|undecided|"
+    "failed|at rest|circular|rectangular|stone|link|steel|bronze|iron|lead|titanium|stainless steel|"
+    "iron in lead|machine|digest of what stood|digest of the motion|states recorded every|shear|tension|"
+    "peak shear|peak tension|peak slip|peak elongation|parameter|spread over prior|informative|observation|"
+    "spread alone|spread without|chance|probability|bayes factor against others|im|level|levels|median low|"
+    "median high|median undecided both ways|p value|known of the median|associated|non-associated|flow|tail|"
+    "simulations|seed|hazards|limit state|replicates|shear force|slip|elongation|against|station|station name|"
+    "network|event|start time|stage|terms|uncorrected|corrected|simulated|raw counts|rocking|rocking right|"
+    "rocking left|sliding|sliding right|sliding left|twisting|dowel|dowels|tie|ties|clamp|clamps|core|cores|"
+    "layer|layers|bar|bars|drum|column|capital|architrave|block|columns|assemblies|assembly|specimen|friction|"
+    "joint stiffness|density|width|height|offset|depth|law|stiffness damping|rolling resistance|clearance|"
+    "shear stiffness|shear capacity|axial stiffness|axial capacity|pretension|ultimate slip|"
+    "ultimate elongation|damping|thickness|area|friction coefficient|from height|to height|modulus|"
+    "yield strength|stone strength|stone modulus|edge|hole|bond|shape factor|shear modulus|ultimate strain|"
+    "shear strength|normal stiffness|stroke|length|material|diameter|embedment|kind|at|as recorded|critical|"
+    "critical factor|all collapse above|lowest collapse|lowest collapse factor|critical 16|critical 50|"
+    "critical 84|compared by|misfit|least ratio|largest ratio|pga|pgv|magnitude|distance km|drift|factor|"
+    "outcome|verdict|peak top displacement|residual top displacement|peak displacement|residual displacement|"
+    "collapse time|energy imbalance|stands until|collapses from|resurrections|runs|open|beta|beta low|"
+    "beta high|hazard statistic|survival probability|survival probability low|survival probability high|weight|"
+    "mean|max|median|measure|unit|records|record|motion|motions|models|realisation|states|factors|count|"
+    "periods|as built|as found|second horizontal component|vertical component|left|right|front|back|low|high|"
+    "value|name|hazard|control|displacement|force n|capacity n|yields|action|not fallen|most|earthquakes|"
+    "interval low|interval high|monument|seen|years|condition|signs|azimuths|vertical|horizontal|"
+    "limit analysis g|pattern|direction|collapse|share low|share high|use|use high|difference low|"
+    "difference high|alike|candidate|bits alone|bits beside others|sigma ln edp|reversed|amplitudes|"
+    "frequencies|duration"
+)

@@ -24,9 +24,10 @@ def picture(figure: Figure, caption: str) -> Picture:
         for text in figure.findobj(Text):
             assert isinstance(text, Text)
             text.set_text(language.say(text.get_text()))
-        for axis in figure.findobj(Axis):
-            assert isinstance(axis, Axis)
-            ticks: Any = axis.get_major_formatter()
+        axes: list[Any] = figure.findobj(Axis)
+        for ticks in {
+            id(one): one for axis in axes for one in [axis.get_major_formatter()]
+        }.values():  # some are shared
             ticks.format_ticks = partial(_ticks, language, ticks.format_ticks)
     content = io.BytesIO()
     figure.savefig(content, format="png", dpi=DOTS_PER_INCH, facecolor="white", metadata={"Software": None})

@@ -168,7 +168,11 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
                 say("Parameters of the model by their names in the program, in SI units; –: not set."),
             )
         )
-    known = {say(key): Own(value) for key, value in versions.items() if value not in (None, "")}
+    known = {
+        Own(key) if key in ("stylobate", "Python") else say(key): Own(value)
+        for key, value in versions.items()
+        if value not in (None, "")
+    }
     items.append(Facts([*known.items(), (say("folder"), Own(result.folder))], say("Versions and inputs")))
     return Section(say("Parameters, versions and digests"), items)
 

@@ -114,9 +114,10 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
         levels = joined(" to ", (digits(level, ".3g") for level in known["levels"]))
         counted = [*(["records"] * (_over(known) == "records")), "runs", "exceeded", "undecided", "failed"]
+        limited = say("{value} ({limits}, 95 %)")
         pairs += [
-            (say("median of the fragility"), say("{median_words} ({median}, 95 %)", median_words=median_words(known), median=median)),
-            (say("dispersion β of the fragility"), say("{beta_} ({beta}, 95 %)", beta_=n.plain(known["beta"]), beta=beta)),
+            (say("median of the fragility"), limited.of(value=median_words(known), limits=median)),
+            (say("dispersion β of the fragility"), limited.of(value=n.plain(known["beta"]), limits=beta)),
             (say("intensities of its runs"), say("{levels}{unit}", levels=levels, unit=unit)),
             (joined(" / ", map(say, counted)), joined(" / ", (str(known[one]) for one in counted))),
             (say("p of its fit"), n.plain(known["p_value"])),

@@ -183,8 +183,8 @@ def _asked(r: Response) -> list[tuple[str, str]]:
 
 
 def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]:
-    before = say("Measures of the response. Peaks are those before the fall; the pictures below go on to {time:.2f} s and show "
-                 "the fall itself.", time=r.time[-1])  # fmt: skip
+    before = say("Measures of the response. Peaks are those before the fall; the pictures below go on to "
+                 "{time:.2f} s and show the fall itself.", time=r.time[-1])  # fmt: skip
     items: list[Item] = [Facts(_measures(r), before if r.collapsed else say("Measures of the response"))]
     space, top = r.dims == "xyz", r.histories.top is not None
     of_top = say("Histories: displacement of top and base relative to the ground, over the acceleration of the ground.")
@@ -192,8 +192,8 @@ def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]
     if r.collapsed:
         texts.append(say("The dotted line is where the collapse became certain, at {r.collapse_time:.2f} s.", r=r))
     items.append(picture(plots.draw_histories(r, " "), joined(" ", texts)))
-    sides = say("Film strip: what stood, at chosen instants, seen along y (x to the right) and against x (y to the right), in "
-                "true proportion unless the title says a factor.")  # fmt: skip
+    sides = say("Film strip: what stood, at chosen instants, seen along y (x to the right) and against x (y to "
+                "the right), in true proportion unless the title says a factor.")  # fmt: skip
     plain = say("Film strip: what stood, at chosen instants, in true proportion unless the title says a factor.")
     most = say("Under each time: how far the block that moved most is from where it was.")
     texts = [sides if space else plain]
@@ -229,27 +229,18 @@ def _measures(r: Response) -> list[tuple[str, str]]:
     pairs = [(say("outcome"), _outcome(r))]
     if m.collapsed:
         pairs.append((say("collapse certain at"), say("{m.collapse_time:.2f} s", m=m)))
-    if not math.isnan(m.peak_top_displacement):
-        base = r.structure.base_width
-        share = "" if base is None else say(" ({base:.2f} base widths)", base=m.peak_top_displacement / base)
-        pairs.append((say("peak displacement of the top") + until, n.length(m.peak_top_displacement) + share))
-    if m.blocks is not None:
-        pairs.append((say("peak displacement of a block") + until, n.length(m.blocks.peak_displacement)))
-        if r.fell_at:
-            fell = (say("{name} ({time:.2f} s)", name=name, time=when) for name, when in r.fell_at.items())
-            pairs.append((say("fell"), joined(", ", fell)))
-    if not m.collapsed:
-        if not math.isnan(m.residual_top_displacement):
-            pairs.append((say("residual displacement of the top"), n.length(m.residual_top_displacement)))
-        if m.blocks is not None:
-            pairs.append((say("residual displacement of a block"), n.length(m.blocks.residual_displacement)))
-        pairs.append((say("largest residual slip of a joint"), n.length(m.residual_joint_slip)))
-    pairs.append((say("peak rotation") + until, n.angle(m.peak_rotation)))
-    pairs.append((say("peak opening of a joint") + until, n.length(m.peak_joint_opening)))
-    if m.space is not None:
-        pairs.append((say("peak tilt") + until, n.angle(m.space.peak_tilt)))
-        pairs.append((say("peak twist of a joint") + until, n.angle(m.space.peak_twist)))
-    return pairs
+    told, base = [one for one in m.shown(space=True) if not math.isnan(one[1])], r.structure.base_width
+    far = [(one, value) for one, value in told if one.peak and "displacement" in one.field]
+    for one, value in far:
+        share = "" if base is None else say(" ({base:.2f} base widths)", base=value / base)
+        pairs.append((one.phrase + until, n.length(value) + share))
+    if m.blocks is not None and r.fell_at:
+        fell = (say("{name} ({time:.2f} s)", name=name, time=when) for name, when in r.fell_at.items())
+        pairs.append((say("fell"), joined(", ", fell)))
+    pairs += [(one.phrase, n.length(value)) for one, value in told if one.residual and not m.collapsed]
+    others = [(one, value) for one, value in told if one.peak and (one, value) not in far]
+    shown = {"m": n.length, "rad": n.angle}
+    return pairs + [(one.phrase + until, shown[one.unit](value)) for one, value in others]
 
 
 def _outcome(r: Response) -> str:
@@ -276,9 +267,9 @@ def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
         body.append(row)
     texts = [say("Joints, from the base up.")]
     if r.collapsed:
-        texts.append(say("Openings are the largest recorded until the collapse was certain, the beginning of the fall included, "
-                         "which the measures above leave out. Slips and twists are those at the end; –: the joint that failed "
-                         "and all above."))  # fmt: skip
+        texts.append(say("Openings are the largest recorded until the collapse was certain, the beginning of the "
+                         "fall included, which the measures above leave out. Slips and twists are those at the "
+                         "end; –: the joint that failed and all above."))  # fmt: skip
     return [Rows(header, body, joined(" ", texts), numbers=True)]
 
 
@@ -306,7 +297,7 @@ def _bodies(r: Response) -> list[Item]:
 def _joints_of_blocks(r: Response, opening: list[float | None]) -> list[Item]:
     """Joints of an assembly by the bodies that they join."""
     structure, gone = r.structure, r.collapsed
-    joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    joints = structure.joined_faces
     slip = np.linalg.norm(r.slip[-1], axis=-1)
     header = [
         say("joint"),

@@ -83,8 +83,8 @@ def motion_section(
         text = (
             say("Its source gives this record as uncorrected; what was corrected stands under processing.")
             if any(CORRECTED.search(one) for one in done)
-            else say("Its source gives this record as uncorrected; its baseline was not corrected here either: velocities and "
-                     "displacements may drift.")
+            else say("Its source gives this record as uncorrected; its baseline was not corrected here either: "
+                     "velocities and displacements may drift.")
         )  # fmt: skip
         items.insert(len(note) + 1, Note([text], "fair"))
     drifts = {axis: displacement_drift(motion, axis) for axis in motion.components} if recorded else {}
@@ -113,7 +113,8 @@ def motions_section(result: Result) -> Section:
     body = [
         [
             Own(motion.get("name")), axes_in_words(motion), _peaks(motion), n.plain(motion.get("factor")), _scales(motion),
-            digits(float(motion["duration_s"]), ".2f"), digits(float(motion["dt_s"]), ".4g"), Own(str(motion.get("digest", ""))[:DIGITS]),
+            digits(float(motion["duration_s"]), ".2f"), digits(float(motion["dt_s"]), ".4g"),
+            Own(str(motion.get("digest", ""))[:DIGITS]),
         ]
         for motion in motions[:MOST]
     ]  # fmt: skip
@@ -219,11 +220,12 @@ def _beside(motion: Motion, column: Column) -> str:
     peak = motion.horizontal_peak[0]
     opens = column.uplift_acceleration
     much = peak / opens
-    still = say("The largest horizontal component peaks at {peak:.3f} g; {opens:.3f} g would open the first joint if it acted "
-                "steadily, so the column is not set rocking by the horizontal shaking alone.")  # fmt: skip
+    still = say("The largest horizontal component peaks at {peak:.3f} g; {opens:.3f} g would open the first "
+                "joint if it acted steadily, so the column is not set rocking by the horizontal shaking alone.")  # fmt: skip
     rocks = say(
-        "The largest horizontal component peaks at {peak:.3f} g; {opens:.3f} g would open the first joint if it acted steadily, "
-        "so the column rocks: the peak is {much:.1f} times that. Whether it overturns depends on how long and in what order "
-        "the shaking acts, which neither this ratio nor the spectrum tells."
+        "The largest horizontal component peaks at {peak:.3f} g; {opens:.3f} g would open the first joint if "
+        "it acted steadily, so the column rocks: the peak is {much:.1f} times that. Whether it overturns "
+        "depends on how long and in what order the shaking acts, which neither this ratio nor the spectrum "
+        "tells."
     )
     return (still if much <= 1.0 else rocks).of(peak=peak / g, opens=opens / g, much=much)

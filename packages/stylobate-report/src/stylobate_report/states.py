@@ -66,8 +66,8 @@ def states_items(result: Numbers) -> list[Item]:
     items += _by_level(result)
     banded = next((state["label"] for state in s["states"] if state["fragility"]), None)
     curves = say(
-        "Left: fragility curves, the band that of “{state}”; two thin ones where runs are undecided: if all exceeded, and if "
-        "none did.", state=banded,
+        "Left: fragility curves, the band that of “{state}”; two thin ones where runs are undecided: if all "
+        "exceeded, and if none did.", state=banded,
     )  # fmt: skip
     right = say(
         "Right: difference of the share, pair by pair; left of zero is better. Thick: undecided runs counted both ways"

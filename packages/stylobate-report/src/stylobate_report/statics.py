@@ -217,7 +217,8 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     )
     if s.get("moving"):
         becomes = say(
-            "Under steady horizontal forces the assembly becomes a mechanism at {s[collapse_multiplier_g]:.4g} times its weight"
+            "Under steady horizontal forces the assembly becomes a mechanism at "
+            "{s[collapse_multiplier_g]:.4g} times its weight"
         )
     to = say(", pushed towards {s[weakest_azimuth_deg]:g}°", s=s) if "weakest_azimuth_deg" in s else ""
     sentence = joined("", [becomes.of(s=s), to, "."])

@@ -9,7 +9,7 @@ import pytest
 from stylobate.analysis.critical_words import sentence
 from stylobate.analysis.population import set_against
 from stylobate.cli.main import call
-from stylobate_report.language import language_of, sentences_of
+from stylobate_report.language import catalogue_of, file_of, language_of
 
 GOOD = """client = "Ministry <b>"
 site = "Temple, column 5"
@@ -76,10 +76,12 @@ def test_a_file_that_cannot_be_signed_is_refused(statics, tmp_path, capsys, text
 
 def test_a_report_in_a_language_of_a_file_beside_the_project(statics, tmp_path):
     """What the file translates is translated; the rest is English, and the page says so at its start."""
-    assert call(["report", "--translation-template", str(tmp_path / "de.toml")]) == 0
-    text = (tmp_path / "de.toml").read_text(encoding="utf-8").replace('language = ""', 'language = "de"')
-    (tmp_path / "de.toml").write_text(text.replace('Signature = ""', 'Signature = "Unterschrift"'), encoding="utf-8")
-    (tmp_path / "p.toml").write_text(f'{GOOD}language = "de.toml"\n')
+    assert call(["report", "--translation-template", str(tmp_path / "de.po")]) == 0
+    text = (tmp_path / "de.po").read_text(encoding="utf-8").replace("Language: ", "Language: de")
+    signature = 'msgid "Signature"\nmsgstr ""'
+    text = text.replace(signature, signature[:-1] + 'Unterschrift"')
+    (tmp_path / "de.po").write_text(text, encoding="utf-8")
+    (tmp_path / "p.toml").write_text(f'{GOOD}language = "de.po"\n')
     out = tmp_path / "r.html"
     assert call(["report", str(statics / "limit"), "--project", str(tmp_path / "p.toml"), "--out", str(out)]) == 0
     page = out.read_text(encoding="utf-8")
@@ -93,9 +95,9 @@ def test_a_report_in_a_language_of_a_file_beside_the_project(statics, tmp_path):
 def test_a_template_needs_no_results_and_a_report_does(tmp_path, capsys):
     assert call(["report", "--out", str(tmp_path / "r.html")]) == 2
     assert "give the folders of the results" in capsys.readouterr().err
-    (tmp_path / "mine.toml").write_text("mine")
-    assert call(["report", "--translation-template", str(tmp_path / "mine.toml")]) == 2
-    assert (tmp_path / "mine.toml").read_text() == "mine"
+    (tmp_path / "mine.po").write_text("mine")
+    assert call(["report", "--translation-template", str(tmp_path / "mine.po")]) == 2
+    assert (tmp_path / "mine.po").read_text() == "mine"
 
 
 def test_a_table_of_two_results_stands_once(statics, tmp_path):
@@ -107,21 +109,6 @@ def test_a_table_of_two_results_stands_once(statics, tmp_path):
     assert page.count("Drums and the joints under them") == 1
     assert page.count("As in case 1.") >= 2
     assert page.count("asked-limit.json") == 1
-
-
-@pytest.mark.parametrize(
-    ("text", "italian"),
-    [
-        ("once in 2,300 years", "una volta in 2.300 anni"),
-        ("0.45 of 1,234,567.8 and -0.25e-3", "0,45 of 1.234.567,8 and -0,25e-3"),
-        ("EN 1995-1-1, 8.6 c; EN 1992-4, 7.2.2.5", "EN 1995-1-1, 8.6 c; EN 1992-4, 7.2.2.5"),
-        ("0.2.0, x=0.5, 1.0Hz, 2026-03-01, a0.4.csv", "0.2.0, x=0.5, 1.0Hz, 2026-03-01, a0.4.csv"),
-        ("Record 0.3 at 0.3", "Record 0.3 at 0,3"),
-    ],
-)
-def test_numbers_are_as_readers_write_them_and_names_as_they_are(text, italian):
-    assert language_of("it", ["Record 0.3"]).say(text) == italian
-    assert language_of("en").say(text) == text
 
 
 @pytest.mark.parametrize("language", ["it", "el"])
@@ -140,7 +127,8 @@ def test_what_is_said_of_undecided_runs_is_all_in_its_language(language):
     spoken = language_of(language)
     for text in said:
         assert "collapse" in text
-        assert not spoken.is_english(spoken.say(text), 1), spoken.say(text)
+        assert re.findall(r"\b(?:the|of|and|is|are)\b", spoken.say(text)) == []
+    assert not spoken.missing
 
 
 @pytest.mark.parametrize("language", ["it", "el"])
@@ -149,7 +137,7 @@ def test_the_executive_page_is_all_in_its_language(statics, tmp_path, language):
     out = tmp_path / "r.html"
     assert call(["report", str(statics / "limit"), "--project", str(tmp_path / "p.toml"), "--out", str(out)]) == 0
     page = html.unescape(out.read_text(encoding="utf-8"))
-    said = sentences_of(language)
+    said = catalogue_of(file_of(language))
     for english in ("Signature", "Answers", "Limits: what is not covered", "Assumptions of this report", "Verdict"):
         assert f"<h3>{english}</h3>" not in page
     for english in ("Signature", "Answers", "Limits: what is not covered", "Sources of the results"):

@@ -1,4 +1,4 @@
-"""Tables of sentences of reports: every language has every sentence with its placeholders, and no sentence is without."""
+"""Catalogues of reports: every message has its translation with its fields, and numbers are as readers write them."""
 
 import ast
 import re
@@ -7,124 +7,115 @@ from pathlib import Path
 import pytest
 
 from stylobate.errors import InputError
+from stylobate.messages import digits, joined, say
+from stylobate.models.registry import MODELS, model_class
 from stylobate_report import language as spoken
-from stylobate_report.language import HOLE, LANGUAGES, NUMBERS, Language, language_of, sentences_of, write_template
+from stylobate_report.language import (
+    FIELD,
+    LANGUAGES,
+    Language,
+    catalogue_of,
+    file_of,
+    has_words,
+    language_of,
+    write_template,
+)
+from stylobate_report.numbers import WORDS
+from stylobate_report.page import Own
 
-TABLES = {tag: sentences_of(tag) for tag in LANGUAGES}
 REPORT = Path(spoken.__file__).parent
 
-#: Files of the room that say nothing in a report: who prints it, and the languages themselves.
-SILENT = ("pdf.py", "language.py", "sheets.py")
+
+def _messages():
+    """Templates of this package and of the core, words of tables and prose of models."""
+    core = Path(__import__("stylobate").__file__).parent
+    for path in (*REPORT.rglob("*.py"), *core.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "say":
+                text = node.args[0]
+                if isinstance(text, ast.Constant) and has_words(text.value):
+                    yield text.value
+    yield from WORDS.split("|")
+    for model in map(model_class, MODELS):
+        yield from (model.title, *model.assumptions, *model.limits)
 
 
 @pytest.mark.parametrize("tag", LANGUAGES)
-def test_every_language_has_every_sentence_with_its_placeholders(tag):
-    assert list(TABLES[tag]) == list(TABLES[LANGUAGES[0]])
-    for english, said in TABLES[tag].items():
-        assert said.strip(), english
-        assert sorted(HOLE.findall(said)) == sorted(HOLE.findall(english)), english
-        assert HOLE.sub("", said).count("{") == 0, english
+def test_every_message_has_its_translation_with_its_fields(tag):
+    catalogue = catalogue_of(file_of(tag))
+    assert len(catalogue) > 1000
+    assert [one for one in _messages() if one not in catalogue] == []
+    for english, said in catalogue.items():
+        if english:
+            assert sorted(set(FIELD.findall(said))) == sorted(set(FIELD.findall(english))), english
 
 
 @pytest.mark.parametrize("tag", LANGUAGES)
-def test_every_sentence_finds_its_own_translation(tag):
-    """No other entry stands before it: placeholders are filled with what no entry translates."""
-    language = Language(tag, TABLES[tag])
-    for english, said in TABLES[tag].items():
-        holes = enumerate(dict.fromkeys(HOLE.findall(english)), start=7)
-        values = {name: str(k) if name in NUMBERS else f"α{k}" for k, name in holes}
-        text = english.format(**values)
-        if re.search("[A-Za-z]{2}", text):
-            assert language.say(text) == said.format(**values), english
+def test_formats_of_numbers_are_those_of_the_message(tag):
+    """Digits after the point belong to the number, not to the language."""
+    for english, said in catalogue_of(file_of(tag)).items():
+        if english:
+            assert set(re.findall(r"\{[^{}]*\}", said)) <= set(re.findall(r"\{[^{}]*\}", english)), english
 
 
-def _pieces():
-    """Literal pieces of three words and more of the room's modules, but those of documentation and errors."""
-    for path in sorted(REPORT.glob("*.py")):
-        if path.name in SILENT:
-            continue
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        docs = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
-        errors = {id(node) for one in ast.walk(tree) if isinstance(one, ast.Raise) for node in ast.walk(one)}
-        for node in ast.walk(tree):
-            if not isinstance(node, ast.Constant) or not isinstance(node.value, str) or id(node) in docs | errors:
-                continue
-            if not re.fullmatch(r"[a-z0-9_]*|.*\(\?.*", node.value):  # keys, and patterns of texts
-                plain = re.sub(r" \[[^\]]*\]?$", "", node.value)  # what comes before a unit
-                yield from ((path.name, one) for one in re.split(r"\.(?: |$)|\{[a-z]*\}", plain))
+@pytest.mark.parametrize(
+    ("message", "italian"),
+    [
+        (digits(2300.0, ",.0f"), "2.300"),
+        (digits(0.45, ".2f"), "0,45"),
+        (digits(1234567.8, ",.1f"), "1.234.567,8"),
+        (digits(-2.5e-4, ".2e"), "-2,50e-04"),
+        (Own("1.500"), "1.500"),
+        (joined(" / ", [digits(1.5, "g"), Own("file 0.3.csv"), digits(2, "d")]), "1,5 / file 0.3.csv / 2"),
+        (say("{name}: {value:.1f} m", name="Record 0.3", value=1000.5), "Record 0.3: 1000,5 m"),
+    ],
+)
+def test_numbers_are_as_readers_write_them_and_names_as_they_are(message, italian):
+    """A thousand is no decimal sign: what is no number of a message is left alone."""
+    assert language_of("it", ["Record 0.3"]).say(message) == italian
+    assert language_of("en").say(message) == message
 
 
-def test_no_sentence_of_the_report_lacks_an_entry():
-    """Every literal piece of three words is part of a sentence of the table; assumptions and limits of models too."""
-    known = "\n".join(HOLE.sub("\N{REPLACEMENT CHARACTER}", one) for one in TABLES[LANGUAGES[0]])
-    missing = [
-        (name, piece)
-        for name, piece in _pieces()
-        if len(re.findall(r"[A-Za-z]{2,}", piece)) >= 3 and piece.strip(" .:;,()“”") not in known
-    ]
-    assert missing == []
+def test_a_message_in_a_message_and_a_text_of_several_are_in_one_language():
+    italian = language_of("it")
+    inner = say("{low} to {high} %", low="30", high="99")
+    assert italian.say(joined(" ", [say("The column collapsed."), inner])) == "La colonna è crollata. 30–99 %"
+    outer = say("{title:capital} ({name}) assumes:", title=say("rigid beam model"), name=Own("beam"))
+    assert italian.say(outer).startswith("Modello di travi rigide (beam)")
+    assert not italian.missing
 
 
-def test_a_part_without_an_entry_is_told_and_names_are_not():
-    table = TABLES["it"]
-    language = Language("it", table, {"the column of my uncle"})
-    assert not language.is_english("the column of my uncle")
-    assert not language.is_english(language.say("The column collapsed."))
-    assert language.is_english(language.say("The column stood on its head."), 1)
-    said = language.say("The column collapsed. It wore a hat of stone.")
-    assert said.startswith(table["The column collapsed."])
-    assert language.is_english(said, 1)
+def test_what_has_no_translation_is_told_and_names_are_not():
+    language = Language("it", catalogue_of(file_of("it")), {"the column of my uncle"})
+    language.say("the column of my uncle")
+    language.say("north_column-2.csv")
+    assert language.say("column 1, drum 7") == "colonna 1, rocco 7"
+    assert not language.missing
+    language.say(say("The column wore a hat of stone."))
+    assert list(language.missing) == ["The column wore a hat of stone."]
 
 
-@pytest.mark.parametrize("tag", LANGUAGES)
-def test_what_a_run_and_a_record_say_of_themselves_has_entries(tag):
-    """Words of other rooms that stand on the first page or in a table: no English is left but in names."""
-    language = Language(tag, TABLES[tag], {"a.V2", "architrave", "column 1, drum 7", "column 1, drum 10"})
-    for text in (
-        "Reason: drums 3 to 10 overturned about joint 3, towards azimuth 151° (from x towards y).",
-        "Reason: the whole column left the support at joint 1.",
-        "All 21 blocks are in place, but shifted: column 1, drum 7 by 25.8 mm, the others by less; the joint of column 1, "
-        "drum 10 and architrave opened most, by 24.2 mm, and it slid most, by 28.8 mm.",
-        "Under steady horizontal forces the assembly becomes a mechanism at 0.1636 times its weight, pushed towards 90°.",
-        "The assembly in space",
-        "realisation",
-        "on 2026-11-25, version 0.2.0",
-        "a.V2: cut to the common length of 3250 samples (x: 3251, y: 3250).",
-        "x: resampled linearly from unequal steps (0.001 to 0.006 s, median 0.005 s) to 0.001 s; departs by up to 0.00% of "
-        "the peak at the original times",
-        "acausal Butterworth filter of order 4, 0.1 Hz up; zeros of 60 s at each end kept",
-        "it holds the motion of 'a.V2' once more; a record counts once",
-        "diameter 0.03, embedment 0.12, material titanium, clearance 0.001",
-        "collapse 124.47 s",
-        "along y: x to the right",
-    ):
-        assert language.say(text) != text
-        assert not language.is_english(language.say(text), 1), language.say(text)
-
-
-def test_a_number_is_no_name():
-    assert "count" in NUMBERS
-    assert Language("it", TABLES["it"]).say("12 stand and 3 are undecided") == "in piedi: 12, indecise: 3"
-    assert Language("it", TABLES["it"]).say("K7 stands") == "K7: in piedi"
-
-
-def test_a_file_of_translations(tmp_path):
-    file = write_template(tmp_path / "de.toml")
-    text = file.read_text(encoding="utf-8").replace('language = ""', 'language = "de"')
-    file.write_text(
-        text.replace('"The column collapsed." = ""', '"The column collapsed." = "Die Säule ist eingestürzt."')
-    )
+def test_a_catalogue_of_a_reader(tmp_path):
+    file = write_template(tmp_path / "de.po")
+    text = file.read_text(encoding="utf-8").replace("Language: ", "Language: de")
+    collapsed = 'msgid "The column collapsed."\nmsgstr ""'
+    assert text.count(collapsed) == 1
+    file.write_text(text.replace(collapsed, collapsed[:-1] + 'Die Säule ist eingestürzt."'), encoding="utf-8")
     german = language_of(str(file))
     assert german.tag == "de"
-    assert german.say("The column collapsed.") == "Die Säule ist eingestürzt."
-    assert german.say("Signature") == "Signature"
-    for changed, words in (
-        (text.replace('"That was certain at {time} s." = ""', '"That was certain at {time} s." = "Sicher."'), "time"),
-        (text + '"No such sentence." = "Nein."\n', "no sentence of a report"),
-        (text.replace('language = "de"', ""), "language"),
+    assert german.say(say("The column collapsed.")) == "Die Säule ist eingestürzt."
+    assert german.say(say("Signature")) == "Signature"
+    certain = 'msgid "That was certain at {time:.2f} s."\nmsgstr ""'
+    for number, (changed, words) in enumerate(
+        (
+            (text.replace(certain, certain[:-1] + 'Sicher."'), "time"),
+            (text + "\nnonsense\n", "is no catalogue"),
+            (text.replace("Language: de", ""), "Language"),
+        )
     ):
-        file.write_text(changed)
+        other = tmp_path / f"{number}.po"
+        other.write_text(changed, encoding="utf-8")
         with pytest.raises(InputError, match=words):
-            language_of(str(file))
+            language_of(str(other))
     with pytest.raises(InputError, match="writes a template"):
         language_of("klingon")

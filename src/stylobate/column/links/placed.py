@@ -315,8 +315,8 @@ def stone_words(links: Sequence[PlacedLink]) -> str:
             bar = say("the bar holds {force:.4g} kN", force=1e-3 * holds)
             bar = bar if math.isfinite(holds) else say("the bar is without a limit")
             said = say(
-                "The stone gives way before {number} of {all} links do, first around {link}: at {force:.4g} kN in {how}, where "
-                "{bar} ({source}).",
+                "The stone gives way before {number} of {all} links do, first around {link}: at {force:.4g} "
+                "kN in {how}, where {bar} ({source}).",
                 number=len({one.name for _, one, *_ in weak}), all=len(anchors), link=link.name, force=1e-3 * bears,
                 how=say(how), bar=bar, source=stone.source,
             )  # fmt: skip

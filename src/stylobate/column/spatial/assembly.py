@@ -17,11 +17,11 @@ from ..block import FAR_AWAY, Block, ground_block, length_of
 from ..column import GRAVITIES, Column
 from ..joint import Joint, given
 from ..links import link_from_dict
-from ..links.in_assembly import in_numbers
+from ..links.in_assembly import in_numbers, place_between
 from ..links.link import Link
 from ..links.placed import PlacedLink
 from ..structure import Bed, Body, Structure
-from .links import place_in_space
+from .links import SpaceScene
 from .placing import drums_in_space
 from .stone import Stone
 from .touching import TOUCHING, Overlap, Solid, SpaceJoint, overlap_of, overlaps, separation
@@ -211,7 +211,8 @@ class SpatialAssembly(Structure):
     def placed_links(self) -> tuple[PlacedLink, ...]:
         """All links in numbers, in their order."""
         solids = self.solids if self.ground is None else ((), *self.solids)
-        return place_in_space(self.bodies, solids, self.space_joints, self.ground, self.links, self.name)
+        scene = SpaceScene(self.bodies, self.space_joints, solids, self.ground)
+        return place_between(scene, self.links, self.name)
 
     @cached_property
     def solids(self) -> tuple[tuple[Solid, ...], ...]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -29,9 +28,6 @@ from .touching import TOUCHING, Solid, separation
 
 #: Directions up, for turns.
 UP = (0.0, 0.0, 1.0)
-
-#: Names that bodies of a scene have by themselves, where nobody gives them others.
-NUMBERED = re.compile(r"column \d+(, (drum \d+|capital))?|(architrave|capital)( \d+)?|drum \d+")
 
 
 class Axis(NamedTuple):

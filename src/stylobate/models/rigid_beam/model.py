@@ -12,15 +12,15 @@ import numpy as np
 
 from ...column import Column
 from ...errors import InputError, check_choice, check_range, warn
+from ...messages import say
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..engine import Engine
-from ..rocking.block import RockingBlock
+from ..rocking.block import RockingBlock, warn_of_free_flight, warn_sliding
 from ..rocking.model import Rocking
 from ..shared.lanes import MOST_SAMPLES, run_alike
-from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
-from .equations import BeamMatrices
+from .state import BeamMatrices
 
 if TYPE_CHECKING:
     from .state import PackedBeam
@@ -69,7 +69,7 @@ class Beam(Engine):
                     f"time_step is {model.time_step:g} s; allowed is up to {largest:.3g} s ({which}), or leave it out."
                 )
         if not model.sliding:
-            warn_sliding(seen, seen.slenderness, model.name, "with sliding=true the beam slides")
+            warn_sliding(seen, seen.slenderness, model.name, say("with sliding=true the beam slides"))
         if abs(model.initial_rotation) >= seen.slenderness:
             raise InputError(
                 f"initial_rotation is {model.initial_rotation:g} rad; allowed is less than the slenderness "

@@ -9,12 +9,12 @@ from typing import Any, ClassVar
 
 from ...column import Column
 from ...errors import InputError, check_range, warn
+from ...messages import say
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..engine import Engine
-from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
-from .block import RockingBlock
+from .block import RockingBlock, warn_of_free_flight, warn_sliding
 
 #: Slenderness beyond which the linearised equation departs visibly from the nonlinear one [rad]; Housner's own limit.
 SLENDER = math.radians(20.0)
@@ -71,7 +71,7 @@ class HousnerRocking(Rocking):
             raise InputError(
                 f"time_step is {model.time_step:g} s; allowed is up to {0.2 / block.p:.3g} s (0.2/p) for this block."
             )
-        warn_sliding(column, block.alpha, model.name, "dem2d has sliding")
+        warn_sliding(column, block.alpha, model.name, say("dem2d has sliding"))
         if model.linear and block.alpha > SLENDER:
             warn(f"the slenderness is {math.degrees(block.alpha):.1f}°; the linearised equation is for up to 20°.")
         if model.restitution is None and column.restitution < 0.0:

@@ -343,9 +343,9 @@ def read_suite(
         pairs = [f"{motions[one].name!r} of {motions[other].name!r}" for one, other in again.items()]
         named = ", ".join(pairs[:TOLD]) + (", …" if len(pairs) > TOLD else "")
         words = say(
-            "{count} of {all} records are recordings of others once more, scaled, turned, filtered or written otherwise "
-            "({names}): a selection for a target takes each recording once; elsewhere they count as records of their own, and "
-            "intervals are narrower than what is known: leave them out."
+            "{count} of {all} records are recordings of others once more, scaled, turned, filtered or "
+            "written otherwise ({names}): a selection for a target takes each recording once; elsewhere they "
+            "count as records of their own, and intervals are narrower than what is known: leave them out."
         )
         warn(words.of(count=len(again), all=len(motions), names=named))
     return Suite(tuple(motions), refused)

@@ -17,8 +17,8 @@ def report(
     project: Path | None = o.option("FILE.toml", "Begin with a page of this project, to sign: client, site, engineer."),
     pdf: bool = o.option(None, "Print it to a PDF beside it; needs a Chromium on this machine.", False),
     template: Path | None = o.option(
-        "FILE.toml",
-        "Write the sentences of a report to translate, for `language` in the project file; nothing else.",
+        "FILE.po",
+        "Write the messages of a report to translate, for `language` in the project file; nothing else.",
         flag="--translation-template",
     ),
     *,
