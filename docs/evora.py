@@ -20,10 +20,9 @@ from stylobate.analysis.limit_directions import limit_directions
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.structure import Structure
 from stylobate.constants import DEGREE
-from stylobate.plots.solids import painted
+from stylobate.plots.drawing import solids_of
+from stylobate.plots.solids import View, painted
 from stylobate.plots.style import BLACK, GREY, RED, page
-from stylobate.plots.view import View
-from stylobate.plots.views import solids_of
 
 #: Directions of the forces [degrees]; the weakest is looked for between them.
 AZIMUTHS = [45.0 * k for k in range(8)]

@@ -12,7 +12,7 @@ from stylobate.kernels.plane.standing import STAND_TYPE
 from stylobate.kernels.run_codes import FREE, LANES
 from stylobate.kernels.shared.records import STATE
 from stylobate.models.engine import engine_for
-from stylobate.models.plane.laws import point_law
+from stylobate.models.plane.packing import point_law
 
 from .kernel import KEPT_TYPE
 
@@ -88,7 +88,7 @@ def arguments(name: str) -> tuple[Any, ...]:
 def lanes_of(columns: Sequence[Any], model: Any) -> Room:
     """A block of lanes in which columns stand at rest, the first one in the first lane, and the others in its time step."""
     from stylobate.models.base import Case, RunOptions
-    from stylobate.models.plane.standing import numbers_for
+    from stylobate.models.plane.packing import numbers_for
     from stylobate.motion import Motion
 
     paced = engine_for(model, columns[0]).paced

@@ -12,7 +12,7 @@ from stylobate.campaign.twins import the_twins
 from stylobate.column.presets import known_column
 from stylobate.kernels.run_codes import CHUNK, LANES
 from stylobate.models.engine import engine_for
-from stylobate.models.shared.soft_joints import resolving
+from stylobate.models.shared.stable_step import resolving
 from stylobate.motion.pulses import SAMPLES_PER_CYCLE
 from stylobate.motion.readers.source import samples
 from stylobate.outcome import Outcome

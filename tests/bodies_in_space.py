@@ -6,7 +6,7 @@ import numpy as np
 
 from stylobate.column.shapes import Mesh
 from stylobate.models.space.loose import Loose
-from stylobate.models.space.solids import Drum, Face, FacesJoined, HalfSpace, Solid
+from stylobate.models.space.packing import Drum, Face, FacesJoined, HalfSpace, Solid
 
 G, DENSITY = 9.81, 2700.0
 

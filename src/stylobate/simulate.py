@@ -150,10 +150,17 @@ def run_cases(
 
 
 def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> None:
-    """Refuse or warn of cases before any is computed."""
+    """Refuse or warn of cases before any is computed; all of a batch are of one engine."""
     check_kind("model", model, Model)
+    first: Any = None
     for column, motion in _to_check(cases):
         engine = engine_for(model, column)
+        first = engine if first is None else first
+        if type(engine) is not type(first):
+            raise InputError(
+                f"{first.structure.name!r} is {first.structure.described} and {column.name!r} is {column.described}, and a "
+                "batch is of one kind; run them in batches of their own."
+            )
         if options.start is not None:
             engine.check_start()
         if options.until_rest:

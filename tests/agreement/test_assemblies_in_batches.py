@@ -8,7 +8,7 @@ import pytest
 import stylobate as st
 from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.plane.assemblies import AFTER_THE_FALL, follow
+from stylobate.models.plane.loose import AFTER_THE_FALL, follow
 from stylobate.simulate import run_cases, simulate
 
 JOINT = st.Joint(1e8, 5e7, friction_angle=35.0)

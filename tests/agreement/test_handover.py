@@ -15,7 +15,7 @@ from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.engine import engine_for
 from stylobate.models.plane.collapse import _ColumnRun
-from stylobate.models.plane.loose import Contacts, Loose
+from stylobate.models.plane.loose import Loose
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate
 
@@ -61,7 +61,7 @@ def test_no_jump_where_a_joint_hands_over(path):
     assembly = Assembly(blocks, SMOOTH, ground=None)
     jumps, weights = [], None
     for steps in (4_000, 8_000, 16_000):
-        engine = Loose(assembly, DistinctElement2D().contacts, STILL, 1.0)
+        engine = Loose(assembly, DistinctElement2D(), STILL, 1.0)
         assert len(engine.records.joint) == 1
         force = forces_along(engine, path(steps))
         weights = engine.hand["weight"][0]
@@ -77,7 +77,7 @@ def test_no_jump_on_a_slow_path_over_an_edge():
     for steps in (8_000, 16_000, 32_000):
         blocks = (box(-1.0, 0.0, -1.0, 0.0, "edge", fixed=True), box(2.0, 3.0, 2.0, 3.0, "block"))
         with pytest.warns(UserWarning, match="will fall"):
-            engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
+            engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D(), STILL, 1.0)
         turn = np.linspace(0.0, 0.5 * math.pi, steps)
         radius = 0.5 * math.sqrt(2.0)
         # round the corner (0, 0), pressed in by 0.5 mm, turning on the way
@@ -122,9 +122,7 @@ def test_what_may_come_loose_has_the_joints_of_the_lanes(column, certain, monkey
     model = DistinctElement2D(start="settle")
     lanes = simulate(column, motion, model)
     options = RunOptions()
-    run = _ColumnRun(
-        column, motion, engine_for(model, column).block(replace(options, until_end=True)), Contacts.of(model), options
-    )
+    run = _ColumnRun(column, motion, engine_for(model, column).block(replace(options, until_end=True)), model, options)
     run.loose = True
     start = run.engine.records.body["x"][:, 0].copy()
     run.advance(run.engine.chunks)
@@ -154,7 +152,7 @@ def test_a_column_on_a_narrow_step_falls_past_its_edge():
 
 def test_a_joint_that_has_parted_stays_the_bed_s_where_its_faces_meet_again():
     blocks = (box(-0.5, 0.5, 0.0, 1.0, "lower", fixed=True), box(-0.5, 0.5, 1.0, 2.0, "upper"))
-    engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
+    engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D(), STILL, 1.0)
     engine.start(1e-4)
     assert engine.chunks_ahead() > 0
     forces_along(engine, [(1.05, 1.5, 0.0), (0.0, 1.5, 0.0)])  # off the edge, and back as drawn
@@ -168,9 +166,7 @@ def test_a_column_that_collapses_as_its_motion_ends_goes_on():
     whole = harmonic(0.5, 0.3 * g, 2.0)
     motion = Motion(whole.dt, whole.factor * whole.samples[: round(1.3 / whole.dt)])
     model, options = DistinctElement2D(restitution=1.0), RunOptions(until_rest=True)
-    run = _ColumnRun(
-        column, motion, engine_for(model, column).block(replace(options, until_end=True)), Contacts.of(model), options
-    )
+    run = _ColumnRun(column, motion, engine_for(model, column).block(replace(options, until_end=True)), model, options)
     while run.chunks_left() > 0:
         run.advance(run.chunks_left())
     assert run.collapsed

@@ -97,7 +97,7 @@ def test_what_may_touch_soon_does_not_depend_on_the_numbers():
     beam = Block(((-2.0, 0.0), (2.0, 0.0), (2.0, 0.4), (-2.0, 0.4)), 2000.0, "beam")
     stone = Block(((1.5, 0.7), (2.5, 0.7), (2.5, 1.7), (1.5, 1.7)), 2000.0, "stone")
     for blocks in ((beam, stone), (stone, beam)):
-        engine = Loose(Assembly(blocks, JOINT, ground=None), DistinctElement2D().contacts, still(0.2), 0.2)
+        engine = Loose(Assembly(blocks, JOINT, ground=None), DistinctElement2D(), still(0.2), 0.2)
         engine.start(1e-4)
         engine.records.body["w"][[block.name for block in blocks].index("beam")] = 3.0  # up to the stone in 0.05 s
         assert engine.may_come_loose(0.08)

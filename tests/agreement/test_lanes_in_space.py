@@ -65,7 +65,7 @@ def batch(cases, monkeypatch, model=None, **options):
 
 def handed_over(case, share, model):
     """Measures of a case that rides alone in its block, and is given up there after a share of its run."""
-    block = lanes.IntactLanes(lambda one: engine_for(model, one).numbers, RunOptions())
+    block = lanes.IntactLanes(model, RunOptions())
     block.load(3, case)
     for _ in range(int(share * block.chunks[3] / block.every[3])):
         block.kernel.advance(block.state, int(block.every[3]))
@@ -93,7 +93,7 @@ def test_losses_by_name_are_those_of_each_structure(monkeypatch):
     model, cases = st.DistinctElement3D(losses="stone"), [Case(portal(wide), shaking(0.2)) for wide in (0.8, 0.7)]
     found, alone = batch(cases, monkeypatch, model)
     assert alone == 0
-    damping = [engine_for(model, case.column).numbers.stiffness_damping for case in cases]
+    damping = [engine_for(model, case.column).acting.stiffness_damping for case in cases]
     assert damping[0] > 1.1 * damping[1] > 1e-5
     for one, case in zip(found, cases, strict=True):
         alike(one, st.simulate(*case, model).measures)

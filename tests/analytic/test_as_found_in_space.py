@@ -183,7 +183,7 @@ def test_out_of_equilibrium_and_out_of_the_plane_are_refused_in_one_sentence(tmp
 def barrier_of(column, turns=None):
     """The lowest barrier of a column as found [J], rigid and without walking; its drums turned so far [rad], shape (n,)."""
     from stylobate.kernels.dem3d.standing_found import lowest_found
-    from stylobate.models.dem3d.verdict import found_numbers, numbers_for
+    from stylobate.models.dem3d.packing import found_numbers, numbers_for
 
     found, up, high = found_numbers(column)
     turned = space_geometry(column).turned if turns is None else turns
@@ -246,7 +246,7 @@ def test_a_drum_that_has_turned_takes_its_slope_with_it(psi):
 def test_turned_faces_carry_on_the_corners_that_the_engine_has(psi):
     """A turned rectangular drum as found has the barrier of the column as built: corners of the upper face on the lower."""
     from stylobate.kernels.dem3d.standing import lowest_barrier
-    from stylobate.models.dem3d.verdict import numbers_for
+    from stylobate.models.dem3d.packing import numbers_for
 
     flat = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0, depth=0.3)] * 2, st.Joint(5e10, 2.5e10, 35.0))
     column, turns = flat.replace(as_found=st.AsFound((st.FoundDrum(2, offset=1e-12),))), np.radians([0.0, psi])

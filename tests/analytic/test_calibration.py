@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.models.drums.released import released
+from stylobate.models.drums.impact import released
 from stylobate_studies.calibration.free_history import FreeHistory
 from stylobate_studies.calibration.loss_likelihood import searched
 from stylobate_studies.calibration.swings import envelope, kept, swings

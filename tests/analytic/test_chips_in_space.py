@@ -121,7 +121,7 @@ def test_the_ledger_of_a_chipped_column_closes():
 def test_what_stands_for_good_knows_the_smaller_support():
     """The barrier of a rigid chipped prism is that of its nearest edge, m g (√(H² + b²) − H)."""
     from stylobate.kernels.dem3d.standing_found import lowest_found
-    from stylobate.models.dem3d.verdict import found_numbers, numbers_for
+    from stylobate.models.dem3d.packing import found_numbers, numbers_for
 
     column, height = prism(**CHIPS), 0.5 * HEIGHT
     drums, up, _ = found_numbers(column)
@@ -192,3 +192,15 @@ def test_what_a_chipped_joint_gives_is_bounded_by_what_its_smaller_face_gives():
     chipped = block(1.0, 2000.0).replace(as_found=st.AsFound((st.FoundDrum(1, **chips),)))
     small = point_toes(block(0.9, 2000.0 / 0.81), stiffness, 0.25)
     assert point_toes(chipped, stiffness, 0.25) == pytest.approx(small / 0.81, rel=1e-12)
+
+
+def test_a_round_column_with_a_chipped_drum_is_computed_to_its_end():
+    """What touches of a chipped face is a difference of arcs: where nothing does, it is rounded to less than nothing."""
+    column = st.Column.tapered(
+        height=2.4, bottom_width=0.5, top_width=0.4, drums=3, density=2600.0, section="circular",
+        joint=st.Joint(2e9, 1e9, friction_coefficient=0.7),
+    ).replace(as_found=st.AsFound((st.FoundDrum(2, chip_left=0.05),)))  # fmt: skip
+    motion = st.harmonic(1.0, 0.4 * st.g, 1.5, across=(1.3, 0.24 * st.g, 0.5))
+    response = st.simulate(column, motion, st.DistinctElement3D())
+    assert not response.collapsed
+    assert response.energy_imbalance < 5e-3

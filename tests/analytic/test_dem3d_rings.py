@@ -148,13 +148,10 @@ def test_rings_that_nothing_carries_are_refused():
         engine_for(DistinctElement3D(), on_rings()).check(motion)
     with pytest.raises(InputError, match="dem2d knows no rings"):
         engine_for(DistinctElement2D(), on_rings()).check(motion)
+    sides = {"height": 5.0, "bottom_width": 1.0, "top_width": 1.0, "drums": 1, "density": 1600.0}
+    square = Column.tapered(**sides, joint=Joint(5e10, 2.5e10, 35.0))
     with pytest.raises(InputError, match="is for round drums"):
-        DistinctElement3D(rolling_resistance=0.01).check(
-            Column.tapered(
-                height=5.0, bottom_width=1.0, top_width=1.0, drums=1, density=1600.0, joint=Joint(5e10, 2.5e10, 35.0)
-            ),
-            motion,
-        )
+        engine_for(DistinctElement3D(rolling_resistance=0.01), square).check(motion)
 
 
 def test_steady_rolling_decays_by_what_resists_it():

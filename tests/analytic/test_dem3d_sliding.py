@@ -8,7 +8,7 @@ import pytest
 from validation.space import block_of, cylinder, put, put_axes, round_column
 
 from stylobate.constants import g
-from stylobate.models.dem3d.pose import rotation
+from stylobate.models.dem3d.packing import rotation
 
 #: A low disc: no rocking, even pressure.
 FLAT = cylinder(1.0, 0.02, 5e8, 0.7)

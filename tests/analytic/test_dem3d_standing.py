@@ -14,7 +14,7 @@ from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.engine import engine_for
-from stylobate.models.plane.standing import numbers_for
+from stylobate.models.plane.packing import numbers_for
 from stylobate.models.start import Start
 from stylobate.motion import Motion
 from stylobate.outcome import Outcome

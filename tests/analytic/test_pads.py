@@ -17,8 +17,8 @@ from stylobate.column.assembly_files import assembly_from_dict
 from stylobate.column.files import write_column
 from stylobate.column.links import block_link
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.drums.records import bed_laws
 from stylobate.models.engine import engine_for
-from stylobate.models.plane.beds import bed_laws
 from stylobate.simulate import simulate
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()]

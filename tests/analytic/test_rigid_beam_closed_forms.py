@@ -12,8 +12,8 @@ from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.base import Case
-from stylobate.models.rigid_beam.equations import BeamMatrices, tridiagonal
 from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_beam.state import BeamMatrices, tridiagonal
 from stylobate.motion import Motion
 from stylobate.simulate import run_cases, simulate
 from stylobate_studies.paper.nodal_beam import nodal_matrices

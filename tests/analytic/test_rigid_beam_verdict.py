@@ -9,7 +9,7 @@ from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.models.rigid_beam.verdict import room
+from stylobate.models.rigid_beam.state import room
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_many

@@ -226,7 +226,7 @@ def test_what_a_hazard_curve_is_of_its_logic_tree_is_told(curve, tmp_path):
     assert read_hazard(named).statistic == "realisation 2"
 
 
-@pytest.mark.parametrize("kind", ["std", "cov", "variance", "stddev"])
+@pytest.mark.parametrize("kind", ["std", "cov", "variance", "stddev", "beta"])
 def test_a_spread_over_a_logic_tree_is_no_hazard_curve(kind, tmp_path):
     path = tmp_path / "h.csv"
     for text in (

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.models.space import assemblies
+from stylobate.models.space import loose as assemblies
 
 GALLERY = Path(__file__).parents[2] / "gallery" / "assemblies"
 

@@ -196,7 +196,7 @@ def test_bad_input_is_one_sentence(change, message):
 
 def test_other_models_and_steps_that_are_too_long_are_refused():
     motion = shaken(0.1, 0.0)
-    with pytest.raises(st.InputError, match="is a specimen: use dem3d"):
+    with pytest.raises(st.InputError, match="is a specimen; dem3d"):
         st.simulate(box(), motion, st.DistinctElement2D())
     with pytest.raises(st.InputError, match="the largest stable step for 'box'"):
         st.simulate(box(), motion, st.DistinctElement3D(time_step=0.1))

@@ -132,7 +132,7 @@ def test_what_cannot_stand_is_said_in_one_sentence(folder, capsys, change, words
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["critical", "{file}", "--model", "dem3d"], "is an assembly: use dem2d"),
+        (["critical", "{file}", "--model", "dem3d"], "is an assembly; dem2d"),
         (["critical", "{file}", "--replicates", "5"], "only columns and assemblies in space have twins"),
         (["limit", "{file}"], "is no prism of its outline"),
         (["pushover", "{file}"], "describes an assembly of blocks"),

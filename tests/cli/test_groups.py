@@ -133,9 +133,9 @@ def test_options_of_a_group_are_said_alike_wherever_they_are():
 
 def test_a_request_does_what_its_command_line_does(capsys, folder):
     column, record = str(folder / "column.toml"), str(folder / "record.csv")
-    request = {"command": "run", "column": column, "model": "housner", "set": ["restitution=0.9"], "motion": [record]}
-    request |= {"whole": True, "pictures": False, "scale": None, "json": True}
-    words = ["run", column, "--model=housner", "--set=restitution=0.9", f"--motion={record}", "--whole"]
+    request = {"command": "run", "column": column, "model": "dem2d", "set": ["points=2"], "motion": [record]}
+    request |= {"replicates": "0", "whole": True, "pictures": False, "scale": None, "json": True}
+    words = ["run", column, "--model=dem2d", "--set=points=2", f"--motion={record}", "--replicates=0", "--whole"]
     assert words_of(request) == [*words, "--no-pictures", "--json"]
     found = []
     for do in (lambda: ask(request), lambda: call(words_of(request))):

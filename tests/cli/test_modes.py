@@ -64,6 +64,8 @@ def test_measured_frequencies_become_a_column_and_a_scatter(column, tmp_path, ca
     measured = "8.0Hz±2%,38Hz±4%,torsion 29Hz±4%"
     assert call(["modes", column, "--json", "--measured", measured, "--ground", "rigid", "--out", str(out)]) == 0
     found = json.loads(capsys.readouterr().out)["inferred"]
+    assert found["confidence"] == 0.95
+    assert [one["standard_deviation_hz"] for one in found["measured"]] == pytest.approx([0.16, 1.52, 1.16])
     bending = found["joint_bending_stiffness"]
     assert bending["low"] < bending["median"] < bending["high"]
     inferred = st.read_column(out / "column.toml")

@@ -55,6 +55,24 @@ def test_no_tail_is_advised_to_drums_that_pivot_freely_as_found():
         assert to_decide(structure, parameters, 5.0) == "go on with a tail of 10 s"
 
 
+def test_no_tail_is_advised_to_a_round_column_whose_wobble_nothing_damps():
+    """Two columns that had wobbled for 60 s were as undecided after 180 s; damped as stone they are decided."""
+    column = st.preset("parthenon")
+    undamped, damped = (st.DistinctElement3D(losses=losses).parameters() for losses in ("none", "stone"))
+    for parameters, square, waited in (
+        (damped, False, True),  # by what loses something
+        (undamped, False, False),  # which has not waited at all
+        (undamped | {"planar": True}, False, True),
+        (undamped, True, True),
+        (st.DistinctElement2D().parameters(), False, True),
+    ):
+        stands = st.preset("paper-12-drums") if square else column
+        assert to_decide(stands, parameters, 0.0, waited).startswith("go on with a tail of")
+    cure = to_decide(column, undamped, 0.0)
+    assert cure.startswith("no tail decides it, as nothing damps its wobble")
+    assert "losses = stone" in cure
+
+
 def test_peaks_and_films_of_a_fall_tell_one_story(capsys):
     text = said(capsys, *BLOCK, "--harmonic", "1Hz,0.9g,3s")
     (collapse,) = [line for line in text.splitlines() if line.startswith("  collapse")]

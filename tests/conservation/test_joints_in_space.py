@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from bodies_in_space import G, Lane, box, faces_joined, square_face, turn
 
-from stylobate.models.space.solids import Face
+from stylobate.models.space.packing import Face
 
 
 def rectangle(x, y, height, up=True):

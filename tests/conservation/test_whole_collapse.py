@@ -12,8 +12,7 @@ from stylobate.kernels.plane.records import LOCAL
 from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import RESTITUTION, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
-from stylobate.models.plane.assemblies import follow, stable_step_of
-from stylobate.models.plane.loose import Loose
+from stylobate.models.plane.loose import Loose, follow, stable_step_of
 from stylobate.motion import harmonic
 from stylobate.response.assembly_measures import recorded_blocks
 from stylobate.simulate import simulate
@@ -77,7 +76,7 @@ def test_at_rest_nothing_is_deeper_than_static(name):
     overlap is a triangle, at most 2 F/(k L) deep, with L the width of that overlap.
     """
     make, motion = CASES[name]
-    engine = Loose(make(), DistinctElement2D().contacts, motion, motion.duration, RESTITUTION)
+    engine = Loose(make(), DistinctElement2D(), motion, motion.duration, RESTITUTION)
     engine.start(0.4 * stable_step_of(engine))
     assert engine.settle()
     _, rests = follow(engine, RunOptions(until_rest=True, output_interval=0.05))

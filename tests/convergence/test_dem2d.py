@@ -7,7 +7,7 @@ from validation.convergence import refined_verdicts
 from stylobate.column import preset
 from stylobate.errors import InputError
 from stylobate.models.dem2d.model import DistinctElement2D
-from stylobate.models.drums.joints import contact_points
+from stylobate.models.drums.records import contact_points
 from stylobate.models.engine import engine_for
 from stylobate.motion import Motion
 from stylobate.simulate import simulate

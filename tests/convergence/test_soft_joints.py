@@ -11,8 +11,7 @@ from stylobate.column import Joint
 from stylobate.column.presets import preset
 from stylobate.models.base import Case
 from stylobate.models.engine import engine_for
-from stylobate.models.shared.soft_joints import longest_step
-from stylobate.models.shared.stable_step import whole_steps
+from stylobate.models.shared.stable_step import longest_step, whole_steps
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import run_cases
 

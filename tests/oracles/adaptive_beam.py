@@ -12,8 +12,7 @@ from stylobate.kernels.run_codes import SUPPORT_MARGIN
 from stylobate.models.base import RunOptions
 from stylobate.models.engine import engine_for
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.models.rigid_beam.state import PackedBeam, given, histories_of, measures_of
-from stylobate.models.rigid_beam.verdict import faces
+from stylobate.models.rigid_beam.state import PackedBeam, faces, given, histories_of, measures_of
 from stylobate.models.rocking.block import lightest_weight, off_the_ground
 from stylobate.models.rocking.single import Ground
 from stylobate.models.shared import ledger

@@ -20,7 +20,8 @@ import stylobate as st
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.engine import engine_for
-from stylobate.models.space import assemblies, lanes
+from stylobate.models.space import lanes
+from stylobate.models.space import loose as assemblies
 from stylobate.motion import Motion
 
 #: Time of one step of a path [s]: so slow that dashpots do nothing.
@@ -216,7 +217,7 @@ def stones(kind: str) -> st.SpatialAssembly:
 
 def of_assembly(assembly: st.SpatialAssembly) -> Rig:
     """The last joint of an assembly in the engine that finds contacts: one lane."""
-    engine = assemblies.unsettled(assembly, engine_for(DistinctElement3D(), assembly).numbers)
+    engine = assemblies.unsettled(assembly, engine_for(DistinctElement3D(), assembly).acting)
     engine.now["last"] = engine.now["dt"] = DT
     upper = len(engine.body) - 1
     middle = engine.joint["mu"][-1]
@@ -284,7 +285,7 @@ def assemblies_list(state: Any) -> None:
 def of_lanes(assembly: st.SpatialAssembly, beta: float = 0.0) -> Rig:
     """The last joint of an assembly in lanes of assemblies that stand."""
     model = DistinctElement3D(stiffness_damping=beta)
-    block = lanes.IntactLanes(lambda one: engine_for(model, one).numbers, RunOptions())
+    block = lanes.IntactLanes(model, RunOptions())
     for lane in range(block.lanes):
         block.load(lane, Case(assembly, Motion(1.0, np.zeros(2))))
     block.lane["last"][:] = block.lane["dt"][:] = DT

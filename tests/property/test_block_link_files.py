@@ -60,7 +60,10 @@ def test_links_are_read_with_their_places(tmp_path) -> None:
         (CLAMP.replace('"b"', '"a"'), "between 'a' and itself"),
         (CLAMP.replace("[0.85, 0.48]", "[0.85, 0.68]"), "0.18 m outside block 'a'; its end must be in it"),
         (CLAMP.replace("[0.85, 0.48]", "[1.15, 0.48]"), "a clamp has no length"),
-        (CLAMP.replace('"b"', '"c"').replace("1.15", "2.15"), "mm inside block 'b' at [1.0255, 0.48] m; a clamp lies in two"),
+        (
+            CLAMP.replace('"b"', '"c"').replace("1.15", "2.15"),
+            "mm inside block 'b' at [1.0255, 0.48] m; a clamp lies in two",
+        ),
         (CLAMP.replace("to = [1.15, 0.48]\n", ""), "a clamp has two ends"),
         (CLAMP + "\naxial_capacity = 0.0", "axial_capacity of a clamp is 0 N, which holds nothing"),
         (CLAMP + "\nembedment = 0.6", "legs of a clamp are 0.6 m long, and block 'a' is 0.5 m thick"),

@@ -8,10 +8,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from stylobate.kernels.run_codes import LANES
-from stylobate.models.drums.bodies import Topology
-from stylobate.models.drums.joints import contact_points
-from stylobate.models.plane.block import Records
-from stylobate.models.plane.laws import point_law
+from stylobate.models.drums.records import Topology, contact_points
+from stylobate.models.plane.columns import Records
+from stylobate.models.plane.packing import point_law
 
 KN, KS, MU, COHESION, DT = 3.0e10, 1.1e10, 0.6, 2.0e4, 1e-5
 

@@ -12,7 +12,7 @@ from stylobate.column.shapes import Mesh
 from stylobate.kernels.space import bed, nearest
 from stylobate.kernels.space.overlap import MIDDLE, MOMENT, NORMAL, REF, SHADOW, VOLUME
 from stylobate.kernels.space.records import types, workspace
-from stylobate.models.space.solids import Drum, Solid, pack
+from stylobate.models.space.packing import Drum, Solid, pack
 
 
 class Pair:

@@ -8,7 +8,7 @@ from hypothesis import strategies as some
 from validation.space import block_of, joint, put, put_axes, round_column
 
 from stylobate.column import Column, Drum
-from stylobate.models.dem3d.pose import rotation
+from stylobate.models.dem3d.packing import rotation
 
 POINTS = 60_000
 PHI = (np.arange(POINTS) + 0.5) * (2.0 * math.pi / POINTS)

@@ -14,9 +14,9 @@ from stylobate.column import preset
 from stylobate.kernels import jit, run_codes
 from stylobate.kernels.plane import clip, look
 from stylobate.kernels.rigid_beam import step as rigid_beam
-from stylobate.models.drums.bodies import Topology
-from stylobate.models.plane.block import Records
-from stylobate.models.plane.laws import interface_law, point_law
+from stylobate.models.drums.records import Topology
+from stylobate.models.plane.columns import Records
+from stylobate.models.plane.packing import interface_law, point_law
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_beam.state import measures_of
 from stylobate.models.rocking.model import HousnerBlock

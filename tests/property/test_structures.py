@@ -157,9 +157,9 @@ def test_what_a_structure_has_not_is_none():
 
 def test_what_a_model_does_not_know_is_refused():
     still = st.Motion(0.01, np.zeros(11))
-    with pytest.raises(st.InputError, match="'cube' is a specimen: use dem3d"):
+    with pytest.raises(st.InputError, match="'cube', which is a specimen; dem3d"):
         st.simulate(STANDING["specimen"], still, st.DistinctElement2D())
-    with pytest.raises(st.InputError, match="is an assembly: use dem2d"):
+    with pytest.raises(st.InputError, match="is an assembly; dem2d"):
         st.simulate(STANDING["blocks"], still, st.DistinctElement3D())
     for model in (st.DistinctElement2D(), st.RigidBlock(), st.RigidBeam(), st.HousnerBlock()):
         with pytest.raises(st.InputError, match=r"cannot shake 'portal in space', .* an assembly in space; dem3d can"):

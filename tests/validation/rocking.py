@@ -11,7 +11,7 @@ from stylobate.constants import g
 from stylobate.models.base import Case as Run
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
-from stylobate.models.drums.joints import contact_points
+from stylobate.models.drums.records import contact_points
 from stylobate.models.engine import engine_for
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion

@@ -6,7 +6,7 @@ import numpy as np
 
 from stylobate.constants import g
 from stylobate.models.base import Case as Run
-from stylobate.models.dem3d.pose import rotation
+from stylobate.models.dem3d.packing import rotation
 from stylobate.motion import Motion
 
 from .case import AtMost, Case, Near, collected

@@ -10,8 +10,8 @@ from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.dem2d.model import DistinctElement2D
-from stylobate.models.rigid_beam.equations import BeamMatrices
 from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_beam.state import BeamMatrices
 from stylobate.models.rigid_block.model import RigidBlock
 from stylobate.motion import Motion
 from stylobate.simulate import simulate_many

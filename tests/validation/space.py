@@ -12,7 +12,7 @@ from stylobate.column import Column, Drum, Joint
 from stylobate.kernels.dem3d.standing import lowest_barrier
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.models.dem3d.verdict import numbers_for
+from stylobate.models.dem3d.packing import numbers_for
 from stylobate.models.engine import engine_for
 from stylobate.models.start import Start
 from stylobate.motion import Motion

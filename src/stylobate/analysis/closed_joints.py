@@ -16,10 +16,10 @@ from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError
 from ..models.dem2d.model import DistinctElement2D
-from ..models.dem3d.found_start import face_corners
 from ..models.dem3d.model import DistinctElement3D
-from ..models.drums.joints import contact_points, joint_stiffnesses
+from ..models.dem3d.packing import face_corners
 from ..models.drums.links import acting
+from ..models.drums.records import contact_points, joint_stiffnesses
 from ..models.engine import engine_for
 from .small_vibrations import AROUND, ClosedJoint, Spring, Vibrating, pressed
 
@@ -272,7 +272,7 @@ def _in_plane(structure: Structure, model: DistinctElement2D) -> Vibrating:
         )
     kn, ks = joint_stiffnesses(structure, model.block_modulus if column is not None else None)
     if column is None:
-        engine_for(model, structure).contacts  # noqa: B018 (which refuse a modulus)
+        engine_for(model, structure).check_rigid()
     bodies = structure.bodies
     xi, share = contact_points(structure.section or "rectangular", model.points)
     centroids = np.array([(body.place[0], 0.0, body.place[1]) for body in bodies])

@@ -184,7 +184,7 @@ class Domain(Shown):
         try:
             verdicts = np.array(v.VERDICTS, dtype=object)[data["verdict"].values.ravel()]
             outcomes = data["outcome"].values.ravel()
-            grids = {one.key: data[one.key].values.ravel() for one in _GRIDS if one.key in data}
+            grids = [(one, data[one.key].values.ravel()) for one in _GRIDS if one.key in data]
             column = column_from_dict(json.loads(str(data["column"].values)))
             provenance = json.loads(str(data["provenance"].values))
             axes = data["frequency"].values, data["amplitude"].values
@@ -196,7 +196,7 @@ class Domain(Shown):
                     "outcome": Outcome(int(outcome)).label,
                     "collapsed": Outcome(int(outcome)) is Outcome.COLLAPSED,
                     "decided": verdict in (v.STANDS, v.COLLAPSED),
-                    **{name: _or_none(name, float(grid[i])) for name, grid in grids.items()},
+                    **{one.key: one.plain(grid[i]) for one, grid in grids},
                 }
                 for i, (verdict, outcome) in enumerate(zip(verdicts, outcomes, strict=True))
             )
@@ -294,10 +294,6 @@ def cell_edges(centres: np.ndarray) -> np.ndarray:
         return np.array([centres[0] - half, centres[0] + half])
     middle = 0.5 * (centres[1:] + centres[:-1])
     return np.array([2.0 * centres[0] - middle[0], *middle, 2.0 * centres[-1] - middle[-1]])
-
-
-def _or_none(name: str, value: float) -> float | None:
-    return None if name == "collapse_time_s" and np.isnan(value) else value
 
 
 def _boundary(find: Any, domain: Domain) -> np.ndarray:

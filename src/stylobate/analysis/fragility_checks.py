@@ -14,6 +14,9 @@ from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 #: Fewest records of which a fragility is made: fewer say nothing about the next earthquake.
 FEWEST = 10
 
+#: What is to be done about runs that are undecided.
+DECIDE = "decide the runs that are undecided, as the command that made them says"
+
 #: Fewest samples of a bootstrap, so that the quantiles of an interval of 95 % are among them.
 FEWEST_SAMPLES = 40
 
@@ -31,17 +34,16 @@ def check_number(evidence: Evidence, records_are_one: bool) -> None:
     if not decided.any():
         raise InputError(
             f"none of the {len(decided)} runs of {evidence.name} is decided ({evidence.count(OPEN)} undecided, "
-            f"{evidence.count(FAILED)} failed), so that nothing is known of {evidence.state}; follow them longer, such as "
-            "with `tail=10`."
+            f"{evidence.count(FAILED)} failed), so that nothing is known of {evidence.state}; {DECIDE}."
         )
     count, every = len(np.unique(evidence.records[decided])), len(np.unique(evidence.records))
     if count >= FEWEST:
         return
     what = ("run" if records_are_one else "record") + ("" if count == 1 else "s")
     what += f" (of {every}; the others have no decided run)" if count < every else ""
-    remedy = f"give at least {FEWEST}" + (
-        "" if records_are_one else ", or say `records_are_one` to take every run for a record of its own"
-    )
+    remedy = DECIDE if count < FEWEST <= every else f"give at least {FEWEST}"
+    if not records_are_one:
+        remedy += ", or say `records_are_one` to take every run for a record of its own"
     raise InputError(f"a fragility of {count} {what} says nothing about the next earthquake; {remedy}.")
 
 

@@ -45,7 +45,7 @@ _KIND = re.compile(r"kind=['\"]*(?P<kind>[A-Za-z][\w.~-]*)")
 _KIND_OF_NAME = re.compile(r"hazard_curve-(?P<kind>[A-Za-z]+(?:-[0-9.]+)?)(?=[-_.])")
 #: Statistics of a logic tree that are hazard curves, as files call them.
 _STATISTIC = re.compile(
-    r"(?P<one>mean|max|median)|quantile-(?P<quantile>0?\.\d+)|rlz-(?P<number>\d+)|(?P<branch>b\w*.*)"
+    r"(?P<one>mean|max|median)|quantile-(?P<quantile>0?\.\d+)|rlz-(?P<number>\d+)|(?P<branch>[^~]+~.*)"
 )
 _WORDS = {"max": say("maximum of all realisations")}
 _IMT = re.compile(r"imt='?\"?([A-Za-z]+)(?:\(([0-9.]+)\))?")

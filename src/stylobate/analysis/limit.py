@@ -259,7 +259,7 @@ def limit_analysis(
     other = non_associated(equilibrium, live, facets, forces) if flow == "non-associated" else None
     if other is not None:
         rates, multipliers = other
-    control = _top_movement(rates)
+    control = float(np.abs(rates[:, 0]).max())  # of the block that moves most, which makes mechanisms comparable
     shown = "associated" if other is None else flow
     return _result(stack, lower, upper, forces, rates / control, multipliers / control, facets, shown, links)
 
@@ -326,8 +326,3 @@ def _result(
         flow=flow,
         links=links,
     )
-
-
-def _top_movement(rates: np.ndarray) -> float:
-    """Largest horizontal velocity of a block: the measure that makes a mechanism comparable."""
-    return float(np.abs(rates[:, 0]).max())

@@ -11,7 +11,7 @@ from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError
 from ..messages import joined, say
-from ..models.rigid_block.stack_links import LINE, Hold, holds
+from ..models.rigid_block.block_stack import LINE, Hold, holds
 from .contact_programme import ContactProgramme
 from .contact_rims import Holder, Rim
 from .limit import DirectionLimit

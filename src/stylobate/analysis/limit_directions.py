@@ -18,7 +18,7 @@ from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError, check_kind
 from ..notebook import Shown
-from .limit import DirectionLimit, LimitResult, limit_analysis
+from .limit import DirectionLimit, limit_analysis
 from .limit_assemblies import AssemblyProgramme
 from .limit_with_links import SpaceProgramme
 
@@ -216,12 +216,8 @@ def weakest_direction(column: Column) -> DirectionLimit:
 
 def _in_plane(column: Column, direction: float, loads: dict[str, Any]) -> DirectionLimit:
     found = limit_analysis(column, direction=direction, **loads)
-    return DirectionLimit(direction, found.multiplier, found.governing_joint, mode_of(found), found.links)
-
-
-def mode_of(found: LimitResult) -> str:
-    """``rocking`` or ``sliding``, of the lowest joint of the mechanism."""
-    return next(item.mode.split()[0] for item in found.active if item.joint == found.governing_joint)
+    lowest = next(item for item in found.active if item.joint == found.governing_joint)
+    return DirectionLimit(direction, found.multiplier, lowest.joint, lowest.mode.split()[0], found.links)
 
 
 def limit_in_space(column: Column, azimuth: float = 0.0) -> DirectionLimit:

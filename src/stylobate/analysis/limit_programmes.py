@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, StylobateError
-from ..models.rigid_block.block_stack import BlockStack
-from ..models.rigid_block.stack_links import SHEAR, link_strains
+from ..models.rigid_block.block_stack import SHEAR, BlockStack, link_strains
 from .static_loads import contact_limits
 
 #: Strength counts as used up when less than this share of it is left [-].

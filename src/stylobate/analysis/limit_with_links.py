@@ -11,7 +11,7 @@ from ..column import Column
 from ..column.found_geometry import base_axes, overlap_edges, space_geometry, space_load, upward
 from ..constants import DEGREE
 from ..errors import InputError
-from ..models.rigid_block.stack_links import APART, LINE, SHEAR, Hold, holds
+from ..models.rigid_block.block_stack import APART, LINE, SHEAR, Hold, holds
 from .contact_programme import MOVES, ContactProgramme, InfeasibleError, Solved
 from .contact_rims import Holder, Rim
 from .least_forces import SAME, Borne, needed_forces

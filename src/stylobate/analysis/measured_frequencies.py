@@ -98,7 +98,8 @@ class Measured:
 def parse_measured(text: str) -> tuple[Measured, ...]:
     """Measured frequencies as typed: ``1.27Hz±3%,6.5Hz±6%,torsion 9.0Hz±6%``.
 
-    What names no kind is bending, numbered by rising frequency; a number behind the kind says which mode it is.
+    ± is one standard deviation, of a mean of several records that of the mean. What names no kind is bending, numbered by
+    rising frequency; a number behind the kind says which mode it is.
 
     Raises
     ------
@@ -466,8 +467,14 @@ class MeasuredJoints(Shown):
             "joint_shear_stiffness": self.shear,
         }
         return {name: one._asdict() for name, one in names.items()} | {
+            "confidence": 0.95,
             "bounded_by": self.bounded_by,
             "open": self.open_words,
+            "measured": [
+                {"kind": one.kind, "number": one.number, "frequency_hz": one.frequency}
+                | {"standard_deviation_hz": one.spread * one.frequency}
+                for one in self.measured
+            ],
             "best_hz": self.best,
             "scatter": self.scatter,
             "draws": self.draws,

@@ -24,7 +24,7 @@ APART = 1e-9
 #: Two planes of bending are alike to this [-].
 ALIKE = 1e-9
 
-#: Young's modulus that no building stone reaches [Pa]: marble has 40 to 80 GPa, the stiffest basalts some 100.
+#: Young's modulus above which a stone is doubted [Pa]: chosen here, no source of the stiffest stone could be read.
 STIFFEST_STONE = 100e9
 
 #: Most modes of an assembly that are computed.

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..models.rigid_block.block_stack import BlockStack
-from ..models.rigid_block.stack_links import SHEAR, Hold, link_strain, link_strains
+from ..models.rigid_block.block_stack import SHEAR, BlockStack, Hold, link_strain, link_strains
 
 #: A link that has come to this share of its capacity goes on yielding, as far as the tangent is concerned.
 GOES_ON = 1.0 - 1e-9

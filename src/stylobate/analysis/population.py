@@ -238,7 +238,7 @@ class Population:
     def _percentiles(self, name: str) -> list[float] | None:
         sound = [row for row, verdict in zip(self.rows, self.verdicts, strict=True) if verdict != v.FAILED]
         values = np.array([np.inf if row["collapsed"] else abs(row[name]) for row in sound])
-        if not len(values):
+        if np.isnan(values).all():  # there are none, or the model does not compute it
             return None
         found = np.quantile(values, (0.16, 0.5, 0.84), method="higher")
         return [float(one) for one in found]

@@ -118,7 +118,7 @@ class CollapseProbability(Shown):
         return np.select(
             [
                 (collapsed > 0) & (stands > 0),
-                2 * others > self._trials,
+                2 * others > collapsed + stands + others,
                 (stands + others == 0) & (collapsed > 0),
                 collapsed > 0,
                 (others == 0) & (stands > 0),
@@ -279,7 +279,3 @@ class CollapseProbability(Shown):
     @property
     def _counts(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         return self.count(v.COLLAPSED), self.count(v.STANDS), self.count(v.UNDECIDED)
-
-    @property
-    def _trials(self) -> np.ndarray:
-        return sum(self._counts, np.zeros(1, dtype=int))

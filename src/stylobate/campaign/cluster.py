@@ -20,7 +20,7 @@ from collections import OrderedDict, deque
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..errors import InputError, StylobateError
 from ..models.base import Case, Model, RunOptions
@@ -32,8 +32,11 @@ from .digests import samples_of
 from .local_workers import LocalWorkers
 from .worker import Chunk, law, pack, run_chunk, samples, unpack
 
+if TYPE_CHECKING:
+    from distributed import Client
+
 #: A client and a future of ``distributed``, whose methods are typed for coroutines as well.
-Client = Future = Any
+AnyClient = Future = Any
 
 #: Workers on this machine, as an address.
 LOCAL = "local"
@@ -203,7 +206,7 @@ class HandOut:
 
     def __init__(
         self,
-        client: Client,
+        client: AnyClient,
         cases: Sequence[Case],
         model: Model,
         options: RunOptions,

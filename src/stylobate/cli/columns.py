@@ -113,7 +113,7 @@ def parts_of(structure: Structure) -> dict:
     )
     moving = [body for body in structure.bodies if not body.fixed]
     heaviest = max(moving, key=lambda one: one.mass)
-    joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    joints = structure.joined_faces
     return {
         "name": structure.name,
         "kind": structure.kind,

@@ -35,11 +35,11 @@ class Shapes(o.Motions):
 
 
 def critical(
-    column: o.StructureName,
+    column: str = o.STRUCTURE,
     start: str = o.option("A", "Smallest amplitude, such as 0.05g.", ..., flag="--from"),
     stop: str = o.option("A", "Largest amplitude, such as 1.0g.", ..., flag="--to"),
     step: str = o.option("A", "Step of the grid.", "0.005g"),
-    model: o.ModelName = "dem2d",
+    model: str = o.model(),
     *,
     motions: Annotated[Shapes, o.But("scale", "pga")],
     following: o.Following,

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from . import options as o
@@ -15,14 +13,6 @@ from . import options as o
 if TYPE_CHECKING:
     from ..analysis.fragility_curve import Fragility
     from ..results.sources import Source
-
-Sources = Annotated[
-    list[Path],
-    typer.Argument(
-        metavar="SOURCE...",
-        help="Folder of a study, an IDA, a suite or states, or a CSV file with the columns record, im, collapsed.",
-    ),
-]
 
 
 @dataclass(frozen=True)
@@ -66,7 +56,10 @@ class Curves(o.Group):
 
 
 def fragility(
-    sources: Sources,
+    sources: list[Path] = o.argument(
+        "SOURCE...",
+        "Folder of a study, an IDA, a suite or states, or a CSV file with the columns record, im, collapsed.",
+    ),
     *,
     asked: Curves,
     method: str | None = o.option("M", "runs: every run counts; records: the capacity under each record."),

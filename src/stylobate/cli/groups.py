@@ -22,24 +22,28 @@ class Option:
     help: str
     default: Any
     flag: str | None
+    complete: Callable[[str], list[str]] | None = None
 
     def parameter(self, name: str, kind: Any) -> inspect.Parameter:
         """The option of that name as typer takes it."""
-        words = {"metavar": self.metavar, "help": self.help}
+        words: Any = {"metavar": self.metavar, "help": self.help, "autocompletion": self.complete}
         flag = f"--{name.replace('_', '-')}" if self.flag is None else self.flag
         told = Annotated[kind, typer.Option(flag, **words) if flag else typer.Argument(**words)]
         default = inspect.Parameter.empty if self.default is ... else self.default
         return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=told)
 
 
-def option(metavar: str | None, help: str, default: Any = None, flag: str | None = None) -> Any:
-    """An option called as its parameter, unless it has a ``flag`` of its own; ``...`` for one that must be given."""
-    return Option(metavar, help, default, flag)
+def option(metavar: str | None, help: str, default: Any = None, flag: str | None = None, complete: Any = None) -> Any:
+    """An option called as its parameter, unless it has a ``flag`` of its own; ``...`` for one that must be given.
+
+    ``complete`` gives what a shell completes it to, from what has been typed.
+    """
+    return Option(metavar, help, default, flag, complete)
 
 
-def argument(metavar: str, help: str, default: Any = ...) -> Any:
+def argument(metavar: str, help: str, default: Any = ..., complete: Any = None) -> Any:
     """What stands without a flag."""
-    return Option(metavar, help, default, "")
+    return Option(metavar, help, default, "", complete)
 
 
 @dataclass(frozen=True)

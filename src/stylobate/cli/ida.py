@@ -9,9 +9,9 @@ from . import options as o
 
 
 def ida(
-    column: o.StructureName,
+    column: str = o.STRUCTURE,
     sources: list[Path] = o.argument("RECORDS...", "Records, or folders of them; or sample:NAME."),
-    model: o.ModelName = "dem2d",
+    model: str = o.model(),
     im: str = o.option("IM", "Measure that is scaled: pga, pgv, sa:1.0s, avgsa, pgv@geomean …", "pgv"),
     edp: str | None = o.option(
         "MEASURE", "Measure of the response, as a JSON key of stylobate run; the peak displacement by default."

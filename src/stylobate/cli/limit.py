@@ -17,7 +17,7 @@ UPPER_BOUND = (
 
 
 def limit(
-    column: o.StructureName,
+    column: str = o.STRUCTURE,
     flow: str = o.option("RULE", "Friction in the mechanism: non-associated or associated.", "non-associated"),
     directions: str | None = o.option(
         "A:A:N",

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 
 def modes(
-    column: o.StructureName,
-    model: o.ModelName | None = None,
+    column: str = o.STRUCTURE,
+    model: str | None = o.model(None),
     number: str = o.option("N", "How many modes of each kind are listed.", "3"),
     measured: str | None = o.option(
         "F±S,…",
-        "Measured frequencies with standard deviations, such as 1.27Hz±3%,6.5Hz±6%,torsion 9.0Hz±6%: the joints' stiffness.",
+        "Measured frequencies ± one standard deviation, such as 1.27Hz±3%,6.5Hz±6%,torsion 9.0Hz±6%: the joints' stiffness.",
     ),
     ground: str | None = o.option(
         "GROUND", "Under what was measured: rigid, or vs=200:400m/s,half_width=4m of the footing."

@@ -9,11 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from ..errors import InputError
-from .groups import But, Group, option
-from .groups import argument as argument
+from .groups import But, Group, argument, option
 
 if TYPE_CHECKING:
     from ..campaign.campaign import Campaign
@@ -48,27 +45,18 @@ def _columns(incomplete: str) -> list[str]:
     return [*(name for name in (*PRESETS, *ASSEMBLIES) if name.startswith(incomplete)), *found]
 
 
-ColumnName = Annotated[
-    str,
-    typer.Argument(metavar="COLUMN", help="Name of a preset, or a column file (TOML).", autocompletion=_columns),
-]
-StructureName = Annotated[
-    str,
-    typer.Argument(
-        metavar="COLUMN",
-        help="Name of a preset, or a file (TOML) of a column or of an assembly of blocks.",
-        autocompletion=_columns,
-    ),
-]
-ModelName = Annotated[
-    str,
-    typer.Option(
-        "--model",
-        metavar="MODEL",
-        help="How it is computed: dem2d, dem3d, rigid-block, rigid-beam, housner.",
-        autocompletion=_models,
-    ),
-]
+#: What stands: a column; a column or an assembly.
+COLUMN = argument("COLUMN", "Name of a preset, or a column file (TOML).", complete=_columns)
+STRUCTURE = argument(
+    "COLUMN", "Name of a preset, or a file (TOML) of a column or of an assembly of blocks.", complete=_columns
+)
+
+
+def model(default: str | None = "dem2d") -> Any:
+    """The option that names a model."""
+    return option(
+        "MODEL", "How it is computed: dem2d, dem3d, rigid-block, rigid-beam, housner.", default, complete=_models
+    )
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,7 @@ class Loads(o.Group):
 
 
 def pushover(
-    column: o.ColumnName,
+    column: str = o.COLUMN,
     to: str | None = o.option("M", "Displacement of the top at which to stop, in metres."),
     at: str | None = o.option(
         "DRUM", "Drum, from 1, that is led and told of instead of the top, as where a tie holds it."

@@ -4,30 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
-
-import typer
+from typing import Any
 
 from . import options as o
 from .fragility import Curves
 
-Source = Annotated[
-    Path,
-    typer.Argument(
-        metavar="SOURCE", help="Folder of a study, an IDA, a suite or states, or a CSV file: record, im, collapsed."
-    ),
-]
-Site = Annotated[
-    str | None, typer.Option("--site", metavar="LON,LAT", help="Of a hazard file of several sites, the nearest one.")
-]
+SITE = o.option("LON,LAT", "Of a hazard file of several sites, the nearest one.")
 
 
 def risk(
-    source: Source,
+    source: Path = o.argument(
+        "SOURCE", "Folder of a study, an IDA, a suite or states, or a CSV file: record, im, collapsed."
+    ),
     hazard: Path = o.option("FILE", "Hazard curve: annual_rate and pga_g, pgv_m_s …; or OpenQuake's.", ...),
     *,
     asked: Curves,
-    site: Site = None,
+    site: str | None = SITE,
     execution: o.Plain,
 ) -> None:
     """Risk: mean annual rate and return period of a state under a hazard curve, and its deaggregation by intensity."""

@@ -72,8 +72,8 @@ SPACE_PICTURES = ["orbit", "uplift", "residuals"]
 
 
 def run(
-    column: o.StructureName,
-    model: o.ModelName = "dem2d",
+    column: str = o.STRUCTURE,
+    model: str = o.model(),
     *,
     motions: o.Motions,
     following: o.Following,
@@ -414,7 +414,7 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
         sentence += f" Not everything lies still{change}{'' if rolls else remedy}."
     fixed = sum(block.fixed for block in structure.bodies[-structure.n :])
     supports = f", {fixed} of them fixed" if fixed else ""
-    joined = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    joined = structure.joined_faces
     joints = f"{len(joined)} {'joint' if len(joined) == 1 else 'joints'}"
     what = f"{structure.name}, {structure.n} blocks{supports}, {joints}"
     return sentence, {"assembly": what}, measure_facts(response, ", until the first block fell")

@@ -43,8 +43,8 @@ class Earthquakes(o.Motions):
 
 
 def sequence(
-    column: o.StructureName,
-    model: o.ModelName = "dem2d",
+    column: str = o.STRUCTURE,
+    model: str = o.model(),
     *,
     motions: Annotated[Earthquakes, o.But(*o.SEVERAL)],
     rest: str = o.option("TIME", "Quiet ground after each earthquake.", "30s"),

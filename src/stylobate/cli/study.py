@@ -6,19 +6,17 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.studies import StudyResult
 
-StudyName = Annotated[Path, typer.Argument(metavar="FILE", help="A study file (TOML).")]
-StudyFolder = Annotated[Path, typer.Argument(metavar="DIR", help="The folder of a study.")]
+STUDY_NAME = o.argument("FILE", "A study file (TOML).")
+STUDY_FOLDER = o.argument("DIR", "The folder of a study.")
 
 
 def run(
-    file: StudyName,
+    file: Path = STUDY_NAME,
     out: Path = o.option("DIR", "Folder that keeps the runs, for good.", ...),
     *,
     execution: Annotated[o.Execution, o.But("out")],
@@ -57,7 +55,7 @@ def run(
     print(f"{console.counted(len(files), 'file')} in {out}: {named}, histories of {histories} runs")
 
 
-def status(directory: StudyFolder, *, execution: o.Plain) -> None:
+def status(directory: Path = STUDY_FOLDER, *, execution: o.Plain) -> None:
     """State of a study, which may be running."""
     from ..analysis.studies import StudyResult
     from ..campaign.cases import PLAN_FILE
@@ -79,7 +77,7 @@ def status(directory: StudyFolder, *, execution: o.Plain) -> None:
 
 
 def export(
-    directory: StudyFolder,
+    directory: Path = STUDY_FOLDER,
     to: Path = o.option("FILE", "Table to write: .parquet or .csv.", ...),
     *,
     execution: o.Plain,

@@ -6,7 +6,6 @@ from collections import Counter
 from pathlib import Path
 from typing import Annotated, Any
 
-from ..percent import percent
 from . import options as o
 from .design import WRITES, describe_design, write_design
 
@@ -28,9 +27,9 @@ SHOWN = (
 
 
 def suite(
-    column: o.ColumnName,
+    column: str = o.COLUMN,
     sources: list[Path] = o.argument("DIR|FILE...", "Folders of records, or records."),
-    model: o.ModelName = "dem2d",
+    model: str = o.model(),
     also: list[str] | None = o.option("COLUMN", "A further column, or assembly; may be repeated."),
     against: str = o.option("MEASURE", "Measure of the records on the axis of the figure.", "pgv_m_s"),
     *,
@@ -47,7 +46,7 @@ def suite(
     """
     import pandas
 
-    from ..analysis.directions import compass_of_shares, harm_words, worst
+    from ..analysis.directions import compass_of_shares, harm_words, may_collapse, worst
     from ..analysis.population import CHANCE, chance_words
     from ..analysis.suite import check_measure, suite_shares, suite_table
     from ..errors import InputError
@@ -84,7 +83,9 @@ def suite(
         designed = pandas.DataFrame(table.attrs["design_values"])
         if twins := table.attrs["twins"]:
             result |= {"replicates": campaign.replicates, "twins": twins}
-        compass = compass_of_shares(result["runs"], to_decide(stones[0], how.parameters(), campaign.tail))
+        cure = to_decide(stones[0], how.parameters(), campaign.tail)
+        result["to_decide"] = cure * any(map(may_collapse, result["runs"]))
+        compass = compass_of_shares(result["runs"], cure)
         result["worst"] = worst(result["runs"], compass if swept else None)
         if swept and result["worst"] is not None:
             result |= {"sentence": harm_words(result["worst"], compass), "undecided_directions_deg": compass.undecided}
@@ -116,9 +117,8 @@ def suite(
         print(f"{drawn['like']} like {name}: {drawn['words']}")
     if "sentence" in result:
         print(result["sentence"])
+    elif result["to_decide"]:
+        print(f"What is undecided: {result['to_decide']}.")
     console.print_left_out(result["inputs"])
-    if "stepped_s" in table:
-        share: Any = table["stepped_s"].sum() / table["duration_s"].sum()
-        print(f"stepped: {percent(share)} of the records, without what is quiet (--whole steps all)")
     console.print_refused(records.refused)
     console.print_files(files)

@@ -192,7 +192,7 @@ def overlap_edges(column: DrumStack, at: SpaceGeometry, joint: int) -> Edges:
     sides: list[tuple[np.ndarray, float]] = []
 
     def straight(angle: float, own: np.ndarray, reach: tuple[float, float], across: tuple[float, float] | None) -> None:
-        for axis, ends in zip(_turned_back(np.eye(2), angle), (reach, across), strict=True):
+        for axis, ends in zip(rotation(np.array([0.0, 0.0, 1.0]), -angle)[:2, :2], (reach, across), strict=True):
             if ends is not None:
                 sides.extend((sign * axis, end + sign * float(axis @ own)) for sign, end in zip((1.0, -1.0), ends))
 
@@ -222,11 +222,6 @@ def inside(edges: Edges, place: np.ndarray) -> float:
     discs, sides = edges
     within = [radius - math.hypot(*(place - middle)) for middle, radius in discs]
     return min(within + [bound - float(normal @ place) for normal, bound in sides])
-
-
-def _turned_back(point: np.ndarray, angle: float) -> np.ndarray:
-    """A place along a joint in axes that are turned by an angle [rad]."""
-    return rotation(np.array([0.0, 0.0, 1.0]), -angle)[:2, :2] @ point
 
 
 def smallest_uplift(column: DrumStack) -> np.ndarray:

@@ -314,6 +314,11 @@ class Structure:
         """The joints of bodies in space; None of what a plane or a stack tells."""
         return None
 
+    @property
+    def joined_faces(self) -> tuple[Any, ...]:
+        """The joints between its bodies, in their order, in the plane or in space."""
+        return self.face_pairs if self.space_joints is None else self.space_joints
+
     @cached_property
     def placed_links(self) -> tuple[PlacedLink, ...]:
         """All links in numbers, at their places, in their order."""

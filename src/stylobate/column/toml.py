@@ -56,24 +56,19 @@ def read_table(path: str | Path, schema: type[T]) -> T:
 def parse_toml(path: str | Path) -> dict[str, Any]:
     """Content of a TOML file, unchecked but for the size of its numbers and how deeply it is nested."""
     data, name = read_bytes(path, SETTINGS, "a TOML file of settings is smaller"), shown(path)
+    if data[:2] == b"PK" or Path(path).suffix.lower() in _SPREADSHEETS:
+        raise InputError(
+            f"{name} is the table of a spreadsheet; of a survey `stylobate convert` makes a column file first."
+        )
     try:
         found = tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
-        if data[:2] == b"PK" or Path(path).suffix.lower() in _WORKBOOKS:
-            raise InputError(
-                f"{name} is the workbook of a spreadsheet; turn the survey into a column file first, by `stylobate convert`."
-            ) from None
         raise InputError(f"{name} is not a text file in UTF-8; give a TOML file.") from None
     except tomllib.TOMLDecodeError as error:
         text = data.decode("utf-8-sig")
         other = (
             "" if Path(path).suffix.lower() == ".toml" else "; a TOML file of settings is expected here, not a record"
         )
-        if _SURVEY.search(text):
-            called = "" if Path(path).suffix.lower() == ".csv" else "call it .csv, and "
-            raise InputError(
-                f"{name} is a survey, drum by drum; {called}turn it into a column file first, by `stylobate convert`."
-            ) from None
         other = _meant(text, str(error)) or other
         raise InputError(f"{name} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}{other}.") from None
     except RecursionError:
@@ -84,13 +79,8 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
     return found
 
 
-#: The row of names of a survey, below lines ``# key: value``.
-_SURVEY = re.compile(
-    r"\A(?:\s*(?:#.*)?\n)*(?=[^=\n]*height)(?=[^=\n]*bottom_width)[^=\n]*top_width[^=\n]*\n", re.IGNORECASE
-)
-
-#: Endings of files that spreadsheets save, which are no text.
-_WORKBOOKS = (".xls", ".xlsx", ".xlsm", ".ods", ".numbers")
+#: Endings of files that spreadsheets save.
+_SPREADSHEETS = (".csv", ".xls", ".xlsx", ".xlsm", ".ods", ".numbers")
 
 
 #: What people write in a line and TOML does not take, what stands for it there, and why.

@@ -54,6 +54,11 @@ class Cases(Sequence[Any]):
 RESTITUTION = 0.3
 
 
+def given_back(model: Any) -> float:
+    """The same of a model: as stated, or what there is by default [-]."""
+    return RESTITUTION if model.restitution is None else model.restitution
+
+
 @dataclass(frozen=True)
 class RunOptions:
     """Length and closeness of a run; the same for every model.

@@ -194,7 +194,7 @@ def motion_summary(motion: Motion, *, spectrum: bool = True) -> dict[str, Any]:
         "pgv_m_s": {axis: peak_velocity(a, dt) for axis, a in axes.items()},
         "pgd_m": {axis: float(np.abs(displacement(a, dt)).max()) for axis, a in axes.items()},
         "pgd_drift_m": {axis: displacement_drift(motion, axis) for axis in axes},
-        "final_velocity_m_s": {axis: _final_velocity(a, dt) for axis, a in axes.items()},
+        "final_velocity_m_s": {axis: float(dt * (a.sum() - 0.5 * (a[0] + a[-1]))) for axis, a in axes.items()},
         "arias_m_s": {axis: arias(a, dt) for axis, a in axes.items()},
         "cav_m_s": {axis: absolute_integral(a, dt) for axis, a in axes.items()},
         "duration_5_75_s": {axis: significant_duration(motion, 0.05, 0.75, axis) for axis in axes},
@@ -218,7 +218,3 @@ def motion_summary(motion: Motion, *, spectrum: bool = True) -> dict[str, Any]:
         found["psa_5_percent_g"] = {f"{period:g} s": float(value) for period, value in zip(periods, psa)}
         found["housner_intensity_m"] = housner_intensity(motion)
     return found | {"processing": list(motion.processing)}
-
-
-def _final_velocity(a: np.ndarray, dt: float) -> float:
-    return float(dt * (a.sum() - 0.5 * (a[0] + a[-1])))

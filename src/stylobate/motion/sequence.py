@@ -89,7 +89,7 @@ def in_sequence(motions: Motion | Sequence[Motion], rest: float = REST, repeat: 
         )
     dt = _common_step(once)
     zeros = math.ceil(rest / dt * (1.0 - 1e-12))
-    parts = [_parts(motion, dt) for motion in once]
+    parts = [round(motion.dt / dt) for motion in once]
     total = repeat * sum((motion.steps - 1) * part + 1 + zeros for motion, part in zip(once, parts, strict=True))
     if total > MAX_SAMPLES:
         raise InputError(
@@ -164,10 +164,6 @@ def _common_step(motions: Sequence[Motion]) -> float:
             "motions",
         )
     return float(common)
-
-
-def _parts(motion: Motion, dt: float) -> int:
-    return round(motion.dt / dt)
 
 
 def _divided(values: np.ndarray, parts: int) -> np.ndarray:

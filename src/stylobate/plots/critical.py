@@ -36,10 +36,6 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: 
     Parameters
     ----------
     result : CriticalAmplitude
-    title : str, optional
-        Column and model by default.
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
     """
     amplitudes, verdicts = result.amplitudes / g, np.array(result.verdicts)
     if (width := result.column.base_width) is None:  # nor is there one top
@@ -91,9 +87,6 @@ def draw_collapse_over_amplitude(
     Parameters
     ----------
     population : CriticalPopulation
-    title : str, optional
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
     """
     figure, axes = panel(ax, (WIDTH, 3.4))
     amplitudes, (low, high) = population.amplitudes / g, population.interval
@@ -139,10 +132,6 @@ def draw_record_verdicts(
     Parameters
     ----------
     suite : CriticalSuite
-    title : str, optional
-        Column and model by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     count, amplitudes = len(suite.results), suite.amplitudes / g
     column = suite.results[0].column
@@ -194,9 +183,6 @@ def draw_directions(compass: Compass, title: str | None = None, *, figure: Figur
     Parameters
     ----------
     compass : Compass
-    title : str, optional
-    figure : matplotlib figure or subfigure, optional
-        Where to draw.
     """
     figure = page(figure, (4.6, 4.9))
     axes = cast(PolarAxes, figure.add_subplot(projection="polar"))

@@ -42,11 +42,6 @@ def draw_debris(
         Of the assembly itself, in space.
     bodies : sequence of BodyOverTwins
         ``Population.bodies``.
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
-    ax : Axes, optional
-        To draw in, instead of a figure.
     """
     figure, axes = only_panel(ax, figure, (WIDTH, 5.6))
     fallen = sorted((one for one in bodies if one.fell), key=lambda one: -one.fell)

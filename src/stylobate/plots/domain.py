@@ -42,10 +42,6 @@ def draw_domain(domain: Domain, title: str | None = None, *, ax: Axes | None = N
     Parameters
     ----------
     domain : Domain
-    title : str, optional
-        Column and model by default.
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
     """
     figure, axes = panel(ax, (WIDTH, 4.4))
     handles = draw_cells(axes, domain.frequencies, domain.amplitudes, domain.verdicts)
@@ -67,11 +63,8 @@ def draw_boundaries(
     Parameters
     ----------
     domains : sequence of Domain
-    title : str, optional
     looks : sequence of int, optional
         Number of each domain's line and mark, so that a model looks alike in several pictures; by default in order.
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
     """
     figure, axes = panel(ax, (WIDTH, 4.4))
     handles = [
@@ -172,10 +165,6 @@ def draw_probability(
     Parameters
     ----------
     result : CollapseProbability
-    title : str, optional
-        Column and model by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     figure = page(figure, (WIDTH, 4.7))
     chart, cut = figure.subplots(1, 2, width_ratios=(1.75, 1.0), sharey=True)
@@ -311,10 +300,6 @@ def draw_rocking_spectrum(
     Parameters
     ----------
     spectrum : RockingSpectrum
-    title : str, optional
-        Name of the motion by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     figure = page(figure, (WIDTH, 5.0))
     axes = figure.subplots()

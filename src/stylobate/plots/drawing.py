@@ -51,10 +51,6 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     Parameters
     ----------
     structure : Column, Assembly or Specimen
-    title : str, optional
-        None by default.
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
     """
     outlines, column = outlines_of(structure), structure.stack
     if column is None:
@@ -293,7 +289,7 @@ def _blocks(structure: Structure, shapes: list[np.ndarray], title: str | None, a
             name = name.rpartition(", ")[2]
         turned = wide < 4.2 * len(name) and high_ > wide
         words = {"fontsize": 6.5 if many else WORDS, "ha": "center", "va": "center", "rotation": 90 if turned else 0}
-        middle = _middle(shape)
+        middle = 0.5 * (shape.min(axis=0) + shape.max(axis=0))
         axes.text(float(middle[0]), float(middle[1]), name, **words)
     for _, (*_, start), (*_, end) in strokes(structure.placed_links):
         axes.plot([start[0], end[0]], [start[2], end[2]], color=BLUE, linewidth=1.2, zorder=5)
@@ -305,10 +301,6 @@ def _blocks(structure: Structure, shapes: list[np.ndarray], title: str | None, a
     if title:
         axes.set_title(title)
     return figure
-
-
-def _middle(shape: np.ndarray) -> np.ndarray:
-    return 0.5 * (shape.min(axis=0) + shape.max(axis=0))
 
 
 def dimension(axes: Axes, sheet: Sheet, along: int, low: np.ndarray, high: np.ndarray) -> None:
@@ -475,10 +467,6 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
     Parameters
     ----------
     structure : Column, Assembly, SpatialAssembly or Specimen
-    title : str, optional
-        None by default.
-    figure : Figure or SubFigure, optional
-        Where it is drawn; a new figure by default.
     """
     seen = Seen.of(structure)
     across, deep, heights = _proportions(seen.solids)
@@ -644,7 +632,6 @@ class JointPlan:
 
     Parameters
     ----------
-    title : str
     below, above : array or None
         Corners of the upper face of what is below and of the lower face of what is above, shape (k, 2); None of a base.
     said : str
@@ -775,10 +762,6 @@ def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure
     Parameters
     ----------
     structure : Column, Assembly, SpatialAssembly or Specimen
-    title : str, optional
-        None by default.
-    figure : Figure or SubFigure, optional
-        Draw in it; a new one of the size that it needs by default.
     """
     plans = joint_plans(structure)
     shown = plans[:MOST]
@@ -793,7 +776,8 @@ def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure
     above, below = parts
     draw_views(structure, title, figure=above)
     left_out = "" if len(plans) <= MOST else f"; joints {MOST + 1} to {len(plans)} are not drawn"
-    _heading(below, f"plans of joints, {plan_axes(structure)}{left_out}")
+    heading = f"plans of joints, {plan_axes(structure)}{left_out}"
+    below.suptitle(heading, x=0.02, ha="left", fontsize=8.5, color=GREY, weight="normal")
     panels = below.subplots(rows, beside, squeeze=False)
     for axes, plan, half in zip(panels.flat, shown, plan_reach(structure, shown)):
         draw_plan(axes, plan, half)
@@ -812,21 +796,14 @@ def plan_axes(structure: Structure) -> str:
 
 def plan_reach(structure: Structure, plans: Sequence[JointPlan]) -> list[float]:
     """Half the side of the square around each plan [m]; of a column one for all, so that they can be laid on one another."""
-    each = [1.06 * float(np.abs(np.concatenate([_centred(plan), _there(plan.below)])).max()) for plan in plans]
+    faces = [[_centred(plan), *([] if plan.below is None else [plan.below])] for plan in plans]
+    each = [1.06 * float(np.abs(np.concatenate(one)).max()) for one in faces]
     return [max(each)] * len(each) if structure.stack is not None else each
 
 
 def lines_under(plan: JointPlan) -> int:
     """Lines of words under a plan."""
     return sum(1 + words.count("\n") for words in (plan.said, plan.found) if words)
-
-
-def _heading(figure: SubFigure, text: str) -> None:
-    figure.suptitle(text, x=0.02, ha="left", fontsize=8.5, color=GREY, weight="normal")
-
-
-def _there(corners: np.ndarray | None) -> np.ndarray:
-    return np.empty((0, 2)) if corners is None else corners
 
 
 def _centred(plan: JointPlan) -> np.ndarray:

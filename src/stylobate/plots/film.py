@@ -442,9 +442,6 @@ def draw_filmstrip(
         assembly's blocks, and at the end.
     magnification : float, optional
         Factor on all displacements; by default 1, or a round number that makes small ones visible.
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     space = response.dims == "xyz"
     scenes = [Scene(response, view) for view in ((ALONG_X, ALONG_Y) if space else (None,))]

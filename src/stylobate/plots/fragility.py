@@ -59,10 +59,6 @@ def draw_fragility(
     ----------
     curves : Fragility or sequence of Fragility
         Of one intensity measure; two columns, or one with and without a measure.
-    title : str, optional
-        The state by default.
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
     """
     found = [curves] if isinstance(curves, Fragility) else list(curves)
     figure, axes = panel(ax, NARROW)
@@ -129,10 +125,6 @@ def draw_ida(result: Ida, edp: str | None = None, title: str | None = None, *, a
     edp : str, optional
         Measure of the response, as a column of the table of runs; the peak displacement by default. Displacements are
         drawn in base widths where there is a base.
-    title : str, optional
-        Column and model by default.
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
     """
     figure, axes = panel(ax, (NARROW[0], 3.9))
     curves, table = result.curves(edp), result.fractiles(edp)
@@ -187,9 +179,6 @@ def draw_efficiency(table: pandas.DataFrame, title: str | None = None, *, ax: Ax
     ----------
     table : pandas.DataFrame
         From :func:`stylobate.analysis.efficiency.which_tells_most`.
-    title : str, optional
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
     """
     figure, axes = panel(ax, (NARROW[0], 1.2 + 0.23 * len(table)))
     at = np.arange(len(table))
@@ -247,10 +236,6 @@ def draw_suite(
         From :func:`stylobate.analysis.suite.suite_table`.
     against : str
         A key of :data:`stylobate.analysis.suite.INTENSITIES`.
-    title : str, optional
-        What stands behind the name of each column; the model by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
 
     Raises
     ------
@@ -265,7 +250,8 @@ def draw_suite(
     values = table[against].to_numpy(dtype=float)
     name = next(peak for peak in PEAKS if peak in table)
     peaks = table[name].to_numpy(dtype=float)
-    groups = _groups(table)
+    outcome, verdicts = table["outcome"].str.replace("_", " "), table["verdict"]
+    groups = np.where(verdicts == v.STANDS, outcome, verdicts).astype(object)
     finite = peaks[np.isfinite(peaks) & (groups != v.COLLAPSED)]
     ceiling = 2.0 * max(float(finite.max(initial=0.0)), 0.5)
     floor = max(SMALLEST, 0.5 * float(finite.min(initial=1.0)))
@@ -279,7 +265,8 @@ def draw_suite(
                 points = axes.plot(values[chosen], shown[chosen], linestyle="none", markersize=5.5, **mark)[0]
                 handles.setdefault(group, points)
         if len(table) <= MOST_NUMBERS * len(columns):
-            _number(axes, values[here], shown[here], table["number"].to_numpy()[here])
+            for x, y, number in zip(values[here], shown[here], table["number"].to_numpy()[here]):
+                axes.annotate(str(number), (x, y), xytext=(4, 2), textcoords="offset points", fontsize=6.5, color=BLACK)
         axes.set_yscale("log")
         axes.yaxis.set_major_formatter("{x:g}")
         axes.set_ylim(0.6 * floor, 1.8 * ceiling)
@@ -298,17 +285,6 @@ def draw_suite(
         labels = [f"{group} (drawn at {floor:g} at least)" if group == "at rest" else group for group in labels]
     figure.legend(list(handles.values()), labels, loc="outside lower center", ncols=3)
     return figure
-
-
-def _groups(table: pandas.DataFrame) -> np.ndarray:
-    """Outcome of a run that stands, else its verdict."""
-    outcome, verdicts = table["outcome"].str.replace("_", " "), table["verdict"]
-    return np.where(verdicts == v.STANDS, outcome, verdicts).astype(object)
-
-
-def _number(axes: Axes, x: np.ndarray, y: np.ndarray, numbers: np.ndarray) -> None:
-    for one in zip(x, y, numbers):
-        axes.annotate(str(one[2]), one[:2], xytext=(4, 2), textcoords="offset points", fontsize=6.5, color=BLACK)
 
 
 # -- Several states of a column ---------------------------------------------------------------------------------------
@@ -331,9 +307,6 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
     Parameters
     ----------
     found : StateComparison
-    title : str
-    figure : matplotlib figure or subfigure, optional
-        Where to draw.
     """
     known = [one for one in found.curves if one is not None]
     figure = page(figure, (WIDTH, 4.4 if known else min(2.2 + 0.4 * len(found.differences), 4.4)))
@@ -447,8 +420,6 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     ----------
     values : pandas.DataFrame
         As of :func:`stylobate.design_values`.
-    figure : matplotlib figure or subfigure, optional
-        Where to draw.
     """
     found = worst_of(values)
     shown = found.groupby("state", sort=False).head(max(MOST // max(len(set(found["state"])), 1), 1))
@@ -509,10 +480,6 @@ def draw_risk(result: Risk, title: str | None = None, *, figure: Figure | SubFig
     Parameters
     ----------
     result : Risk
-    title : str, optional
-        The return period by default.
-    figure : matplotlib figure or subfigure, optional
-        Where to draw.
     """
     figure = page(figure, (NARROW[0], 4.6))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.2, 1.0))

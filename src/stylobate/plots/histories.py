@@ -47,12 +47,8 @@ def draw_histories(
     Parameters
     ----------
     response : Response
-    title : str, optional
-        Column or assembly, motion and outcome by default.
     window : (float, float), optional
         Beginning and end of what is drawn [s]; all by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     begin, end = seen(response.time, window)
     if response.histories.top is None:
@@ -141,13 +137,10 @@ def draw_comparison(
     Parameters
     ----------
     responses : sequence of Response
-    title : str, optional
     labels : sequence of str, optional
         What the models are called; their names by default.
     window : (float, float), optional
         Beginning and end of what is drawn [s]; all by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     begin, end = seen(max((one.time for one in responses), key=lambda time: time[-1]), window)
     figure = page(figure, (WIDTH, 3.6))
@@ -236,11 +229,8 @@ def draw_energy(
     Parameters
     ----------
     response : Response
-    title : str, optional
     window : (float, float), optional
         Beginning and end of what is drawn [s]; all by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     time, energy = response.time, response.energy
     figure = page(figure, (WIDTH, 4.2))
@@ -310,11 +300,6 @@ def draw_orbit(
     ----------
     response : Response
         Of a column, in space.
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
-    ax : Axes, optional
-        To draw in, instead of a figure.
     """
     figure, axes = only_panel(ax, figure, SIZE)
     top, time = response.top_displacement, response.time
@@ -406,9 +391,6 @@ def draw_sequence(
     ----------
     response : Response
     events : sequence of Event
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     figure = page(figure, (WIDTH, 4.6))
     upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(2.2, 1.8, 1.0))
@@ -453,9 +435,6 @@ def draw_ends(
     ----------
     response : Response
     events : sequence of Event
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     last = [float(event.run.time[-1]) for event in events]
     some = np.unique(np.linspace(0, len(last) - 1, min(len(last), MOST_STATES - 1)).round().astype(int))

@@ -75,13 +75,8 @@ def draw_joints(
     Parameters
     ----------
     response : Response
-    title : str, optional
     window : (float, float), optional
         Beginning and end of what is drawn [s]; all by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
-    ax : Axes, optional
-        To draw in, instead of a figure.
     """
     h, n = response.histories, response.opening.shape[1]
     opening = np.nan_to_num(np.abs(h.joint_opening))
@@ -197,9 +192,6 @@ def draw_uplift(response: Response, title: str | None = None, *, figure: Figure 
     ----------
     response : Response
         Of a column in space.
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     kept = until_collapse(response)
     azimuth = np.arange(AROUND) * (2.0 * np.pi / AROUND)
@@ -243,9 +235,6 @@ def draw_residuals(response: Response, title: str | None = None, *, figure: Figu
     ----------
     response : Response
         Of a column in space.
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     last = int(np.flatnonzero(until_collapse(response))[-1])
     slip, twist = response.slip[last], response.twist[last]

@@ -26,7 +26,6 @@ def draw_modes(modes: Modes, title: str | None = None, *, figure: Figure | None 
     Parameters
     ----------
     modes : Modes
-    title : str, optional
     figure : Figure, optional
         To be drawn on.
     """

@@ -24,9 +24,6 @@ def draw_motion(motion: Motion, title: str | None = None, *, figure: Figure | Su
     Parameters
     ----------
     motion : Motion
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     components = motion.components
     figure = page(figure, (WIDTH, 0.8 + 1.9 * len(components)))
@@ -72,11 +69,8 @@ def draw_spectra(
     motion : Motion
     damping : float
         Share of the critical damping [-].
-    title : str, optional
     spectra : dict of str to ResponseSpectrum, optional
         By component; computed here by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     found = spectra or {axis: response_spectrum(motion, damping=damping, component=axis) for axis in motion.components}
     figure = page(figure, (WIDTH, 4.6))
@@ -117,9 +111,6 @@ def draw_record_selection(
     Parameters
     ----------
     selection : RecordSelection
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     figure = page(figure, (WIDTH, 5.4))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))

@@ -35,9 +35,6 @@ def draw_pushover(
     path : PushoverResult
     limit : float, optional
         Multiplier of the limit analysis [g], drawn as a line.
-    title : str
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     figure = page(figure, (WIDTH, 3.6))
     curve, picture = figure.subplots(1, 2, width_ratios=(2.2, 1.0))
@@ -135,9 +132,6 @@ def draw_limit_directions(
     Parameters
     ----------
     found : LimitByDirection
-    title : str
-    figure : matplotlib figure or subfigure, optional
-        Where to draw.
     """
     figure = page(figure, (4.6, 4.9))
     axes = cast(PolarAxes, figure.add_subplot(projection="polar"))

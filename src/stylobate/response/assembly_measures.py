@@ -15,7 +15,7 @@ from ..outcome import classify
 from .body_measures import azimuth_of_fall, body_measures, shifted_bodies
 from .collapse import FELL, Collapse, Touch
 from .histories import Histories
-from .links import LinkHistories, LinkMeasures
+from .links import LinkHistories
 from .measures import BlockMeasures, Measures
 from .recorded import Recorded
 from .residuals import Residuals
@@ -40,18 +40,13 @@ def recorded_blocks(
     ground_acceleration: np.ndarray,
     ground_displacement: np.ndarray,
     *,
-    at_rest: bool,
     failed: bool,
-    in_equilibrium: bool | None,
-    energy_imbalance: float,
-    time_step: float,
-    steps: int,
     model: str,
     provenance: dict[str, Any],
     touched: Touch | None = None,
-    links: tuple[LinkMeasures, ...] = (),
     held: LinkHistories | None = None,
     velocity: np.ndarray | None = None,
+    **ended: Any,
 ) -> Recorded:
     """A run of an assembly from the recorded poses of its bodies.
 
@@ -66,22 +61,17 @@ def recorded_blocks(
         Ledger [J], each term of shape (T,).
     ground_acceleration, ground_displacement : array
         [m/s²], [m], shape (T,) or (T, 3)
-    at_rest, failed : bool
-        Whether everything lies still at the end; whether the computation could not go on, or its energy is out of balance.
-    in_equilibrium : bool, optional
-        As drawn.
-    energy_imbalance : float
-        What the ledger misses, relative to the largest of input work, released potential energy and energy at rest [-].
-    time_step, steps : float, int
+    failed : bool
+        Whether the computation could not go on, or its energy is out of balance.
     model : str
     provenance : dict
     touched : Touch, optional
-    links : tuple of LinkMeasures
-        Of the links that act.
     held : LinkHistories, optional
-        Their histories.
+        Histories of the links that act.
     velocity : array, optional
         Along x and z [m/s] and of the rotation [rad/s], shape (T, N, 3).
+    **ended
+        How the run began and ended: see :func:`measures_of_bodies`.
     """
     opening, slip = joint_histories(assembly, x, z, rotation)
     moved = np.hypot(x - x[0], z - z[0])
@@ -91,9 +81,7 @@ def recorded_blocks(
     ways = (one[-1, free] - one[0, free] for one in (x, z, rotation))
     measures = measures_of_bodies(
         assembly, time, np.stack((x, np.zeros_like(x), z), axis=-1), moved, turned, since, opening, np.abs(slip[-1]),
-        at_rest=at_rest, failed=failed, in_equilibrium=in_equilibrium, touched=touched,
-        residuals=Residuals.in_plane(slip[-1], *ways),
-        energy_imbalance=energy_imbalance, time_step=time_step, steps=steps, links=links,
+        failed=failed, touched=touched, residuals=Residuals.in_plane(slip[-1], *ways), **ended,
     )  # fmt: skip
     histories = Histories.of_blocks(
         time, x, z, rotation, opening, slip, ground_acceleration, ground_displacement, energy, velocity
@@ -134,13 +122,15 @@ def measures_of_bodies(
         Recorded state from which on a body had fallen, by its number, in the order of falling; empty where the run failed.
     opening, slip : array
         Of each joint over time [m], shape (T, J), and at the end [m], shape (J,).
-    at_rest, failed, in_equilibrium
-        How the run began and ended.
+    at_rest, failed : bool
+        Whether everything lies still at the end; whether the run has no verdict.
+    in_equilibrium : bool or None
+        As drawn; None if it is not known.
     touched : Touch or None
         First touch of bodies that no joint holds.
     residuals : Residuals
     **numbers
-        Fields of the measures that hang on the computation: imbalance, step, links and so on.
+        Fields of the measures that hang on the computation: ``energy_imbalance``, ``time_step``, ``steps``, ``links`` …
     """
     bodies, (joined, width) = structure.bodies, joined_bodies(structure)
     held = {i for pair in joined for i in pair}

@@ -128,7 +128,7 @@ def _joint_told(response: Recorded, what: str) -> dict[str, Any] | None:
     None where there is no joint, or none that did.
     """
     structure, h, m = response.structure, response.histories, response.measures
-    joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    joints = structure.joined_faces
     until = h.time <= m.collapse_time if m.collapsed else np.ones(len(h.time), dtype=bool)
     slip = np.linalg.norm(h.slip[until], axis=-1)
     values = h.opening[until].max(axis=0) if what == "opening" else slip.max(axis=0) if m.collapsed else slip[-1]

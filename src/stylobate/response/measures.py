@@ -13,6 +13,7 @@ from functools import cache
 from numbers import Integral
 from typing import Any
 
+from ..messages import say
 from ..outcome import Outcome
 from .collapse import Collapse
 from .links import LinkMeasures, row_of
@@ -118,10 +119,10 @@ class SpaceMeasures:
         TOP, "m", "largest absolute displacement of the middle of the top face along y, relative to the base"
     )
     peak_tilt: float = measure(
-        BODY, "rad", "largest angle between a drum's axis and the vertical", label="peak tilt", phrase="peak tilt"
+        BODY, "rad", "largest angle between a drum's axis and the vertical", label="peak tilt", phrase=say("peak tilt")
     )
     peak_twist: float = measure(
-        JOINT, "rad", "largest absolute twist of any joint", label="peak twist", phrase="peak twist of a joint"
+        JOINT, "rad", "largest absolute twist of any joint", label="peak twist", phrase=say("peak twist of a joint")
     )
 
 
@@ -186,11 +187,11 @@ class BlockMeasures:
     fell_at: tuple[tuple[str, float], ...] = ()
     peak_displacement: float = measure(
         BODY, "m", "largest distance of a centroid from where it was at the start, until the first block has fallen",
-        label="peak displacement", phrase="peak displacement of a block", spread=True,
+        label="peak displacement", phrase=say("peak displacement of a block"), spread=True,
     )  # fmt: skip
     residual_displacement: float = measure(
         BODY, "m", "largest distance of a centroid from where it was at the start, at the end",
-        label="residual displacement", phrase="residual displacement of a block", spread=True,
+        label="residual displacement", phrase=say("residual displacement of a block"), spread=True,
     )  # fmt: skip
     at_rest: bool = False
     in_equilibrium: bool | None = None
@@ -257,21 +258,21 @@ class Measures:
     collapse_time: float = measure(RUN, "s", "time at which the collapse became certain", missing=None)
     peak_top_displacement: float = measure(
         TOP, "m", "largest top displacement relative to the base",
-        label="peak top displacement", phrase="peak displacement of the top", spread=True, short="top",
+        label="peak top displacement", phrase=say("peak displacement of the top"), spread=True, short="top",
     )  # fmt: skip
     residual_top_displacement: float = measure(
         TOP, "m", "top displacement relative to the base at the end, of the debris after a collapse",
-        label="residual top displacement", phrase="residual displacement of the top", spread=True,
+        label="residual top displacement", phrase=say("residual displacement of the top"), spread=True,
     )  # fmt: skip
     peak_rotation: float = measure(
-        BODY, "rad", "largest rotation of any drum", label="peak rotation", phrase="peak rotation", spread=True
+        BODY, "rad", "largest rotation of any drum", label="peak rotation", phrase=say("peak rotation"), spread=True
     )
     peak_joint_opening: float = measure(
-        JOINT, "m", "largest opening of any joint", label="peak joint opening", phrase="peak opening of a joint"
+        JOINT, "m", "largest opening of any joint", label="peak joint opening", phrase=say("peak opening of a joint")
     )
     residual_joint_slip: float = measure(
         JOINT, "m", "largest offset of a drum along its joint at the end, of the debris after a collapse",
-        label="residual joint slip", phrase="largest residual slip of a joint", spread=True, short="drums",
+        label="residual joint slip", phrase=say("largest residual slip of a joint"), spread=True, short="drums",
     )  # fmt: skip
     energy_imbalance: float = measure(RUN, "", "energy that the ledger cannot account for, over the energy at stake")
     time_step: float = measure(STEPS, "s", "step of the integration, the smallest if it varies")

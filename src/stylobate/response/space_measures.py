@@ -12,7 +12,7 @@ from ..column.structure import Structure
 from .assembly_measures import TURNED, fallen_since, lowest_standing, measures_of_bodies
 from .collapse import Touch
 from .histories import Histories
-from .links import LinkHistories, LinkMeasures
+from .links import LinkHistories
 from .poses import quaternions
 from .recorded import Recorded
 from .residuals import Residuals, turned_up
@@ -27,19 +27,14 @@ def recorded_in_space(
     ground_acceleration: np.ndarray,
     ground_displacement: np.ndarray,
     *,
-    at_rest: bool,
     failure: str,
-    in_equilibrium: bool | None,
-    energy_imbalance: float,
-    time_step: float,
-    steps: int,
     model: str,
     provenance: dict[str, Any],
-    links: tuple[LinkMeasures, ...] = (),
     held: LinkHistories | None = None,
     velocity: np.ndarray | None = None,
     spin: np.ndarray | None = None,
     struck_at: float | None = None,
+    **ended: Any,
 ) -> Recorded:
     """A run of an assembly in space from the recorded poses of its bodies.
 
@@ -54,20 +49,21 @@ def recorded_in_space(
         Ledger [J], each term of shape (T,).
     ground_acceleration, ground_displacement : array
         [m/s²], [m], shape (T, 3)
-    at_rest, in_equilibrium, energy_imbalance, time_step, steps, model, provenance, links, held
-        As of an assembly in the plane.
     failure : str
         Why the run has failed and has no verdict; empty if it has one.
+    model, provenance, held
+        As of an assembly in the plane.
     velocity, spin : array, optional
         Of the centroids [m/s], and of the bodies' turning in the axes of space [rad/s], shape (T, N, 3).
     struck_at : float, optional
         When bodies that no joint holds together first touched [s].
+    **ended
+        How the run began and ended: see :func:`~stylobate.response.assembly_measures.measures_of_bodies`.
     """
-    failed = bool(failure)
     opening, slip, twist = joint_histories(structure, position, axes)
     moved = np.linalg.norm(position - position[0], axis=-1)
     down = fallen(structure, position[0], axes[0], position, axes)
-    since = {} if failed else fallen_since(down)
+    since = {} if failure else fallen_since(down)
     tilt = np.arccos(np.clip(_upright(axes[0], axes), -1.0, 1.0))
     free = [not body.fixed for body in structure.bodies]
     left = Residuals.in_space(
@@ -75,10 +71,8 @@ def recorded_in_space(
     )
     measures = measures_of_bodies(
         structure, time, position, moved, tilt, since, opening, np.linalg.norm(slip[-1], axis=-1),
-        at_rest=at_rest, failed=failed, in_equilibrium=in_equilibrium,
-        touched=None if struck_at is None else Touch(struck_at),
-        residuals=left,
-        energy_imbalance=energy_imbalance, time_step=time_step, steps=steps, reason=failure, links=links,
+        failed=bool(failure), reason=failure, touched=None if struck_at is None else Touch(struck_at), residuals=left,
+        **ended,
     )  # fmt: skip
     histories = Histories.in_space(
         time, position, quaternions(axes), opening, slip, twist, None, None, ground_acceleration,

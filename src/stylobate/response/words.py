@@ -194,6 +194,8 @@ def to_decide(structure: Structure, parameters: Mapping[str, Any], tail: float, 
             "no tail decides it, as drums that pivot freely turn with their offsets, slopes and chips at no cost"
         )
     steps = "stiffness_damping" in parameters  # only what steps drums waits
+    if waited and structure.section == "circular" and not parameters.get("planar", True) and undamped(parameters):
+        return say("no tail decides it, as nothing damps its wobble: damp it as stone (losses = stone)")
     return say("go on with {tail}", tail=longer_tail(tail + LONGEST_WAIT * (waited and steps)))
 
 

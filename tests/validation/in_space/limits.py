@@ -10,7 +10,7 @@ import stylobate as st
 from stylobate.analysis.limit_assemblies import AssemblyProgramme
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.engine import engine_for
-from stylobate.models.space.assemblies import engine_of, step_for
+from stylobate.models.space.loose import engine_of, step_for
 
 from .row import MET, MISSED, NONE, Judged, Rows, both_sides, family, near
 
@@ -48,8 +48,8 @@ def stiffer(structure: st.SpatialAssembly, stiffness: float, friction: float = 0
 def stands(structure: st.SpatialAssembly, azimuth: float, share: float) -> bool:
     """Whether bodies stand a push in proportion to their mass [g]: damped while it comes, then a while without."""
     model = DistinctElement3D()
-    engine = engine_of(structure, engine_for(model, structure).numbers, 1.0)
-    engine.start(step_for(engine, structure, engine_for(model, structure).numbers))
+    engine = engine_of(structure, engine_for(model, structure).acting, 1.0)
+    engine.start(step_for(engine, structure, engine_for(model, structure).acting))
     first = engine.places
     angle = np.radians(azimuth)
     engine.body["local"] = DAMPING

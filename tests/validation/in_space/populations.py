@@ -19,8 +19,8 @@ from stylobate.column.presets import PAPER
 from stylobate.column.turning import matrix_of
 from stylobate.models.engine import engine_for
 from stylobate.models.shared.ledger import TERMS, released, unaccounted
-from stylobate.models.space import assemblies
-from stylobate.models.space.assemblies import engine_of, step_for
+from stylobate.models.space import loose as assemblies
+from stylobate.models.space.loose import engine_of, step_for
 
 from .plane import GALLERY
 from .random_scenes import scene, tumble, turned
@@ -120,7 +120,7 @@ def tumbling() -> Iterator[dict[str, Any]]:
     for number in range(TUMBLES):
         joint = LAWS[number % len(LAWS)]
         assembly = st.SpatialAssembly(tuple(tumble(number)), joint, name="tumble", settle=False)
-        numbers = engine_for(model, assembly).numbers
+        numbers = engine_for(model, assembly).acting
         engine = engine_of(assembly, numbers, 0.3)
         engine.start(step_for(engine, assembly, numbers))
         start, flown = engine.energies(), 0.0

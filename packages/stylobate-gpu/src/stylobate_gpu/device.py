@@ -9,7 +9,7 @@ from typing import Any
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.models.drums.bodies import Topology
+from stylobate.models.drums.records import Topology
 from stylobate.models.drums.stepped import LaneEngine, SteppedDrums
 
 from . import card_check, driver, kinds, lanes

@@ -102,7 +102,7 @@ def describe(text: str) -> dict[str, Any]:
             "name": assembly.name,
             "blocks": len(bodies),
             "fixed": sum(body.fixed for body in bodies),
-            "joints": len(assembly.space_joints or assembly.face_pairs),
+            "joints": len(assembly.joined_faces),
             "links": len(assembly.links),
             "mass": sum(body.mass for body in bodies if not body.fixed),
             "height": max(float(body.corners[:, 1].max()) for body in bodies),

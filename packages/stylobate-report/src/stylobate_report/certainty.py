@@ -9,6 +9,7 @@ from stylobate.analysis.debris import OVER_ALL, only_as_seen
 from stylobate.analysis.population import set_against
 from stylobate.messages import digits, joined, say
 from stylobate.percent import percent, percents
+from stylobate.response.measures import JOINT, SPREAD
 
 from . import numbers as n
 from .page import Facts, Item, Rows, Section
@@ -118,16 +119,11 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
         )
     if laws := summary.get("under_other_laws"):
         pairs.append((say("under other laws"), laws))
-    for key, words in (
-        ("peak_top_displacement_m", say("peak displacement of the top") + PERCENTILES),
-        (
-            "residual_top_displacement_m",
-            say("residual displacement of the top") + PERCENTILES,
-        ),
-        ("peak_displacement_m", say("peak displacement of a body") + PERCENTILES),
-        ("residual_displacement_m", say("residual displacement of a body") + PERCENTILES),
-        ("peak_rotation_rad", say("peak rotation [rad]") + PERCENTILES),
-    ):
+    for one in SPREAD:
+        if one.of == JOINT:  # slips have a table of their own
+            continue
+        key, unit = one.key, "" if one.unit == "m" else f" [{one.unit}]"
+        words = one.phrase + unit + PERCENTILES
         spread = known.get(key)
         if isinstance(spread, list):
             shown = [

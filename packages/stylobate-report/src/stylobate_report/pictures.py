@@ -25,7 +25,9 @@ def picture(figure: Figure, caption: str) -> Picture:
             assert isinstance(text, Text)
             text.set_text(language.say(text.get_text()))
         axes: list[Any] = figure.findobj(Axis)
-        for ticks in {id(one): one for axis in axes for one in [axis.get_major_formatter()]}.values():  # some are shared
+        for ticks in {
+            id(one): one for axis in axes for one in [axis.get_major_formatter()]
+        }.values():  # some are shared
             ticks.format_ticks = partial(_ticks, language, ticks.format_ticks)
     content = io.BytesIO()
     figure.savefig(content, format="png", dpi=DOTS_PER_INCH, facecolor="white", metadata={"Software": None})

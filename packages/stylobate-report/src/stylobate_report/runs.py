@@ -229,27 +229,18 @@ def _measures(r: Response) -> list[tuple[str, str]]:
     pairs = [(say("outcome"), _outcome(r))]
     if m.collapsed:
         pairs.append((say("collapse certain at"), say("{m.collapse_time:.2f} s", m=m)))
-    if not math.isnan(m.peak_top_displacement):
-        base = r.structure.base_width
-        share = "" if base is None else say(" ({base:.2f} base widths)", base=m.peak_top_displacement / base)
-        pairs.append((say("peak displacement of the top") + until, n.length(m.peak_top_displacement) + share))
-    if m.blocks is not None:
-        pairs.append((say("peak displacement of a block") + until, n.length(m.blocks.peak_displacement)))
-        if r.fell_at:
-            fell = (say("{name} ({time:.2f} s)", name=name, time=when) for name, when in r.fell_at.items())
-            pairs.append((say("fell"), joined(", ", fell)))
-    if not m.collapsed:
-        if not math.isnan(m.residual_top_displacement):
-            pairs.append((say("residual displacement of the top"), n.length(m.residual_top_displacement)))
-        if m.blocks is not None:
-            pairs.append((say("residual displacement of a block"), n.length(m.blocks.residual_displacement)))
-        pairs.append((say("largest residual slip of a joint"), n.length(m.residual_joint_slip)))
-    pairs.append((say("peak rotation") + until, n.angle(m.peak_rotation)))
-    pairs.append((say("peak opening of a joint") + until, n.length(m.peak_joint_opening)))
-    if m.space is not None:
-        pairs.append((say("peak tilt") + until, n.angle(m.space.peak_tilt)))
-        pairs.append((say("peak twist of a joint") + until, n.angle(m.space.peak_twist)))
-    return pairs
+    told, base = [one for one in m.shown(space=True) if not math.isnan(one[1])], r.structure.base_width
+    far = [(one, value) for one, value in told if one.peak and "displacement" in one.field]
+    for one, value in far:
+        share = "" if base is None else say(" ({base:.2f} base widths)", base=value / base)
+        pairs.append((one.phrase + until, n.length(value) + share))
+    if m.blocks is not None and r.fell_at:
+        fell = (say("{name} ({time:.2f} s)", name=name, time=when) for name, when in r.fell_at.items())
+        pairs.append((say("fell"), joined(", ", fell)))
+    pairs += [(one.phrase, n.length(value)) for one, value in told if one.residual and not m.collapsed]
+    others = [(one, value) for one, value in told if one.peak and (one, value) not in far]
+    shown = {"m": n.length, "rad": n.angle}
+    return pairs + [(one.phrase + until, shown[one.unit](value)) for one, value in others]
 
 
 def _outcome(r: Response) -> str:
@@ -306,7 +297,7 @@ def _bodies(r: Response) -> list[Item]:
 def _joints_of_blocks(r: Response, opening: list[float | None]) -> list[Item]:
     """Joints of an assembly by the bodies that they join."""
     structure, gone = r.structure, r.collapsed
-    joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    joints = structure.joined_faces
     slip = np.linalg.norm(r.slip[-1], axis=-1)
     header = [
         say("joint"),

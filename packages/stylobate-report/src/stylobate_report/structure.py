@@ -286,7 +286,7 @@ _TOLD = ("kind", "between", "at", "to", "name")
 
 def _blocks(structure: Structure) -> list[Item]:
     contacts = structure.space_joints
-    joints_of: Sequence[Any] = structure.face_pairs if contacts is None else contacts
+    joints_of: Sequence[Any] = structure.joined_faces
     caption = say("Elevation of {name}, with the size of all of it in m; supports that are held are grey.")
     if contacts is not None:
         caption = say(

@@ -14,8 +14,7 @@ from stylobate.analysis.hazard import Hazard
 from stylobate.analysis.lognormal import BETAS
 from stylobate.errors import InputError, check_choice, check_range
 
-from .ground_motion import GroundMotionModel
-from .seismic_sources import Source
+from .ground_motion import GroundMotionModel, Source
 
 #: What is seen of a state.
 SEEN = ("stands", "reached")

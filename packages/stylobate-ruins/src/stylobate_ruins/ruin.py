@@ -376,7 +376,7 @@ def bodies_of(structure: Structure) -> list[str]:
 
 def joints_of(structure: Structure) -> int:
     """Number of its joints, as residuals count them."""
-    return len(structure.face_pairs if structure.space_joints is None else structure.space_joints)
+    return len(structure.joined_faces)
 
 
 def refuse_drawn(stated: Sequence[str]) -> None:

@@ -10,8 +10,7 @@ from scipy.special import log_ndtr, ndtr
 
 from stylobate.errors import within
 
-from .ground_motion import GroundMotionModel, alike
-from .seismic_sources import Source, events_of, plane
+from .ground_motion import GroundMotionModel, Source, alike, events_of, plane
 
 #: Events whose medians differ at no place by more than this count as one [-], in the logarithm.
 CELL = 0.1

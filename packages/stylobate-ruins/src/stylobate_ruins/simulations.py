@@ -20,7 +20,7 @@ from stylobate.column.scatter import drawn_twin, usual_scatter
 from stylobate.column.structure import Structure
 from stylobate.errors import InputError
 from stylobate.models.base import Case, Cases, Model
-from stylobate.models.drums.losses import LossyDrums
+from stylobate.models.drums.stepped import LossyDrums
 from stylobate.models.shared.quiet import QUIET
 from stylobate.own_files import digest as digest_of_file
 from stylobate.response.rows import Rows

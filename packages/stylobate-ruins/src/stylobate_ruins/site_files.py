@@ -14,9 +14,8 @@ from stylobate.reading import shown
 from stylobate.results.fragilities import fitted
 from stylobate.results.json_files import read_json
 
-from .ground_motion import MODELS
+from .ground_motion import MODELS, Source
 from .monuments import Branch, Capacity, Monument, Site, Sites
-from .seismic_sources import Source
 
 #: Largest table of branches or sources [bytes], and most branches.
 MOST, MOST_BRANCHES = 50_000_000, 5000

@@ -21,8 +21,8 @@ from stylobate.notebook import Shown
 from stylobate.percent import percent
 
 from .monuments import Branch, Sites
-from .poisson import Pattern, together
 from .shared_events import SharedEvents
+from .survival import Pattern, together
 
 #: Draws of ages, and of fragilities with each, where events are known by hazard curves and where they are drawn.
 DRAWS, DRAWS_OF_EVENTS = (64, 16), (16, 8)

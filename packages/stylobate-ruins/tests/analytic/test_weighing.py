@@ -10,11 +10,10 @@ from scipy.stats import multivariate_normal, norm
 import stylobate as st
 from stylobate.analysis.hazard import Hazard
 from stylobate.errors import InputError
-from stylobate_ruins.ground_motion import CORRELATED, MODELS, alike
+from stylobate_ruins.ground_motion import CORRELATED, MODELS, Source, alike, events_of, rupture_length
 from stylobate_ruins.monuments import Branch, Capacity, Monument, Site, Sites
-from stylobate_ruins.poisson import Pattern, stands, together
-from stylobate_ruins.seismic_sources import Source, events_of, rupture_length
 from stylobate_ruins.shared_events import SharedEvents
+from stylobate_ruins.survival import Pattern, stands, together
 from stylobate_ruins.weighing import WAYS, weigh
 
 SITES = (Site("a", (21.63, 37.64)), Site("b", (21.72, 37.60)), Site("c", (22.4, 37.2)))

@@ -118,7 +118,7 @@ def refuse_mixed(data: dict[str, Any]) -> None:
         name = repr(one["name"]) if isinstance(one.get("name"), str) else "without a name"
         if kind == "block" and "depth" in one:
             raise InputError(f"block {name} has a depth, as in the plane, among bodies in space; give it as a box.")
-        if kind == "block" and _short(one.get("vertices")):
+        if kind == "block" and 2 in _sizes(one.get("vertices")):
             raise InputError(
                 f"block {name} has vertices of two numbers, a polygon in the plane, among bodies in space; give x, y and z, "
                 "or a box."
@@ -145,16 +145,14 @@ def _entries(data: dict[str, Any]) -> list[tuple[str, dict[str, Any]]]:
 
 def _in_space(one: dict[str, Any], kind: str) -> bool:
     if kind == "block":
-        return any(key in one for key in IN_SPACE) or _long(one.get("vertices"))
+        return any(key in one for key in IN_SPACE) or _sizes(one.get("vertices")) == {3}
     if kind == "column":
         places = one.get("at")
         return "turn" in one or (isinstance(places, list) and any(isinstance(place, list) for place in places))
     return "section" in one
 
 
-def _long(vertices: Any) -> bool:
-    return bool(vertices) and isinstance(vertices, list) and all(isinstance(p, list) and len(p) == 3 for p in vertices)
-
-
-def _short(vertices: Any) -> bool:
-    return isinstance(vertices, list) and any(isinstance(vertex, list) and len(vertex) == 2 for vertex in vertices)
+def _sizes(vertices: Any) -> set[int]:
+    """How many numbers the corners of a block have."""
+    some = vertices if isinstance(vertices, list) else []
+    return {len(point) if isinstance(point, list) else 0 for point in some}

@@ -86,7 +86,7 @@ def rub(e, f, o, sums, u, v, l, pressing, spread, touching, torsion, face, middl
     # friction with one limit for both  # Eq. (E6)
     limits = e.mu[l] * pressing + e.co[l] * area, torsion[1] * torsion[1] * spread
     pivot = o.pivot[l]
-    compact = area / max(squares, NOTHING)
+    compact = max(area, 0.0) / max(squares, NOTHING)
     own = e.ks[l] * area, torsion[0] * e.ks[l] * squares, centre, middle, compact
     turning = turning if pivot > 0.0 else 0.0
     core, fresh = layers(e, v, l, pivot, centre)

@@ -187,7 +187,7 @@ def all_stand(stand, slip, energy, gravity, walks, body, joint, lane, lanes, out
 
 @strict_of_arrays
 def stands(stand, slip, energy, gravity, walks, body, joint, lane, l):
-    """Whether a column as built, with these slips and this energy [J], stands for good: see ``models/dem3d/verdict.py``."""
+    """Whether a column as built, with these slips and this energy [J], stands for good: see ``models/dem3d/packing.py``."""
     if not centroids_inside(body, joint, lane, l):
         return False
     lowest = lowest_barrier(stand, slip, turns_of(body, l), body[1].px.shape[0] > 1, gravity, walks)

@@ -125,7 +125,7 @@ def lowest_found(found, stand, slip, turns, up, cornered, gravity, walks):
 
 @strict_of_arrays
 def stands_as_found(found, stand, slip, energy, high, up, gravity, walks, body, joint, lane, l):
-    """Whether a column as found, with these slips and this energy [J], stands for good; see ``models/dem3d/verdict.py``.
+    """Whether a column as found, with these slips and this energy [J], stands for good; see ``models/dem3d/packing.py``.
 
     ``high`` is mass times height of its drums as they were found [kg m]: what sliding down a slope has set free is not there
     any more to fall back on.

@@ -113,7 +113,7 @@ def all_stand(stand, offset, gravity, slope, energy, body, joint, lanes, out):
 
 @strict
 def stands(stand, offset, gravity, slope, energy, body, joint, l):
-    """Whether a column that no input shakes any more can neither overturn nor slide apart; see ``models/plane/standing.py``.
+    """Whether a column that no input shakes any more can neither overturn nor slide apart; see ``models/plane/packing.py``.
 
     ``stand`` comes put down as found, and is put down with the ``offset`` of each drum along its joint [m].
     """

@@ -160,7 +160,7 @@ def act(damped, e, u, v, s, o, l):
     write(e.rb, l, rv)
     slip, spin, before, turn = along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
     centre = along(ml, 1.0, in_axes(s, l, centre))
-    face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at, closed / max(polar, NOTHING)
+    face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at, max(closed, 0.0) / max(polar, NOTHING)
     limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * LEVER * spread
     rolling = 0.5 * (spin_u + spin_v) * last
     core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l], along(ml, 1.0, in_axes(s, l, row(e.at, l)))

@@ -15,22 +15,17 @@ from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ...response import Response
 from ..base import Case, RunOptions
-from ..drums.bodies import body_fields
 from ..drums.impact import rocking_column
-from ..drums.joints import contact_points, damping_rows, joint_stiffnesses
 from ..drums.links import acting, link_stiffness, with_links
-from ..drums.losses import LossyDrums, with_provenance
-from ..drums.records import Packed
+from ..drums.records import Packed, body_fields, contact_points, damping_rows, joint_stiffnesses
+from ..drums.stepped import LossyDrums, with_provenance
 from ..engine import engine_for
-from ..plane.assemblies import LooseInPlane
 from ..plane.columns import PlaneStack
-from ..plane.found_start import found_start
-from ..plane.laws import Types, point_law
-from ..plane.loose import Contacts
-from ..plane.packing import joint_fields, lane_fields, pack_column
+from ..plane.loose import LooseInPlane
+from ..plane.packing import Types, found_start, joint_fields, lane_fields, pack_column, point_law
 from ..shared import stable_step as shared
 from ..shared.opening import Opening, opening
-from ..shared.settling import LOCAL_DAMPING, settled
+from ..shared.stable_step import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
 
 MAX_POINTS = 32
@@ -67,7 +62,7 @@ class PointStack(PlaneStack):
 
             how = engine_for(self.acting, self.structure)
             lanes = how.block(replace(options, until_end=True))
-            response = follow(self.structure, motion, lanes, Contacts.of(self.acting), options)
+            response = follow(self.structure, motion, lanes, self.acting, options)
         else:
             response = super().run(motion, options)
         return with_provenance(self, motion, response, self.model.opening(self.structure))

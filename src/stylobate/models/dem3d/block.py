@@ -19,15 +19,12 @@ from ...response.collapse import OVERTURNED, SLID_OFF, what_is_lost
 from ...response.measures import SpaceMeasures
 from ...response.residuals import Residuals, turned_up
 from ..base import RunOptions
-from ..drums.lane_engine import Left
 from ..drums.records import Packed, sink
-from ..drums.runs import LaneRuns
+from ..drums.runs import FinalStates, LaneRuns
 from ..shared.lanes import in_rows
 from ..start import check_in_plane, check_takes_pose
-from .arrays import Records
-from .pose import placed
+from .packing import Records, found_numbers, placed
 from .specimen import FreeBody
-from .verdict import found_numbers
 
 
 class Stack:
@@ -272,7 +269,7 @@ class SpaceBlock(LaneRuns):
             "energy": self.energies(lane),
         } | self.links_now(lane)
 
-    def left(self, lanes: list[int]) -> Left:
+    def left(self, lanes: list[int]) -> FinalStates:
         """What the runs of some lanes leave behind."""
         which, records = np.array(lanes, dtype=np.int64), self.records
         _, slip, twist = records.joints(which)
@@ -285,7 +282,7 @@ class SpaceBlock(LaneRuns):
         lean, tilt = ([math.acos(max(-1.0, 1.0 - one)) for one in peaks] for peaks in (lean, turn))
         space = [SpaceMeasures(*row) for row in zip(topx, topy, tilt, spin, strict=True)]
         top = np.hypot(*self.top(which).T)
-        return Left(residuals, np.hypot(*np.moveaxis(slip, -1, 0)), slip, top, np.array(lean), space)
+        return FinalStates(residuals, np.hypot(*np.moveaxis(slip, -1, 0)), slip, top, np.array(lean), space)
 
     def stay(self, lanes: list[int], energy: np.ndarray, slip: np.ndarray) -> np.ndarray:
         """Whether what stands in lanes with so much energy above that at rest [J] stands for good, shape (lanes,)."""

@@ -16,28 +16,34 @@ from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ...response import Response
 from ..base import RunOptions
-from ..drums.bodies import Topology
 from ..drums.impact import damping_for, rocking_column
-from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
-from ..drums.losses import LossyDrums, with_provenance
-from ..drums.records import Packed
-from ..drums.stepped import LaneEngine, StackEngine
+from ..drums.records import Packed, Topology, damping_rows, joint_stiffnesses
+from ..drums.stepped import LaneEngine, LossyDrums, StackEngine, with_provenance
 from ..engine import engine_for
 from ..shared.opening import Opening, opening
-from ..shared.soft_joints import check_step_resolves
-from ..shared.stable_step import stable_step
+from ..shared.stable_step import check_step_resolves, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
-from ..space.bodies import BodiesInSpace
-from .arrays import Records
+from ..space.lanes import BodiesInSpace
 from .block import SpaceBlock, Stack
-from .found_start import found_start
-from .kind import ALONE, CHIPPED, RING, SPECIMEN, Kind
-from .links import link_fields
-from .packing import chipped, drum_fields, joint_fields, lane_fields, pack_column
+from .packing import (
+    ALONE,
+    CHIPPED,
+    RING,
+    SPECIMEN,
+    Kind,
+    Records,
+    chipped,
+    drum_fields,
+    found_start,
+    highest_frequency,
+    joint_fields,
+    lane_fields,
+    link_fields,
+    numbers_for,
+    pack_column,
+)
 from .specimen import FreeBody, RockingSpecimen, pack_specimen, rows_for, top_frequency
-from .stability import highest_frequency
-from .verdict import numbers_for
 
 #: Bending stiffness of a closed joint over k_n J, less 1: of each law of contact of round faces, and of corners.
 LAWS = {"rim": 1.0, "bed": 0.0}

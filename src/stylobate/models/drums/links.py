@@ -1,4 +1,4 @@
-"""Links of a column as the kernels want them, their part in the stable step, and what they have done in a run."""
+"""Links as the kernels want them, their part in the stable step, what they hold at the start and do in a run."""
 
 from __future__ import annotations
 
@@ -208,3 +208,29 @@ def with_link_histories(found: Histories, states: Sequence[dict[str, Any]]) -> H
     """Histories with those of the links, where the states of a run hold them."""
     held = link_histories(states)
     return found if held is None else replace(found, links=held)
+
+
+def held_at_start(column: Column) -> float:
+    """Elastic energy of pretensioned links [J]."""
+    return sum(0.5 * one.pretension**2 / one.axial_stiffness for one in acting(column) if one.pretension)
+
+
+def without_tension(column: Column) -> Column:
+    """The column with those of its links alone that hold nothing at the start."""
+    pairs = zip(column.links, column.placed_links, strict=True)
+    return column.replace(links=tuple(link for link, one in pairs if not one.pretension))
+
+
+def set_free(column: Column, tensions: np.ndarray, pressed: float) -> float:
+    """Energy that pretensioned links and the joints that they press have given away since the start [J].
+
+    ``tensions`` are those of the links now [N], shape (m,). What the joints had, ``pressed`` [J], falls with the square of
+    the tension; they are taken to have lost as much of it as the link that has lost most.
+    """
+    free = least = 0.0
+    for m, one in enumerate(acting(column)):
+        if one.pretension:
+            left = min(float(tensions[m]) / one.pretension, 1.0) ** 2
+            free += 0.5 * one.pretension**2 / one.axial_stiffness * (1.0 - left)
+            least = max(least, 1.0 - left)
+    return free + least * max(pressed, 0.0)

@@ -1,18 +1,139 @@
-"""Records of bodies in lanes, as the engines in the plane and in space take them: arrays, contacts, numbers of a lane."""
+"""Structures in the records of lanes, in the plane and in space alike: contacts, bodies, joints, a packed run."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
+from ...column.joint import Joint
+from ...column.structure import Structure
 from ...kernels.run_codes import CHUNK, RUNNING
 from ...kernels.shared.records import LANE, STATE
 from ...motion import Motion
 from ..shared.lanes import aligned_zeros, in_rows, with_copies
-from .bodies import Topology
+from .links import acting
+
+
+@dataclass(frozen=True)
+class Topology:
+    """Which contacts there are, the same in all lanes of a block.
+
+    Parameters
+    ----------
+    bodies : int
+    joints : tuple of (int, int)
+        Lower and upper body of each joint.
+    links : tuple of (int, int)
+        The same of each link.
+    fixed : tuple of int
+        Bodies that move with the ground.
+    stack : int
+        Drums of the column that is looked at, bodies 1 … stack on joints 0 … stack − 1; 0 for none.
+    which : tuple
+        What else tells whose runs can share a block: the links themselves.
+    """
+
+    bodies: int
+    joints: tuple[tuple[int, int], ...]
+    links: tuple[tuple[int, int], ...] = ()
+    fixed: tuple[int, ...] = (0,)
+    stack: int = 0
+    which: tuple[Any, ...] = ()
+
+    @classmethod
+    @lru_cache(maxsize=4096)
+    def of(cls, structure: Structure) -> Topology:
+        """Of all bodies of a structure, on its joints and on those of its links that act."""
+        joints = tuple((pair.lower, pair.upper) for pair in structure.face_pairs)
+        links = tuple((one.lower, one.upper) for one in acting(structure))
+        fixed = tuple(i for i, body in enumerate(structure.bodies) if body.fixed)
+        stack = 0 if structure.stack is None else structure.stack.n
+        return cls(len(structure.bodies), joints, links, fixed, stack, structure.links if links else ())
+
+
+def body_fields(structure: Structure, closure: np.ndarray | None = None) -> dict[str, np.ndarray]:
+    """Fields of the bodies as they stand, at rest; each joint of a stack closed by ``closure`` [m], shape (n,)."""
+    bodies = structure.bodies
+    x, z, lean, m, i = np.array([(*body.place, body.lean, body.mass, body.inertia) for body in bodies]).T
+    if closure is not None:
+        z[1:] -= np.cumsum(closure)
+    free = np.array([not body.fixed for body in bodies])
+    m, i = np.where(free, m, 0.0), np.where(free, i, 0.0)
+    im, ii = (np.divide(1.0, one, out=np.zeros(len(bodies)), where=free) for one in (m, i))
+    at_rest = {name: np.zeros(len(bodies)) for name in ("th", "vx", "vz", "w")}
+    return at_rest | {
+        "x": x, "z": z, "c": np.cos(lean), "s": np.sin(lean), "m": m, "i": i, "im": im, "ii": ii
+    }  # fmt: skip
+
+
+def joint_stiffnesses(structure: Structure, block_modulus: float | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Normal and shear stiffness per area of each joint [N/m³]; with a column's stone in series if its modulus is given.
+
+    1/k_n′ = 1/k_n + h/2E of the drum above + h/2E of the drum below (the base is rigid); k_s keeps its ratio to k_n.
+    Eq. (D2).
+    """
+    laws = [pair.law for pair in structure.face_pairs]
+    kn, ks = (np.array([getattr(law, name) for law in laws]) for name in ("normal_stiffness", "shear_stiffness"))
+    return with_stone(structure, kn, ks, block_modulus)
+
+
+def with_stone(
+    structure: Structure, kn: np.ndarray, ks: np.ndarray, block_modulus: float | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffnesses per area [N/m³] with the stone of each drum and of the next below in series, along the last axis."""
+    if block_modulus is None:
+        return kn, ks
+    half = 0.5 * structure.must_be("column").heights / block_modulus
+    soft = 1.0 / (1.0 / kn + half + np.concatenate(([0.0], half[:-1])))
+    return soft, ks * soft / kn
+
+
+def bed_laws(structure: Structure, block_modulus: float | None = None) -> np.ndarray:
+    """k_n, k_s [N/m³] and tan φ of the bed between any two bodies, shape (N, N, 3); the pair's lower number first.
+
+    As soft as the joints where their springs have the stone of a column in series.
+    """
+    laws = np.empty((len(structure.bodies), len(structure.bodies), 3))
+
+    def numbers(law: Joint) -> tuple[float, float, float]:
+        return law.normal_stiffness, law.shear_stiffness, law.tan_phi
+
+    for i, law in enumerate(structure.surfaces):
+        laws[:, i] = numbers(law)
+    for i, h, law in structure.laws_of_pairs:
+        laws[i, h] = numbers(law)
+    if block_modulus is not None:
+        laws[:, 1:, 0], laws[:, 1:, 1] = with_stone(structure, laws[:, 1:, 0], laws[:, 1:, 1], block_modulus)
+    return laws
+
+
+def contact_points(section: str, points: int) -> tuple[np.ndarray, np.ndarray]:
+    """Places (−1 … 1) and shares of the area of a joint's contact points.
+
+    Gauss–Lobatto's rule for the chord of the section: weight 1 for a rectangle, √(1 − ξ²) for a circle. Its inner points
+    are the roots of the Jacobi polynomial for the weight times 1 − ξ²; the ends take what is left.
+    """
+    if points == 2:
+        return np.array([-1.0, 1.0]), np.array([0.5, 0.5])
+    from scipy.special import roots_jacobi
+
+    power, total = (1.5, math.pi / 2.0) if section == "circular" else (1.0, 2.0)
+    inner, weight = roots_jacobi(points - 2, power, power)
+    inner = 0.5 * (inner - inner[::-1])
+    weight = 0.5 * (weight + weight[::-1]) / (1.0 - inner**2)
+    end = 0.5 * (total - weight.sum())
+    return np.concatenate(([-1.0], inner, [1.0])), np.concatenate(([end], weight, [end])) / total
+
+
+def damping_rows(damped: bool, stiffness_damping: float, mass_damping: float) -> np.ndarray:
+    """Rows of a lane's ``damp``, without local damping; one row of nothing where nothing is damped."""
+    return np.array([stiffness_damping, mass_damping, 0.0]) if damped else np.zeros(1)
+
 
 #: Records of which every lane has its own numbers from the start: what moves, and how it is moved and watched.
 MOVING = ("body", "joint", "lane", "link")

@@ -1,30 +1,145 @@
-"""Runs in the lanes of a block, in the plane and in space alike: how they go on and end, and what they started with."""
+"""Runs in the lanes of a block, in the plane and in space alike: how they begin, go on and end, and what they come to."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...column import Column
 from ...constants import LONGEST_WAIT
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, RUNNING
+from ...motion import Motion
 from ...outcome import Outcome, classify
-from ...response import LinkMeasures, Measures
-from ...response.measures import CPU
+from ...response import Collapse, Histories, LinkMeasures, Measures
+from ...response.collapse import what_is_lost
+from ...response.measures import CPU, SpaceMeasures
+from ...response.poses import quaternions
+from ...response.residuals import Residuals
 from ..base import Case, RunOptions
 from ..shared import ledger, quiet
+from ..shared.ground import ground_histories
 from ..shared.lanes import NOT_COMPUTED, longest_piece
 from ..shared.stable_step import whole_steps
 from ..start import check_takes_pose
-from .histories import ledger_imbalance
-from .lane_engine import LaneEngine, Left
-from .links import acting, link_measures, link_snapshot
-from .pretension import held_at_start, set_free, without_tension
+from .links import acting, held_at_start, link_measures, link_snapshot, set_free, with_link_histories, without_tension
 from .records import LaneRecords, Packed
-from .started import Started
+
+
+def ledger_imbalance(change: ledger.Row, work: float, start: float, barrier: float) -> float:
+    """Energy imbalance of a run of drums [-].
+
+    Parameters
+    ----------
+    change : array or sequence of float
+        The ledger, shape (6,) [J].
+    work, start : float
+        Largest input work so far, and the elastic energy at rest [J].
+    barrier : float
+        Lowest energy that overturns what stands there [J].
+    """
+    missing, free = ledger.unaccounted(change), ledger.released(change)
+    return ledger.imbalance(missing, work=work, start=start, barrier=barrier, released=free)
+
+
+def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
+    """Histories from the snapshots of a run, in the plane or in space."""
+    stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
+    energy, in_space = stack["energy"], "axes" in stack
+    acceleration, displacement = ground_histories(motion, stack["time"])
+    absolute = ("input",) if in_space else ("input", "kinetic")
+    shared: dict[str, Any] = {
+        "time": stack["time"],
+        "joint_opening": stack["opening"],
+        "joint_slip": stack["slip"],
+        "base_displacement": stack["base"] - stack["base"][0],
+        "top_displacement": stack["top"],
+        "ground_acceleration": acceleration,
+        "ground_displacement": displacement,
+        "energy": {
+            term: energy[:, i] - (0.0 if term in absolute else energy[0, i]) for i, term in enumerate(ledger.TERMS)
+        },
+    }
+    if in_space:
+        orientation = quaternions(stack["axes"])
+        found = Histories.in_space(
+            **shared, position=stack["position"], orientation=orientation, joint_twist=stack["twist"]
+        )
+    else:
+        found = Histories.of_drums(**shared, drum_x=stack["x"], drum_z=stack["z"], drum_rotation=stack["rotation"])
+    return with_link_histories(found, states)
+
+
+class FinalStates(NamedTuple):
+    """What runs have left behind, of each of them.
+
+    Parameters
+    ----------
+    residuals : sequence of Residuals
+    offset : array
+        Length of the offset along every joint [m], shape (runs, joints).
+    slip : array
+        Of every joint since the start, as :meth:`LaneRuns.stay` takes it [m], shape (runs, joints) or (runs, joints, 2).
+    top : array
+        Residual displacement of the top [m], shape (runs,).
+    rotation : array
+        Largest rotation of a body [rad], shape (runs,).
+    space : sequence of SpaceMeasures, optional
+    """
+
+    residuals: Sequence[Residuals]
+    offset: np.ndarray
+    slip: np.ndarray
+    top: np.ndarray
+    rotation: np.ndarray
+    space: Sequence[SpaceMeasures] | None = None
+
+
+@dataclass(frozen=True)
+class Started:
+    """How a run has begun, for those of the same column that begin alike: what does not hang on its motion otherwise.
+
+    Parameters
+    ----------
+    packed : Packed
+        The column.
+    dt : float
+        Time step [s].
+    ground : tuple of float
+        Acceleration of the base at the start [m/s²].
+    numbers : array
+        Numbers of the lane of what moves.
+    kept : tuple of array
+        What the block itself keeps of a lane.
+    """
+
+    packed: Packed
+    dt: float
+    ground: tuple[float, ...]
+    numbers: np.ndarray
+    kept: tuple[np.ndarray, ...]
+
+    @classmethod
+    def of(cls, block: LaneRuns, lane: int, ground: tuple[float, ...]) -> Started:
+        """That of a run that has begun in a lane."""
+        numbers = block.arrays.numbers[: block.arrays.moving, lane].copy()
+        kept = tuple(one[lane].copy() for one in block.beginning)
+        return cls(block.packed[lane], float(block.dt[lane]), ground, numbers, kept)
+
+    def serves(self, packed: Packed, dt: float, ground: tuple[float, ...]) -> bool:
+        """Whether another run begins so."""
+        return packed is self.packed and dt == self.dt and ground == self.ground
+
+    def put(self, block: LaneRuns, lane: int) -> None:
+        """Let a run begin so in a lane."""
+        block.arrays.numbers[: len(self.numbers), lane] = self.numbers
+        for one, own in zip(block.beginning, self.kept, strict=True):
+            one[lane] = own
+
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
@@ -33,7 +148,7 @@ CALLS_PER_RUN = 100
 WAIT = 0.5
 
 
-class LaneRuns(LaneEngine):
+class LaneRuns:
     """Runs in the lanes of a block; the base of the blocks of the engines in the plane and in space.
 
     Parameters
@@ -66,6 +181,56 @@ class LaneRuns(LaneEngine):
         self.spans = quiet.Spans(self.lanes, options, self.chunk)
         self.chunks_per_call = 1
         self.piece = longest_piece(cost, self.chunk)
+
+    # -- what each engine gives ---------------------------------------------------------------------------------
+
+    def step(self, chunks: int) -> None:
+        """Let the kernel take so many chunks of steps."""
+        raise NotImplementedError
+
+    def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
+        """The same as if the column stood there without its pretension; ``bare`` is that column."""
+        raise NotImplementedError
+
+    def shake(self, lane: int, motion: Motion) -> None:
+        """Note how the base of a lane moves."""
+        raise NotImplementedError
+
+    @property
+    def stood(self) -> tuple[np.ndarray, ...]:
+        """What is kept of how the columns stood, the lanes first."""
+        raise NotImplementedError
+
+    def stand(self, lane: int) -> None:
+        """Note how a column stands in a lane."""
+        raise NotImplementedError
+
+    def take_pose(self, lane: int, column: Any, start: Any) -> None:
+        """Put a column that stands in a lane where a run starts from."""
+        raise NotImplementedError
+
+    def half_a_step_back(self, lane: int) -> None:
+        """Velocities half a step before the start."""
+        raise NotImplementedError
+
+    def collapse(self, lane: int) -> Collapse:
+        """The collapse of a lane."""
+        raise NotImplementedError
+
+    def left(self, lanes: list[int]) -> FinalStates:
+        """What the runs of some lanes leave behind."""
+        raise NotImplementedError
+
+    def lost(self, collapse: Collapse, column: Any) -> str:
+        """Fallen bodies, and their places, in words."""
+        return f"{what_is_lost(collapse, column.n)}, to the {collapse.side}"
+
+    def stay(self, lanes: list[int], energy: np.ndarray, slip: np.ndarray) -> np.ndarray:
+        """Whether what stands in lanes with so much energy above that at rest [J] stands for good, shape (lanes,).
+
+        ``slip`` is that of every joint since the start [m], of each lane.
+        """
+        raise NotImplementedError
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
@@ -323,13 +488,13 @@ class LaneRuns(LaneEngine):
         except NOT_COMPUTED:  # of one of them, whose own turn it is to say so
             (self.ended[lane],) = self.measures([lane], self.left([lane]))
 
-    def measures(self, lanes: list[int], left: Left, since: np.ndarray | None = None) -> list[Measures]:
+    def measures(self, lanes: list[int], left: FinalStates, since: np.ndarray | None = None) -> list[Measures]:
         """Measures of lanes whose runs are over.
 
         Parameters
         ----------
         lanes : list of int
-        left : Left
+        left : FinalStates
         since : array, optional
             Change of the ledgers since the start [J], shape (lanes, 6); that of the lanes if left out.
         """

@@ -15,15 +15,14 @@ from ...response import Collapse, Histories, Measures, Response
 from ...response.assembly_measures import first_touch
 from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
-from ..base import Case, RunOptions
-from ..drums.histories import histories
-from ..drums.lane_engine import Left
+from ..base import Case, RunOptions, given_back
+from ..drums.runs import FinalStates, histories
 from .columns import ColumnLanes, residuals_in
-from .loose import ENDLESS, Contacts, Loose
+from .loose import ENDLESS, Loose
 from .packing import OF_BODY
 
 
-def follow(column: Column, motion: Motion, block: ColumnLanes, contacts: Contacts, options: RunOptions) -> Response:
+def follow(column: Column, motion: Motion, block: ColumnLanes, model: Any, options: RunOptions) -> Response:
     """One run of a column in which drums may strike one another and the ground.
 
     Until bodies that are no neighbours come close to each other, or a joint is close to handing over, this is the run
@@ -35,12 +34,13 @@ def follow(column: Column, motion: Motion, block: ColumnLanes, contacts: Contact
     motion : Motion
     block : ColumnLanes
         Lanes for the column, that go on after a collapse.
-    contacts : Contacts
+    model : DistinctElement2D
+        With what acts in the run.
     options : RunOptions
         A run goes on after its collapse with ``until_end``, and after the motion until everything lies still with
         ``until_rest``.
     """
-    run = _ColumnRun(column, motion, block, contacts, options)
+    run = _ColumnRun(column, motion, block, model, options)
     engine = run.engine
     every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
     residual = engine.residual_acceleration()
@@ -55,15 +55,13 @@ def follow(column: Column, motion: Motion, block: ColumnLanes, contacts: Contact
 class _ColumnRun:
     """A column in the lanes as long as only neighbours can touch, in the engine of assemblies from there on."""
 
-    def __init__(
-        self, column: Column, motion: Motion, block: ColumnLanes, contacts: Contacts, options: RunOptions
-    ) -> None:
+    def __init__(self, column: Column, motion: Motion, block: ColumnLanes, model: Any, options: RunOptions) -> None:
         motion = motion.multiplied
-        self.column, self.motion, self.block, self.name, self.options = column, motion, block, contacts.name, options
-        self.restitution = contacts.given_back
+        self.column, self.motion, self.block, self.name, self.options = column, motion, block, model.name, options
+        self.restitution = given_back(model)
         block.load(0, Case(column, motion))
         duration = motion.duration + options.tail
-        self.engine = engine = Loose(column, contacts, motion, duration, self.restitution)
+        self.engine = engine = Loose(column, model, motion, duration, self.restitution)
         engine.start(block.packed[0].step)
         self.loose, self.ahead = False, 0
         self.take_over()
@@ -210,6 +208,6 @@ class _ColumnRun:
         change = last["energy"] - self.start
         residuals, slip = residuals_in(last), block.poses([0])["slip"]
         offset = np.array([residuals.slips])
-        left = Left([residuals], offset, slip, np.array([residual]), block.peaks([0], "turn"))
+        left = FinalStates([residuals], offset, slip, np.array([residual]), block.peaks([0], "turn"))
         (measures,) = block.measures([0], left, since=change[None])
         return measures if measures.collapse is None else replace(measures, collapse=self.collapse(found))

@@ -1,8 +1,9 @@
-"""Columns in the plane in blocks of lanes: how a run begins, goes on and ends, and what it comes to."""
+"""Bodies in the plane in blocks of lanes, and the engines of columns: how a run begins, goes on and ends."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,21 +11,141 @@ import numpy as np
 from ...column import Column
 from ...constants import DEGREE
 from ...kernels.run_codes import LANES
+from ...kernels.shared.records import LANE, STATE
 from ...motion import Motion
 from ...response import Collapse
 from ...response.collapse import in_plane
 from ...response.residuals import Residuals
 from ..base import RunOptions
-from ..drums.bodies import Topology
-from ..drums.lane_engine import Left
-from ..drums.records import Packed
-from ..drums.runs import LaneRuns
+from ..drums.records import LaneRecords, Packed, Topology, sink
+from ..drums.runs import FinalStates, LaneRuns
 from ..drums.stepped import StackEngine
-from ..start import check_in_plane
-from .block import Records, slope_base
-from .laws import Types
-from .pose import leans_right, placed, sink_in
-from .standing import numbers_for
+from ..start import Start, check_in_plane
+from .packing import Types, numbers_for
+
+
+class Records(LaneRecords):
+    """Records of bodies in the plane; others as for :class:`LaneRecords`.
+
+    Parameters
+    ----------
+    types : mapping of str to dtype
+        Of :mod:`stylobate.models.plane.packing`.
+    """
+
+    axes_of_base = 2
+
+    def __init__(self, types: Types, topology: Topology, spare: int = 0) -> None:
+        from ...kernels.plane import step
+
+        super().__init__(types, topology, len(topology.joints), spare)
+        self.types, self.kernel = types, step
+
+    def forces(self, lane: int) -> tuple[np.ndarray, ...]:
+        """Force along x and z [N] and moment [N m] on every body in its present position, on a copy; shapes (N,)."""
+        state = self.now()
+        state[STATE.index("lane")]["dt"][0, lane] = 0.0
+        self.kernel.gather(state)
+        body = state[STATE.index("body")]
+        return tuple(body[name][:, lane] for name in ("fx", "fz", "mo"))
+
+    def ledgers(
+        self, state: tuple[Any, ...], lanes: np.ndarray, dt: np.ndarray, bases: np.ndarray, out: np.ndarray
+    ) -> None:
+        """Write the ledgers of lanes of a state whose forces are those of its positions."""
+        self.kernel.ledgers(state, np.ascontiguousarray(bases), dt, lanes, out)
+
+    def joint_states(self, lanes: Sequence[int]) -> tuple[np.ndarray, np.ndarray]:
+        """Opening of every joint, and where the body above it is along it [m], each of shape (lanes, joints)."""
+        opening, slip = np.empty((2, len(lanes), len(self.joint)))
+        self.kernel.joint_states(self.state, np.array(lanes, dtype=np.int64), opening, slip)
+        return opening, slip
+
+    def acceleration(self, lane: int) -> float:
+        """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
+        fx, fz, mo = self.forces(lane)
+        free = self.span["fixed"] == 0
+        ax = (fx * self.body["im"][:, lane] - self.lane["gx"][0, lane])[free]
+        az = (fz * self.body["im"][:, lane] - self.lane["g"][0, lane])[free]
+        edge = np.zeros(len(self.body))
+        np.maximum.at(edge, self.pair["upper"][: len(self.joint)].astype(int), self.edges(lane))
+        turn = (mo * self.body["ii"][:, lane] * edge)[free]
+        return float(np.abs(np.concatenate((ax, az, turn))).max())
+
+    def edges(self, lane: int) -> np.ndarray:
+        """Distance of the ends of every joint's upper face from the centroid's foot on it, at most [m], shape (joints,)."""
+        return np.maximum(self.joint["bl"][:, lane], self.joint["br"][:, lane])
+
+
+def slope_base(records: Records, lane: int, motion: Motion, slope: float) -> None:
+    """Let a lane's base move along a slope [rad], and note the largest accelerations across gravity and along it."""
+    feed, watch = records.feed[0], records.watch[0]
+    feed["bc"][lane], feed["bs"][lane] = math.cos(slope), math.sin(slope)
+    peak_x, peak_z = motion.pga, motion.peaks.get("z", 0.0)
+    watch["amax"][lane] = peak_x * math.cos(slope) + peak_z * abs(math.sin(slope))
+    watch["vmax"][lane] = peak_x * abs(math.sin(slope)) + peak_z * math.cos(slope)
+
+
+def placed(
+    start: Start, records: Records, lane: int, gravity: float
+) -> tuple[dict[str, np.ndarray], tuple[float, float]]:
+    """Fields of the drums of a column that stands tilted and turns as one rigid body, and the force that it rests on.
+
+    The force along x and z [N] is the one that carries the rigid body turning about its edge from there: nothing rings at
+    the start.
+
+    Parameters
+    ----------
+    start : Start
+        In the plane of x and z.
+    records : Records
+        In which the column is, upright and at rest.
+    lane : int
+    gravity : float
+        [m/s²]
+    """
+    side = leans_right(start)
+    angle, rate = (-start.tilt if side else start.tilt), -start.angular_velocity[1]
+    body, base = records.body, records.joint[0]
+    x, z, m, i = (body[name][1:, lane] for name in ("x", "z", "m", "i"))
+    edge = base["br"][lane] if side else -base["bl"][lane]
+    across, along = x - x[0] - edge, z - z[0] + base["hb"][lane]  # the base's joint as yet open
+    c, s = math.cos(angle), math.sin(angle)
+    across, along = c * across - s * along, s * across + c * along
+    # the column as one body that turns about its edge
+    turning = -gravity * float(m @ across) / float(i.sum() + m @ (across**2 + along**2))
+    push = -float(m @ (turning * along + rate**2 * across))
+    lift = float(m @ (turning * across - rate**2 * along)) + float(m.sum()) * gravity
+    even = np.ones(len(m))
+    values = {
+        "x": (0.0, x[0] + edge + across),
+        "z": (body["z"][0, lane], along),
+        "th": (0.0, angle * even),
+        "c": (1.0, c * even),
+        "s": (0.0, s * even),
+        "vx": (0.0, -rate * along),
+        "vz": (0.0, rate * across),
+        "w": (0.0, rate * even),
+    }
+    fields = {name: np.concatenate(([base], rest)) for name, (base, rest) in values.items()}
+    return fields, (push, max(lift, 0.0))
+
+
+def leans_right(start: Start) -> bool:
+    """Whether a column that starts in the plane leans towards x."""
+    return math.cos(start.azimuth) > 0.0
+
+
+def sink_in(records: Records, lane: int, force: float) -> None:
+    """Lower the whole column in a lane until the base carries a force [N]."""
+    state = records.now()
+    state[LANE]["dt"][0, lane] = 0.0
+
+    def carried() -> float:
+        records.kernel.gather(state)
+        return float(records.load["fz"][0, lane])
+
+    sink(records.body["z"], lane, force, carried)
 
 
 def residuals_in(state: dict[str, Any]) -> Residuals:
@@ -155,12 +276,12 @@ class ColumnLanes(LaneRuns):
             "slip": slip - self.slip[lanes],
         }
 
-    def left(self, lanes: list[int]) -> Left:
+    def left(self, lanes: list[int]) -> FinalStates:
         """What the runs of some lanes leave behind."""
         state = self.poses(lanes)
         slip, residuals = state["slip"], Residuals.all_in_plane(*(state[one] for one in ("slip", "x", "z", "rotation")))
         top = self.top(lanes) - self.watch["stood"][0, lanes]
-        return Left(residuals, np.abs(slip), slip, top, self.peaks(lanes, "turn"))
+        return FinalStates(residuals, np.abs(slip), slip, top, self.peaks(lanes, "turn"))
 
     def stay(self, lanes: list[int], energy: np.ndarray, slip: np.ndarray) -> np.ndarray:
         """Whether columns that no input shakes any more can neither overturn nor slide apart, shape (lanes,).

@@ -18,9 +18,7 @@ from ..base import Case, RunOptions
 from ..rocking.block import lightest_weight, off_the_ground
 from ..shared import ledger
 from ..shared.lanes import longest_piece
-from .equations import tridiagonal
-from .state import PackedBeam, given, histories_of, measures_of
-from .verdict import faces
+from .state import PackedBeam, faces, given, histories_of, measures_of, tridiagonal
 
 #: Wanted time between two looks at a run [s], and calls of the kernel per run.
 LOOK = 0.01

@@ -17,11 +17,10 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..engine import Engine
-from ..rocking.block import RockingBlock
+from ..rocking.block import RockingBlock, warn_of_free_flight, warn_sliding
 from ..rocking.model import Rocking
 from ..shared.lanes import MOST_SAMPLES, run_alike
-from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
-from .equations import BeamMatrices
+from .state import BeamMatrices
 
 if TYPE_CHECKING:
     from .state import PackedBeam

@@ -12,15 +12,12 @@ from ...column import Column
 from ...errors import InputError, check_range
 from ...kernels.run_codes import LANES
 from ...motion import Motion
-from ..drums.bodies import body_fields
-from ..drums.joints import damping_rows
 from ..drums.links import acting, link_stiffness, with_links
-from ..drums.records import Packed
+from ..drums.records import Packed, body_fields, damping_rows
 from ..drums.stepped import SteppedDrums
 from ..engine import engine_for
 from ..plane.columns import PlaneStack
-from ..plane.laws import Types, interface_law
-from ..plane.packing import face_fields, lane_fields, pack_column
+from ..plane.packing import Types, face_fields, interface_law, lane_fields, pack_column
 from ..shared import stable_step as shared
 from ..shared.toes import point_toes
 from .block_stack import BlockStack

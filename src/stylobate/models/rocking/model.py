@@ -14,8 +14,7 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..engine import Engine
-from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
-from .block import RockingBlock
+from .block import RockingBlock, warn_of_free_flight, warn_sliding
 
 #: Slenderness beyond which the linearised equation departs visibly from the nonlinear one [rad]; Housner's own limit.
 SLENDER = math.radians(20.0)

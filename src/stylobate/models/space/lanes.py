@@ -1,28 +1,48 @@
-"""Assemblies in space in lanes, as long as nothing of them comes loose; from there on their runs go on one by one."""
+"""Assemblies in space: their engine, and their lanes, in which they ride as long as nothing of them comes loose."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator, Sequence
+import itertools
+import math
+from collections.abc import Hashable, Iterator, Sequence
+from dataclasses import fields, replace
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...column import Column
+from ...column.spatial.assembly import SpatialAssembly
+from ...column.spatial.stone import Stone
 from ...column.structure import Structure
+from ...errors import InputError
 from ...kernels.run_codes import CHUNK, FAILED, FREE, LANES, RUNNING
 from ...kernels.space.lane_records import types
 from ...kernels.space.records import GROUND
-from ...response import Measures
+from ...motion import Motion
+from ...response import Measures, Response
 from ...response.space_measures import fallen
 from ..base import Case, RunOptions
-from ..plane.assemblies import one_by_one
+from ..drums.impact import TRIED, longest, undamped
+from ..drums.stepped import StackEngine, SteppedEngine, with_provenance
+from ..plane.loose import one_by_one
 from ..shared.lanes import GoesOn, aligned_zeros, copied, run_alike
-from .assemblies import Begun, SpatialNumbers, chunks_of, go_on, response_of, run_in_space, settled, unsettled
-from .loose import REST_TIME, REST_WAY, Loose
+from .loose import (
+    COST,
+    REST_TIME,
+    REST_WAY,
+    Loose,
+    StartState,
+    chunks_of,
+    engine_of,
+    go_on,
+    response_of,
+    run_in_space,
+    step_for,
+    unsettled,
+)
+from .loose import begun as settled
 from .packing import turned_over
-
-#: Gives what a structure is computed with.
-Numbers = Callable[[Structure], SpatialNumbers]
 
 #: Structures that are kept as they have settled, in each thread.
 KEPT = 8
@@ -55,13 +75,13 @@ def kind(structure: Structure) -> Hashable:
             (joint.lower, joint.upper, joint.lower_part, joint.upper_part, turned_over(joint)),
             (corners(joint.below), corners(joint.above)),
         )
-        for joint in structure.space_joints or ()
+        for joint in structure.joined_faces
     )
     return parts, joints
 
 
 def measures_in_space(
-    numbers: Numbers, cases: Sequence[Case], options: RunOptions, threads: int
+    model: Any, cases: Sequence[Case], options: RunOptions, threads: int
 ) -> Iterator[tuple[int, Measures]]:
     """(index of the case, measures) of runs of assemblies in space as they finish: in lanes as long as they are intact.
 
@@ -70,11 +90,11 @@ def measures_in_space(
     threads.
     """
     if options.until_rest:
-        yield from one_by_one(lambda case: run_in_space(*case, numbers(case.column), options), cases, threads)
+        yield from one_by_one(lambda case: run_in_space(*case, model.acting(case.column), options), cases, threads)
         return
 
     def block_of(key: Hashable) -> IntactLanes:
-        return IntactLanes(numbers, options, none=key is None)
+        return IntactLanes(model, options, none=key is None)
 
     yield from run_alike(lambda case: kind(case.column), block_of, cases, threads)
 
@@ -117,9 +137,10 @@ class HandedOver(NamedTuple):
     Parameters
     ----------
     case : Case
-    numbers : SpatialNumbers
+    model : DistinctElement3D
+        With what acts in the run.
     options : RunOptions
-    made : Begun
+    made : StartState
         How it began; its engine is that of all lanes with this structure.
     states : Recorded
     records : tuple of three dicts of str to array
@@ -131,9 +152,9 @@ class HandedOver(NamedTuple):
     """
 
     case: Case
-    numbers: SpatialNumbers
+    model: Any
     options: RunOptions
-    made: Begun
+    made: StartState
     states: Recorded
     records: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, np.ndarray]]
     step: int
@@ -143,13 +164,13 @@ class HandedOver(NamedTuple):
     def measures(self) -> Measures:
         """Go on to the end of the run."""
         structure, motion = self.case
-        engine = unsettled(structure, self.numbers)
+        engine = unsettled(structure, self.model)
         engine.take_over(*self.records, self.step)
         engine.stood_at, engine.stood_since = self.stood_at, self.stood_since
         stack = self.states.stack()
         states = [dict(zip(stack, one, strict=True)) for one in zip(*stack.values(), strict=True)]
         made = self.made._replace(engine=engine)
-        return go_on(structure, motion, self.numbers, self.options, made, states).measures
+        return go_on(structure, motion, self.model, self.options, made, states).measures
 
 
 class IntactLanes:
@@ -157,30 +178,30 @@ class IntactLanes:
 
     Parameters
     ----------
-    numbers : Numbers
+    model : DistinctElement3D
     options : RunOptions
     none : bool
         It takes none: each of its cases is run alone.
     """
 
-    def __init__(self, numbers: Numbers, options: RunOptions, *, none: bool = False) -> None:
+    def __init__(self, model: Any, options: RunOptions, *, none: bool = False) -> None:
         from ...kernels.space import lanes as kernel
 
-        self.kernel, self.numbers, self.options, self.none = kernel, numbers, options, none
+        self.kernel, self.model, self.options, self.none = kernel, model, options, none
         self.lanes = 1 if none else LANES
         self.begun = lru_cache(KEPT)(self._begun)
         self.state: tuple[Any, ...] = ()
         self.cases: list[Case | None] = [None] * self.lanes
-        self.ways: list[Begun | None] = [None] * self.lanes
+        self.ways: list[StartState | None] = [None] * self.lanes
         self.states: list[Recorded | None] = [None] * self.lanes
         self.every, self.chunks = np.ones(self.lanes, dtype=int), np.zeros(self.lanes, dtype=int)
         self.status = np.full(self.lanes, FREE)
 
-    def _begun(self, structure: Structure) -> tuple[Begun, np.ndarray | None]:
+    def _begun(self, structure: Structure) -> tuple[StartState, np.ndarray | None]:
         """A structure as it has settled, and the gaps between its bodies; None if something is loose from the start."""
-        engine = unsettled(structure, self.numbers(structure))
+        engine = unsettled(structure, self.model.acting(structure))
         if self._gaps(engine).min() <= 0.0:
-            return Begun(engine, np.zeros(6), None), None
+            return StartState(engine, np.zeros(6), None), None
         made, gap = settled(structure, engine), self._gaps(engine)
         intact = made.balanced and gap.min() > 0.0 and bool((engine.joint["weight"] == 1.0).all())
         return made, gap if intact else None
@@ -239,7 +260,7 @@ class IntactLanes:
         self.rows = [(of_lanes(one), of_lanes(kept)) for one, kept in zip(changing, self.kept, strict=True)]
         return state
 
-    def _put(self, lane: int, made: Begun, gap: np.ndarray, case: Case, chunks: int) -> None:
+    def _put(self, lane: int, made: StartState, gap: np.ndarray, case: Case, chunks: int) -> None:
         """The numbers of an engine that has settled into a lane."""
         engine, now = made.engine, made.engine.now
         for name in OF_BODY:
@@ -325,7 +346,7 @@ class IntactLanes:
         assert case is not None
         self.status[lane] = FREE
         if states is None:
-            return lambda: run_in_space(*case, self.numbers(case.column), self.options).measures
+            return lambda: run_in_space(*case, self.model.acting(case.column), self.options).measures
         assert made is not None
         self.watch["status"][0, lane] = FREE
         self.lane["dt"][0, lane] = 0.0
@@ -334,10 +355,10 @@ class IntactLanes:
         poses = (stack[name][k] for k in (0, -1) for name in ("position", "axes"))
         waits = self.options.until_decided and not still and not fallen(case.column, *poses).any()
         if intact and not waits:
-            return response_of(*case, self.numbers(case.column), made, stack, still=still).measures
+            return response_of(*case, self.model.acting(case.column), made, stack, still=still).measures
         return self._handed_over(lane, case, made, states).measures
 
-    def _handed_over(self, lane: int, case: Case, made: Begun, states: Recorded) -> HandedOver:
+    def _handed_over(self, lane: int, case: Case, made: StartState, states: Recorded) -> HandedOver:
         """A lane's run as it was kept last."""
         body, joint, now = (
             {name: kept[name][..., lane].copy() for name in names}
@@ -345,4 +366,96 @@ class IntactLanes:
         )
         step = round(float(states.time[states.count - 1]) / made.engine.dt)
         stood = self.stood_at[..., lane].reshape(-1, len(POSE)), float(self.stood_since[lane])
-        return HandedOver(case, self.numbers(case.column), self.options, made, states, (body, joint, now), step, *stood)
+        return HandedOver(
+            case, self.model.acting(case.column), self.options, made, states, (body, joint, now), step, *stood
+        )
+
+
+def rocking_stone(body: Column, model: Any, tilt: float) -> Iterator[np.ndarray]:
+    """Leans of a stone of the same sides; see :data:`stylobate.models.drums.impact.Rocking`."""
+    drum, foot = body.drums[0], (0.0, 0.0, 0.0)
+    width, height = drum.bottom_width, drum.height
+    if drum.section == "circular":
+        stone = Stone.drum(width, drum.top_width, height, foot, drum.density, name=body.name)
+    else:
+        stone = Stone.box((width, drum.depth, height), foot, drum.density, name=body.name)
+    alone = SpatialAssembly((stone,), body.joint_laws[0], gravity=body.gravity)
+    lanes = IntactLanes(replace(model, **undamped()), RunOptions())
+    case = Case(alone, longest(alone))
+    for lane in range(len(TRIED)):
+        lanes.load(lane, case)
+    _lean(lanes, tilt, 0.5 * width)
+    lanes.lane["beta"][0, : len(TRIED)] = TRIED
+    while not lanes.is_over(0):
+        lanes.kernel.advance(lanes.state, 1)
+        yield np.arcsin(_axes(lanes)[: len(TRIED), 0, 2])
+
+
+def _axes(lanes: IntactLanes) -> np.ndarray:
+    """Axes of the stone in each lane as columns, shape (lanes, 3, 3)."""
+    stone = lanes.body[1]
+    principal = np.array([[stone[axis + c] for axis in "ijk"] for c in "xyz"])
+    return np.einsum("cal,bal->lcb", principal, lanes.turn[1])
+
+
+def _lean(lanes: IntactLanes, tilt: float, half: float) -> None:
+    """Turn the stone in all lanes about its edge (or the point of its rim) at ``half`` towards +x."""
+    stone, (c, s) = lanes.body[1], (math.cos(tilt), math.sin(tilt))
+    turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    principal = np.einsum("dc,lcb,bal->dal", turn, _axes(lanes), lanes.turn[1])
+    for (d, name), (a, axis) in itertools.product(enumerate("xyz"), enumerate("ijk")):
+        stone[axis + name][:] = principal[d, a]
+    stone["x"][:], stone["z"][:] = half - half * c + stone["z"] * s, half * s + stone["z"] * c
+
+
+class BodiesInSpace(SteppedEngine):
+    """Assemblies in space: in lanes as long as nothing of them comes loose, one by one from there on."""
+
+    computes = (SpatialAssembly,)
+    takes = frozenset({"as found", "rings"})
+    links = StackEngine.links | {"clamp"}
+    rocking = staticmethod(rocking_stone)
+
+    #: Parameters of a model in space that act on columns alone.
+    of_columns = ("law", "pivot_friction", "rolling_resistance", "planar", "block_modulus", "mass_damping")
+
+    def check(self, motion: Motion) -> None:
+        """Refuse parameters that do nothing."""
+        super().check(motion)
+        default = {field.name: field.default for field in fields(self.model)}
+        given = next((name for name in self.of_columns if getattr(self.model, name) != default[name]), None)
+        if given is not None:
+            name = self.structure.name
+            raise InputError(
+                f"{given} is {getattr(self.model, given)!r}, which assemblies in space such as {name!r} do not know; "
+                "leave it out."
+            )
+
+    def check_start(self) -> None:
+        """Refuse a start from a pose."""
+        what = self.structure
+        raise InputError(
+            f"a start from a pose is for columns, and {what.name!r} is {what.described}; give its bodies "
+            "orientations and velocities, and leave start out."
+        )
+
+    def check_length(self, motion: Motion, options: RunOptions) -> None:
+        """The step of what may come loose is known once its contacts are: each run asks for itself."""
+
+    def followed(self) -> SpatialAssembly:
+        """The assembly: any two bodies may strike each other."""
+        return self.structure
+
+    def expected_step(self, motion: Motion) -> tuple[float, float]:
+        """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
+        del motion
+        loose = engine_of(self.structure, self.acting, 1.0)
+        return step_for(loose, self.structure, self.acting), COST * len(loose.body)
+
+    def run(self, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories, down to the ground."""
+        return with_provenance(self, motion, run_in_space(self.structure, motion, self.acting, options))
+
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
+        """Many runs in lanes, as long as nothing comes loose."""
+        return measures_in_space(self.model, cases, options, threads)

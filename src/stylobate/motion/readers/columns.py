@@ -314,7 +314,7 @@ def _bare(above: list[str], below: list[str], table: np.ndarray, unit: str | Non
         f"{file} has {table.shape[1]} columns of numbers without names"
     )  # fmt: skip
     proposal = propose(line, table, unit)
-    step = "" if proposal.startswith("t") else ", and the step, such as `dt=0.01`"
+    step = "" if proposal.startswith("t") else ", and `dt`, the time from sample to sample"
     raise UnstatedError(
         f"{what}; state what each column holds, which may be `columns='{proposal}'`{step}: check what is x, y and z "
         "(upward), and the units.",

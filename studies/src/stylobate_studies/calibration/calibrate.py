@@ -13,9 +13,8 @@ from stylobate.column import Column
 from stylobate.column.joint import LAWS
 from stylobate.errors import InputError, check_kind, check_range
 from stylobate.models.base import Model
-from stylobate.models.drums.impact import one_body
-from stylobate.models.drums.losses import LossyDrums
-from stylobate.models.drums.released import Free, released
+from stylobate.models.drums.impact import Free, one_body, released
+from stylobate.models.drums.stepped import LossyDrums
 from stylobate.models.start import Start, check_takes_pose
 
 from .calibration import Calibration, Loss, losses_at, start_of

@@ -15,9 +15,8 @@ from stylobate.column.joint import Losses
 from stylobate.column.loss_files import write_losses
 from stylobate.column.scatter import LARGEST
 from stylobate.errors import InputError
-from stylobate.models.drums.impact import one_body
-from stylobate.models.drums.losses import LossyDrums
-from stylobate.models.drums.released import Free, released
+from stylobate.models.drums.impact import Free, one_body, released
+from stylobate.models.drums.stepped import LossyDrums
 from stylobate.models.start import Start
 from stylobate.notebook import Shown
 from stylobate.percent import percent

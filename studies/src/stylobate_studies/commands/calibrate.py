@@ -6,27 +6,19 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from stylobate.cli import options as o
 from stylobate.percent import whole
 
 if TYPE_CHECKING:
     from ..calibration.calibration import Calibration
 
-HistoryName = Annotated[
-    Path,
-    typer.Argument(
-        metavar="HISTORY",
-        help="Tilt or displacement over time (CSV), under time_s,tilt_deg or time_s,tilt_x_deg,tilt_y_deg.",
-    ),
-]
-
 
 def calibrate(
-    history: HistoryName,
+    history: Path = o.argument(
+        "HISTORY", "Tilt or displacement over time (CSV), under time_s,tilt_deg or time_s,tilt_x_deg,tilt_y_deg."
+    ),
     column: str = o.option("COLUMN", "What moved: name of a preset, or a column file (TOML).", ...),
-    model: o.ModelName = "dem3d",
+    model: str = o.model("dem3d"),
     *,
     unit: str | None = o.option(None, "Unit of values where the header names none: deg, rad, mrad, m, cm, mm."),
     dt: str | None = o.option("TIME", "Step of a history without times, such as 0.005s."),

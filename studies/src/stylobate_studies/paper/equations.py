@@ -12,8 +12,8 @@ from stylobate.column.presets import PAPER
 from stylobate.constants import g
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.base import Model
-from stylobate.models.rigid_beam.equations import BeamMatrices
 from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_beam.state import BeamMatrices
 from stylobate.motion import harmonic
 from stylobate.response import Response
 from stylobate.simulate import simulate

@@ -3,7 +3,7 @@
 import numpy as np
 
 from stylobate.column import Column
-from stylobate.models.rigid_beam.equations import BeamMatrices
+from stylobate.models.rigid_beam.state import BeamMatrices
 
 
 def rotation_rates(matrices: BeamMatrices, moments, theta, a_g: float, gravity: float) -> np.ndarray:

@@ -15,7 +15,6 @@ from stylobate.constants import g
 from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.models.engine import engine_for
 from stylobate.models.space.lanes import IntactLanes
 from stylobate.motion import Motion, harmonic, sine_pulse
 from stylobate.simulate import simulate, simulate_many
@@ -46,7 +45,7 @@ def assemblies(say: Callable[[str], None]) -> dict[str, Any]:
     Then its collapse: the dearest second of it, and all of its 5 s; and both runs by other engines."""
     structure, model = colonnade(), DistinctElement3D()
     motions = [harmonic(1.0, a * g, 10.0) for a in np.linspace(0.02, 0.08, 16)]
-    block = IntactLanes(lambda one: engine_for(model, one).numbers, RunOptions())
+    block = IntactLanes(model, RunOptions())
     for lane in range(block.lanes):
         block.load(lane, Case(structure, motions[0]))
     engine = block.begun(structure)[0].engine

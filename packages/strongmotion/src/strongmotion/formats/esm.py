@@ -66,7 +66,10 @@ def read(source: Source) -> tuple[list[Component], dict]:
         key, colon, value = line.partition(":")
         if colon and key.strip():
             text.setdefault(_key(key), (value.strip(), number))
-    found = {name: _find(text, pattern) for name, pattern in _KEYS.items()}
+    found = {
+        name: next((entry for key, entry in text.items() if pattern.match(key) and entry[0]), ("", 0))
+        for name, pattern in _KEYS.items()
+    }
     kind, line = found["type"]
     if kind and ("ACCELERATION" not in kind.upper() or "SPECTRUM" in kind.upper()):
         raise InputError(f"{file}, line {line}: data_type is {kind}; give the file of accelerations.")
@@ -138,7 +141,3 @@ def _first_word(value: str) -> str | None:
 def _key(line: str) -> str:
     """``SAMPLING_INTERVAL_S: 0.005`` → ``sampling interval s``."""
     return " ".join(line.partition(":")[0].lower().replace("_", " ").split())
-
-
-def _find(text: dict[str, tuple[str, int]], pattern: re.Pattern) -> tuple[str, int]:
-    return next((entry for key, entry in text.items() if pattern.match(key) and entry[0]), ("", 0))

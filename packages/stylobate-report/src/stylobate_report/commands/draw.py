@@ -13,7 +13,7 @@ KINDS = (".png", ".svg", ".pdf")
 
 
 def draw(
-    column: o.StructureName,
+    column: str = o.STRUCTURE,
     out: Path = o.option("FILE", "The picture: .png, .svg or .pdf; a file there is replaced.", ...),
     paper: str | None = o.option("A4|A3|…", "Drawn to scale on sheets of this paper, A4 to A0; for .pdf."),
     scale: str | None = o.option("1:N", "Scale of the elevations on --paper; the largest usual one by default."),

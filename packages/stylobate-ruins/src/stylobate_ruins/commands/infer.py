@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from stylobate.cli import options as o
 
 if TYPE_CHECKING:
     from ..infer import Inference
 
-RuinName = Annotated[
-    Path, typer.Argument(metavar="RUIN", help="A ruin file (TOML): columns, what is seen of them, a prior.")
-]
-
 
 def infer(
-    ruin: RuinName,
+    ruin: Path = o.argument("RUIN", "A ruin file (TOML): columns, what is seen of them, a prior."),
     *,
     tail: str = o.option("TIME", "Go on for this long after the motion, such as 5s.", "3s"),
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),

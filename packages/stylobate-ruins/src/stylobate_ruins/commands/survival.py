@@ -3,33 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from stylobate.cli import options as o
 from stylobate.cli.fragility import Curves
-from stylobate.cli.risk import Site, hazards_of, the_site
+from stylobate.cli.risk import SITE, hazards_of, the_site
 
 if TYPE_CHECKING:
     from ..weighing import Weighing
 
-Source = Annotated[
-    Path,
-    typer.Argument(
-        metavar="SOURCE",
-        help="Folder or CSV file of runs, as risk takes it; or a file of several sites (TOML) with all that is asked.",
-    ),
-]
-
 
 def survival(
-    source: Source,
+    source: Path = o.argument(
+        "SOURCE",
+        "Folder or CSV file of runs, as risk takes it; or a file of several sites (TOML) with all that is asked.",
+    ),
     age: str | None = o.option("AGE", "Years that it has stood as it is, such as 2400y."),
     hazard: list[Path] | None = o.option("FILE", "Hazard curve; repeat it to compare several."),
     *,
     asked: Curves,
-    site: Site = None,
+    site: str | None = SITE,
     execution: o.Plain,
 ) -> None:
     """Survival: the probability that a column would still stand after its age, for each of several hazard curves.

@@ -39,9 +39,6 @@ def draw_posterior(
     Parameters
     ----------
     inference : Inference
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     figure = page(figure, (WIDTH, 4.4))
     answers, taken = inference.answers, inference.taken
@@ -81,9 +78,6 @@ def draw_observations(
     Parameters
     ----------
     inference : Inference
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     rows, odd = inference.told, [one.odd for one in inference.checks]
     figure = page(figure, (WIDTH, 1.3 + 0.24 * len(rows)))
@@ -122,9 +116,6 @@ def draw_matches(inference: Inference, title: str | None = None, *, figure: Figu
     Parameters
     ----------
     inference : Inference
-    title : str, optional
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     answers, ruin = inference.answers, inference.ruin
     table, taken = answers.table, inference.taken

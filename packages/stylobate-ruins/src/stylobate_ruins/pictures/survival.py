@@ -21,10 +21,6 @@ def draw_survival(result: Survival, title: str | None = None, *, ax: Axes | None
     Parameters
     ----------
     result : Survival
-    title : str, optional
-        The age by default.
-    ax : Axes, optional
-        To draw in; those of a new figure by default.
     """
     figure, axes = panel(ax, (NARROW[0], 1.2 + 0.62 * len(result.risks)))
     low, high = result.interval

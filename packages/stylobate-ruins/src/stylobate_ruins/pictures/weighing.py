@@ -27,10 +27,6 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
     Parameters
     ----------
     result : Weighing
-    title : str, optional
-        What the monuments say by default.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     sites = list(result.im)[:SITES]
     order = np.argsort(-np.maximum(result.prior, result.weight), kind="stable")[:BRANCHES]
