@@ -60,7 +60,7 @@ class Message(str):
         """The message of its template with these values."""
         return say(self.template, **values)
 
-    def changed(self, change: Callable[[str], str]) -> Message:
+    def changed(self, change: Callable[[str], str]) -> str:
         """The message with its texts changed, such as names of parameters to those of options."""
         if self.parts:
             return joined("", (one.changed(change) if isinstance(one, Message) else change(one) for one in self.parts))
