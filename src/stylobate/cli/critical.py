@@ -36,9 +36,9 @@ class Shapes(o.Motions):
 
 def critical(
     column: str = o.STRUCTURE,
-    start: str = o.option("A", "Smallest amplitude, such as 0.05g.", ..., flag="--from"),
-    stop: str = o.option("A", "Largest amplitude, such as 1.0g.", ..., flag="--to"),
-    step: str = o.option("A", "Step of the grid.", "0.005g"),
+    start: float = o.option("A", "Smallest amplitude, such as 0.05g.", ..., "--from", read=o.acceleration),
+    stop: float = o.option("A", "Largest amplitude, such as 1.0g.", ..., "--to", read=o.acceleration),
+    step: float = o.option("A", "Step of the grid.", "0.005g", read=o.acceleration),
     model: str = o.model(),
     *,
     motions: Annotated[Shapes, o.But("scale", "pga")],
@@ -55,11 +55,10 @@ def critical(
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
     from ..analysis.critical_suite import critical_suite
-    from ..motion.specs import parse_acceleration
     from . import console
 
     request = motions.request()
-    grid = [parse_acceleration(text) for text in (start, stop, step)]
+    grid = start, stop, step
     amplitude_grid(*grid)
     stone: Any = modelling.structure(column)
     how = modelling.model(model)

@@ -81,7 +81,7 @@ def run(
     until_rest: bool = o.option(
         None, "Go on until everything lies still, on the ground if need be (dem2d, dem3d).", False
     ),
-    output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
+    output_interval: float = o.option("TIME", "Time between recorded states.", "0.01s", read=o.time),
     modelling: o.Modelling,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
@@ -95,7 +95,6 @@ def run(
     """
     from ..analysis.directions import table_of_runs, worst
     from ..models.engine import engine_for
-    from ..motion.specs import parse_time
     from . import console
 
     request = motions.request()
@@ -104,12 +103,11 @@ def run(
     if until_rest:
         stone = engine_for(how, stone).followed()
     found = request.expand(stone.frequency_parameter)
-    interval = parse_time(output_interval)
     campaign, given = execution.campaign(following, population), population.replicates is not None
     if given or not (until_end or until_rest):
         campaign = o.with_twins(stone, how, campaign, given)
     drawn = Drawn(pictures, pictures and given and campaign.replicates > 0)
-    asked = Settings(stone, how, campaign, interval, until_end, until_rest)
+    asked = Settings(stone, how, campaign, output_interval, until_end, until_rest)
     out = execution.out
     if request.several:
         summaries = each_record(asked, found.motions, out, drawn)
