@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..column.materials import STIFFEST_STONE
 from ..column.structure import Structure
 from ..errors import InputError, check_range, check_whole
 from ..notebook import Shown
@@ -23,9 +24,6 @@ APART = 1e-9
 
 #: Two planes of bending are alike to this [-].
 ALIKE = 1e-9
-
-#: Young's modulus above which a stone is doubted [Pa]: chosen here, no source of the stiffest stone could be read.
-STIFFEST_STONE = 100e9
 
 #: Most modes of an assembly that are computed.
 MOST = 60

@@ -225,7 +225,7 @@ class Population(Group):
     scatter: Any = option(
         "NAME=SIZE,…",
         "How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%; in space also "
-        "stiffness_damping=80%,rolling_resistance=80%,law=50%.",
+        "stiffness_damping=80%,rolling_resistance=80%,law=50%,unknown_stiffness=100%.",
         read=scatter,
     )
     seed: int | None = option("N", "Of these columns; the same seed, the same ones.", read=whole)

@@ -26,6 +26,7 @@ PARTS = {
         "stiffness_damping": say("damping of the joints, half of it common to three"),
         "rolling_resistance": say("resistance to rolling, half of it common to three"),
         "law": say("laws by which round faces carry otherwise, their share"),
+        "unknown_stiffness": say("how far the stiffness common to three is unknown, from 1e9 N/m³ to that of stone"),
     },
     "assemblies": {
         "friction": say("friction of each stone's contacts"),

@@ -1,7 +1,7 @@
 """What the stiffness of joints changes: shares of collapse, single verdicts, peaks and slips of four columns.
 
-Run as ``python -m stylobate_studies.joint_stiffness``; it takes some minutes and prints the table of the page on measured
-columns.
+``python -m stylobate_studies.calibration.joint_stiffness`` takes some minutes and prints the table of the page on
+measured columns.
 """
 
 from __future__ import annotations
