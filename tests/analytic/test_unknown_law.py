@@ -7,12 +7,11 @@ import pandas as pd
 import pytest
 
 import stylobate as st
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.certainty import certainty
-from stylobate.analysis.population import Population, chance_words
-from stylobate.analysis.unknown_law import share_limits, share_under_another_law, under_another_law
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import LAW, PER_LAW, the_twins, usual_with_laws
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.population import Population, certainty, chance_words
+from stylobate.verdicts.verdict import share_limits, share_under_another_law, under_another_law
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 SIZE = {"height": 2.0, "bottom_width": 0.5, "top_width": 0.5, "density": 2700.0}

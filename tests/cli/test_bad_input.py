@@ -336,7 +336,7 @@ def test_states_are_refused_before_anything_is_written(tmp_path, monkeypatch, re
 )
 def test_models_are_refused_before_the_first_of_them_is_run(tmp_path, monkeypatch, refused, motion):
     for name in ("simulate", "run_grid"):
-        monkeypatch.setattr(f"stylobate.analysis.compare.{name}", None)
+        monkeypatch.setattr(f"stylobate.verdicts.compare.{name}", None)
     drums = ("compare", "paper-12-drums", "--models", "dem2d,housner", *motion)
     assert "computes one block" in refused(*drums, "--out", tmp_path / "never")
 

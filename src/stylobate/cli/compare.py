@@ -45,11 +45,11 @@ def compare(
     """
     import pandas
 
-    from ..analysis.compare import compare_domains, compare_models
-    from ..analysis.design_values import design_values
-    from ..analysis.difference import caveat
     from ..motion.orientation import keep_axes
     from ..motion.specs import amplitude_range, frequency_range
+    from ..probability.design import design_values
+    from ..verdicts.compare import compare_domains, compare_models
+    from ..verdicts.verdict import caveat
     from . import console
 
     names = [name.strip() for name in models.split(",")]

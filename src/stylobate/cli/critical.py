@@ -13,9 +13,8 @@ from . import options as o
 if TYPE_CHECKING:
     import pandas
 
-    from ..analysis.critical import CriticalAmplitude
-    from ..analysis.critical_suite import CriticalSuite
     from ..motion import Motion
+    from ..verdicts.critical import CriticalAmplitude, CriticalSuite
     from .files import Files
 
 #: Amplitudes that columns like it go through unasked: what they cost then is bounded, and some two hundred runs.
@@ -53,8 +52,7 @@ def critical(
     take fifteen columns like it through a dozen of the amplitudes; --replicates takes more through all, or none with 0. A
     folder of records, or several directions, is run on one grid, with columns like it by --replicates only.
     """
-    from ..analysis.critical import amplitude_grid, critical_amplitude
-    from ..analysis.critical_suite import critical_suite
+    from ..verdicts.critical import amplitude_grid, critical_amplitude, critical_suite
     from . import console
 
     request = motions.request()
@@ -138,8 +136,8 @@ def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
 
 def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: list[Path]) -> None:
     """Print the answer for people."""
-    from ..analysis.critical_words import as_recorded
     from ..constants import g
+    from ..verdicts.critical import as_recorded
     from . import console
 
     kind, likes = result.column.kind, result.population

@@ -10,9 +10,8 @@ from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.domain import Domain
-    from ..analysis.probability import CollapseProbability
     from ..campaign.grid import HarmonicGrid
+    from ..verdicts.domain import CollapseProbability, Domain
     from .files import Files
 
 
@@ -68,11 +67,10 @@ def domain(
     With --replicates, the probability of collapse over columns like this one. With --out, a domain that was
     interrupted goes on where it was.
     """
-    from ..analysis.difference import caveat
-    from ..analysis.domain import collapse_domain
-    from ..analysis.replicates import collapse_probability
-    from ..analysis.step_sensitivity import compare_steps
     from ..campaign.runs import Stopped
+    from ..verdicts.compare import compare_steps
+    from ..verdicts.domain import collapse_domain, collapse_probability
+    from ..verdicts.verdict import caveat
     from . import console
 
     study = motions.study(what, modelling)
@@ -131,9 +129,9 @@ def write_probability(result: CollapseProbability, summary: dict, files: Files) 
 
 def describe_probability(result: CollapseProbability, files: list[Path]) -> None:
     """Print the probabilities for people."""
-    from ..analysis.verdicts import open_runs
     from ..campaign.twins import described
     from ..response.words import to_decide
+    from ..verdicts.verdict import open_runs
     from . import console
 
     s = result.summary()

@@ -8,8 +8,8 @@ from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.measured_frequencies import MeasuredJoints
-    from ..analysis.modes import Modes
+    from ..vibrations.measured_frequencies import MeasuredJoints
+    from ..vibrations.modes import Modes
 
 
 def modes(
@@ -37,9 +37,9 @@ def modes(
     each bends, up to which motion of the top it holds, and by how much the loss of stiffness of each joint lowers it. With
     --measured, the stiffness of the joints that measured frequencies tell of.
     """
-    from ..analysis.measured_frequencies import DRAWS, joints_from_frequencies, parse_ground, parse_measured
-    from ..analysis.modes import frequency_drops
-    from ..analysis.modes import modes as modes_of
+    from ..vibrations.measured_frequencies import DRAWS, joints_from_frequencies, parse_ground, parse_measured
+    from ..vibrations.modes import frequency_drops
+    from ..vibrations.modes import modes as modes_of
     from . import console
 
     stone: Any = modelling.structure(column)

@@ -67,10 +67,10 @@ def pushover(
     Its weight, then horizontal forces, over the peak and down to zero. To the right; of a column as found in the direction
     in which the limit analysis finds it weaker.
     """
-    from ..analysis.code_checks import CodeSite, code_check
-    from ..analysis.limit import limit_analysis, towards
-    from ..analysis.limit_directions import limit_directions
-    from ..analysis.pushover import pushover as follow
+    from ..codes.checks import CodeSite, code_check
+    from ..statics.limit import limit_analysis, towards
+    from ..statics.limit_assemblies import limit_directions
+    from ..statics.pushover import pushover as follow
     from . import console
 
     stone = modelling.column(column)

@@ -12,10 +12,10 @@ from . import options as o
 if TYPE_CHECKING:
     import pandas
 
-    from ..analysis.sequence import SequenceResult, UntilFall
     from ..column.structure import Structure
     from ..models.base import Model
     from ..motion import Motion
+    from ..verdicts.sequence import SequenceResult, UntilFall
 
 #: Columns of the table that are printed, and how they are headed.
 SHOWN = {
@@ -75,7 +75,7 @@ def sequence(
     if until_fall is not None:
         if repeat != 1:
             raise InputError("`repeat` and `until_fall` are both given; give one of the two.", "repeat")
-        from ..analysis.sequence import earthquakes_until_fall
+        from ..verdicts.sequence import earthquakes_until_fall
 
         with execution.files("sequence", "until_fall.csv", "sequence.json") as files:
             with files.campaign(campaign) as asked:
@@ -137,8 +137,8 @@ def _run(
     stone: Structure, how: Model, kinds: list[Motion], campaign: Any, options: dict[str, Any], execution: o.Execution,
     pictures: bool,
 ) -> None:  # fmt: skip
-    from ..analysis.sequence import sequence as run_sequence
     from ..motion.writing import write_csv
+    from ..verdicts.sequence import sequence as run_sequence
     from . import console
     from .run import SPACE_PICTURES, write, write_population
 

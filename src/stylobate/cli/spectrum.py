@@ -99,8 +99,8 @@ def response(
 
 def rocking(motion: Motion, blocks: dict[str, Any], files: Files) -> tuple[dict[str, Any], dict[str, str]]:
     """Rocking spectrum along x, with the vertical component where it is on."""
-    from ..analysis.rocking_spectrum import rocking_spectrum
     from ..response.words import longer_tail
+    from ..verdicts.rocking_spectrum import rocking_spectrum
 
     found = rocking_spectrum(motion, **blocks)
     summary = found.summary()

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from stylobate.analysis.debris import OVER_ALL, only_as_seen
-from stylobate.analysis.population import set_against
 from stylobate.messages import digits, joined, say
 from stylobate.percent import percent, percents
 from stylobate.response.measures import JOINT, SPREAD
+from stylobate.verdicts.population import OVER_ALL, only_as_seen, set_against
 
 from . import numbers as n
 from .page import Facts, Item, Rows, Section

@@ -7,11 +7,11 @@ from typing import Any
 
 from stylobate.bibliography import Citation
 from stylobate.errors import InputError
-from stylobate.messages import joined, say
+from stylobate.messages import Message, joined, say
 from stylobate.models.base import Model
 from stylobate.models.registry import model_class
 from stylobate.results import Result, SeveralRuns
-from stylobate.results.kinds import FileFact
+from stylobate.results.reading import FileFact
 from stylobate.version import __version__
 
 from . import numbers as n
@@ -169,7 +169,7 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
             )
         )
     known = {
-        Own(key) if key in ("stylobate", "Python") else say(key): Own(value)
+        Own(key) if key in ("stylobate", "Python") else say(key): value if isinstance(value, Message) else Own(value)
         for key, value in versions.items()
         if value not in (None, "")
     }

@@ -203,7 +203,7 @@ def _measures(motion: Motion) -> Rows:
         (say("CAV [m/s]"), "cav_m_s", ".3g"),
         (say("duration 5–95 % [s]"), "duration_5_95_s", ".2f"),
     )
-    body = [[axis, *(format(s[key][axis], form) for _, key, form in parts)] for axis in s["components"]]
+    body = [[axis, *(digits(s[key][axis], form) for _, key, form in parts)] for axis in s["components"]]
     pulse = (
         say("The strongest pulse in x has a period of {s[pulse_period_s]:.2f} s.", s=s)
         if s.get("pulse_period_s") and math.isfinite(s["pulse_period_s"])
