@@ -12,10 +12,10 @@ import time
 from pathlib import Path
 
 import stylobate as st
-from stylobate.analysis.fragility_curve import Fragility
 from stylobate.bibliography import bibliography
 from stylobate.column.catalogue import CATALOGUE, JOINT, KnownColumn
 from stylobate.column.presets import PAPER
+from stylobate.probability.fragility import Fragility
 
 PAGE = Path(__file__).with_suffix(".md")
 

@@ -14,21 +14,22 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.collections import PolyCollection
 
-from stylobate.analysis.limit_directions import limit_directions
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.structure import Structure
 from stylobate.constants import DEGREE
 from stylobate.plots.drawing import solids_of
 from stylobate.plots.solids import View, painted
 from stylobate.plots.style import BLACK, GREY, RED, page
+from stylobate.statics.limit_assemblies import limit_directions
 
 #: Directions of the forces [degrees]; the weakest is looked for between them.
 AZIMUTHS = [45.0 * k for k in range(8)]
 
 #: From where the temple is seen: from its corner A6 [rad].
-SEEN_FROM = View(-55.0 * DEGREE, 20.0 * DEGREE)
+SEEN_FROM = View(-50.0 * DEGREE, 16.0 * DEGREE)
 
 
 def parts_of(temple: Any) -> dict[str, Structure]:
@@ -55,18 +56,19 @@ def facts_of(structure: Structure) -> dict[str, Any]:
     }
 
 
-def draw(temple: Structure, facts: dict[str, dict[str, Any]], path: Path) -> None:
+def draw(temple: Any, facts: dict[str, dict[str, Any]], path: Path) -> None:
     """The temple, and what it and its columns bear all round."""
-    figure = page(None, (9.0, 4.0))
-    seen = figure.add_subplot(1, 2, 1)
+    figure = page(None, (9.0, 4.4))
+    seen, round_ = figure.add_subplot(1, 2, 1), figure.add_subplot(1, 2, 2, projection="polar")
     polygons, colours, outlines = painted(solids_of(temple)[0], SEEN_FROM)
     edges = [(0.35, 0.35, 0.35) if outline else colour for outline, colour in zip(outlines, colours, strict=True)]
     widths = [0.7 if outline else 0.2 for outline in outlines]
     seen.add_collection(PolyCollection(polygons, facecolors=colours, edgecolors=edges, linewidths=widths))
+    flat = np.concatenate([SEEN_FROM.across(stone.vertices) for stone in temple.stones if not stone.fixed])
     seen.set_aspect("equal")
-    seen.autoscale_view()
+    seen.set_xlim(flat[:, 0].min() - 1.0, flat[:, 0].max() + 1.0)
+    seen.set_ylim(flat[:, 1].min() - 1.0, flat[:, 1].max() + 1.0)
     seen.set_axis_off()
-    round_ = figure.add_subplot(1, 2, 2, projection="polar")
     for name, one in facts.items():
         turns = sorted((float(azimuth) % 360.0, value) for azimuth, value in one["all"].items())
         angles, values = zip(*turns, turns[0], strict=True)
@@ -74,9 +76,11 @@ def draw(temple: Structure, facts: dict[str, dict[str, Any]], path: Path) -> Non
         colour, width = (BLACK, 1.8) if name == "temple" else (RED, 1.0) if weak else (GREY, 0.5)
         label = {"temple": "the temple", "Column_A3": "columns A3 and A4 alone", "Column_E1": "each other column alone"}
         round_.plot([angle * DEGREE for angle in angles], values, color=colour, linewidth=width, label=label.get(name))
-    round_.set_title("borne, by the direction of the push [g]", fontsize=8.5, color=GREY, pad=12.0)
     round_.set_xticks([0.5 * math.pi * k for k in range(4)], ["x", "y", "−x", "−y"])
-    figure.legend(loc="outside lower right", ncols=3, fontsize=7.5)
+    round_.set_yticks([0.05, 0.1, 0.15], ["0.05 g", "0.10 g", "0.15 g"], fontsize=7.5)
+    round_.set_ylim(0.0, 0.17)
+    round_.set_rlabel_position(250.0)
+    figure.legend(loc="outside lower center", ncols=3, fontsize=7.5)
     figure.savefig(path, dpi=110)
 
 

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.states import StateComparison, compare_states
 from stylobate.campaign.study_files import levels_of
 from stylobate.column.links import Link
+from stylobate.probability.states import StateComparison, compare_states
 from stylobate_studies.paper.records import FILES as NINE
 
 #: Records by what the tables call them; the last three of those in space have one horizontal component.

@@ -10,7 +10,7 @@ import numpy as np
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.compare import compare_domains
+from stylobate.verdicts.compare import compare_domains
 
 # %%
 # The paper's monolith under a sine of 1 Hz and 0.3 g. The rigid beam is the paper's own model: a

@@ -10,9 +10,9 @@ import numpy as np
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.efficiency import which_tells_most
-from stylobate.analysis.hazard import Hazard
 from stylobate.motion import with_directivity_pulse
+from stylobate.probability.ida import which_tells_most
+from stylobate.probability.risk import Hazard
 
 # %%
 # Twelve simulated near-fault motions: magnitude 6.5 at 15 km, with pulses of 1.2 to 2.5 s.

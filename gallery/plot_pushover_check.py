@@ -8,8 +8,8 @@ its own, and the capacity spectrum check against a code spectrum.
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.capacity_spectrum import capacity_spectrum_check
-from stylobate.analysis.code_spectra import EurocodeSpectrum
+from stylobate.codes.checks import capacity_spectrum_check
+from stylobate.codes.spectra import EurocodeSpectrum
 from stylobate.models.rigid_block.block_stack import BlockStack
 
 # %%

@@ -10,8 +10,8 @@ after a few impacts rocking is chaotic, and one run is one draw.
 import matplotlib.pyplot as plt
 
 import stylobate as st
-from stylobate.analysis.verdicts import wilson_interval
 from stylobate.column.scatter import twins_of
+from stylobate.verdicts.verdict import wilson_interval
 
 # %%
 # Widths, heights, friction and stiffness of each drum and joint differ by 0.4 %; draws end at 2.5

@@ -10,7 +10,7 @@ import stylobate
 #: Rooms that a reader of the reference enters; kernels and commands have pages of their own.
 ROOMS = [
     *("column", "motion", "models", "simulate", "response"),
-    *("campaign", "analysis", "plots", "bibliography"),
+    *("campaign", "statics", "vibrations", "verdicts", "codes", "probability", "plots", "bibliography"),
     *("outcome", "errors", "constants"),
 ]
 

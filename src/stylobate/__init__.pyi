@@ -1,31 +1,6 @@
 """The public names of the package: the one list of them, for the lazy loader and for type checkers."""
 
 from . import plots as plots
-from .analysis.certainty import certainty as certainty
-from .analysis.compare import compare_models as compare_models
-from .analysis.critical import critical_amplitude as critical_amplitude
-from .analysis.design_values import design_values as design_values
-from .analysis.domain import collapse_domain as collapse_domain
-from .analysis.evidence import evidence as evidence
-from .analysis.fragility import fragility as fragility
-from .analysis.hazard import read_hazard as read_hazard
-from .analysis.ida import ida as ida
-from .analysis.limit import limit_analysis as limit_analysis
-from .analysis.limit_directions import limit_directions as limit_directions
-from .analysis.measured_frequencies import joints_from_frequencies as joints_from_frequencies
-from .analysis.modes import modes as modes
-from .analysis.other_laws import other_laws as other_laws
-from .analysis.pushover import pushover as pushover
-from .analysis.record_selection import select_records as select_records
-from .analysis.replicates import collapse_probability as collapse_probability
-from .analysis.risk import risk as risk
-from .analysis.rocking_spectrum import rocking_spectrum as rocking_spectrum
-from .analysis.sequence import earthquakes_until_fall as earthquakes_until_fall
-from .analysis.sequence import sequence as sequence
-from .analysis.states import compare_states as compare_states
-from .analysis.studies import run_study as run_study
-from .analysis.suite import suite_table as suite_table
-from .analysis.target_spectra import target_spectrum as target_spectrum
 from .campaign.campaign import Campaign as Campaign
 from .campaign.cases import Study as Study
 from .column import AsFound as AsFound

@@ -7,8 +7,6 @@ import pytest
 from records import FOLDER, needs_folder
 
 import stylobate as st
-from stylobate.analysis.suite import suite_table
-from stylobate.analysis.verdicts import verdict
 from stylobate.constants import g
 from stylobate.errors import OutOfRangeWarning
 from stylobate.models.base import Case
@@ -16,7 +14,9 @@ from stylobate.models.drums.runs import LaneRuns
 from stylobate.models.shared.quiet import BEFORE, LOOK, QUIET, level, shaking, share_of
 from stylobate.motion import harmonic
 from stylobate.motion.writing import write_csv
+from stylobate.probability.suite import suite_table
 from stylobate.simulate import run_cases
+from stylobate.verdicts.verdict import verdict
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement2D(stiffness_damping=1e-4), st.DistinctElement3D()]
 SOFT = st.Joint(normal_stiffness=2e9, shear_stiffness=1e9, friction_coefficient=0.7)

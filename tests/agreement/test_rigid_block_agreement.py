@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from stylobate.analysis.limit import limit_analysis
 from stylobate.column import preset
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.rigid_block.model import RigidBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
+from stylobate.statics.limit import limit_analysis
 
 G = 9.81
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.sequence import Count, SequenceResult
-from stylobate.analysis.verdicts import wilson_interval
 from stylobate.motion import in_sequence, spans_of
 from stylobate.motion.sequence import Span, number_at
+from stylobate.verdicts.sequence import Count, SequenceResult
+from stylobate.verdicts.verdict import wilson_interval
 
 SLIPPERY = st.Joint(5e8, 2.5e8, 20.0)
 ROUGH = st.Joint(5e8, 2.5e8, 40.0)

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.limit_directions import limit_directions, limit_in_space
-from stylobate.analysis.pushover import pushover
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.limit_assemblies import limit_directions, limit_in_space
+from stylobate.statics.pushover import pushover
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.certainty import batch
-from stylobate.analysis.population import Population
 from stylobate.campaign.twins import Twins, the_twins
 from stylobate.column.scatter import twins_of
 from stylobate.models.base import Case, RunOptions
 from stylobate.response.words import to_decide
+from stylobate.verdicts.population import Population, batch
 
 COLUMN = st.Column.tapered(
     height=2.4, bottom_width=0.5, top_width=0.4, drums=3, density=2600.0, section="circular",

@@ -4,13 +4,13 @@ import math
 
 import pytest
 
-from stylobate.analysis.capacity_spectrum import capacity_spectrum_check
-from stylobate.analysis.code_spectra import EurocodeSpectrum
-from stylobate.analysis.pushover import pushover
+from stylobate.codes.checks import capacity_spectrum_check
+from stylobate.codes.spectra import EurocodeSpectrum
 from stylobate.column import preset
 from stylobate.errors import InputError
 from stylobate.models.rigid_block.block_stack import BlockStack
 from stylobate.motion import harmonic
+from stylobate.statics.pushover import pushover
 
 
 def test_one_block_in_closed_form():

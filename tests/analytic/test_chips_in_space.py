@@ -13,7 +13,7 @@ from stylobate.models.engine import engine_for
 from stylobate.models.shared.toes import point_toes
 from stylobate.motion import Motion
 from stylobate.plots.solids import surface_of
-from stylobate.response.bodies import bodies_of
+from stylobate.response.poses import bodies_of
 
 HALF, DEEP, HEIGHT = 0.3, 0.2, 3.0
 JOINT = st.Joint(normal_stiffness=1e12, shear_stiffness=5e11, friction_coefficient=0.7)

@@ -6,9 +6,9 @@ import math
 import pytest
 
 import stylobate as st
-from stylobate.analysis.code_checks import CodeSite, code_check
-from stylobate.analysis.code_spectra import EurocodeSpectrum, NtcSpectrum
 from stylobate.cli.main import call
+from stylobate.codes.checks import CodeSite, code_check
+from stylobate.codes.spectra import EurocodeSpectrum, NtcSpectrum
 from stylobate.models.rigid_block.block_stack import BlockStack
 
 

@@ -7,24 +7,24 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.certainty import certainty
-from stylobate.analysis.domain import Domain
-from stylobate.analysis.probability import (
-    SAFE,
-    UNCERTAIN,
-    UNKNOWN,
-    UNSAFE,
-    CollapseProbability,
-)
-from stylobate.analysis.replicates import collapse_probability
-from stylobate.analysis.step_sensitivity import compare_steps, halved_step
-from stylobate.analysis.verdicts import collapse_interval, share_collapsed, wilson_interval
 from stylobate.campaign import runs
 from stylobate.column import preset
 from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.models.engine import engine_for
 from stylobate.motion.scatter import PHASES, MotionScatter, ScatteredSines
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.compare import compare_steps, halved_step
+from stylobate.verdicts.domain import (
+    SAFE,
+    UNCERTAIN,
+    UNKNOWN,
+    UNSAFE,
+    CollapseProbability,
+    Domain,
+    collapse_probability,
+)
+from stylobate.verdicts.population import certainty
+from stylobate.verdicts.verdict import collapse_interval, share_collapsed, wilson_interval
 
 CODES = {letter: v.VERDICTS.index(one) for letter, one in zip("SCUFN", v.VERDICTS)}
 #: All of the scatter but width.

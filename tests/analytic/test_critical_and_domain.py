@@ -12,14 +12,14 @@ import pytest
 import xarray
 
 import stylobate as st
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.compare import compare_domains
-from stylobate.analysis.critical import amplitude_grid
 from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.column.presets import preset
 from stylobate.models.base import Model
 from stylobate.models.engine import Engine
 from stylobate.response import Measures
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.compare import compare_domains
+from stylobate.verdicts.critical import amplitude_grid
 
 COLUMN = preset("paper-monolithic")
 

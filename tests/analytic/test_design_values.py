@@ -10,13 +10,12 @@ import pandas
 import pytest
 
 import stylobate as st
-from stylobate.analysis.design_tables import clearances, governing, worst_of
-from stylobate.analysis.design_values import fractile, values_of_runs
 from stylobate.campaign.twins import LAW
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.models.drums.links import link_histories
 from stylobate.motion.writing import write_csv
+from stylobate.probability.design import clearances, fractile, governing, values_of_runs, worst_of
 
 SMOOTH = st.Joint(1e9, 5e8, friction_coefficient=0.1)
 BARE = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0)], SMOOTH, name="bare")

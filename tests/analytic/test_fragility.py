@@ -9,12 +9,12 @@ from scipy.optimize import minimize
 from scipy.special import log_ndtr
 from scipy.stats import norm
 
-from stylobate.analysis import lognormal
-from stylobate.analysis.evidence import Evidence, evidence, intervals
-from stylobate.analysis.fragility import fragility
-from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
-from stylobate.analysis.verdicts import wilson_interval
 from stylobate.errors import InputError
+from stylobate.probability import lognormal
+from stylobate.probability.evidence import Evidence, evidence, intervals
+from stylobate.probability.fragility import fragility
+from stylobate.verdicts.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
+from stylobate.verdicts.verdict import wilson_interval
 
 LEVELS = np.geomspace(0.3, 3.0, 8)
 
@@ -102,7 +102,7 @@ def test_far_tails_do_not_overflow():
 def test_intervals_hold_the_truth_as_often_as_they_say(method, within, monkeypatch):
     # 60 sets: of 95 % intervals 57 hold it on average; below 51 and with a probability of 1 in 400 by the binomial law.
     # The long version, 2,000 sets, is in docs/theory/fragility.md.
-    monkeypatch.setattr("stylobate.analysis.fragility_points.SETS", 1)
+    monkeypatch.setattr("stylobate.probability.fragility.SETS", 1)
     rng = np.random.default_rng(7)
     beta, held, medians = math.hypot(0.4, within), np.zeros(2), []
     for k in range(60):
@@ -209,7 +209,7 @@ def test_states():
 
 
 def test_tables_of_others(tmp_path):
-    from stylobate.analysis.evidence import read_table
+    from stylobate.probability.evidence import read_table
 
     path = tmp_path / "runs.csv"
     path.write_text("record,im,collapsed\na,0.5,0\na,1.0,\nb,0.5,1\nb,0.7,true\n")

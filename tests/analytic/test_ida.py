@@ -9,19 +9,17 @@ import pandas
 import pytest
 
 import stylobate as st
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.difference import caveat, doubt
-from stylobate.analysis.efficiency import which_tells_most
-from stylobate.analysis.evidence import evidence, intervals
-from stylobate.analysis.fragility import fragility
-from stylobate.analysis.hunt import CLOSE, next_levels
-from stylobate.analysis.ida import ida
-from stylobate.analysis.ida_curves import median_of
-from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import half_sine_pulse
 from stylobate.motion.intensity_specs import parse_levels, parse_measure
+from stylobate.probability.evidence import evidence, intervals, median_of
+from stylobate.probability.fragility import fragility
+from stylobate.probability.ida import CLOSE, ida, next_levels, which_tells_most
+from stylobate.probability.states import doubt
 from stylobate.response.words import UNDAMPED_WOBBLE, round_in_the_plane
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.rocking_spectrum import rocking_block
+from stylobate.verdicts.verdict import caveat
 
 BLOCK = rocking_block(2.0, 0.2)
 

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from validation.statics import inclined
 
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.pushover import pushover
-from stylobate.analysis.static_loads import gravity_forces
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.column.as_found import AsFound
 from stylobate.column.found_geometry import gravity_vector
 from stylobate.errors import InputError
 from stylobate.models.rigid_block.block_stack import BlockStack
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.loads import gravity_forces
+from stylobate.statics.pushover import pushover
 
 JOINT = Joint(5e10, 2.5e10, friction_angle=35.0)
 

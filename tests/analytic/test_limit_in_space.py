@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis import limit_assemblies
-from stylobate.analysis.contact_programme import ContactProgramme
-from stylobate.analysis.limit_assemblies import AssemblyProgramme
-from stylobate.analysis.programme_choices import gentlest
+from stylobate.statics import limit_assemblies
+from stylobate.statics.contacts import ContactProgramme, gentlest
+from stylobate.statics.limit_assemblies import AssemblyProgramme
 
 LAW = st.Joint(5e9, 2.5e9, friction_coefficient=0.7)
 CORNERS = ((-1.2, -1.2), (1.2, -1.2), (1.2, 1.2), (-1.2, 1.2))

@@ -10,14 +10,18 @@ import pytest
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.capacity import Capacity, of_levels, quantiles
-from stylobate.analysis.critical import CriticalAmplitude
-from stylobate.analysis.critical_population import CriticalPopulation
-from stylobate.analysis.critical_suite import CriticalSuite
-from stylobate.analysis.critical_words import as_recorded, sentence, sentence_of_suite
 from stylobate.campaign.twins import Twins
 from stylobate.column.presets import preset
 from stylobate.column.scatter import Scatter
+from stylobate.verdicts.critical import (
+    CriticalAmplitude,
+    CriticalPopulation,
+    CriticalSuite,
+    as_recorded,
+    sentence,
+    sentence_of_suite,
+)
+from stylobate.verdicts.verdict import Capacity, of_levels, quantiles
 
 COLUMN = preset("paper-monolithic")
 AMPLITUDES = np.array([0.2, 0.3, 0.4, 0.5])

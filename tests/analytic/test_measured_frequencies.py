@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.measured_frequencies import Ground, Measured, parse_ground, parse_measured
 from stylobate.errors import InputError
+from stylobate.vibrations.measured_frequencies import Ground, Measured, parse_ground, parse_measured
 
 MODEL = st.DistinctElement3D()
 
@@ -73,7 +73,7 @@ def test_soft_ground_leaves_room_for_stiffer_joints():
 def test_a_block_on_the_ground_rocks_as_gazetas_says():
     """A column on joints that are rigid beside the ground: 3.6 G B³/(1 − ν) and 9 G B/(2 − ν) under one body, as the
     quadratic of one drum, to 1e-3."""
-    from stylobate.analysis.measured_frequencies import _Family
+    from stylobate.vibrations.measured_frequencies import _Family
 
     ground = Ground((200.0, 200.0), 1.0, (1800.0, 1800.0), (0.3, 0.3))
     stiff = ground.stiffness(np.zeros((1, 3)))

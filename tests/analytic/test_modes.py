@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.modes import frequency_drops
 from stylobate.errors import InputError
+from stylobate.vibrations.modes import frequency_drops
 
 #: A table of frequencies beside the project, computed elsewhere.
 TABLE = Path(__file__).resolve().parents[3] / "shared" / "references" / "modes.csv"

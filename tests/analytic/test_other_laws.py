@@ -3,8 +3,8 @@
 import pytest
 
 import stylobate as st
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.other_laws import FACTOR, OtherLaws
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.population import FACTOR, OtherLaws
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 SIZE = {"height": 2.0, "bottom_width": 0.5, "top_width": 0.5, "density": 2700.0, "drums": 1}

@@ -9,9 +9,6 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.limit_directions import limit_in_space
-from stylobate.analysis.pushover import pushover
 from stylobate.column.assembly import Assembly, Block
 from stylobate.column.assembly_files import assembly_from_dict
 from stylobate.column.files import write_column
@@ -20,6 +17,9 @@ from stylobate.models.base import Case, RunOptions
 from stylobate.models.drums.records import bed_laws
 from stylobate.models.engine import engine_for
 from stylobate.simulate import simulate
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.limit_assemblies import limit_in_space
+from stylobate.statics.pushover import pushover
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()]
 JOINT = st.Joint(normal_stiffness=2e9, shear_stiffness=1e9, friction_coefficient=2.0)

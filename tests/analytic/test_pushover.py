@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 from validation.statics import COLUMNS, MULTIPLIERS, tapered
 
-from stylobate.analysis.equilibrium_path import EquilibriumPath
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.pushover import STATES, pushover
-from stylobate.analysis.static_loads import crushing_forces, gravity_forces, horizontal_forces
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.errors import InputError
 from stylobate.models.rigid_block.block_stack import BlockStack
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.loads import crushing_forces, gravity_forces, horizontal_forces
+from stylobate.statics.pushover import STATES, EquilibriumPath, pushover
 
 JOINT = Joint(5e10, 2.5e10, friction_angle=35.0)
 
@@ -226,8 +225,8 @@ def test_the_tangent_is_the_derivative_of_the_forces(strength):
 
 
 def test_a_lost_path_says_where_and_keeps_its_curve(monkeypatch):
-    monkeypatch.setattr("stylobate.analysis.equilibrium_path.MAX_ITERATIONS", 1)
-    monkeypatch.setattr("stylobate.analysis.equilibrium_path.MAX_CUTS", 1)
+    monkeypatch.setattr("stylobate.statics.pushover.MAX_ITERATIONS", 1)
+    monkeypatch.setattr("stylobate.statics.pushover.MAX_CUTS", 1)
     found = pushover(preset("paper-12-drums"))
     assert not found.complete
     assert found.stop.startswith(f"step {len(found.multiplier)}: ")

@@ -9,12 +9,11 @@ import pytest
 from scipy.integrate import quad
 from scipy.stats import norm
 
-from stylobate.analysis.evidence import Evidence
-from stylobate.analysis.fragility import fragility
-from stylobate.analysis.hazard import Hazard, read_hazard
-from stylobate.analysis.limit_states import FAILED, OPEN
-from stylobate.analysis.risk import risk
 from stylobate.errors import InputError
+from stylobate.probability.evidence import Evidence
+from stylobate.probability.fragility import fragility
+from stylobate.probability.risk import Hazard, read_hazard, risk
+from stylobate.verdicts.limit_states import FAILED, OPEN
 
 
 @pytest.fixture(scope="module")

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from validation.overturning import half_sine
 
-from stylobate.analysis.rocking_spectrum import rocking_block, rocking_spectrum
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, half_sine_pulse
 from stylobate.simulate import simulate
+from stylobate.verdicts.rocking_spectrum import rocking_block, rocking_spectrum
 
 
 def test_blocks_have_the_size_and_slenderness_they_are_named_for():

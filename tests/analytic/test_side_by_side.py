@@ -7,16 +7,13 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference, reference
-from stylobate.analysis.directions import compass_of_shares
-from stylobate.analysis.evidence import Evidence, evidence
-from stylobate.analysis.fragility import fragility
-from stylobate.analysis.fragility_checks import FEWEST
-from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
-from stylobate.analysis.side_by_side import codes_of, median_words, shares
-from stylobate.analysis.states import with_undecided
-from stylobate.analysis.suite import suite_table
-from stylobate.analysis.verdicts import VERDICTS, wilson_interval
+from stylobate.probability.evidence import Evidence, evidence
+from stylobate.probability.fragility import FEWEST, fragility
+from stylobate.probability.states import NOT_TOLD, STRONGER, WEAKER, Difference, reference, with_undecided
+from stylobate.probability.suite import suite_table
+from stylobate.verdicts.directions import compass_of_shares
+from stylobate.verdicts.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, codes_of, median_words, shares
+from stylobate.verdicts.verdict import VERDICTS, wilson_interval
 
 
 def runs(name, *codes):

@@ -11,18 +11,16 @@ from matplotlib.text import Text
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.difference import doubt
-from stylobate.analysis.evidence import Evidence
-from stylobate.analysis.fragility import fragility
-from stylobate.analysis.limit_states import EXCEEDED, NOT_EXCEEDED, OPEN
-from stylobate.analysis.side_by_side import median_name, shares
-from stylobate.analysis.states import _difference, compare_states, with_undecided
 from stylobate.cli.main import call
 from stylobate.cli.states import describe
 from stylobate.column.files import write_column
 from stylobate.column.materials import material
 from stylobate.column.scatter import usual_scatter
+from stylobate.probability.evidence import Evidence
+from stylobate.probability.fragility import fragility
+from stylobate.probability.states import _difference, compare_states, doubt, with_undecided
 from stylobate.response.words import UNDAMPED_WOBBLE
+from stylobate.verdicts.limit_states import EXCEEDED, NOT_EXCEEDED, OPEN, median_name, shares
 
 JOINT = st.Joint(1e9, 5e8, friction_coefficient=0.7)
 
@@ -217,7 +215,7 @@ def test_the_comparison_is_printed_before_design_values_are_computed(tmp_path, m
         seen.append(capsys.readouterr().out)
         raise st.InputError("far enough.")
 
-    monkeypatch.setattr("stylobate.analysis.design_values.design_values", stopped)
+    monkeypatch.setattr("stylobate.probability.design.design_values", stopped)
     assert call(["states", "--as-built", str(bare), "--with", str(linked), "--pulse", "ricker,1Hz,0.3g"]) == 2
     assert "“linked”" in seen[0]
 

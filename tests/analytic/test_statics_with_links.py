@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.contact_programme import ContactProgramme
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.limit_directions import limit_directions, limit_in_space, weakest_direction
-from stylobate.analysis.limit_with_links import SpaceProgramme
-from stylobate.analysis.pushover import pushover
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
+from stylobate.statics.contacts import ContactProgramme
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.limit_assemblies import SpaceProgramme, limit_directions, limit_in_space, weakest_direction
+from stylobate.statics.pushover import pushover
 
 ROUGH = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 SMOOTH = st.Joint(5e10, 2.5e10, friction_coefficient=0.1)

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.pushover import pushover
 from stylobate.column.assembly_files import FROM_DICT, read_assembly
 from stylobate.column.files import write_column
 from stylobate.column.links import block_link
 from stylobate.column.links.placed import BREAKS, GIVEN, stone_at_limit, stone_words
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.pushover import pushover
 
 SMOOTH = st.Joint(2e9, 1e9, friction_coefficient=0.1)
 BLOCK = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0)], SMOOTH, name="block")

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from stylobate import InputError, g, target_spectrum
-from stylobate.analysis.code_spectra import EurocodeSpectrum
-from stylobate.analysis.record_selection import select_records
-from stylobate.analysis.target_spectra import correlation
+from stylobate.codes.records import select_records
+from stylobate.codes.spectra import EurocodeSpectrum, correlation
 from stylobate.motion import harmonic
 from stylobate.plots import draw_record_selection
 

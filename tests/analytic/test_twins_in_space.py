@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.debris import bodies_over_twins, not_safe, only_as_seen, words_of_bodies
-from stylobate.analysis.difference import caveat
 from stylobate.campaign.twins import the_twins
 from stylobate.column.scatter import drawn_twins, twins_of
 from stylobate.outcome import Outcome
 from stylobate.response.words import STRUCK_IN_SPACE, UNDAMPED_WOBBLE, doubt_of, each_doubt
+from stylobate.verdicts.population import bodies_over_twins, not_safe, only_as_seen, words_of_bodies
+from stylobate.verdicts.verdict import caveat
 
 JOINT = st.Joint(5e9, 2.5e9, 35.0)
 OFFSETS = st.Scatter(0.0, 0.0, 0.0, 0.0, 0.0, 0.01)

@@ -7,12 +7,11 @@ import pandas as pd
 import pytest
 
 import stylobate as st
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.certainty import certainty
-from stylobate.analysis.population import Population, chance_words
-from stylobate.analysis.unknown_law import share_limits, share_under_another_law, under_another_law
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import LAW, PER_LAW, the_twins, usual_with_laws
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.population import Population, certainty, chance_words
+from stylobate.verdicts.verdict import share_limits, share_under_another_law, under_another_law
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 SIZE = {"height": 2.0, "bottom_width": 0.5, "top_width": 0.5, "density": 2700.0}
@@ -37,6 +36,24 @@ def test_half_of_the_variance_is_common_to_the_twins_of_a_law():
     assert np.corrcoef(logs[:, 0], logs[:, 1])[0, 1] == pytest.approx(0.5, abs=0.1)
 
 
+def test_laws_reach_from_the_softest_joints_to_stone():
+    """Each order of magnitude from 1e9 N/m³ to E/h = 1e11/2 as likely, whatever the column's own; joints of a law differ by
+    some 14 % more. At half of it the spread is half as wide."""
+
+    def common(share: float) -> np.ndarray:
+        twins = drawn(3 * 200, unknown_stiffness=share).columns
+        return np.log([one.joints[0].normal_stiffness for one in twins]).reshape(-1, PER_LAW).mean(axis=1)
+
+    logs = common(1.0)
+    span = np.log(5e10 / 1e9)
+    assert logs.min() == pytest.approx(np.log(1e9), abs=0.4)
+    assert logs.max() == pytest.approx(np.log(5e10), abs=0.4)
+    assert logs.mean() == pytest.approx(np.log(1e9) + 0.5 * span, abs=0.1)
+    assert logs.std() == pytest.approx(span / np.sqrt(12.0), rel=0.03)
+    assert common(0.5).std() == pytest.approx(0.5 * span / np.sqrt(12.0), rel=0.06)
+    assert drawn(3, friction=0.0, joint_stiffness=0.0, unknown_stiffness=0.0).columns[0].joints == ROUND.joints
+
+
 def test_half_of_the_laws_carry_otherwise_and_twins_of_one_law_alike():
     found = drawn(120)
     laws = np.array([twin.losses.law for twin in found.columns]).reshape(-1, PER_LAW)
@@ -52,8 +69,8 @@ def test_more_twins_are_the_same_ones_and_more():
 
 def test_other_parts_stay_as_they_were():
     """Of one seed, sizes, density and friction are those drawn without laws; the common part of stiffness is the law's."""
-    with_laws = drawn(6, joint_stiffness=0.2).columns
-    without = drawn(6, joint_stiffness=0.2, stiffness_damping=0.0, rolling_resistance=0.0, law=0.0).columns
+    none = dict.fromkeys(("stiffness_damping", "rolling_resistance", "law", "unknown_stiffness"), 0.0)
+    with_laws, without = drawn(6).columns, drawn(6, **none).columns
     for one, other in zip(with_laws, without, strict=True):
         assert one.drums == other.drums
         assert [joint.tan_phi for joint in one.joints] == [joint.tan_phi for joint in other.joints]
@@ -66,7 +83,7 @@ def test_square_columns_have_no_law_of_round_faces_and_planes_none_at_all():
     twins = drawn(3, SQUARE, law=0.5)
     assert twins.left_out == ("law",)
     plane = drawn(3, SQUARE, st.DistinctElement2D())
-    assert set(plane.left_out) == {"stiffness_damping"}
+    assert set(plane.left_out) == {"stiffness_damping", "unknown_stiffness"}
     assert plane.groups == ()
     assert plane.columns[0].losses is None
 

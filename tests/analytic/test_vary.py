@@ -8,10 +8,10 @@ import pandas
 import pytest
 
 import stylobate as st
-from stylobate.analysis.vary import best_of, candidates
 from stylobate.cli.main import call
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.files import write_column
+from stylobate.probability.design import best_of, candidates
 
 SMOOTH = st.Joint(1e9, 5e8, friction_coefficient=0.1)
 BLOCK = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0)], SMOOTH, name="block")

@@ -8,16 +8,14 @@ import numpy as np
 import pytest
 from scipy.stats import chi2, t
 
-from stylobate.analysis import lognormal
-from stylobate.analysis.evidence import Evidence
-from stylobate.analysis.fragility import fragility
-from stylobate.analysis.fragility_curve import between
-from stylobate.analysis.hazard import Hazard
-from stylobate.analysis.likelihood_region import LARGER, dispersions, region
-from stylobate.analysis.limit_states import EXCEEDED, OPEN
-from stylobate.analysis.paired import levels_of, share_limits, unseen
-from stylobate.analysis.risk import risk
 from stylobate.errors import InputError
+from stylobate.probability import lognormal
+from stylobate.probability.evidence import Evidence
+from stylobate.probability.fragility import between, fragility
+from stylobate.probability.lognormal import LARGER, dispersions, region
+from stylobate.probability.risk import Hazard, risk
+from stylobate.probability.states import levels_of, share_limits, unseen
+from stylobate.verdicts.limit_states import EXCEEDED, OPEN
 
 LEVELS = np.array([0.1, 0.15, 0.22, 0.33, 0.47, 0.68, 1.0, 1.5])
 
@@ -178,7 +176,7 @@ def test_intervals_hold_what_open_runs_may_come_to():
 def test_intervals_hold_the_truth_where_stripes_nearly_separate(monkeypatch):
     # Dispersion 0.12, steps of 1.5: the bootstrap alone held the median in 6 % of such sets. Of 40 sets 95 % are 38; below
     # 34 with a probability of 0.003. The long version, 2,000 sets, is in docs/theory/fragility.md.
-    monkeypatch.setattr("stylobate.analysis.fragility_points.SETS", 1)
+    monkeypatch.setattr("stylobate.probability.fragility.SETS", 1)
     rng, held = np.random.default_rng(11), np.zeros(2)
     levels = 1.1 * np.geomspace(1.5**-3, 1.5**2, 6)
     for k in range(40):

@@ -3,7 +3,7 @@
 import pytest
 
 from stylobate import plots
-from stylobate.analysis.directions import bearing, compass_of_chances, compass_of_shares, harm_words, worst
+from stylobate.verdicts.directions import bearing, compass_of_chances, compass_of_shares, harm_words, worst
 
 
 def row(azimuth, peak, *, fell=False, **more):

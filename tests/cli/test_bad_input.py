@@ -5,6 +5,7 @@ import pytest
 import stylobate as st
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
+from stylobate.models.rocking.model import Rocking
 from stylobate.motion import write_csv
 
 GOOD = {"--model": "housner", "--harmonic": "1Hz,0.3g,1s"}
@@ -170,7 +171,7 @@ def test_a_folder_that_cannot_be_written_is_refused_before_anything_is_computed(
 ):
     computed = []
     for verb in ("run", "run_many"):
-        monkeypatch.setattr(st.HousnerBlock, verb, lambda *_, **__: computed.append(1))
+        monkeypatch.setattr(Rocking, verb, lambda *_, **__: computed.append(1))
     (tmp_path / "file").write_text("in the way")
     message = refused(*arguments, "--out", tmp_path / "file" / "folder")
     assert "cannot be written" in message
@@ -335,7 +336,7 @@ def test_states_are_refused_before_anything_is_written(tmp_path, monkeypatch, re
 )
 def test_models_are_refused_before_the_first_of_them_is_run(tmp_path, monkeypatch, refused, motion):
     for name in ("simulate", "run_grid"):
-        monkeypatch.setattr(f"stylobate.analysis.compare.{name}", None)
+        monkeypatch.setattr(f"stylobate.verdicts.compare.{name}", None)
     drums = ("compare", "paper-12-drums", "--models", "dem2d,housner", *motion)
     assert "computes one block" in refused(*drums, "--out", tmp_path / "never")
 

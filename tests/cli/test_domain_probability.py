@@ -24,7 +24,7 @@ def test_replicates_give_counts_table_file_and_figure(capsys, tmp_path):
     assert (result["cells"], result["replicates"], result["runs"], result["seed"]) == (12, 5, 60, 7)
     assert result["scatter"] == {
         "friction": 0.0, "joint_stiffness": 0.0, "density": 0.0, "width": 0.05, "height": 0.0, "offset": 0.0,
-        "stiffness_damping": 0.0, "rolling_resistance": 0.0, "law": 0.0,
+        "stiffness_damping": 0.0, "rolling_resistance": 0.0, "law": 0.0, "unknown_stiffness": 0.0,
     }  # fmt: skip
     assert result["motion_scatter"] == {"amplitude": 0.0, "phase": 0.1, "across": 0.0}
     assert result["collapsed"] + result["stands"] + result["undecided"] + result["failed"] == 60

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.motion import half_sine_pulse, write_csv
 from stylobate.own_files import digest
 from stylobate.response.words import ROUND_IN_THE_PLANE
 from stylobate.results import read_results
+from stylobate.verdicts.rocking_spectrum import rocking_block
 
 PROMISED = {"median", "median_low", "median_high", "beta", "beta_low", "beta_high", "im", "unit", "state", "records", "runs",
             "undecided", "failed"}  # fmt: skip

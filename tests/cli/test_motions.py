@@ -8,8 +8,6 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.rocking_spectrum import rocking_spectrum
-from stylobate.analysis.suite import INTENSITIES, suite_table
 from stylobate.cli.main import call
 from stylobate.column.presets import preset
 from stylobate.errors import OutOfRangeWarning
@@ -22,6 +20,8 @@ from stylobate.motion import (
     rotated_spectrum,
     write_csv,
 )
+from stylobate.probability.suite import INTENSITIES, suite_table
+from stylobate.verdicts.rocking_spectrum import rocking_spectrum
 
 RUN = ["run", "paper-monolithic", "--model", "housner"]
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.critical import CriticalAmplitude
 from stylobate.cli import critical as command
 from stylobate.cli.main import call
 from stylobate.column.files import load_column
 from stylobate.motion.intensity import motion_summary
+from stylobate.verdicts.critical import CriticalAmplitude
 
 FOUND = """\
 density = 1600.0

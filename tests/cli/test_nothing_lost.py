@@ -121,7 +121,7 @@ SPREAD = ["--replicates", "18", "--scatter", "friction=10%"]
 @pytest.mark.parametrize("several", [False, True])
 def test_a_run_goes_on_with_its_twins(several, tmp_path, capsys, monkeypatch):
     """Its fifteen twins ride along with it; the three others are made after it, two of them before the interrupt."""
-    from stylobate.analysis import certainty as module
+    from stylobate.verdicts import population as module
 
     state, real, real_many = {"runs": 0, "twins": 0, "stop": None}, module.simulate, LaneEngine.run_many
 
@@ -161,7 +161,7 @@ def test_a_run_goes_on_with_its_twins(several, tmp_path, capsys, monkeypatch):
 
 
 def test_a_folder_in_use_is_refused_before_anything_is_computed(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("stylobate.analysis.certainty.simulate", lambda *_, **__: pytest.fail("computed first"))
+    monkeypatch.setattr("stylobate.verdicts.population.simulate", lambda *_, **__: pytest.fail("computed first"))
     held = Holding(tmp_path / "runs.sqlite")
     try:
         assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.3g,1s", *SPREAD, "--out", str(tmp_path)]) == 2
@@ -171,7 +171,7 @@ def test_a_folder_in_use_is_refused_before_anything_is_computed(tmp_path, capsys
 
 
 def test_a_comparison_goes_on_with_the_next_model(tmp_path, capsys, monkeypatch):
-    from stylobate.analysis import compare as module
+    from stylobate.verdicts import compare as module
 
     command = [
         "compare",

@@ -9,10 +9,10 @@ from contextlib import closing
 import pytest
 
 import stylobate as st
-from stylobate.analysis.compare import compare_models
 from stylobate.campaign.ledger import APPLICATION, LAYOUT, RUNS_FILE, finished_runs_in
 from stylobate.cli.main import call
 from stylobate.models.rocking.model import HousnerBlock, Rocking
+from stylobate.verdicts.compare import compare_models
 
 MODEL = ["--model", "housner"]
 GRID = ["--frequencies", "1:2:2", "--amplitudes", "0.25g:1g:4", "--duration", "2s"]

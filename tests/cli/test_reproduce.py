@@ -14,13 +14,13 @@ import xarray
 from tiny_study import GRIDS, shorten
 
 import stylobate as st
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.domain import Domain
 from stylobate.atomic import output_folder, replacing
 from stylobate.campaign.ledger import APPLICATION, RUNS_FILE, finished_runs_in
 from stylobate.cli.main import call
 from stylobate.errors import DamagedFileWarning
 from stylobate.own_files import LIST, own_files
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.domain import Domain
 from stylobate_report.page import Picture, Rows, Section
 from stylobate_studies.commands.reproduce import build, describe
 from stylobate_studies.paper import literature, pieces, study

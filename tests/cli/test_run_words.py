@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.studies import StudyResult
 from stylobate.cli.main import call
 from stylobate.cli.run import write_population
 from stylobate.motion import half_sine_pulse, write_csv
+from stylobate.probability.studies import StudyResult
 from stylobate.response import SpaceMeasures
 from stylobate.response.words import doubt_of, longer_tail, sentence_of, to_decide
 from stylobate.results import read_results

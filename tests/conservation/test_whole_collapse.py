@@ -14,7 +14,7 @@ from stylobate.models.base import RESTITUTION, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.plane.loose import Loose, follow, stable_step_of
 from stylobate.motion import harmonic
-from stylobate.response.assembly_measures import recorded_blocks
+from stylobate.response.assemblies import recorded_blocks
 from stylobate.simulate import simulate
 
 

@@ -11,8 +11,8 @@ from validation import other_engines as engines
 from validation import tapered_column as tapered
 from validation.space import cylinder, rolling
 
-from stylobate.analysis import verdicts
 from stylobate.column import Drum
+from stylobate.verdicts import verdict as verdicts
 
 #: It is shaken in the plane only.
 BEAM = "stylobate, rigid beam"

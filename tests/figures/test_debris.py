@@ -5,9 +5,9 @@ import pytest
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.debris import BodyOverTwins, bodies_over_twins, not_yet_debris
 from stylobate.response import Response
-from stylobate.response.space_measures import recorded_in_space
+from stylobate.response.assemblies import recorded_in_space
+from stylobate.verdicts.population import BodyOverTwins, bodies_over_twins, not_yet_debris
 
 
 @pytest.fixture(scope="module")

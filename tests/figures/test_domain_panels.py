@@ -9,13 +9,12 @@ from matplotlib.text import Text
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.domain import Domain
-from stylobate.analysis.probability import CollapseProbability
-from stylobate.analysis.step_sensitivity import StepComparison
 from stylobate.column import preset
 from stylobate.column.scatter import Scatter
 from stylobate.motion.scatter import MotionScatter
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.compare import StepComparison
+from stylobate.verdicts.domain import CollapseProbability, Domain
 from stylobate_studies.paper.doubt import Doubt
 from stylobate_studies.paper.pictures import draw_domain_panels, draw_doubt
 

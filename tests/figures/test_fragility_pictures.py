@@ -6,11 +6,11 @@ from matplotlib.figure import Figure
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.efficiency import which_tells_most
-from stylobate.analysis.evidence import Evidence
-from stylobate.analysis.hazard import Hazard
-from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.motion import half_sine_pulse
+from stylobate.probability.evidence import Evidence
+from stylobate.probability.ida import which_tells_most
+from stylobate.probability.risk import Hazard
+from stylobate.verdicts.rocking_spectrum import rocking_block
 
 
 @pytest.fixture(scope="module")

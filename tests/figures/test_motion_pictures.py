@@ -12,14 +12,13 @@ from matplotlib.image import imread
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.critical import CriticalAmplitude
-from stylobate.analysis.critical_suite import CriticalSuite
-from stylobate.analysis.rocking_spectrum import RockingSpectrum
-from stylobate.analysis.suite import INTENSITIES, suite_table
-from stylobate.analysis.verdicts import VERDICTS
 from stylobate.column.presets import preset
 from stylobate.errors import InputError
 from stylobate.plots.domain import _FILL, SHADES
+from stylobate.probability.suite import INTENSITIES, suite_table
+from stylobate.verdicts.critical import CriticalAmplitude, CriticalSuite
+from stylobate.verdicts.rocking_spectrum import RockingSpectrum
+from stylobate.verdicts.verdict import VERDICTS
 
 THREE = st.Motion(0.01, *(np.random.default_rng(i).normal(size=500) for i in range(3)), name="noise")
 

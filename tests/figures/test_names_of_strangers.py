@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.critical_suite import critical_suite
 from stylobate.plots.style import plain
+from stylobate.verdicts.critical import critical_suite
 
 NAMES = ["$", "$x^$", r"a\$b$\frac{1$", "a\x00b\x1bc\x7f", "line\nline", "\u202eabc", "x" * 3000, "列柱", "%s{0}"]
 COLUMN = st.Column.tapered(

@@ -11,12 +11,12 @@ from matplotlib.image import imread
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.critical import CriticalAmplitude
-from stylobate.analysis.domain import Domain
 from stylobate.column.presets import preset
 from stylobate.plots import style
 from stylobate.plots.domain import FILL
 from stylobate.response import ENERGY_TERMS, Histories, Measures
+from stylobate.verdicts.critical import CriticalAmplitude
+from stylobate.verdicts.domain import Domain
 
 
 def rocking(name="paper-12-drums", collapse=False, size=0.05):

@@ -6,12 +6,12 @@ from matplotlib.colors import to_rgb
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.probability import CollapseProbability
 from stylobate.column import preset
 from stylobate.column.scatter import Scatter
 from stylobate.motion.scatter import MotionScatter
 from stylobate.plots.domain import CLASSES
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.domain import CollapseProbability
 
 
 def probability(width=2, top=False):

@@ -2,11 +2,11 @@
 
 import pytest
 
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.pushover import pushover
 from stylobate.column import preset
 from stylobate.models.rigid_block.block_stack import BlockStack
 from stylobate.plots import draw_mechanism, draw_pushover
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.pushover import pushover
 
 
 def test_pushover_figure_shows_curve_and_units():

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from stylobate.analysis.limit_directions import limit_directions
 from stylobate.column.assembly_files import FROM_DICT, load_structure
 from stylobate.errors import InputError
+from stylobate.statics.limit_assemblies import limit_directions
 
 from . import odd
 from .target import Fault, Target, sentence

@@ -13,10 +13,10 @@ from scipy.optimize import minimize
 from scipy.special import log_ndtr
 from scipy.stats import t
 
-from stylobate.analysis import fragility_points
-from stylobate.analysis.evidence import evidence, read_table
-from stylobate.analysis.fragility import fragility
 from stylobate.errors import InputError
+from stylobate.probability import fragility as fragility_points
+from stylobate.probability.evidence import evidence, read_table
+from stylobate.probability.fragility import fragility
 
 from .command import command
 from .target import Fault, Target, sentence

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from stylobate.analysis.hazard import read_hazard
 from stylobate.errors import InputError
+from stylobate.probability.risk import read_hazard
 
 from .target import Fault, Target, sentence
 

@@ -9,12 +9,11 @@ from pathlib import Path
 import numpy as np
 
 import stylobate as st
-from stylobate.analysis.domain import Domain
-from stylobate.analysis.probability import CollapseProbability
 from stylobate.column.presets import preset
 from stylobate.errors import InputError
 from stylobate.response import Response
-from stylobate.response.assembly_measures import recorded_blocks
+from stylobate.response.assemblies import recorded_blocks
+from stylobate.verdicts.domain import CollapseProbability, Domain
 
 from .target import Fault, Target, sentence
 

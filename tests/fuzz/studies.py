@@ -18,8 +18,8 @@ import time
 from contextlib import closing, suppress
 from pathlib import Path
 
-from stylobate.analysis.studies import StudyResult
 from stylobate.campaign.ledger import RUNS_FILE, finished_runs_in
+from stylobate.probability.studies import StudyResult
 
 from .kills import end, kill, lost, start
 from .target import Fault, Target, Tried

@@ -12,7 +12,7 @@ import stylobate as st
 from stylobate.column.presets import preset
 from stylobate.column.standing import of_column
 from stylobate.response import Measures, Response, load_response
-from stylobate.response.assembly_measures import recorded_blocks
+from stylobate.response.assemblies import recorded_blocks
 
 RECORDED = ("time", "x", "z", "rotation", "joint_opening", "joint_slip", "ground_acceleration", "ground_displacement")
 NUMBERS = some.floats(allow_nan=True, allow_infinity=True)

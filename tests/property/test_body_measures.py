@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.response.assembly_measures import recorded_blocks
-from stylobate.response.block_words import sentence_of_blocks
-from stylobate.response.body_measures import body_measures, shifted_bodies
+from stylobate.response.assemblies import body_measures, fallen, recorded_blocks, shifted_bodies
 from stylobate.response.measures import BlockMeasures
-from stylobate.response.space_measures import fallen
+from stylobate.response.words import sentence_of_blocks
 
 
 def test_falls_sides_and_ways():

@@ -6,10 +6,9 @@ import inspect
 import pytest
 
 import stylobate as st
-from stylobate.analysis.compare import compare_domains
-from stylobate.analysis.critical_suite import critical_suite
-from stylobate.analysis.step_sensitivity import compare_steps
 from stylobate.cli.main import call
+from stylobate.verdicts.compare import compare_domains, compare_steps
+from stylobate.verdicts.critical import critical_suite
 
 COLUMN = st.preset("paper-monolithic")
 GRID = COLUMN, st.HousnerBlock(), [1.0], [2.0, 4.0], 2.0

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.limit_states import EXCEEDED, NOT_EXCEEDED, parse_state
 from stylobate.response.measures import MEASURES, TOP, Measures, blank_row, measures_of
+from stylobate.verdicts.limit_states import EXCEEDED, NOT_EXCEEDED, parse_state
 
 
 def test_blank_rows_have_every_measure_of_their_kind():

@@ -5,7 +5,7 @@ import pytest
 from bodies_in_space import turn
 
 import stylobate as st
-from stylobate.response.space_measures import joint_histories
+from stylobate.response.assemblies import joint_histories_in_space as joint_histories
 
 STONES = [
     st.Stone.box((0.8, 0.6, 1.0), (0.0, 0.0, 0.0), 2700.0, name="low"),

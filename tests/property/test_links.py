@@ -11,14 +11,14 @@ from typing import Any
 import pytest
 
 import stylobate as st
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.limit_directions import limit_in_space
 from stylobate.column.files import column_from_dict, write_column
 from stylobate.column.links import COLUMN_KINDS, KINDS
 from stylobate.column.links.kinds import shear_limits, shear_stiffness
 from stylobate.column.links.link import MATERIALS
 from stylobate.models.engine import engine_for
 from stylobate.models.registry import MODELS, model_class
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.limit_assemblies import limit_in_space
 
 JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
 COLUMN = st.Column.tapered(

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.directions import direction_of
-from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.errors import LeftOutWarning
 from stylobate.motion import keep_axes, read_motion, write_csv
 from stylobate.motion.orientation import record_of, rotated
 from stylobate.motion.specs import parse_angle
 from stylobate.motion.spectra import pseudo_acceleration
+from stylobate.verdicts.directions import direction_of
+from stylobate.verdicts.rocking_spectrum import rocking_block
 
 WAVE = np.sin(np.linspace(0.0, 12.0, 201))
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from scipy.stats import lognorm
 
-from stylobate.analysis.evidence import Evidence
-from stylobate.analysis.fragility import fragility
 from stylobate.cli.main import call
 from stylobate.errors import InputError
-from stylobate.results.nrml import write_nrml
+from stylobate.probability.evidence import Evidence
+from stylobate.probability.fragility import fragility
+from stylobate.results.fragilities import write_nrml
 
 TAG = "{http://openquake.org/xmlns/nrml/0.5}"
 

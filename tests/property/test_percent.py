@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from sources import sources
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.population import Population, chance_words
-from stylobate.analysis.side_by_side import shares
 from stylobate.campaign.twins import Twins
 from stylobate.column.scatter import Scatter
 from stylobate.percent import percent, percents, whole
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.limit_states import shares
+from stylobate.verdicts.population import Population, chance_words
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,6 @@
 """Names of records that hold what a file may mean otherwise."""
 
-from stylobate.analysis.evidence import evidence, read_table
+from stylobate.probability.evidence import evidence, read_table
 
 
 def test_a_name_with_a_number_sign_is_not_cut(tmp_path):

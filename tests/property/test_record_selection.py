@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.record_selection import Wanted, select_records
-from stylobate.analysis.record_sets import OWN_MISFIT
+from stylobate.codes.records import OWN_MISFIT, Wanted, select_records
 from stylobate.motion.intensity_specs import parse_measure
 from stylobate.motion.recordings import recorded_again
 from stylobate.motion.specs import parse_synthetic

@@ -5,11 +5,11 @@ import pandas
 import pytest
 
 import stylobate as st
-from stylobate.analysis.evidence import evidence, read_table, scaled_to
-from stylobate.analysis.hazard import read_hazard
-from stylobate.analysis.record_facts import facts_of_records
 from stylobate.cli.main import call
+from stylobate.codes.records import facts_of_records
 from stylobate.errors import InputError, as_typed
+from stylobate.probability.evidence import evidence, read_table, scaled_to
+from stylobate.probability.risk import read_hazard
 
 GOOD = "record,im,collapsed\na,0.5,0\na,1.0,\nb,0.5,1\n"
 

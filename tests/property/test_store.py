@@ -11,11 +11,11 @@ import pytest
 
 import stylobate as st
 from stylobate import store
-from stylobate.analysis.domain import Domain
 from stylobate.atomic import replacing
 from stylobate.column.presets import preset
 from stylobate.errors import InputError, StylobateError
 from stylobate.response import Response
+from stylobate.verdicts.domain import Domain
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,6 @@ import pandas
 import pytest
 
 import stylobate as st
-from stylobate.analysis.studies import StudyResult, write_table
 from stylobate.campaign import digests
 from stylobate.campaign.digests import Hasher
 from stylobate.campaign.ledger import RUNS_FILE, Ledger
@@ -22,6 +21,7 @@ from stylobate.cli.main import call
 from stylobate.column.files import load_column
 from stylobate.motion.condition_specs import conditioned
 from stylobate.motion.intensity_specs import parse_measure
+from stylobate.probability.studies import StudyResult, write_table
 
 COLUMN = st.Column.tapered(
     height=2.4, bottom_width=0.5, top_width=0.4, drums=1, density=2600.0, name="one",

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from records import FOLDER, needs_folder, record
 
-from stylobate.analysis.rocking_spectrum import rocking_block
-from stylobate.analysis.suite import suite_table
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import half_sine_pulse, read_suite, write_csv
+from stylobate.probability.suite import suite_table
+from stylobate.verdicts.rocking_spectrum import rocking_block
 
 
 def test_a_folder_with_a_file_that_is_no_record(tmp_path):

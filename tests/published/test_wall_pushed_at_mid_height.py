@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.pushover import pushover
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.pushover import pushover
 
 THICK, HIGH, WIDE = 0.11, 1.5, 0.95
 

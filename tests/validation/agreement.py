@@ -6,8 +6,6 @@ from functools import cache
 import numpy as np
 from oracles.adaptive_beam import run_adaptive, run_as
 
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.pushover import pushover
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.models.dem2d.model import DistinctElement2D
@@ -18,6 +16,8 @@ from stylobate.motion import Motion, harmonic
 from stylobate.motion.pulses import half_sine_pulse, sine_pulse
 from stylobate.response import Response
 from stylobate.simulate import simulate, simulate_many
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.pushover import pushover
 
 from .case import AtMost, Case, Near, collected
 from .conservation import shaken, soft_stack

@@ -4,8 +4,6 @@ from functools import cache
 
 import numpy as np
 
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.pushover import pushover
 from stylobate.column import preset
 from stylobate.constants import g
 from stylobate.models.base import Model
@@ -13,6 +11,8 @@ from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate, simulate_many
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.pushover import pushover
 
 from .case import AtMost, Between, Case, Near, collected
 

@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 
 from stylobate import DistinctElement2D, DistinctElement3D, RigidBeam, RigidBlock, simulate_many
-from stylobate.analysis import verdicts as v
 from stylobate.column import Column, Drum, Joint
 from stylobate.column.scatter import Scatter, twins_of
 from stylobate.constants import g
 from stylobate.motion import Motion
+from stylobate.verdicts import verdict as v
 
 from .case import AtMost, Case, Near, collected
 

@@ -85,6 +85,7 @@ class ScatterTable(ColumnScatterTable):
     stiffness_damping: float | None = None
     rolling_resistance: float | None = None
     law: float | None = None
+    unknown_stiffness: float | None = None
 
 
 class RunsTable(Table):

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..column.column import Column
 from ..column.joint import LAWS, Losses
-from ..column.materials import CONTACT, ROLLING
+from ..column.materials import CONTACT, ROLLING, SOFTEST_JOINT, STIFFEST_STONE
 from ..column.scatter import WITHIN, Scatter, drawn_twins, spread_of, usual_scatter
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
@@ -125,7 +125,8 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
     if of_laws is None:
         one_law = stands.stack is not None and usual_with_laws(stands, model) != usual_scatter(stands)
         return Twins(twins, size, seed, left_out, stands.like, reduced, one_law=one_law)
-    twins = [one.unwarned(losses=losses) for one, losses in zip(twins, of_laws.losses, strict=True)]
+    laws_of = zip(twins, of_laws.losses, of_laws.factors.tolist(), strict=True)
+    twins = [with_stiffness(one, factor).unwarned(losses=losses) for one, losses, factor in laws_of]
     return Twins(twins, size, seed, left_out, stands.like, reduced, of_laws.groups)
 
 
@@ -137,8 +138,8 @@ def _not_taken(stands: Structure, model: Model) -> tuple[str, ...]:
 
 
 #: Parts of a scatter that are laws of joints, of models in space; those of round faces alone.
-PARTS = ("stiffness_damping", "rolling_resistance", "law")
-OF_ROUND = PARTS[1:]
+PARTS = ("stiffness_damping", "unknown_stiffness", "rolling_resistance", "law")
+OF_ROUND = PARTS[2:]
 
 #: Twins of one law.
 PER_LAW = 3
@@ -159,11 +160,14 @@ class Laws(NamedTuple):
         Law of each twin.
     stiffness : array
         Draw of the stiffness of each twin that its law decides [-].
+    factors : array
+        By which the joints of each twin are stiffer, as their stiffness is unknown [-].
     losses : tuple of Losses
     """
 
     groups: tuple[int, ...]
     stiffness: np.ndarray
+    factors: np.ndarray
     losses: tuple[Losses, ...]
 
 
@@ -172,7 +176,7 @@ def usual_with_laws(structure: Structure, model: Model) -> Scatter:
     usual, column = usual_scatter(structure), structure.stack
     if not engine_for(model, structure).draws_laws:
         return usual
-    laws: dict[str, Any] = {"joint_stiffness": 1.0, "stiffness_damping": 0.8}
+    laws: dict[str, Any] = {"unknown_stiffness": 1.0, "stiffness_damping": 0.8}
     if column.section == "circular":
         laws |= {"rolling_resistance": 0.8} | ({"law": 0.5} if on_rim_or_bed(column) else {})
     return dataclasses.replace(usual, **laws)
@@ -208,4 +212,31 @@ def drawn_laws(column: Structure, model: Model, size: Scatter, number: int, seed
     other = {one: LAWS[1 - i] for i, one in enumerate(LAWS)}[acting.law]
     law = np.where(even[:, 3] < size.law, other, acting.law)
     losses = tuple(Losses(*each) for each in zip(beta.tolist(), c.tolist(), law.tolist(), strict=True))
-    return Laws(groups_of(size, number), common[:, 2], losses)
+    factors = unknown_stiffness(column, even[:, 2]) ** size.unknown_stiffness
+    stiffness = common[:, 2] * (size.unknown_stiffness == 0.0)
+    return Laws(groups_of(size, number), stiffness, factors, losses)
+
+
+def unknown_stiffness(column: Any, share: np.ndarray) -> np.ndarray:
+    """Factors on the stiffness of a column's joints, shape of ``share``.
+
+    Evenly in the logarithm from 1e9 N/m³ (share 0) to that of the stone between joints (1), E over the mean height of the
+    drums; of joints that differ the geometric mean has that.
+    """
+    own = float(np.exp(np.mean([math.log(joint.normal_stiffness) for joint in column.joints])))
+    stone = max(STIFFEST_STONE / float(column.heights.mean()), SOFTEST_JOINT)
+    return SOFTEST_JOINT * (stone / SOFTEST_JOINT) ** share / own
+
+
+def with_stiffness(column: Any, factor: float) -> Any:
+    """A column with both stiffnesses of all joints multiplied."""
+    if factor == 1.0:
+        return column
+    return column.unwarned(
+        joints=tuple(
+            joint.changed(
+                normal_stiffness=factor * joint.normal_stiffness, shear_stiffness=factor * joint.shear_stiffness
+            )
+            for joint in column.joints
+        )
+    )

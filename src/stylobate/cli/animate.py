@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -11,13 +12,17 @@ from . import options as o
 FORMATS = ("gif", "mp4", "html")
 
 
+def _number(text: str, name: str, high: float) -> float:
+    return check_range(f"`{name}`", o.number(text, name, "such as 1"), 0.0, high, open_low=True)
+
+
 def animate(
     response: Path = o.argument("RESPONSE", "File that 'stylobate run --out' wrote, or its folder."),
     to: str = o.option("gif|mp4|html", "mp4 needs the extra 'video'.", "gif", flag="--format"),
-    rate: str = o.option("N", "Frames per second.", "20", flag="--fps"),
-    speed: str = o.option("X", "1 is as it was, 0.5 half as fast.", "1"),
-    start: str | None = o.option("TIME", "Where the film begins, such as 2s.", flag="--from"),
-    stop: str | None = o.option("TIME", "Where the film ends, such as 8s.", flag="--to"),
+    rate: float = o.option("N", "Frames per second.", "20", flag="--fps", read=partial(_number, high=100.0)),
+    speed: float = o.option("X", "1 is as it was, 0.5 half as fast.", "1", read=partial(_number, high=1000.0)),
+    start: float | None = o.option("TIME", "Where the film begins, such as 2s.", flag="--from", read=o.time),
+    stop: float | None = o.option("TIME", "Where the film ends, such as 8s.", flag="--to", read=o.time),
     view: str | None = o.option(
         "AZIMUTH,ELEVATION",
         "From where a response in space is seen, in degrees: azimuth from x towards y; -40,18 if not given.",
@@ -29,7 +34,6 @@ def animate(
 
     The film is written to --out, or beside the response.
     """
-    from ..motion.specs import parse_time
     from ..plots.film import write_gif, write_mp4, write_player
     from ..plots.solids import OBLIQUE, parse_view
     from ..response import load_response
@@ -38,7 +42,6 @@ def animate(
 
     if to not in FORMATS:
         raise InputError(f"`format` is {to!r}; allowed are {', '.join(FORMATS)}.", "format")
-    frames, pace = _number("fps", rate, 100.0), _number("speed", speed, 1000.0)
     if response.is_dir():
         response = response / "response.nc"
     loaded = load_response(response)
@@ -50,19 +53,19 @@ def animate(
     window = None
     if start is not None or stop is not None:
         first, last = float(loaded.time[0]), float(loaded.time[-1])
-        window = (parse_time(start) if start else first, parse_time(stop) if stop else last)
+        window = (first if start is None else start, last if stop is None else stop)
     with console.folder(execution.out or response.parent, f"{response.stem}.{to}") as folder:
         target = (folder or response.parent) / f"{response.stem}.{to}"
         if to == "html":
-            write_player(loaded, target, frames_per_second=frames, speed=pace, window=window, seen_from=seen_from)
+            write_player(loaded, target, frames_per_second=rate, speed=speed, window=window, seen_from=seen_from)
         else:
             write = write_gif if to == "gif" else write_mp4
             with console.progress(f"{to} film") as progress:
                 write(
                     loaded,
                     target,
-                    frames_per_second=frames,
-                    speed=pace,
+                    frames_per_second=rate,
+                    speed=speed,
                     window=window,
                     progress=progress,
                     seen_from=seen_from,
@@ -72,9 +75,3 @@ def animate(
     found = {"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label, "doubt": doubt}
     if not execution.emits(found):
         console.say(f"{loaded.sentence} {doubt}".rstrip(), {"film": f"{duration:.2f} s, {to}"}, [target])
-
-
-def _number(name: str, text: str, high: float) -> float:
-    from ..motion.specs import parse_number
-
-    return check_range(f"`{name}`", parse_number(f"`{name}`", text, "such as 1"), 0.0, high, open_low=True)

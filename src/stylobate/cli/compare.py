@@ -34,7 +34,7 @@ def compare(
     motions: Annotated[o.Motions, o.But(*o.SEVERAL)],
     frequencies: str | None = o.option("F:F:N", "Compare domains: such as 0.33:4:24."),
     amplitudes: str | None = o.option("A:A:N", "Compare domains: such as 0.05g:0.6g:32."),
-    duration: str = o.option("TIME", "Of each motion of a domain.", "10s"),
+    duration: float = o.option("TIME", "Of each motion of a domain.", "10s", read=o.time),
     following: o.Following,
     modelling: Several,
     execution: o.Execution,
@@ -45,11 +45,11 @@ def compare(
     """
     import pandas
 
-    from ..analysis.compare import compare_domains, compare_models
-    from ..analysis.design_values import design_values
-    from ..analysis.difference import caveat
     from ..motion.orientation import keep_axes
-    from ..motion.specs import amplitude_range, frequency_range, parse_time
+    from ..motion.specs import amplitude_range, frequency_range
+    from ..probability.design import design_values
+    from ..verdicts.compare import compare_domains, compare_models
+    from ..verdicts.verdict import caveat
     from . import console
 
     names = [name.strip() for name in models.split(",")]
@@ -72,7 +72,7 @@ def compare(
             )
         if following.whole:
             raise InputError("`whole` is for records, and a domain has none; leave it out.", "whole")
-        grid = frequency_range(frequencies), amplitude_range(amplitudes), parse_time(duration)
+        grid = frequency_range(frequencies), amplitude_range(amplitudes), duration
         each = [one for name in names for one in (f"domain-{_stem(name)}.nc", f"domain-{_stem(name)}")]
         with execution.files("compare", "comparison.csv", "comparison", *each) as files:
             with files.campaign(campaign, "cells") as asked:

@@ -21,7 +21,7 @@ from ..messages import MESSAGES, Message, kept
 if TYPE_CHECKING:
     import pandas
 
-    from ..analysis.ida_curves import Ida
+    from ..probability.evidence import Ida
     from ..response import Response
 
 #: The command line that is run, as typed, and what was warned of since it began.

@@ -13,9 +13,8 @@ from . import options as o
 if TYPE_CHECKING:
     import pandas
 
-    from ..analysis.critical import CriticalAmplitude
-    from ..analysis.critical_suite import CriticalSuite
     from ..motion import Motion
+    from ..verdicts.critical import CriticalAmplitude, CriticalSuite
     from .files import Files
 
 #: Amplitudes that columns like it go through unasked: what they cost then is bounded, and some two hundred runs.
@@ -36,9 +35,9 @@ class Shapes(o.Motions):
 
 def critical(
     column: str = o.STRUCTURE,
-    start: str = o.option("A", "Smallest amplitude, such as 0.05g.", ..., flag="--from"),
-    stop: str = o.option("A", "Largest amplitude, such as 1.0g.", ..., flag="--to"),
-    step: str = o.option("A", "Step of the grid.", "0.005g"),
+    start: float = o.option("A", "Smallest amplitude, such as 0.05g.", ..., "--from", read=o.acceleration),
+    stop: float = o.option("A", "Largest amplitude, such as 1.0g.", ..., "--to", read=o.acceleration),
+    step: float = o.option("A", "Step of the grid.", "0.005g", read=o.acceleration),
     model: str = o.model(),
     *,
     motions: Annotated[Shapes, o.But("scale", "pga")],
@@ -53,13 +52,11 @@ def critical(
     take fifteen columns like it through a dozen of the amplitudes; --replicates takes more through all, or none with 0. A
     folder of records, or several directions, is run on one grid, with columns like it by --replicates only.
     """
-    from ..analysis.critical import amplitude_grid, critical_amplitude
-    from ..analysis.critical_suite import critical_suite
-    from ..motion.specs import parse_acceleration
+    from ..verdicts.critical import amplitude_grid, critical_amplitude, critical_suite
     from . import console
 
     request = motions.request()
-    grid = [parse_acceleration(text) for text in (start, stop, step)]
+    grid = start, stop, step
     amplitude_grid(*grid)
     stone: Any = modelling.structure(column)
     how = modelling.model(model)
@@ -139,8 +136,8 @@ def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
 
 def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: list[Path]) -> None:
     """Print the answer for people."""
-    from ..analysis.critical_words import as_recorded
     from ..constants import g
+    from ..verdicts.critical import as_recorded
     from . import console
 
     kind, likes = result.column.kind, result.population

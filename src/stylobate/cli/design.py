@@ -16,7 +16,7 @@ WRITES = ("design.csv", "design")
 def write_design(values: pandas.DataFrame, files: Files) -> None:
     """Write the table, and the picture of the links that have a capacity; nothing where there are no links."""
     from .. import plots
-    from ..analysis.design_tables import worst_of
+    from ..probability.design import worst_of
 
     if len(values):
         files.table(values, WRITES[0])
@@ -29,8 +29,7 @@ def describe_design(values: pandas.DataFrame) -> None:
     import numpy as np
     import pandas
 
-    from ..analysis.design_tables import OPEN, as_read, basis_of, clearances, where, worst_of
-    from ..analysis.design_values import WHICH_LEVEL
+    from ..probability.design import OPEN, WHICH_LEVEL, as_read, basis_of, clearances, where, worst_of
     from . import console
 
     if not len(values):

@@ -10,9 +10,8 @@ from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.domain import Domain
-    from ..analysis.probability import CollapseProbability
     from ..campaign.grid import HarmonicGrid
+    from ..verdicts.domain import CollapseProbability, Domain
     from .files import Files
 
 
@@ -23,17 +22,17 @@ class Grid(o.Group):
     model: str | None = o.option("MODEL", "How it is computed; dem2d by default.")
     frequencies: str | None = o.option("F:F:N", "First, last and number, such as 0.33:4:24.")
     amplitudes: str | None = o.option("A:A:N", "Likewise, such as 0.05g:0.6g:32.")
-    duration: str | None = o.option("TIME", "Of each motion; 10s.")
-    tail: str | None = o.option("TIME", "Go on for this long after each motion; 0s.")
+    duration: float | None = o.option("TIME", "Of each motion; 10s.", read=o.time)
+    tail: float | None = o.option("TIME", "Go on for this long after each motion; 0s.", read=o.time)
 
     def study(self, what: str, modelling: o.Modelling) -> HarmonicGrid:
         """The grid of a study file, or of a column with these options."""
         from ..campaign.grid import HarmonicGrid, is_grid, read_grid
-        from ..motion.specs import amplitude_range, frequency_range, parse_time
+        from ..motion.specs import amplitude_range, frequency_range
 
         if Path(what).is_file() and is_grid(what):
             given = {"set" if name == "settings" else name: one for name, one in (vars(self) | vars(modelling)).items()}
-            if (name := next((name for name, one in given.items() if one), None)) is not None:
+            if (name := next((name for name, one in given.items() if one is not None), None)) is not None:
                 raise InputError(f"{what} is a study file and `{name}` is given as well; state it in the file.", name)
             return read_grid(what)
         for name, example in (("frequencies", "0.33:4:24"), ("amplitudes", "0.05g:0.6g:32")):
@@ -44,8 +43,8 @@ class Grid(o.Group):
             modelling.model(self.model or "dem2d"),
             frequency_range(self.frequencies or ""),
             amplitude_range(self.amplitudes or ""),
-            parse_time(self.duration or "10s"),
-            parse_time(self.tail or "0s"),
+            10.0 if self.duration is None else self.duration,
+            self.tail or 0.0,
         )
 
 
@@ -54,8 +53,10 @@ def domain(
     *,
     motions: Grid,
     population: o.Population,
-    motion_scatter: str | None = o.option(
-        "NAME=SIZE,…", "How the motions of a cell differ then; amplitude=1%,phase=0.1,across=1%, nothing by default."
+    motion_scatter: Any = o.option(
+        "NAME=SIZE,…",
+        "How the motions of a cell differ then; amplitude=1%,phase=0.1,across=1%, nothing by default.",
+        read=o.scatter,
     ),
     half_step: bool = o.option(None, "Run it again with half of the time step and count what differs.", False),
     modelling: o.Modelling,
@@ -66,11 +67,10 @@ def domain(
     With --replicates, the probability of collapse over columns like this one. With --out, a domain that was
     interrupted goes on where it was.
     """
-    from ..analysis.difference import caveat
-    from ..analysis.domain import collapse_domain
-    from ..analysis.replicates import collapse_probability
-    from ..analysis.step_sensitivity import compare_steps
     from ..campaign.runs import Stopped
+    from ..verdicts.compare import compare_steps
+    from ..verdicts.domain import collapse_domain, collapse_probability
+    from ..verdicts.verdict import caveat
     from . import console
 
     study = motions.study(what, modelling)
@@ -81,12 +81,13 @@ def domain(
         raise InputError("`half_step` is for a domain without `replicates`; give one of the two.", "half_step")
     if not likely:
         o.for_replicates("motion_scatter", motion_scatter)
-    shaking = None if motion_scatter is None else o.motion_scatter(motion_scatter)
     name, pair = "probability" if likely else "domain", None
     with execution.files("domain", *(f"{name}{end}" for end in (".nc", ".csv", ".json", ""))) as files:
         with files.campaign(campaign, "runs" if likely else "cells") as asked:
             if likely:
-                result: Any = collapse_probability(*grid, motion_scatter=shaking, out=files.folder, campaign=asked)
+                result: Any = collapse_probability(
+                    *grid, motion_scatter=motion_scatter, out=files.folder, campaign=asked
+                )
             elif half_step:
                 pair = compare_steps(*grid, campaign=asked)
                 result = pair.domain
@@ -128,9 +129,9 @@ def write_probability(result: CollapseProbability, summary: dict, files: Files) 
 
 def describe_probability(result: CollapseProbability, files: list[Path]) -> None:
     """Print the probabilities for people."""
-    from ..analysis.verdicts import open_runs
     from ..campaign.twins import described
     from ..response.words import to_decide
+    from ..verdicts.verdict import open_runs
     from . import console
 
     s = result.summary()

@@ -109,7 +109,7 @@ class Files(list[Path]):
         ----------
         **what
             ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.asked.Asked.of` takes them, or
-            what :func:`stylobate.results.sources.kept_of` says of the runs that it rests on.
+            what :func:`stylobate.results.asked.kept_of` says of the runs that it rests on.
         """
         from ..results.asked import Asked, asked_file, others_in
 

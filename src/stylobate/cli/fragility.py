@@ -11,8 +11,8 @@ from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.fragility_curve import Fragility
-    from ..results.sources import Source
+    from ..probability.fragility import Fragility
+    from ..results.asked import Source
 
 
 @dataclass(frozen=True)
@@ -70,8 +70,8 @@ def fragility(
 
     A lognormal curve by maximum likelihood with intervals over records; several sources or columns in one picture.
     """
-    from ..results.nrml import check_nrml, write_nrml
-    from ..results.sources import kept_of
+    from ..results.asked import kept_of
+    from ..results.fragilities import check_nrml, write_nrml
     from . import console
 
     if nrml is not None:
@@ -108,8 +108,8 @@ def fragility(
 
 def describe(found: Fragility) -> None:
     """A curve in words."""
-    from ..analysis.fragility_curve import between
-    from ..analysis.side_by_side import known_end, median_words, within
+    from ..probability.fragility import between
+    from ..verdicts.limit_states import known_end, median_words, within
     from . import console
 
     s = found.summary()

@@ -23,22 +23,31 @@ class Option:
     default: Any
     flag: str | None
     complete: Callable[[str], list[str]] | None = None
+    read: Callable[[str, str], Any] | None = None
 
     def parameter(self, name: str, kind: Any) -> inspect.Parameter:
         """The option of that name as typer takes it."""
+        default = inspect.Parameter.empty if self.default is ... else self.default
+        if self.read is not None:
+            kind = str | None if default is None else str
         words: Any = {"metavar": self.metavar, "help": self.help, "autocompletion": self.complete}
         flag = f"--{name.replace('_', '-')}" if self.flag is None else self.flag
         told = Annotated[kind, typer.Option(flag, **words) if flag else typer.Argument(**words)]
-        default = inspect.Parameter.empty if self.default is ... else self.default
         return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=told)
 
+    def value(self, name: str, typed: Any) -> Any:
+        """What is meant by what was typed for the option of that name, which errors are about."""
+        key = (self.flag or name).strip("-").replace("-", "_")
+        return typed if self.read is None or typed is None else self.read(typed, key)
 
-def option(metavar: str | None, help: str, default: Any = None, flag: str | None = None, complete: Any = None) -> Any:
+
+def option(metavar: str | None, help: str, default: Any = None, flag: str | None = None, **more: Any) -> Any:
     """An option called as its parameter, unless it has a ``flag`` of its own; ``...`` for one that must be given.
 
-    ``complete`` gives what a shell completes it to, from what has been typed.
+    ``read`` makes a value of what is typed, as is the default, and of the name for messages; ``complete`` gives what a shell
+    completes it to.
     """
-    return Option(metavar, help, default, flag, complete)
+    return Option(metavar, help, default, flag, **more)
 
 
 def argument(metavar: str, help: str, default: Any = ..., complete: Any = None) -> Any:
@@ -69,29 +78,31 @@ def takes(command: Callable[..., None], within: Callable[[], AbstractContextMana
     """
     signature = inspect.signature(command, eval_str=True)
     options: list[inspect.Parameter] = []
-    groups: dict[str, tuple[type[Group], list[str], dict[str, Any]]] = {}
+    own: dict[str, Option] = {}
+    groups: dict[str, tuple[type[Group], dict[str, Option], dict[str, Option]]] = {}
     for parameter in signature.parameters.values():
         plain = get_origin(parameter.annotation) is not Annotated
         kind, *notes = (parameter.annotation,) if plain else get_args(parameter.annotation)
         if isinstance(parameter.default, Option):
+            own[parameter.name] = parameter.default
             options.append(parameter.default.parameter(parameter.name, kind))
         elif not (isinstance(kind, type) and issubclass(kind, Group)):
             options.append(parameter.replace(kind=parameter.KEYWORD_ONLY))
         else:
             every: dict[str, Any] = {field.name: field.default for field in fields(kind)}
-            left_out = {name: every.pop(name).default for note in notes if isinstance(note, But) for name in note.names}
+            left_out = {name: every.pop(name) for note in notes if isinstance(note, But) for name in note.names}
             types = get_type_hints(kind)
             options += [one.parameter(name, types[name]) for name, one in every.items()]
-            groups[parameter.name] = kind, list(every), left_out
+            groups[parameter.name] = kind, every, left_out
 
     @wraps(command)
     def taking(**given: Any) -> None:
         with within():
-            values = {
-                name: kind(**{one: given.pop(one) for one in names}, **left_out)
-                for name, (kind, names, left_out) in groups.items()
-            }
-            command(**given, **values)
+            values = {}
+            for name, (kind, every, left_out) in groups.items():
+                stated = {key: one.value(key, given.pop(key)) for key, one in every.items()}
+                values[name] = kind(**stated, **{key: one.value(key, one.default) for key, one in left_out.items()})
+            command(**given | {key: one.value(key, given[key]) for key, one in own.items()}, **values)
 
     taking.__signature__ = inspect.Signature(options)  # type: ignore[attr-defined]
     taking.__annotations__ = {one.name: one.annotation for one in options}

@@ -31,11 +31,11 @@ def ida(
 
     Levels are hunted and filled, all records at a time; with the table of which intensity measure tells most.
     """
-    from ..analysis.efficiency import FEWEST, which_tells_most
-    from ..analysis.ida import ida as analyse
-    from ..analysis.ida_curves import check_response, median_of
-    from ..analysis.record_facts import facts_of_records
+    from ..codes.records import facts_of_records
     from ..motion.intensity_specs import parse_levels, parse_measure
+    from ..probability.evidence import check_response, median_of
+    from ..probability.ida import FEWEST, which_tells_most
+    from ..probability.ida import ida as analyse
     from ..response.words import to_decide
     from . import console
 

@@ -33,11 +33,10 @@ def limit(
     Under horizontal forces to the right, by a static and a kinematic linear programme. A column as found: in both
     directions, or all round in space, and the weakest of them; so any column with --directions, and assemblies in space.
     """
-    from ..analysis.limit import limit_analysis
-    from ..analysis.limit_assemblies import listed
-    from ..analysis.limit_directions import limit_directions
     from ..column.links.placed import stone_at_limit
     from ..motion.specs import azimuth_range
+    from ..statics.limit import limit_analysis
+    from ..statics.limit_assemblies import limit_directions, listed
     from . import console
 
     stone: Any = modelling.structure(column)
@@ -64,7 +63,7 @@ def limit(
             summary["stone_around_links"] = stone_at_limit(stone.placed_links)
         if files.wanted:
             from .. import plots
-            from ..analysis.limit import towards
+            from ..statics.limit import towards
 
             files.json(summary, "limit.json")
             if found is not None:

@@ -8,14 +8,14 @@ from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.measured_frequencies import MeasuredJoints
-    from ..analysis.modes import Modes
+    from ..vibrations.measured_frequencies import MeasuredJoints
+    from ..vibrations.modes import Modes
 
 
 def modes(
     column: str = o.STRUCTURE,
     model: str | None = o.model(None),
-    number: str = o.option("N", "How many modes of each kind are listed.", "3"),
+    number: int = o.option("N", "How many modes of each kind are listed.", "3", read=o.whole),
     measured: str | None = o.option(
         "F±S,…",
         "Measured frequencies ± one standard deviation, such as 1.27Hz±3%,6.5Hz±6%,torsion 9.0Hz±6%: the joints' stiffness.",
@@ -23,9 +23,9 @@ def modes(
     ground: str | None = o.option(
         "GROUND", "Under what was measured: rigid, or vs=200:400m/s,half_width=4m of the footing."
     ),
-    draws: str | None = o.option("N", "Draws of what is not known of that ground; 100 by default."),
-    left: str = o.option(
-        "SHARE", "Of a joint's stiffness, in the table of what its loss takes off each frequency.", "0.5"
+    draws: int | None = o.option("N", "Draws of what is not known of that ground; 100 by default.", read=o.whole),
+    left: float = o.option(
+        "SHARE", "Of a joint's stiffness, in the table of what its loss takes off each frequency.", "0.5", read=o.number
     ),
     *,
     modelling: Annotated[o.Modelling, o.But("losses")],
@@ -37,17 +37,15 @@ def modes(
     each bends, up to which motion of the top it holds, and by how much the loss of stiffness of each joint lowers it. With
     --measured, the stiffness of the joints that measured frequencies tell of.
     """
-    from ..analysis.measured_frequencies import DRAWS, joints_from_frequencies, parse_ground, parse_measured
-    from ..analysis.modes import frequency_drops
-    from ..analysis.modes import modes as modes_of
-    from ..motion.specs import parse_number
+    from ..vibrations.measured_frequencies import DRAWS, joints_from_frequencies, parse_ground, parse_measured
+    from ..vibrations.modes import frequency_drops
+    from ..vibrations.modes import modes as modes_of
     from . import console
 
     stone: Any = modelling.structure(column)
     plane = stone.stack is None and stone.space_joints is None
     how = modelling.model(model or ("dem2d" if plane else "dem3d"))
-    many, share = o.whole_number("number", number, 3), parse_number("`left`", left, "such as 0.5")
-    if many < 1:
+    if number < 1:
         raise InputError("`number` is 0; allowed is a whole number from 1.", "number")
     for name, value in (("ground", ground), ("draws", draws)):
         if value is not None and measured is None:
@@ -68,12 +66,11 @@ def modes(
         )
     with execution.files("modes", "modes.json", "drops.csv", "modes", "column.toml", "scatter.toml") as files:
         found = modes_of(stone, how)
-        drops = frequency_drops(found, share, many) if stone.stack is not None else []
-        summary = found.summary(many) | {"left": share, "drops": drops}
+        drops = frequency_drops(found, left, number) if stone.stack is not None else []
+        summary = found.summary(number) | {"left": left, "drops": drops}
         joints = None
         if frequencies is not None:
-            drawn = DRAWS if draws is None else o.whole_number("draws", draws, 100)
-            joints = joints_from_frequencies(stone, frequencies, how, under, draws=drawn)
+            joints = joints_from_frequencies(stone, frequencies, how, under, draws=DRAWS if draws is None else draws)
             summary["inferred"] = joints.summary()
         if files.wanted:
             from .. import plots
@@ -88,7 +85,7 @@ def modes(
     if execution.emits(summary):
         return
     console.say(
-        found.sentence, _facts(found, many, drops, share) | ({} if joints is None else _inferred(joints)), files
+        found.sentence, _facts(found, number, drops, left) | ({} if joints is None else _inferred(joints)), files
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,8 +19,62 @@ if TYPE_CHECKING:
     from ..models.base import Model
     from ..motion import Motion
     from ..motion.request import MotionRequest
-    from ..motion.scatter import MotionScatter
     from .files import Files
+
+
+def time(text: str, name: str) -> float:
+    """A time as typed [s]."""
+    from ..motion.specs import parse_time
+
+    return parse_time(text, name)
+
+
+def acceleration(text: str, name: str) -> float:
+    """An acceleration as typed [m/s²]."""
+    from ..motion.specs import parse_acceleration
+
+    return parse_acceleration(text, name)
+
+
+def pressure(text: str, name: str) -> float:
+    """A pressure or strength as typed [Pa]."""
+    from ..motion.specs import parse_pressure
+
+    return parse_pressure(text)
+
+
+def number(text: str, name: str, example: str = "such as 0.5") -> float:
+    """A number as typed."""
+    from ..motion.specs import parse_number
+
+    return parse_number(f"`{name}`", text, example)
+
+
+def whole(text: str, name: str) -> int:
+    """A whole number as typed."""
+    if not text.isdecimal():
+        raise InputError(f"`{name}` is {text!r}; allowed is a whole number from 0 on, such as 30.", name)
+    return int(text)
+
+
+def scatter(text: str, name: str) -> Any:
+    """Sizes as typed, each a share such as ``1%`` or ``0.01``, of the scatter of columns or of a motion."""
+    from ..column.scatter import LARGEST, Scatter
+    from ..motion.scatter import LARGEST_OF_MOTION, MotionScatter
+
+    kind, names, example = Scatter, LARGEST, f"`{name}=friction=10%,joint_stiffness=20%`"
+    if name == "motion_scatter":
+        kind, names, example = MotionScatter, LARGEST_OF_MOTION, f"`{name}=amplitude=1%,phase=0.1`"
+    sizes = dict.fromkeys(names, 0.0)
+    for part in text.split(","):
+        key, _, size = map(str.strip, part.partition("="))
+        if key not in sizes:
+            raise InputError(f"`{name}` names {key!r}; names are {', '.join(sizes)}, e.g. {example}.", name)
+        try:
+            sizes[key] = float(size.removesuffix("%")) / (100.0 if size.endswith("%") else 1.0)
+        except ValueError:
+            raise InputError(f"{size!r} is no size; write it as {example}.", name) from None
+    return kind(**sizes)
 
 
 def _models(incomplete: str) -> list[str]:
@@ -161,44 +215,36 @@ SEVERAL = "azimuths", "signs"
 class Following(Group):
     """How long each run goes on."""
 
-    tail: str = option("TIME", "Go on for this long after the motion, such as 5s.", "0s")
+    tail: float = option("TIME", "Go on for this long after the motion, such as 5s.", "0s", read=time)
     whole: bool = option(None, "Step all of a record, its quiet before, between and after shocks too.", False)
 
     @property
     def fields(self) -> dict[str, Any]:
         """Fields of the campaign."""
-        from ..motion.specs import parse_time
-
-        return {"tail": parse_time(self.tail, "tail"), "whole": self.whole}
+        return {"tail": self.tail, "whole": self.whole}
 
 
 @dataclass(frozen=True)
 class Population(Group):
     """Columns like the one that stands."""
 
-    replicates: str | None = option("N", "How sure that is: so many columns like this one, by --scatter.")
-    scatter: str | None = option(
+    replicates: int | None = option("N", "How sure that is: so many columns like this one, by --scatter.", read=whole)
+    scatter: Any = option(
         "NAME=SIZE,…",
         "How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%; in space also "
-        "stiffness_damping=80%,rolling_resistance=80%,law=50%.",
+        "stiffness_damping=80%,rolling_resistance=80%,law=50%,unknown_stiffness=100%.",
+        read=scatter,
     )
-    seed: str | None = option("N", "Of these columns; the same seed, the same ones.")
+    seed: int | None = option("N", "Of these columns; the same seed, the same ones.", read=whole)
 
     @property
     def fields(self) -> dict[str, Any]:
         """Fields of the campaign; none where no replicates are asked for."""
-        from ..column.scatter import LARGEST, Scatter
-
         if self.replicates is None:
             for name in ("scatter", "seed"):
                 for_replicates(name, getattr(self, name))
             return {}
-        example = "friction=10%,joint_stiffness=20%"
-        return {
-            "replicates": whole_number("replicates", self.replicates, 30),
-            "scatter": None if self.scatter is None else Scatter(**_sizes("scatter", self.scatter, LARGEST, example)),
-            "seed": 0 if self.seed is None else whole_number("seed", self.seed, 1),
-        }
+        return {"replicates": self.replicates, "scatter": self.scatter, "seed": self.seed or 0}
 
 
 @dataclass(frozen=True)
@@ -316,22 +362,6 @@ def input_lines(motion: Motion) -> dict[str, str]:
     return found
 
 
-def whole_number(name: str, text: str, example: int) -> int:
-    """A whole number as typed for the parameter of that name."""
-    if not text.isdecimal():
-        raise InputError(f"`{name}` is {text!r}; allowed is a whole number from 0 on, such as {example}.", name)
-    return int(text)
-
-
-def _share(text: str, example: str) -> float:
-    """A share as typed: ``1%`` or ``0.01``."""
-    number, percent = text.strip().removesuffix("%"), text.strip().endswith("%")
-    try:
-        return float(number) / (100.0 if percent else 1.0)
-    except ValueError:
-        raise InputError(f"{text!r} is no size; write it as {example}.") from None
-
-
 def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> Campaign:
     """What is asked for, with as many columns like this one as cost nothing where no number is ``given``."""
     from ..campaign.twins import the_twins
@@ -352,29 +382,9 @@ def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> 
     return made
 
 
-def for_replicates(name: str, value: str | None) -> None:
+def for_replicates(name: str, value: Any) -> None:
     """Refuse an option that is for columns like one, where none are asked for."""
     if value is not None:
         raise InputError(
             f"`{name}` is for columns like this one; give `replicates` as well, e.g. `replicates=30`.", name
         )
-
-
-def motion_scatter(text: str) -> MotionScatter:
-    """Sizes of the scatter of a motion as typed, likewise."""
-    from ..motion.scatter import LARGEST_OF_MOTION, MotionScatter
-
-    example = "amplitude=1%,phase=0.1"
-    return MotionScatter(**_sizes("motion_scatter", text, LARGEST_OF_MOTION, example))
-
-
-def _sizes(name: str, text: str, names: Iterable[str], example: str) -> dict[str, float]:
-    sizes = dict.fromkeys(names, 0.0)
-    for part in text.split(","):
-        key, _, size = part.partition("=")
-        if key.strip() not in sizes:
-            raise InputError(
-                f"`{name}` names {key.strip()!r}; names are {', '.join(sizes)}, e.g. `{name}={example}`.", name
-            )
-        sizes[key.strip()] = _share(size, f"`{name}={example}`")
-    return sizes

@@ -3,51 +3,57 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Any
 
 from ..errors import InputError
 from . import options as o
+
+#: A number in SI units as typed.
+NUMBER = partial(o.number, example="in SI units, such as 0.5")
 
 
 @dataclass(frozen=True)
 class Loads(o.Group):
     """How a column is pushed."""
 
-    pattern: str | None = o.option("P,P,…", "Relative force on each drum, bottom to top; by mass by default.")
-    tilt: str = o.option(
+    pattern: list[float] | None = o.option(
+        "P,P,…",
+        "Relative force on each drum, bottom to top; by mass by default.",
+        read=lambda text, name: [NUMBER(part, name) for part in text.split(",")],
+    )
+    tilt: float = o.option(
         "DEGREES",
         "Tilt of the base, downhill to the right, where the forces push; base_tilt of columns as found is opposite.",
         "0",
+        read=NUMBER,
     )
-    compressive_strength: str | None = o.option("P", "Strength of the joints, such as 2MPa; unlimited by default.")
-
-    @property
-    def typed(self) -> bool:
-        """Whether they are others than usual."""
-        return self.arguments != Loads(None, "0", None).arguments
+    compressive_strength: float | None = o.option(
+        "P", "Strength of the joints, such as 2MPa; unlimited by default.", read=o.pressure
+    )
 
     @property
     def arguments(self) -> dict[str, Any]:
         """Arguments of the analyses."""
-        from ..motion.specs import parse_pressure
+        return {"pattern": self.pattern, "base_tilt": self.tilt, "compressive_strength": self.compressive_strength}
 
-        shares, strength = self.pattern, self.compressive_strength
-        return {
-            "pattern": None if shares is None else [number("pattern", part) for part in shares.split(",")],
-            "base_tilt": number("tilt", self.tilt),
-            "compressive_strength": None if strength is None else parse_pressure(strength),
-        }
+    @property
+    def typed(self) -> bool:
+        """Whether they are others than usual."""
+        return [*self.arguments.values()] != [None, 0.0, None]
 
 
 def pushover(
     column: str = o.COLUMN,
-    to: str | None = o.option("M", "Displacement of the top at which to stop, in metres."),
-    at: str | None = o.option(
-        "DRUM", "Drum, from 1, that is led and told of instead of the top, as where a tie holds it."
+    to: float | None = o.option("M", "Displacement of the top at which to stop, in metres.", read=NUMBER),
+    at: int | None = o.option(
+        "DRUM", "Drum, from 1, that is led and told of instead of the top, as where a tie holds it.", read=o.whole
     ),
     control: str = o.option("WAY", "displacement or arc-length.", "displacement"),
     linear: bool = o.option(None, "Equilibrium in the undisplaced state.", False),
-    direction: str | None = o.option("0|180", "Forces to the right or to the left; the weaker one by default."),
+    direction: float | None = o.option(
+        "0|180", "Forces to the right or to the left; the weaker one by default.", read=NUMBER
+    ),
     check: str | None = o.option(
         "CODE,…", "By a code: ec8,ag=0.25g,soil=B,type=1,knowledge=KL2, or ntc2018,ag=0.25g,F0=2.4,Tc*=0.35s,soil=B,…."
     ),
@@ -61,25 +67,23 @@ def pushover(
     Its weight, then horizontal forces, over the peak and down to zero. To the right; of a column as found in the direction
     in which the limit analysis finds it weaker.
     """
-    from ..analysis.code_checks import CodeSite, code_check
-    from ..analysis.limit import limit_analysis, towards
-    from ..analysis.limit_directions import limit_directions
-    from ..analysis.pushover import pushover as follow
+    from ..codes.checks import CodeSite, code_check
+    from ..statics.limit import limit_analysis, towards
+    from ..statics.limit_assemblies import limit_directions
+    from ..statics.pushover import pushover as follow
     from . import console
 
     stone = modelling.column(column)
     loads = pushing.arguments
-    far = None if to is None else number("to", to)
-    led = None if at is None else o.whole_number("at", at, 5)
     site = None if check is None else CodeSite.typed(check)
-    if site is not None and led is not None:
+    if site is not None and at is not None:
         raise InputError("a check by a code is of the top, and `at` names a drum; leave one of them out.", "at")
     if direction is not None:
-        loads["direction"] = number("direction", direction)
+        loads["direction"] = direction
     elif stone.as_found and stone.as_found.in_plane:
         loads["direction"] = limit_directions(stone, **loads).weakest.azimuth
     with execution.files("pushover", "pushover.csv", "pushover.json", "pushover") as files:
-        path = follow(stone, control=control, geometric=not linear, to=far, at=led, **loads)
+        path = follow(stone, control=control, geometric=not linear, to=to, at=at, **loads)
         summary = path.summary() | {"direction_deg": loads.get("direction", 0.0)}
         checked = None if site is None else code_check(towards(stone, summary["direction_deg"]), path, site)
         if checked is not None:
@@ -121,10 +125,3 @@ def pushover(
         }
         facts["left out"] = "; ".join(checked.left_out)
     console.say(sentence, facts, files)
-
-
-def number(name: str, text: str) -> float:
-    """A number in SI units as typed for the parameter of that name."""
-    from ..motion.specs import parse_number
-
-    return parse_number(f"`{name}`", text, "in SI units, such as 0.5")

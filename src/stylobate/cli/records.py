@@ -11,7 +11,7 @@ from . import options as o
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..analysis.record_selection import Wanted
+    from ..codes.records import Wanted
 
 #: Columns of the table that are printed.
 SHOWN = ("record", "factor", "compared_by", "misfit", "pga_g", "pgv_m_s", "magnitude", "distance_km")
@@ -44,9 +44,8 @@ def records(
     Every record is multiplied by one factor. With --out, the scaled records in a folder for suite, ida and studies, their
     table, and a picture of spectra and misfit.
     """
-    from ..analysis.record_facts import facts_of_records
-    from ..analysis.record_selection import select_records
-    from ..analysis.target_spectra import target_spectrum
+    from ..codes.records import facts_of_records, select_records
+    from ..codes.spectra import target_spectrum
     from ..motion.condition_specs import scales
     from ..motion.drift import THEN
     from ..motion.specs import parse_number, parse_time
@@ -123,8 +122,7 @@ def _pair(name: str, text: str, parse: Callable[[str], float], example: str) -> 
 
 def _wanted(text: str) -> Wanted:
     """A range of a measure as typed: ``pgv=0.1m/s:0.8m/s``."""
-    from ..analysis.record_facts import ABOUT
-    from ..analysis.record_selection import Wanted
+    from ..codes.records import ABOUT, Wanted
     from ..motion.intensity_specs import parse_level, parse_measure
     from ..motion.specs import parse_number
 

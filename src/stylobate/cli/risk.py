@@ -23,9 +23,9 @@ def risk(
     execution: o.Plain,
 ) -> None:
     """Risk: mean annual rate and return period of a state under a hazard curve, and its deaggregation by intensity."""
-    from ..analysis.hazard import read_hazard
-    from ..analysis.risk import risk as rate_of
-    from ..results.sources import kept_of
+    from ..probability.risk import read_hazard
+    from ..probability.risk import risk as rate_of
+    from ..results.asked import kept_of
     from . import console
 
     curve = read_hazard(hazard, the_site(site))

@@ -13,13 +13,12 @@ from ..outcome import Outcome
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.other_laws import OtherLaws
-    from ..analysis.population import Population
     from ..campaign.campaign import Campaign
     from ..column.structure import Structure
     from ..models.base import Model
     from ..motion import Motion
     from ..response import Response
+    from ..verdicts.population import OtherLaws, Population
     from .files import Files
 
 
@@ -53,8 +52,8 @@ class Settings:
 
     def run(self, motion: Motion) -> tuple[Response, Population | None]:
         """One run, and what became of columns like it."""
-        from ..analysis.certainty import certainty
         from ..simulate import simulate
+        from ..verdicts.population import certainty
 
         campaign = self.campaign
         options: dict[str, Any] = self.options | {"quiet": campaign.quiet}
@@ -81,7 +80,7 @@ def run(
     until_rest: bool = o.option(
         None, "Go on until everything lies still, on the ground if need be (dem2d, dem3d).", False
     ),
-    output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
+    output_interval: float = o.option("TIME", "Time between recorded states.", "0.01s", read=o.time),
     modelling: o.Modelling,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
@@ -93,9 +92,8 @@ def run(
     next to no cost; --replicates 0 leaves them out. With --out, writes histories and figures. A folder of records, or
     several directions, is one run after the other.
     """
-    from ..analysis.directions import table_of_runs, worst
     from ..models.engine import engine_for
-    from ..motion.specs import parse_time
+    from ..verdicts.directions import table_of_runs, worst
     from . import console
 
     request = motions.request()
@@ -104,12 +102,11 @@ def run(
     if until_rest:
         stone = engine_for(how, stone).followed()
     found = request.expand(stone.frequency_parameter)
-    interval = parse_time(output_interval)
     campaign, given = execution.campaign(following, population), population.replicates is not None
     if given or not (until_end or until_rest):
         campaign = o.with_twins(stone, how, campaign, given)
     drawn = Drawn(pictures, pictures and given and campaign.replicates > 0)
-    asked = Settings(stone, how, campaign, interval, until_end, until_rest)
+    asked = Settings(stone, how, campaign, output_interval, until_end, until_rest)
     out = execution.out
     if request.several:
         summaries = each_record(asked, found.motions, out, drawn)
@@ -132,8 +129,8 @@ def run(
 
 def directions(summaries: Sequence[dict], stone: Structure, model: Model, out: Path | None, tail: float) -> str:
     """Which direction does most harm: in words, empty where all failed; and where a folder is given on a compass."""
-    from ..analysis.directions import compass_of_chances, harm_words, worst
     from ..response.words import to_decide
+    from ..verdicts.directions import compass_of_chances, harm_words, worst
     from . import console
 
     chances = compass_of_chances(summaries, to_decide(stone, model.parameters(), tail))
@@ -151,12 +148,12 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     import numpy as np
 
-    from ..analysis.certainty import wait_for
     from ..campaign.campaign import Campaign
     from ..campaign.digests import Digests, Hasher
     from ..campaign.runs import Request, Runs, Stopped
     from ..models.base import Case
     from ..simulate import run_options, tell_wait
+    from ..verdicts.population import wait_for
     from . import console
 
     places: list[Path | None] = []
@@ -205,9 +202,9 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
 
 def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, drawn: Drawn) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
-    from ..analysis.directions import direction_of
-    from ..analysis.other_laws import other_laws
     from ..motion.writing import write_csv
+    from ..verdicts.directions import direction_of
+    from ..verdicts.population import other_laws
     from . import console
     from .files import files as files_of
 
@@ -357,8 +354,8 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 def population_facts(population: Population) -> dict[str, str]:
     """Columns like this one, or assemblies, and their displacements; of an assembly where its bodies lie."""
-    from ..analysis.debris import OVER_ALL, not_safe, not_yet_debris, only_as_seen
     from ..percent import percents
+    from ..verdicts.population import OVER_ALL, not_safe, not_yet_debris, only_as_seen
     from . import console
 
     facts = {f"{population.like} like this": population.drawn.words}
@@ -399,7 +396,7 @@ def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str
 
 def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str]]:
     """Verdict on an assembly, what it is, and its measures."""
-    from ..response.block_words import moving_at_end
+    from ..response.words import moving_at_end
 
     structure: Any = response.structure
     sentence = response.sentence

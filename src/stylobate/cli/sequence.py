@@ -12,10 +12,10 @@ from . import options as o
 if TYPE_CHECKING:
     import pandas
 
-    from ..analysis.sequence import SequenceResult, UntilFall
     from ..column.structure import Structure
     from ..models.base import Model
     from ..motion import Motion
+    from ..verdicts.sequence import SequenceResult, UntilFall
 
 #: Columns of the table that are printed, and how they are headed.
 SHOWN = {
@@ -47,13 +47,15 @@ def sequence(
     model: str = o.model(),
     *,
     motions: Annotated[Earthquakes, o.But(*o.SEVERAL)],
-    rest: str = o.option("TIME", "Quiet ground after each earthquake.", "30s"),
-    repeat: str = o.option("N", "How often all of them come.", "1"),
+    rest: float = o.option("TIME", "Quiet ground after each earthquake.", "30s", read=o.time),
+    repeat: int = o.option("N", "How often all of them come.", "1", read=o.whole),
     factors: str | None = o.option("X,X,…", "A factor for each earthquake, or for each time that a single one comes."),
-    until_fall: str | None = o.option("N", "How many of each kind it takes until it falls, up to this number."),
+    until_fall: int | None = o.option(
+        "N", "How many of each kind it takes until it falls, up to this number.", read=o.whole
+    ),
     following: Annotated[o.Following, o.But("tail")],
     until_end: bool = o.option(None, "Go on after the collapse of a column (dem2d).", False),
-    output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
+    output_interval: float = o.option("TIME", "Time between recorded states.", "0.01s", read=o.time),
     modelling: o.Modelling,
     population: o.Population,
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
@@ -65,34 +67,31 @@ def sequence(
     structure after each; with --out writes histories, a table and figures. With --until-fall each earthquake comes again
     and again by itself.
     """
-    from ..motion.specs import parse_time
 
     campaign, given = execution.campaign(following, population), population.replicates is not None
     stone = modelling.structure(column)
     how = modelling.model(model)
     kinds = scaled(the_kinds(motions, stone), factors)
-    pause, times = parse_time(rest, "rest"), o.whole_number("repeat", repeat, 3)
     if until_fall is not None:
-        if times != 1:
+        if repeat != 1:
             raise InputError("`repeat` and `until_fall` are both given; give one of the two.", "repeat")
-        from ..analysis.sequence import earthquakes_until_fall
+        from ..verdicts.sequence import earthquakes_until_fall
 
-        most = o.whole_number("until_fall", until_fall, 20)
         with execution.files("sequence", "until_fall.csv", "sequence.json") as files:
             with files.campaign(campaign) as asked:
-                told = earthquakes_until_fall(stone, kinds, how, most, rest=pause, campaign=asked)
-            summary = told.summary() | {"rest_s": pause, "model": how.name, "files": []}
+                told = earthquakes_until_fall(stone, kinds, how, until_fall, rest=rest, campaign=asked)
+            summary = told.summary() | {"rest_s": rest, "model": how.name, "files": []}
             if files.wanted:
                 files.table(told.table, "until_fall.csv")
                 taken = [how.taken(motion) for motion in kinds]
-                files.asked(structures=[stone], models=[how], motions=taken, rest_s=pause, most=most)
+                files.asked(structures=[stone], models=[how], motions=taken, rest_s=rest, most=until_fall)
                 files.summary(summary, "sequence.json")
         if not execution.emits(summary):
             describe_counts(told)
         return
     execution.refuse_for_one("computes many runs, and this is one; leave it out, or give `until_fall`.")
-    options: dict[str, Any] = {"rest": pause, "repeat": times, "until_end": until_end}
-    options["output_interval"] = parse_time(output_interval)
+    options: dict[str, Any] = {"rest": rest, "repeat": repeat, "until_end": until_end}
+    options["output_interval"] = output_interval
     if given or not until_end:
         campaign = o.with_twins(stone, how, campaign, given)
     _run(stone, how, kinds, campaign, options, execution, pictures)
@@ -138,8 +137,8 @@ def _run(
     stone: Structure, how: Model, kinds: list[Motion], campaign: Any, options: dict[str, Any], execution: o.Execution,
     pictures: bool,
 ) -> None:  # fmt: skip
-    from ..analysis.sequence import sequence as run_sequence
     from ..motion.writing import write_csv
+    from ..verdicts.sequence import sequence as run_sequence
     from . import console
     from .run import SPACE_PICTURES, write, write_population
 

@@ -21,12 +21,12 @@ def spectrum(
     kind: str = o.option("KIND", "response or rocking.", "response"),
     *,
     motions: Annotated[o.Motions, o.But("motion", *o.SEVERAL)],
-    damping: str | None = o.option("SHARE", "Of a response spectrum; 0.05 by default."),
+    damping: float | None = o.option("SHARE", "Of a response spectrum; 0.05 by default.", read=o.number),
     periods: str | None = o.option("T:T:N", "Of a response spectrum [s], such as 0.02:10:120."),
     sizes: str | None = o.option("P:P:N", "Of a rocking spectrum [rad/s], such as 0.8:8:64.", flag="--p"),
     slendernesses: str | None = o.option("A:A:N", "Of a rocking spectrum [rad], such as 0.05:0.4:64.", flag="--alpha"),
-    restitution: str | None = o.option("E", "Of a rocking spectrum; Housner's by default."),
-    tail: str | None = o.option("TIME", "Of a rocking spectrum: go on after the motion."),
+    restitution: float | None = o.option("E", "Of a rocking spectrum; Housner's by default.", read=o.number),
+    tail: float | None = o.option("TIME", "Of a rocking spectrum: go on after the motion.", read=o.time),
     execution: o.Plain,
 ) -> None:
     """Response spectrum, or rocking spectrum of a motion.
@@ -34,7 +34,6 @@ def spectrum(
     Peaks of linear oscillators over their period, or of Housner's blocks over their size p and slenderness α.
     """
     from ..models.rocking.model import HousnerBlock
-    from ..motion.specs import parse_number, parse_time
     from . import console
 
     if kind not in ("response", "rocking"):
@@ -48,13 +47,13 @@ def spectrum(
         blocks = {
             "frequency_parameters": _values("p", sizes, geometric=True),
             "slendernesses": _values("alpha", slendernesses),
-            "restitution": None if restitution is None else parse_number("`restitution`", restitution),
-            "tail": parse_time(tail or "0s"),
+            "restitution": restitution,
+            "tail": tail or 0.0,
             "threads": execution.count,
         }
         compute = partial(rocking, motion, blocks)
     else:
-        share = 0.05 if damping is None else parse_number("`damping`", damping)
+        share = 0.05 if damping is None else damping
         compute = partial(response, motion, _values("periods", periods, geometric=True), share)
     with execution.files("spectrum", "spectrum.csv", "spectrum.json", "spectrum") as written:
         result, facts = compute(written)
@@ -100,8 +99,8 @@ def response(
 
 def rocking(motion: Motion, blocks: dict[str, Any], files: Files) -> tuple[dict[str, Any], dict[str, str]]:
     """Rocking spectrum along x, with the vertical component where it is on."""
-    from ..analysis.rocking_spectrum import rocking_spectrum
     from ..response.words import longer_tail
+    from ..verdicts.rocking_spectrum import rocking_spectrum
 
     found = rocking_spectrum(motion, **blocks)
     summary = found.summary()
@@ -119,7 +118,7 @@ def rocking(motion: Motion, blocks: dict[str, Any], files: Files) -> tuple[dict[
     return summary, said
 
 
-def _only_for(kind: str, needed: str, given: dict[str, str | None]) -> None:
+def _only_for(kind: str, needed: str, given: dict[str, Any]) -> None:
     for name, value in given.items():
         if value is not None and kind != needed:
             raise InputError(f"`{name}` belongs to `kind` {needed}, and `kind` is {kind}; leave it out.", name)
@@ -129,14 +128,12 @@ def _values(name: str, text: str | None, *, geometric: bool = False) -> np.ndarr
     """Numbers as typed: first:last:number, evenly spaced, or in equal ratios."""
     import numpy as np
 
-    from ..motion.specs import parse_number
-
     if text is None:
         return None
     parts = text.split(":")
     if len(parts) != 3 or not parts[2].isdecimal() or not 1 <= int(parts[2]) <= 1000:
         raise InputError(f"`{name}` is {text!r}; write first:last:number with a number from 1 to 1000.", name)
-    low, high, count = parse_number(f"`{name}`", parts[0]), parse_number(f"`{name}`", parts[1]), int(parts[2])
+    low, high, count = o.number(parts[0], name), o.number(parts[1], name), int(parts[2])
     if not 0.0 < low <= high < np.inf or (count > 1 and low == high):
         raise InputError(f"`{name}` is {text!r}; both ends must be positive and the first below the last.", name)
     return np.geomspace(low, high, count) if geometric else np.linspace(low, high, count)

@@ -11,10 +11,10 @@ from . import options as o
 from .design import WRITES, describe_design, write_design
 
 if TYPE_CHECKING:
-    from ..analysis.states import StateComparison
     from ..campaign.campaign import Campaign
     from ..column.structure import Structure
     from ..models.base import Model
+    from ..probability.states import StateComparison
 
 
 def the_states(
@@ -37,8 +37,8 @@ def the_candidates(
     vary: list[str] | None, strengthened: list[str], columns: dict[str, Structure]
 ) -> dict[str, Structure]:
     """Columns with numbers as typed, ``kind.field=values``, in place of those of the one measure; none without."""
-    from ..analysis.vary import candidates
     from ..motion.specs import values_of
+    from ..probability.design import candidates
 
     if not vary:
         return {}
@@ -104,12 +104,10 @@ def states(
 
     Fragility curves under the same records with paired differences, and what the links bore.
     """
-    from ..analysis.design_values import design_values
-    from ..analysis.difference import NO_MEASURE
-    from ..analysis.limit_states import parse_state
-    from ..analysis.states import compare_states
-    from ..analysis.vary import best_of
     from ..campaign.study_files import levels_of
+    from ..probability.design import best_of, design_values
+    from ..probability.states import NO_MEASURE, compare_states
+    from ..verdicts.limit_states import parse_state
     from . import console
 
     if records and motions.motion:
@@ -191,7 +189,7 @@ def describe(found: StateComparison) -> None:
     """Print the answer for people."""
     import pandas
 
-    from ..analysis.side_by_side import median_name, median_words
+    from ..verdicts.limit_states import median_name, median_words
     from . import console
 
     if found.doubt:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.studies import StudyResult
+    from ..probability.studies import StudyResult
 
 STUDY_NAME = o.argument("FILE", "A study file (TOML).")
 STUDY_FOLDER = o.argument("DIR", "The folder of a study.")
@@ -25,8 +25,8 @@ def run(
 
     Finished runs are kept in the folder: a study that was stopped goes on, one that has grown computes only what is new.
     """
-    from ..analysis.studies import TABLES, keep_histories, run_study, write_table
     from ..campaign.study_files import read_plan
+    from ..probability.studies import TABLES, keep_histories, run_study, write_table
     from . import console
     from .files import files as files_of
 
@@ -57,9 +57,9 @@ def run(
 
 def status(directory: Path = STUDY_FOLDER, *, execution: o.Plain) -> None:
     """State of a study, which may be running."""
-    from ..analysis.studies import StudyResult
     from ..campaign.cases import PLAN_FILE
     from ..campaign.ledger import RUNS_FILE
+    from ..probability.studies import StudyResult
     from . import console
 
     result = StudyResult.in_folder(directory)
@@ -83,7 +83,7 @@ def export(
     execution: o.Plain,
 ) -> None:
     """Write the table of a study, one row per finished case; of one that is not finished as well."""
-    from ..analysis.studies import StudyResult, write_table
+    from ..probability.studies import StudyResult, write_table
     from . import console
 
     result = StudyResult.in_folder(directory)

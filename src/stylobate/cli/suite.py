@@ -46,13 +46,13 @@ def suite(
     """
     import pandas
 
-    from ..analysis.directions import compass_of_shares, harm_words, may_collapse, worst
-    from ..analysis.population import CHANCE, chance_words
-    from ..analysis.suite import check_measure, suite_shares, suite_table
     from ..errors import InputError
     from ..messages import say
     from ..models.shared.quiet import share_of
+    from ..probability.suite import check_measure, suite_shares, suite_table
     from ..response.words import to_decide
+    from ..verdicts.directions import compass_of_shares, harm_words, may_collapse, worst
+    from ..verdicts.population import CHANCE, chance_words
     from . import console
 
     campaign = execution.campaign(following, population)

@@ -89,7 +89,7 @@ class Column(DrumStack):
     like: ClassVar[str] = "columns"
     scattered: ClassVar[tuple[str, ...]] = (
         "friction", "joint_stiffness", "density", "width", "height", "offset",
-        "stiffness_damping", "rolling_resistance", "law",
+        "stiffness_damping", "rolling_resistance", "law", "unknown_stiffness",
     )  # fmt: skip
 
     drums: tuple[Drum, ...]

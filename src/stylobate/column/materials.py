@@ -246,6 +246,11 @@ CONTACT = Quantity(
 #: What stone loses, whatever its kind, by name.
 LOST = {"impact_over_housner": IMPACT, "rolling_resistance": ROLLING, "stiffness_damping": CONTACT}
 
+#: Stiffness of joints that nobody has measured: k_n from a third of the softest that a published model of a monument has
+#: (the temple of Évora, 2.95e9) [N/m³] to that of the stone between two joints, E/h of a drum of height h, with a modulus
+#: of elasticity [Pa] that is chosen here, as no source of the stiffest stone could be read.
+SOFTEST_JOINT, STIFFEST_STONE = 1e9, 100e9
+
 #: All materials by name.
 MATERIALS = {
     f"{stone}, {state}": Material(

@@ -26,7 +26,7 @@ WITHIN = 2.5
 #: Largest coefficient of variation of each part.
 LARGEST = {
     "friction": 0.5, "joint_stiffness": 2.0, "density": 0.2, "width": 0.1, "height": 0.1, "offset": 0.1,
-    "stiffness_damping": 2.0, "rolling_resistance": 2.0, "law": 1.0,
+    "stiffness_damping": 2.0, "rolling_resistance": 2.0, "law": 1.0, "unknown_stiffness": 1.0,
 }  # fmt: skip
 
 
@@ -64,6 +64,10 @@ class Scatter:
         Of the resistance to rolling c of round faces, likewise [-].
     law : float
         Share of the laws by which round faces carry otherwise than in the model: on a bed, not on rims, or the reverse [-].
+    unknown_stiffness : float
+        How far the stiffness that all joints of a law have in common is unknown [-]: at 1 each order of magnitude from
+        1e9 N/m³ to what the stone between them allows is as likely, whatever the column's own; at 0.5 it is half as far
+        from the column's own, in its logarithm.
 
     Raises
     ------
@@ -80,6 +84,7 @@ class Scatter:
     stiffness_damping: float = 0.0
     rolling_resistance: float = 0.0
     law: float = 0.0
+    unknown_stiffness: float = 0.0
 
     def __post_init__(self) -> None:
         for name, high in LARGEST.items():

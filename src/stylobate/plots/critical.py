@@ -12,12 +12,10 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Patch
 from matplotlib.projections.polar import PolarAxes
 
-from ..analysis import verdicts as v
-from ..analysis.critical import CriticalAmplitude
-from ..analysis.critical_population import CriticalPopulation
-from ..analysis.critical_suite import CriticalSuite
-from ..analysis.directions import Compass
 from ..constants import g
+from ..verdicts import verdict as v
+from ..verdicts.critical import CriticalAmplitude, CriticalPopulation, CriticalSuite
+from ..verdicts.directions import Compass
 from .domain import FILL, edges_of
 from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, legend_below, page, panel, plain, styled
 

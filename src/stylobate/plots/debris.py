@@ -10,12 +10,12 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 
-from ..analysis.debris import BodyOverTwins, not_yet_debris, only_as_seen
 from ..column.block import FAR_AWAY
 from ..column.shapes import hull
 from ..column.structure import Body
 from ..column.turning import matrix_of
 from ..response import Response
+from ..verdicts.population import BodyOverTwins, not_yet_debris, only_as_seen
 from .style import BLACK, CYCLE, GREY, SAND, WIDTH, in_lines, only_panel, styled
 
 #: Colours of the bodies that fell most often; others are grey.

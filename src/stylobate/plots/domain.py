@@ -15,14 +15,13 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from ..analysis import probability as p
-from ..analysis import verdicts as v
-from ..analysis.domain import Domain, cell_edges
-from ..analysis.domain import cell_edges as edges_of
-from ..analysis.probability import CollapseProbability
-from ..analysis.rocking_spectrum import RockingSpectrum
 from ..constants import g
 from ..percent import percent
+from ..verdicts import domain as p
+from ..verdicts import verdict as v
+from ..verdicts.domain import CollapseProbability, Domain, cell_edges
+from ..verdicts.domain import cell_edges as edges_of
+from ..verdicts.rocking_spectrum import RockingSpectrum
 from .style import BLACK, BLUE, CYCLE, HALO, RED, SAND, WIDTH, legend_below, page, panel, styled
 
 # Light where it stands, dark where it collapses: also in grey.

@@ -20,8 +20,8 @@ from ..atomic import replacing
 from ..errors import InputError, check_range
 from ..messages import digits, say
 from ..response import Response
-from ..response.instants import ASIDE, telling_states
 from ..response.poses import quaternions, rotation_matrices
+from ..response.recorded import ASIDE, telling_states
 from ..response.words import title_of
 from .scene import Scene, draw_bodies, draw_links, draw_solids, marks_of, paint, scale_bar, seen
 from .solids import ALONG_X, ALONG_Y, COLOURS, DIFFUSE, LIGHT, OBLIQUE, View

@@ -12,23 +12,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from ..analysis import verdicts as v
-from ..analysis.capacity import SHARES
-from ..analysis.design_tables import basis_of, where, worst_of
-from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference
-from ..analysis.directions import peak_of
-from ..analysis.fragility_checks import FEWEST
-from ..analysis.fragility_curve import Fragility
-from ..analysis.ida_curves import Ida
-from ..analysis.limit_states import FAILED, OPEN
-from ..analysis.lognormal import curve
-from ..analysis.risk import Risk, years
-from ..analysis.side_by_side import median_name, median_words
-from ..analysis.states import StateComparison
-from ..analysis.suite import INTENSITIES
 from ..errors import InputError
 from ..motion.intensity_specs import parse_measure
 from ..percent import percent
+from ..probability.design import basis_of, where, worst_of
+from ..probability.evidence import Ida
+from ..probability.fragility import FEWEST, Fragility
+from ..probability.lognormal import curve
+from ..probability.risk import Risk, years
+from ..probability.states import NOT_TOLD, STRONGER, WEAKER, Difference, StateComparison
+from ..probability.suite import INTENSITIES
+from ..verdicts import verdict as v
+from ..verdicts.directions import peak_of
+from ..verdicts.limit_states import FAILED, OPEN, median_name, median_words
+from ..verdicts.verdict import SHARES
 from .style import BLACK, BLUE, CYCLE, GREY, RED, WIDTH, in_lines, legend_below, page, panel, plain, styled
 
 if TYPE_CHECKING:
@@ -178,7 +175,7 @@ def draw_efficiency(table: pandas.DataFrame, title: str | None = None, *, ax: Ax
     Parameters
     ----------
     table : pandas.DataFrame
-        From :func:`stylobate.analysis.efficiency.which_tells_most`.
+        From :func:`stylobate.probability.ida.which_tells_most`.
     """
     figure, axes = panel(ax, (NARROW[0], 1.2 + 0.23 * len(table)))
     at = np.arange(len(table))
@@ -233,9 +230,9 @@ def draw_suite(
     Parameters
     ----------
     table : pandas.DataFrame
-        From :func:`stylobate.analysis.suite.suite_table`.
+        From :func:`stylobate.probability.suite.suite_table`.
     against : str
-        A key of :data:`stylobate.analysis.suite.INTENSITIES`.
+        A key of :data:`stylobate.probability.suite.INTENSITIES`.
 
     Raises
     ------

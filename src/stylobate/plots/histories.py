@@ -17,7 +17,7 @@ from ..constants import g
 from ..messages import say
 from ..response import ENERGY_TERMS, Response
 from ..response.events import turns
-from ..response.instants import ASIDE, size_of, way_of
+from ..response.recorded import ASIDE, size_of, way_of
 from ..response.words import title_of
 from .film import draw_filmstrip
 from .joints import until_collapse

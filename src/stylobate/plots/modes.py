@@ -7,7 +7,7 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..analysis.modes import Mode, Modes
+from ..vibrations.modes import Mode, Modes
 from .style import BLUE, BROWN, GREY, RED, SAND, WIDTH, styled
 
 #: Most shapes in a picture; the largest displacement in it over the height of what stands.

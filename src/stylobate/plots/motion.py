@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from ..analysis.record_selection import RecordSelection
+from ..codes.records import RecordSelection
 from ..constants import g
 from ..messages import say
 from ..motion import Motion, integrate

@@ -17,8 +17,8 @@ from ..column.shapes import hull
 from ..constants import g
 from ..errors import InputError
 from ..response import Response
-from ..response.instants import ASIDE, size_of, way_of
 from ..response.poses import exaggerated, rotation_matrices
+from ..response.recorded import ASIDE, size_of, way_of
 from .solids import Solid, Surface, View, painted, surfaces_of
 from .style import BLACK, BLUE, BROWN, GREY, RED, SAND
 

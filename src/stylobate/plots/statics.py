@@ -11,10 +11,10 @@ from matplotlib.patches import Polygon
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
-from ..analysis.limit import LimitResult
-from ..analysis.limit_directions import LimitByDirection
-from ..analysis.pushover import PushoverResult
 from ..models.rigid_block.block_stack import BlockStack
+from ..statics.limit import LimitResult
+from ..statics.limit_assemblies import LimitByDirection
+from ..statics.pushover import PushoverResult
 from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, in_lines, page, panel, styled, zero_line
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..motion.sequence import Span, number_at
 from ..outcome import Outcome, classify
-from .assembly_measures import measures_of_bodies
+from .assemblies import measures_of_bodies
 from .collapse import Touch
 from .histories import Histories
 from .links import NAMES, LinkMeasures

@@ -5,8 +5,12 @@ Words, tables, pages and files are made from it; :class:`stylobate.Response` is 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
+from operator import attrgetter
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,12 +18,274 @@ from ..column import Column
 from ..column.assembly import Assembly
 from ..column.shapes import hull
 from ..column.structure import Structure
-from .bodies import Bodies, bodies_of
+from ..outcome import Outcome
+from .collapse import Collapse
 from .histories import Histories
-from .measures import Measures
+from .links import LinkHistories
+from .measures import Measure, Measures, SpaceMeasures, measures_of
 from .mechanism import Mechanism
-from .poses import PlanePoses, SpacePoses, exaggerated, rotation_matrices
-from .views import Views
+from .poses import Bodies, PlanePoses, SpacePoses, bodies_of, exaggerated, rotation_matrices
+from .residuals import Residuals
+
+
+class Views:
+    """Attributes that a response passes on from its parts."""
+
+    histories: Histories
+    measures: Measures
+    mechanism: Mechanism | None
+
+    @property
+    def poses(self) -> SpacePoses:
+        """Position and orientation of every body in space."""
+        raise NotImplementedError
+
+    # -- histories -----------------------------------------------------------------------------------------------
+
+    @property
+    def time(self) -> np.ndarray:
+        """Times of the recorded states [s], shape (T,)."""
+        return self.histories.time
+
+    @property
+    def links(self) -> LinkHistories:
+        """Forces, slips and elongations of the links over time."""
+        if self.histories.links is None:
+            raise AttributeError("what stood has no links that act; give the column some (links=…).")
+        return self.histories.links
+
+    @property
+    def energy(self) -> dict[str, np.ndarray]:
+        """Ledger [J], each term of shape (T,); see :class:`Histories`."""
+        return self.histories.energy
+
+    # -- measures ------------------------------------------------------------------------------------------------
+
+    @property
+    def outcome(self) -> Outcome:
+        """End of the run."""
+        return self.measures.outcome
+
+    @property
+    def collapsed(self) -> bool:
+        """Whether it collapsed."""
+        return self.measures.collapsed
+
+    if (
+        TYPE_CHECKING
+    ):  # declared in ``histories.py`` and ``measures.py``; properties are made of these declarations below
+        drum_x: np.ndarray
+        drum_y: np.ndarray
+        drum_z: np.ndarray
+        drum_rotation: np.ndarray
+        joint_opening: np.ndarray
+        joint_slip: np.ndarray
+        joint_twist: np.ndarray
+        base_displacement: np.ndarray
+        top_displacement: np.ndarray
+        ground_acceleration: np.ndarray
+        ground_displacement: np.ndarray
+        imbalance: np.ndarray
+        collapse_time: float
+        peak_top_displacement: float
+        residual_top_displacement: float
+        peak_rotation: float
+        peak_joint_opening: float
+        residual_joint_slip: float
+        energy_imbalance: float
+        time_step: float
+        steps: int
+        peak_top_x: float | None
+        peak_top_y: float | None
+        peak_tilt: float | None
+        peak_twist: float | None
+
+    @property
+    def reason(self) -> str:
+        """Mechanism of a collapse, or why a run failed; empty otherwise."""
+        return self.measures.reason
+
+    @property
+    def decided(self) -> bool:
+        """False when the run ended while the verdict could still change."""
+        return self.measures.decided
+
+    @property
+    def collapse(self) -> Collapse | None:
+        """The collapse, as far as the model tells; None without one."""
+        return self.measures.collapse
+
+    @property
+    def residuals(self) -> Residuals | None:
+        """Residuals with their directions, joint by joint and body by body; None where the model does not tell."""
+        return self.measures.residuals
+
+    @property
+    def residual_slip_per_joint(self) -> tuple[float, ...] | None:
+        """Length of the offset along each joint at the end [m]."""
+        return None if self.residuals is None else self.residuals.slips
+
+    @property
+    def residual_twist_per_joint(self) -> tuple[float, ...] | None:
+        """Turn about each joint's normal at the end [rad]; None for plane models."""
+        return None if self.residuals is None else self.residuals.twist
+
+    @property
+    def at_rest(self) -> bool | None:
+        """Whether everything lies still at the end; None where the run cannot tell."""
+        if self.measures.blocks is not None:
+            return self.measures.blocks.at_rest
+        return None if self.mechanism is None else self.mechanism.at_rest
+
+    @property
+    def fell_at(self) -> dict[str, float]:
+        """When each body had fallen that has at the end [s]: lower by half of its height, or turned by over 45°."""
+        if self.measures.blocks is not None:
+            return dict(self.measures.blocks.fell_at)
+        if self.mechanism is None:
+            return {}
+        return {
+            f"drum {number}": time for number, time in zip(self.mechanism.fallen, self.mechanism.fell_at, strict=True)
+        }
+
+    @property
+    def fallen(self) -> tuple[str, ...]:
+        """Bodies that have fallen, of an assembly in this order; none where the run was not followed to the ground."""
+        return tuple(self.fell_at)
+
+    @property
+    def displaced(self) -> tuple[str, ...]:
+        """Bodies of an assembly that stand, and stand shifted."""
+        return () if self.measures.blocks is None else self.measures.blocks.displaced
+
+    # -- bodies in space -----------------------------------------------------------------------------------------
+
+    @property
+    def dims(self) -> str:
+        """``xz`` for plane models, ``xyz`` in space."""
+        return self.histories.dims
+
+    @property
+    def body_position(self) -> np.ndarray:
+        """Centroid of every body relative to the moving base: x and y horizontal, z up [m], shape (T, n, 3)."""
+        return self.poses.position
+
+    @property
+    def body_orientation(self) -> np.ndarray:
+        """Unit quaternion of every body, real part first, from its axes to those of space [-], shape (T, n, 4)."""
+        return self.poses.orientation
+
+    @property
+    def body_velocity(self) -> np.ndarray:
+        """Velocity of every centroid relative to the moving base [m/s], shape (T, n, 3); of assemblies."""
+        return _recorded(self.histories.velocity)
+
+    @property
+    def body_angular_velocity(self) -> np.ndarray:
+        """Angular velocity of every body in the axes of space [rad/s], shape (T, n, 3); of assemblies."""
+        return _recorded(self.histories.spin)
+
+    @property
+    def body_axis(self) -> np.ndarray:
+        """Own axis of every body, upward in a column as built [-], shape (T, n, 3)."""
+        return self.poses.axis
+
+    @property
+    def tilt(self) -> np.ndarray:
+        """Angle between every body's axis and the vertical [rad], shape (T, n)."""
+        x, y, z = np.moveaxis(self.poses.axis, -1, 0)
+        return np.arctan2(np.hypot(x, y), z)
+
+    @property
+    def tilt_azimuth(self) -> np.ndarray:
+        """Direction in which every body leans, from x towards y [rad], shape (T, n); 0 for an upright one."""
+        x, y, _ = np.moveaxis(self.poses.axis, -1, 0)
+        return np.arctan2(y, x) + 0.0  # no -0.0
+
+    @property
+    def opening(self) -> np.ndarray:
+        """Largest gap between the two faces of each joint [m], shape (T, J); as ``joint_opening``."""
+        return self.histories.opening
+
+    @property
+    def slip(self) -> np.ndarray:
+        """Offset along x and y of each joint, from the start [m], shape (T, J, 2); zero along y in the plane.
+
+        ``joint_slip`` has the shape (T, J) there.
+        """
+        return self.histories.slip
+
+    @property
+    def twist(self) -> np.ndarray:
+        """Turn about the normal of each joint, from the start [rad], shape (T, J)."""
+        return self.histories.twist
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """Distance of every centroid from where it was at the start [m], shape (T, n)."""
+        poses = self.histories.poses
+        if isinstance(poses, PlanePoses):
+            return np.hypot(poses.x - poses.x[0], poses.z - poses.z[0])
+        return np.linalg.norm(poses.position - poses.position[0], axis=-1)
+
+    # -- bodies of an assembly ------------------------------------------------------------------------------
+
+    @property
+    def x(self) -> np.ndarray:
+        """Place of every centroid along x [m], shape (T, n)."""
+        return self._placed_by(0)
+
+    @property
+    def y(self) -> np.ndarray:
+        """Place of every centroid along y [m], shape (T, n); zero in the plane."""
+        return self._placed_by(1)
+
+    @property
+    def z(self) -> np.ndarray:
+        """Height of every centroid [m], shape (T, n)."""
+        return self._placed_by(2)
+
+    @property
+    def rotation(self) -> np.ndarray:
+        """Rotation of every body, counter-clockwise positive (top to −x) [rad], shape (T, n); as ``drum_rotation``."""
+        return self.histories.drum_rotation
+
+    def _placed_by(self, axis: int) -> np.ndarray:
+        poses = self.histories.poses
+        if axis != 1 and isinstance(poses, PlanePoses) and self.measures.blocks is not None:
+            return poses.x if axis == 0 else poses.z  # as recorded, to the last bit
+        return self.poses.position[..., axis]
+
+
+def _recorded(velocity: np.ndarray | None) -> np.ndarray:
+    if velocity is None:
+        raise AttributeError("velocities are recorded of assemblies only; differentiate body_position.")
+    return velocity
+
+
+def _read_directly(measure: Measure, part: str) -> None:
+    """Make a measure an attribute of responses; None where the run has no such part."""
+
+    def read(views: Views) -> float | None:
+        holder = getattr(views.measures, part) if part else views.measures
+        return None if holder is None else getattr(holder, measure.field)
+
+    unit, where = measure.unit or "-", "; None for plane models" if part else ""
+    setattr(Views, measure.field, property(read, doc=f"{measure.meaning.capitalize()} [{unit}]{where}."))
+
+
+#: Histories that a response passes on.
+_HISTORIES = (
+    "drum_x", "drum_y", "drum_z", "drum_rotation", "joint_opening", "joint_slip", "joint_twist", "base_displacement",
+    "top_displacement", "ground_acceleration", "ground_displacement", "imbalance",
+)  # fmt: skip
+
+for _name in _HISTORIES:
+    setattr(Views, _name, property(attrgetter(f"histories.{_name}"), doc=getattr(Histories, _name).__doc__))
+
+for _holder, _part in ((Measures, ""), (SpaceMeasures, "space")):
+    for _one in measures_of(_holder):
+        _read_directly(_one, _part)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -90,3 +356,69 @@ class Recorded(Views):
         recorded = self.histories.poses
         assert isinstance(recorded, PlanePoses)
         return self.bodies.reference.plane(recorded, factor)
+
+
+#: Distance, in sizes of the structure, beyond which a body is out of every picture.
+ASIDE = 3.0
+
+
+def way_of(response: Recorded) -> np.ndarray:
+    """Displacement [m], shape (T,): the top along x with its sign, or the body that has moved farthest."""
+    top = response.histories.top
+    if top is None:
+        return response.displacement.max(axis=1)
+    return top if top.ndim == 1 else top[:, 0]
+
+
+def size_of(response: Recorded) -> float:
+    """Larger side of the box around everything that can move, as it stood, seen along y [m]."""
+    moving = [i for i, fixed in enumerate(response.bodies.fixed) if not fixed]
+    return float(np.ptp(np.concatenate([response.outline(0, i) for i in moving]), axis=0).max())
+
+
+def telling_states(response: Recorded) -> list[int]:
+    """Up to eight recorded states, from the first to the last that can be seen."""
+    return _of_a_top(response) if response.histories.top is not None else _of_bodies(response)
+
+
+def _of_a_top(response: Recorded) -> list[int]:
+    """At rest, at the largest displacement in each fifth of the clear motion and before a collapse, and at the end."""
+    way = way_of(response) if response.dims == "xz" else np.hypot(*response.top_displacement.T)
+    far = np.nan_to_num(np.abs(way))
+    time, last = response.collapse_time, _last_above_ground(response)
+    before = far if math.isnan(time) else np.where(response.time <= time, far, 0.0)
+    peak = int(before.argmax())
+    far[last + 1 :] = before[last + 1 :] = 0.0
+    moving = np.flatnonzero(np.abs(far[: last + 1] - far[last]) > 0.1 * before[peak])
+    start, end = (int(moving[0]), int(moving[-1])) if moving.size else (0, last)
+    start = max(start, int(np.argmax(before > 0.1 * before[peak])))
+    edges = np.linspace(start, end + 1, 6).round().astype(int)
+    spread = [low + int(far[low:high].argmax()) for low, high in pairwise(edges) if high > low]
+    apart = 0.02 * (end - start)
+    chosen = sorted({0, peak, *spread}) if last else []
+    return [i for i in chosen if last - i > apart] + [last]
+
+
+def _of_bodies(response: Recorded) -> list[int]:
+    """The start, the end, and states between which the bodies have gone equal ways; the farthest if nothing falls."""
+    places = response.body_position
+    step = np.linalg.norm(np.diff(places, axis=0), axis=-1)
+    step[response.displacement[1:] > ASIDE * size_of(response)] = 0.0  # out of the picture
+    gone = np.concatenate(([0.0], np.nan_to_num(step).sum(axis=1).cumsum()))
+    last = len(gone) - 1
+    chosen = set(np.searchsorted(gone, np.linspace(0.0, gone[-1], 8)[1:-1]).tolist())
+    if not response.collapsed:
+        chosen.add(int(np.nan_to_num(response.displacement).max(axis=1).argmax()))
+    frames = [0]
+    for i in sorted(chosen):
+        if min(gone[i] - gone[frames[-1]], gone[-1] - gone[i]) > 0.03 * gone[-1]:
+            frames.append(i)
+    return [*frames, last] if last else frames
+
+
+def _last_above_ground(response: Recorded) -> int:
+    """The last state to be seen: a model that does not follow what falls to the ground lets it pass through."""
+    if response.followed:
+        return len(response.time) - 1
+    below = np.flatnonzero((response.body_position[..., 2] < 0.0).any(axis=1))
+    return max(int(below[0]) - 1, 0) if below.size else len(response.time) - 1

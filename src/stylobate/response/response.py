@@ -6,18 +6,33 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .. import store
+from .. import notebook, store
 from ..bibliography import cite_run
 from .joint_forces import JointForces, joint_forces
-from .page import as_html
-from .recorded import Recorded
+from .recorded import ASIDE, Recorded, size_of, telling_states
 from .summary import summary_of
-from .words import describe, doubt_of, sentence_of
+from .words import describe, doubt_of, sentence_of, title_of
 
 if TYPE_CHECKING:
     import xarray
 
     from .. import Film
+
+
+_LEFT_OUT = ("outcome", "reason", "wall_s", "model", "version", "mechanism", "collapse")
+
+
+def as_html(response: Recorded) -> str:
+    """HTML without scripts and without anything from the network."""
+    facts = {key: value for key, value in summary_of(response).items() if key not in _LEFT_OUT}
+    return notebook.page(title_of(response), sentence_of(response), facts, _strip(response))
+
+
+def _strip(response: Recorded) -> str:
+    """The telling states beside one another, in one scale, as a picture."""
+    states, bodies = telling_states(response), response.bodies
+    panels = [[(response.outline(k, i), bool(bodies.fixed[i])) for i in bodies.shown] for k in states]
+    return notebook.silhouettes(panels, [f"{response.time[k]:.2f} s" for k in states], ASIDE * size_of(response))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -96,7 +111,7 @@ class Response(Recorded):
         -------
         stylobate.Film
         """
-        from .. import Film  # of the package: who draws stands above what is drawn, and is loaded when asked for
+        from .. import Film
 
         return Film(self, frames_per_second, speed, window)
 

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..constants import g
-from .block_words import mechanism_of, moving_at_end
 from .links import row_of
 from .measures import BODY, MEASURES, Measures
-from .words import doubt_of
+from .words import doubt_of, mechanism_of, moving_at_end
 
 if TYPE_CHECKING:
     from .recorded import Recorded

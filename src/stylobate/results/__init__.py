@@ -1,8 +1,7 @@
 """Folders of results: what a command left in one, read and typed, and what it was asked."""
 
 from .asked import Asked
-from .kinds import Comparison, Kind, Numbers, Result, RunResult, SeveralRuns, StudyFolder
-from .reading import read_folder, read_results
+from .reading import Comparison, Kind, Numbers, Result, RunResult, SeveralRuns, StudyFolder, read_folder, read_results
 
 __all__ = [
     "Asked",

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.record_facts import facts_of_records
 from stylobate.cli.main import call
+from stylobate.codes.records import facts_of_records
 from stylobate.errors import InputError
 from stylobate.motion.earthquakes import read_earthquake
 

@@ -24,8 +24,8 @@ from .fitting import Frustum, Hull, within_tolerance
 STRAIGHT = 0.05
 
 
-#: What is nearer than this is where it was told [m]; decimals of corners in files.
-ROUNDING, DIGITS = 1e-6, 7
+#: What is nearer than this is where it was told [m]; decimals of corners in files; share of a volume that is told.
+ROUNDING, DIGITS, TOLD = 1e-6, 10, 1e-4
 
 
 def near(distance: float) -> str:
@@ -45,8 +45,9 @@ class Fitted(NamedTuple):
     def words(self) -> str:
         """What it became, and how far the mesh is from that."""
         one, far = self.shape, near(self.shape.residual)
-        more = 100.0 * (1.0 / one.filled - 1.0)
-        off = f"; its volume is {more:+.2g} % off the mesh" if abs(more) > 0.01 else ""
+        more = 1.0 / one.filled - 1.0
+        off = f"; its volume is {100.0 * more:+.2g} % off the mesh" if abs(more) > TOLD else ""
+        off += ", whose mass it keeps" if off and self.density is not None and isinstance(one, Hull) else ""
         if isinstance(one, Hull):
             drum = "" if one.drum is None else f" (no round drum within {near(one.drum.residual)})"
             return f"block of {len(one.corners)} corners, within {far}{drum}{off}"
@@ -59,6 +60,8 @@ def fit_all(
 ) -> list[Fitted]:
     """What fits each part of a model within a tolerance [m]; parts ``NAME, part 1`` … are convex parts of one block.
 
+    A hull has the mass of its part where the model tells a density: its own is less by what the hull adds.
+
     Raises
     ------
     InputError
@@ -67,7 +70,10 @@ def fit_all(
     found = []
     for (part, fixed, density), hull in zip(parts, hulls, strict=True):
         shape = within_tolerance(hull, tolerance, f"part {part.name!r}")
-        found.append(Fitted(part.name, hull._replace(drum=None) if ", part " in part.name else shape, fixed, density))
+        shape = hull._replace(drum=None) if ", part " in part.name else shape
+        if density is not None and isinstance(shape, Hull) and abs(shape.filled - 1.0) > TOLD:
+            density = round(density * shape.filled, 3)
+        found.append(Fitted(part.name, shape, fixed, density))
     return found
 
 

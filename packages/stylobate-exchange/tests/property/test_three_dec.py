@@ -114,7 +114,7 @@ def test_glued_parts_are_one_stone(tmp_path):
 @pytest.mark.slow
 @pytest.mark.skipif(not EVORA.exists(), reason="needs ../shared/monuments/evora")
 def test_the_temple_of_evora():
-    """156 polyhedra; the mass of each within what its hull adds, of all within 0.1 % of a sum over the raw file.
+    """156 polyhedra; the mass of all that can move within 0.1 % of a sum over the raw file.
 
     That sum takes every face around its middle, bent ones as well, by triangles, from the corners of the text.
     """
@@ -141,6 +141,6 @@ def test_the_temple_of_evora():
             for p, q in zip(face, np.roll(face, -1, axis=0), strict=True)
         )
         marble = 2 <= int(region) <= 15 and (4.33 <= centre[2] <= 4.70 or 11.0 <= centre[2] <= 12.02)
-        total += volume * (2563.0 if marble else 2625.0)
-    assert sum(stone.mass for stone in structure.stones) == pytest.approx(total, rel=1e-3)
+        total += volume * (2563.0 if marble else 2625.0) * (int(region) > 1)
+    assert sum(stone.mass for stone in structure.stones if not stone.fixed) == pytest.approx(total, rel=1e-3)
     assert "2 gaps, the largest of 0.86 mm between 'Arch_West 2' and 'Arch_West 3', closed" in words

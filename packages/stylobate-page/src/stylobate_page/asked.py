@@ -129,7 +129,7 @@ def requests(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[dict
         )
         made |= _model(asked.model, asked.settings) | _motion(_the_motion(asked), records)
         return [made | _given(replicates=asked.replicates, **more) | end]
-    from stylobate.analysis.fragility_checks import FEWEST
+    from stylobate.probability.fragility import FEWEST
 
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")

@@ -17,8 +17,7 @@ from stylobate.column.shapes import hull
 from stylobate.column.tables import made_of
 from stylobate.constants import g
 from stylobate.errors import InputError
-from stylobate.response.bodies import bodies_of
-from stylobate.response.poses import PlanePoses
+from stylobate.response.poses import PlanePoses, bodies_of
 from stylobate_exchange.convert import SURVEYS, Reading, read_model
 
 from .forms import doubted, warned

@@ -11,17 +11,17 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from stylobate.analysis.verdicts import verdict
 from stylobate.atomic import replacing
 from stylobate.campaign.grid import read_grid
 from stylobate.campaign.ledger import RUNS_FILE, rows_in
 from stylobate.motion.intensity_specs import parse_measure
+from stylobate.verdicts.verdict import verdict
 
 from .asked import FRAGILITY, RESULT, STUDY
 from .job import GROWING
 
 if TYPE_CHECKING:
-    from stylobate.analysis.ida_curves import Ida
+    from stylobate.probability.evidence import Ida
 
 #: Room at the right of the largest response, for collapses [-].
 ROOM = 1.25
@@ -98,8 +98,8 @@ def _ida(folder: Path) -> dict[str, Any]:
 
 def write_points(analysis: Ida, state: str, target: Path) -> Path:
     """Write the shares of the records that are known of an analysis so far, in the form of a fragility without a curve."""
-    from stylobate.analysis.evidence import evidence
-    from stylobate.analysis.fragility_points import points_of
+    from stylobate.probability.evidence import evidence
+    from stylobate.probability.fragility import points_of
 
     told = evidence(analysis, state=state)
     points = points_of(told, told.codes, "records" if told.brackets else "runs")

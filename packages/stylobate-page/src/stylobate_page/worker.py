@@ -28,7 +28,7 @@ from .forms import in_page_words
 from .job import FILM, GROWING, JOB
 
 if TYPE_CHECKING:
-    from stylobate.analysis.ida_curves import Ida
+    from stylobate.probability.evidence import Ida
     from stylobate.response import Response
 
 #: Least time between two lines about progress, and between two looks at an analysis that grows [s].

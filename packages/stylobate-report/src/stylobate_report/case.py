@@ -12,10 +12,10 @@ from typing import Any
 
 from markupsafe import Markup
 
-from stylobate.analysis.difference import NO_MEASURE
 from stylobate.atomic import output_folder
 from stylobate.errors import InputError, StylobateError
 from stylobate.messages import Message, joined, say
+from stylobate.probability.states import NO_MEASURE
 from stylobate.results import Kind, Numbers, Result, RunResult, SeveralRuns, read_results
 from stylobate.version import __version__
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from stylobate.analysis.debris import OVER_ALL, only_as_seen
-from stylobate.analysis.population import set_against
 from stylobate.messages import digits, joined, say
 from stylobate.percent import percent, percents
 from stylobate.response.measures import JOINT, SPREAD
+from stylobate.verdicts.population import OVER_ALL, only_as_seen, set_against
 
 from . import numbers as n
 from .page import Facts, Item, Rows, Section
@@ -26,6 +25,7 @@ PARTS = {
         "stiffness_damping": say("damping of the joints, half of it common to three"),
         "rolling_resistance": say("resistance to rolling, half of it common to three"),
         "law": say("laws by which round faces carry otherwise, their share"),
+        "unknown_stiffness": say("how far the stiffness common to three is unknown, from 1e9 N/m³ to that of stone"),
     },
     "assemblies": {
         "friction": say("friction of each stone's contacts"),

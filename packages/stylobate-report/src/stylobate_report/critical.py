@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.critical_words import as_recorded
 from stylobate.messages import digits, joined, say
 from stylobate.percent import percents
 from stylobate.results import Numbers
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.critical import as_recorded
 
 from . import numbers as n
 from .page import Facts, Item, Rows

@@ -6,12 +6,21 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from stylobate.analysis.compare import Comparison as SideBySide
-from stylobate.analysis.design_tables import OPEN, as_read, basis_of, clearances, governing, where, worst_of
-from stylobate.analysis.design_values import WHICH_LEVEL, design_values
 from stylobate.messages import joined, say
 from stylobate.motion.intensity_specs import parse_measure
+from stylobate.probability.design import (
+    OPEN,
+    WHICH_LEVEL,
+    as_read,
+    basis_of,
+    clearances,
+    design_values,
+    governing,
+    where,
+    worst_of,
+)
 from stylobate.results import Comparison, Numbers, Result
+from stylobate.verdicts.compare import Comparison as SideBySide
 
 from . import numbers as n
 from .page import Item, Rows

@@ -8,21 +8,21 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis.efficiency import FEWEST
-from stylobate.analysis.ida_curves import median_of
-from stylobate.analysis.population import CHANCE, chance_words
-from stylobate.analysis.probability import CollapseProbability
-from stylobate.analysis.side_by_side import codes_of, shares
-from stylobate.analysis.studies import StudyResult
-from stylobate.analysis.suite import suite_shares
-from stylobate.analysis.verdicts import open_runs
 from stylobate.bibliography import cite, cite_run
 from stylobate.campaign.twins import described
 from stylobate.column import Column
 from stylobate.constants import g
 from stylobate.messages import joined, say
+from stylobate.probability.evidence import median_of
+from stylobate.probability.ida import FEWEST
+from stylobate.probability.studies import StudyResult
+from stylobate.probability.suite import suite_shares
 from stylobate.results import Comparison, Kind, Numbers, Result, RunResult, StudyFolder
-from stylobate.results.kinds import Grid
+from stylobate.results.reading import Grid
+from stylobate.verdicts.domain import CollapseProbability
+from stylobate.verdicts.limit_states import codes_of, shares
+from stylobate.verdicts.population import CHANCE, chance_words
+from stylobate.verdicts.verdict import open_runs
 
 from . import numbers as n
 from .certainty import OF_TWINS

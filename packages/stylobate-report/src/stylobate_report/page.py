@@ -139,8 +139,6 @@ class Section:
 _SIGNS = {"good": "✓ ", "fair": "! ", "bad": "✗ ", "": ""}
 
 _KINDS = {
-    str: "text",
-    Own: "text",
     Points: "points",
     Picture: "picture",
     Rows: "rows",
@@ -166,7 +164,7 @@ def part(section: Section) -> dict[str, Any]:
 
 def kinds(items: Sequence[Item]) -> list[dict[str, Any]]:
     """Items as the templates take them, each with its kind."""
-    return [{"kind": _KINDS[type(item)], "value": item} for item in items]
+    return [{"kind": "text" if isinstance(item, str) else _KINDS[type(item)], "value": item} for item in items]
 
 
 def _pages(folder: Path) -> Environment:

@@ -10,10 +10,10 @@ from typing import Any
 
 from pydantic import field_validator
 
-from stylobate.analysis.design_tables import OPEN
 from stylobate.column.toml import Table, read_table
 from stylobate.errors import InputError
 from stylobate.messages import joined, say
+from stylobate.probability.design import OPEN
 from stylobate.reading import shown
 from stylobate.results import Result, RunResult, SeveralRuns
 from stylobate.version import __version__

@@ -11,7 +11,7 @@ from stylobate.messages import joined, say
 from stylobate.models.base import Model
 from stylobate.models.registry import model_class
 from stylobate.results import Result, SeveralRuns
-from stylobate.results.kinds import FileFact
+from stylobate.results.reading import FileFact
 from stylobate.version import __version__
 
 from . import numbers as n

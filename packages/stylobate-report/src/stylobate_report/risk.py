@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from stylobate.analysis.fragility_curve import between
-from stylobate.analysis.risk import years
-from stylobate.analysis.side_by_side import median_words
-from stylobate.analysis.verdicts import open_runs
 from stylobate.messages import digits, joined, say
+from stylobate.probability.fragility import between
+from stylobate.probability.risk import years
 from stylobate.results import Numbers
+from stylobate.verdicts.limit_states import median_words
+from stylobate.verdicts.verdict import open_runs
 
 from . import numbers as n
 from .page import Facts, Item, Note, Own

@@ -9,10 +9,6 @@ from typing import Any
 import numpy as np
 
 from stylobate import plots
-from stylobate.analysis.directions import harm
-from stylobate.analysis.population import CHANCE, chance_words
-from stylobate.analysis.side_by_side import codes_of, shares
-from stylobate.analysis.verdicts import verdict
 from stylobate.bibliography import cite_run
 from stylobate.constants import g
 from stylobate.messages import digits, joined, say
@@ -21,6 +17,10 @@ from stylobate.percent import percent
 from stylobate.response import Response
 from stylobate.response.words import doubt_of, each_doubt, opening_words, to_decide
 from stylobate.results import RunResult, SeveralRuns
+from stylobate.verdicts.directions import harm
+from stylobate.verdicts.limit_states import codes_of, shares
+from stylobate.verdicts.population import CHANCE, chance_words
+from stylobate.verdicts.verdict import verdict
 
 from . import numbers as n
 from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sentence

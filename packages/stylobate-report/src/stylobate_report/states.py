@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER
-from stylobate.analysis.evidence import evidence
-from stylobate.analysis.fragility_checks import FEWEST
-from stylobate.analysis.side_by_side import median_words, shares
 from stylobate.messages import digits, joined, say
 from stylobate.motion.intensity_specs import parse_measure
 from stylobate.percent import percents
+from stylobate.probability.evidence import evidence
+from stylobate.probability.fragility import FEWEST
+from stylobate.probability.states import NOT_TOLD, STRONGER, WEAKER
 from stylobate.response.links import YIELDS
 from stylobate.results import Numbers
+from stylobate.verdicts.limit_states import median_words, shares
 
 from . import numbers as n
 from .design import design_items, design_of

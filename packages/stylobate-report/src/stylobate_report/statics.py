@@ -7,15 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis.capacity_spectrum import CapacityCheck, capacity_spectrum_check
-from stylobate.analysis.limit import limit_analysis, towards
-from stylobate.analysis.limit_assemblies import listed
-from stylobate.analysis.limit_directions import weakest_direction
-from stylobate.analysis.pushover import pushover
+from stylobate.codes.checks import CapacityCheck, capacity_spectrum_check
 from stylobate.column import Column
 from stylobate.errors import StylobateError
 from stylobate.messages import digits, joined, say
 from stylobate.results import Numbers, Result, RunResult
+from stylobate.statics.limit import limit_analysis, towards
+from stylobate.statics.limit_assemblies import listed, weakest_direction
+from stylobate.statics.pushover import pushover
 
 from . import numbers as n
 from .page import Facts, Item, Note, Own, Points, Rows, Section
@@ -130,7 +129,7 @@ def code_check(column: Column, result: Result, run: RunResult | None) -> Section
                 say(
                     "No spectrum is known to check against: report the pushover together with a run of the same "
                     "column, whose motion then is the demand, or make the check in Python "
-                    "(stylobate.analysis.capacity_spectrum)."
+                    "(stylobate.codes.checks)."
                 )
             ],
         )

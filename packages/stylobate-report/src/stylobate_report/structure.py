@@ -199,7 +199,7 @@ def _links(column: Column) -> Rows:
         "Links that strengthen the column; lengths in m, forces in N, stiffness in N/m. What is not given "
         "follows from the material."
     )
-    return Rows([say("link"), say("where"), "at x / y [m]", say("properties")], body, caption, numbers=True)
+    return Rows([say("link"), say("where"), say("at x / y [m]"), say("properties")], body, caption, numbers=True)
 
 
 def _property(key: str, value: Any) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from stylobate.analysis.side_by_side import Share
 from stylobate.messages import joined, say
+from stylobate.verdicts.limit_states import Share
 
 from . import numbers as n
 from .page import Own, Rows

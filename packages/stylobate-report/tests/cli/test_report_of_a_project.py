@@ -6,9 +6,9 @@ import re
 
 import pytest
 
-from stylobate.analysis.critical_words import sentence
-from stylobate.analysis.population import set_against
 from stylobate.cli.main import call
+from stylobate.verdicts.critical import sentence
+from stylobate.verdicts.population import set_against
 from stylobate_report.language import catalogue_of, file_of, language_of
 
 GOOD = """client = "Ministry <b>"

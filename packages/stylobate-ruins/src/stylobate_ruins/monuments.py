@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtri
 
-from stylobate.analysis.hazard import Hazard
-from stylobate.analysis.lognormal import BETAS
 from stylobate.errors import InputError, check_choice, check_range
+from stylobate.probability.lognormal import BETAS
+from stylobate.probability.risk import Hazard
 
 from .ground_motion import GroundMotionModel, Source
 

@@ -18,8 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis.hazard import Hazard, read_hazard
 from stylobate.errors import InputError
+from stylobate.probability.risk import Hazard, read_hazard
 
 from . import abc
 from .outlasted import Outlasted

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.campaign.twins import PARTS
+from stylobate.campaign.twins import PARTS, unknown_stiffness, with_stiffness
 from stylobate.column.column import Column
 from stylobate.column.joint import LAWS, Losses
 from stylobate.column.scatter import Scatter
@@ -41,6 +41,7 @@ DRAWN: tuple[str, ...] = (
     "law",
     "stiffness_damping",
     "record",
+    "unknown_stiffness",
 )
 
 #: Damping of joints where nothing else is said [s]: nobody has measured it.
@@ -80,6 +81,9 @@ class Prior:
     scatter : Scatter, optional
         How what stands may differ from what was surveyed; by default as columns of their material do, with all drums in
         their places: a column that begins with offsets takes fifty times as long.
+    unknown_stiffness : float, optional
+        How far the stiffness of the joints of columns is unknown [-], as of a scatter, and alike in all of them: residual
+        slips grow as it falls. 1 by default, 0 where a scatter is given.
 
     Raises
     ------
@@ -98,6 +102,7 @@ class Prior:
     law: Sequence[str] = LAWS
     stiffness_damping: Sequence[float] = LOSSES
     scatter: Scatter | None = None
+    unknown_stiffness: float | None = None
 
     def __post_init__(self) -> None:
         for name, (low, high, unit) in RANGES.items():
@@ -143,10 +148,13 @@ class Prior:
         drawn = [name for name in PARTS if self.scatter is not None and getattr(self.scatter, name)]
         if drawn:
             raise InputError(
-                f"the scatter of the prior varies {' and '.join(drawn)}, which a prior draws itself; give law and "
-                "stiffness_damping of the prior, and leave them out of its scatter.",
+                f"the scatter of the prior varies {' and '.join(drawn)}, which a prior draws itself; give law, "
+                "stiffness_damping and unknown_stiffness of the prior, and leave them out of its scatter.",
                 "scatter",
             )
+        unknown = float(self.scatter is None) if self.unknown_stiffness is None else self.unknown_stiffness
+        unknown = check_range("`unknown_stiffness`", unknown, 0.0, 1.0, field="unknown_stiffness")
+        object.__setattr__(self, "unknown_stiffness", unknown)
         for one in self.law:
             check_choice("one of law", one, LAWS, field="law")
         for one in self.stiffness_damping:
@@ -164,7 +172,8 @@ class Prior:
         """Plain values that decide what is drawn."""
         found = {name: list(pair) for name in RANGES if (pair := getattr(self, name)) is not None}
         records = [[one.name, one.digest] for one in self.records]
-        return found | {"records": records, "law": list(self.law), "stiffness_damping": list(self.stiffness_damping)}
+        found |= {"records": records, "law": list(self.law), "stiffness_damping": list(self.stiffness_damping)}
+        return found | {"unknown_stiffness": self.unknown_stiffness}
 
     def draws(self, count: int, seed: int) -> Draws:
         """The first draws of a seed; draw k is the same for any ``count`` above k."""
@@ -221,6 +230,7 @@ class Draws:
             found |= {"pgv_m_s": pgv, "pga_g": pgv * unit}
         found |= {"law": self.one_of("law", prior.law).astype(float)}
         damping = np.array(prior.stiffness_damping)
+        found |= {"unknown_stiffness": self._uniform["unknown_stiffness"]}
         return found | {"stiffness_damping_s": damping[self.one_of("stiffness_damping", prior.stiffness_damping)]}
 
     def motion(self, k: int) -> Motion:
@@ -238,6 +248,11 @@ class Draws:
         shape = {name: float(p[name][k]) for name in ("ellipticity", "cycles")}
         azimuth, phase = float(p["azimuth_deg"][k]), float(p["phase_deg"][k])
         return elliptical_pulse(float(p["period_s"][k]), 1.0, azimuth=azimuth, phase=phase, **shape)
+
+    def on_joints(self, column: Column, k: int) -> Column:
+        """A column on joints of the stiffness of draw k."""
+        share = self.parameters["unknown_stiffness"][k : k + 1]
+        return with_stiffness(column, float(unknown_stiffness(column, share)[0] ** self.prior.unknown_stiffness))
 
     def losses(self, column: Column, k: int, rolling: float) -> Losses:
         """What the joints of a column lose in draw k, whose own losses, where it has any, are not drawn.

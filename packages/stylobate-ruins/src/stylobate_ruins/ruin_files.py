@@ -61,6 +61,7 @@ class PriorTable(Table):
     law: list[str] | None = None
     stiffness_damping: list[Any] | None = None
     scatter: ColumnScatterTable | None = None
+    unknown_stiffness: float | None = None
 
 
 class SurvivalTable(Table):
@@ -139,7 +140,8 @@ def _survival(table: SurvivalTable, folder: Path) -> Outlasted:
 
 
 def _prior(table: PriorTable, folder: Path) -> Prior:
-    fields: dict[str, Any] = {name: getattr(table, name) for name in ("ellipticity", "cycles", "scale")}
+    plain = ("ellipticity", "cycles", "scale", "unknown_stiffness")
+    fields: dict[str, Any] = {name: getattr(table, name) for name in plain}
     units = {
         "pgv": parse_velocity,
         "pga": lambda text: parse_acceleration(text) / g,

@@ -220,7 +220,7 @@ class _Table:
         if twin.stack is not None:
             model: Any = self.model
             losses = self.draws.losses(twin.stack, k, model.rolling_resistance)
-            twin = twin.stack.unwarned(losses=losses)
+            twin = self.draws.on_joints(twin.stack, k).unwarned(losses=losses)
         return Case(twin, self.draws.motion(k))
 
     def groups(self) -> list[Group]:

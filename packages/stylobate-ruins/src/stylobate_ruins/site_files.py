@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from stylobate.analysis import tables
-from stylobate.analysis.hazard import read_hazard
+from stylobate import text_tables as tables
 from stylobate.column.toml import Table, read_table
 from stylobate.errors import InputError, as_typed, check_choice, check_whole, within
 from stylobate.motion.intensity_specs import parse_measure
+from stylobate.probability.risk import read_hazard
 from stylobate.reading import shown
+from stylobate.results.asked import read_json
 from stylobate.results.fragilities import fitted
-from stylobate.results.json_files import read_json
 
 from .ground_motion import MODELS, Source
 from .monuments import Branch, Capacity, Monument, Site, Sites

@@ -14,11 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis.fragility_curve import Fragility
-from stylobate.analysis.hazard import Hazard
-from stylobate.analysis.risk import Risk, risk
 from stylobate.errors import InputError, check_all, check_kind, check_range
 from stylobate.notebook import Shown
+from stylobate.probability.fragility import Fragility
+from stylobate.probability.risk import Hazard, Risk, risk
 
 #: Most states that are seen to be reached: each doubles the sum.
 MOST_REACHED = 8

@@ -14,11 +14,10 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtri
 
-from stylobate.analysis.hazard import Hazard
-from stylobate.analysis.risk import doubts, rates
 from stylobate.errors import InputError, check_kind, within
 from stylobate.notebook import Shown
 from stylobate.percent import percent
+from stylobate.probability.risk import Hazard, doubts, rates
 
 from .monuments import Branch, Sites
 from .shared_events import SharedEvents

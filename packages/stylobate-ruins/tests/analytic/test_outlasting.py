@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.hazard import Hazard
+from stylobate.probability.risk import Hazard
 from stylobate_ruins.answers import Answers
 from stylobate_ruins.outlasting import hazard_of, outlasting, rates_of
 from stylobate_ruins.ruin import Fact

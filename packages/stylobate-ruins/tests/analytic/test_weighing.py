@@ -8,8 +8,8 @@ import pytest
 from scipy.stats import multivariate_normal, norm
 
 import stylobate as st
-from stylobate.analysis.hazard import Hazard
 from stylobate.errors import InputError
+from stylobate.probability.risk import Hazard
 from stylobate_ruins.ground_motion import CORRELATED, MODELS, Source, alike, events_of, rupture_length
 from stylobate_ruins.monuments import Branch, Capacity, Monument, Site, Sites
 from stylobate_ruins.shared_events import SharedEvents
@@ -91,7 +91,7 @@ def shaken(rate=0.01, sites=SITES):
 def test_rates_of_what_events_reach_are_those_of_the_hazard_curve():
     # ∫ P(f | im) |dλ| of the curve that the same events make, by its closed form on 200 points: within 0.1 % of its straight
     # stretches
-    from stylobate.analysis.risk import rates
+    from stylobate.probability.risk import rates
 
     events, place = shaken(), np.arange(3)
     theta, beta = np.log(np.array([[0.3], [0.5], [0.2]])), np.full((3, 1), 0.4)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.hazard import read_hazard
 from stylobate.cli.main import call
+from stylobate.probability.risk import read_hazard
 from stylobate.results import read_results
 
 SITES = """

@@ -69,6 +69,17 @@ def test_what_is_no_prior_is_refused(fields, said):
         st.Prior(**fields)
 
 
+def test_joints_are_of_any_stiffness_from_1e9_to_that_of_stone_unless_they_are_known():
+    """100 GPa over the one drum of 5 m are 2e10 N/m³; a prior whose scatter is stated takes joints as they are."""
+    draws = PRIOR.draws(200, 2)
+    k = np.log([draws.on_joints(COLUMN, i).joints[0].normal_stiffness for i in range(200)])
+    assert k.min() == pytest.approx(np.log(1e9), abs=0.1)
+    assert k.max() == pytest.approx(np.log(2e10), abs=0.1)
+    assert k.std() == pytest.approx(np.log(20.0) / np.sqrt(12.0), rel=0.1)
+    known = st.Prior(pgv=(0.1, 1.5), period=(0.3, 1.6), scatter=st.Scatter())
+    assert known.draws(3, 2).on_joints(COLUMN, 1) is COLUMN
+
+
 def test_columns_carry_the_losses_of_a_draw_but_keep_their_own():
     draws = PRIOR.draws(6, 2)
     own = COLUMN.replace(losses=Losses(2e-4, 0.003))

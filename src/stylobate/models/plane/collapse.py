@@ -12,7 +12,7 @@ from ...constants import LONGEST_WAIT
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, RUNNING
 from ...motion import Motion
 from ...response import Collapse, Histories, Measures, Response
-from ...response.assembly_measures import first_touch
+from ...response.assemblies import first_touch
 from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..base import Case, RunOptions, given_back

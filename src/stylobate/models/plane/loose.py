@@ -18,7 +18,7 @@ from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.shared.records import STATE
 from ...motion import Motion
 from ...response import Measures, Response
-from ...response.assembly_measures import first_touch, have_fallen, lowest_standing, recorded_blocks
+from ...response.assemblies import first_touch, have_fallen, lowest_standing, recorded_blocks
 from ..base import Case, RunOptions, given_back, refuse_endless, refuse_long_histories
 from ..drums.impact import rocking_column
 from ..drums.links import acting, bonds, link_histories, link_measures, link_snapshot, with_links

@@ -21,7 +21,7 @@ from ...kernels.space.lane_records import types
 from ...kernels.space.records import GROUND
 from ...motion import Motion
 from ...response import Measures, Response
-from ...response.space_measures import fallen
+from ...response.assemblies import fallen
 from ..base import Case, RunOptions
 from ..drums.impact import TRIED, longest, undamped
 from ..drums.stepped import StackEngine, SteppedEngine, with_provenance

@@ -17,7 +17,7 @@ from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.space.records import GROUND, types, workspace, workspace_of_joints
 from ...motion import Motion
 from ...response import LinkHistories, Response
-from ...response.space_measures import fallen, recorded_in_space
+from ...response.assemblies import fallen, recorded_in_space
 from ..base import RunOptions, given_back, refuse_endless, refuse_long_histories
 from ..drums.links import acting, link_histories, link_measures, link_snapshot, with_links
 from ..drums.records import bed_laws

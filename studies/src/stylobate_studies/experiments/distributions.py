@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stylobate.analysis.verdicts import wilson_interval
+from stylobate.verdicts.verdict import wilson_interval
 
 #: Samples of a bootstrap over tests, and the fewest tests of one.
 SAMPLES, FEWEST = 1000, 10

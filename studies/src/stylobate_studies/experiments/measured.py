@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis import verdicts as v
 from stylobate.campaign.campaign import Campaign, Progress
 from stylobate.campaign.runs import run_all
 from stylobate.constants import g
 from stylobate.response.rows import Rows
+from stylobate.verdicts import verdict as v
 
 from . import distributions
 from .measured_files import COLLAPSED, Measured

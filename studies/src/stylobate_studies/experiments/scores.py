@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis import lognormal
-from stylobate.analysis.verdicts import wilson_interval
+from stylobate.probability import lognormal
+from stylobate.verdicts.verdict import wilson_interval
 
 #: Samples of a bootstrap.
 SAMPLES = 200

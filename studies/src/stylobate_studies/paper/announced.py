@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.fragility_checks import FEWEST
-from stylobate.analysis.studies import StudyResult
 from stylobate.column.presets import PAPER
+from stylobate.probability.fragility import FEWEST
+from stylobate.probability.studies import StudyResult
+from stylobate.verdicts import verdict as v
 
 from .cases import BEAM, DEM, SHORT
 from .motions import COMPARED, LEVELS, against, outcome_of

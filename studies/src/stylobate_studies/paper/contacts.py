@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from stylobate.analysis.probability import CollapseProbability
 from stylobate.campaign.campaign import Progress
 from stylobate.column import Column
 from stylobate.column.presets import PAPER
 from stylobate.constants import g
 from stylobate.percent import percent
+from stylobate.verdicts.domain import CollapseProbability
 
 from .cases import ACROSS, DEM, DURATION, PLANE, POPULATIONS, SHORT, SPACE, paper_column
 from .pieces import population_piece, slug

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.probability import UNCERTAIN, CollapseProbability
-from stylobate.analysis.step_sensitivity import StepComparison
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.compare import StepComparison
+from stylobate.verdicts.domain import UNCERTAIN, CollapseProbability
 
 
 @dataclass(frozen=True, eq=False)

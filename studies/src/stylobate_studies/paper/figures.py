@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from stylobate.analysis.domain import Domain
+    from stylobate.verdicts.domain import Domain
     from stylobate_report.page import Picture
 
     from .study import PaperResults

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.domain import Domain, collapse_domain
 from stylobate.atomic import replacing
 from stylobate.campaign.campaign import Progress
 from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.column import preset
 from stylobate.percent import percent
 from stylobate.response.mechanism import AS_ONE
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.domain import Domain, collapse_domain
 
 from .cases import BEAM, BLOCKS, DEM, DRUMS, DURATION, MODELS
 from .folder import is_ready

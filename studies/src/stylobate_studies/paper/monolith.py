@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from stylobate.analysis import verdicts as v
 from stylobate.column import preset
 from stylobate.column.presets import PAPER
 from stylobate.constants import g
+from stylobate.verdicts import verdict as v
 
 from .cases import BEAM, BLOCKS, DEM, DRUMS, MONOLITH, REFERENCE
 from .reading import Reader, all_but, first, percent, rising, share, span

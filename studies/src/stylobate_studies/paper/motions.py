@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.studies import StudyResult, run_study
 from stylobate.campaign.campaign import Progress
 from stylobate.campaign.cases import Study
 from stylobate.column.presets import PAPER
 from stylobate.errors import LeftOutWarning
 from stylobate.motion import Motion
+from stylobate.probability.studies import StudyResult, run_study
+from stylobate.verdicts import verdict as v
 
 from .cases import DEM, MODELS, POPULATIONS, SPACE, TAIL, paper_column
 

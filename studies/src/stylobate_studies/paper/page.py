@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from stylobate.analysis import verdicts as v
 from stylobate.constants import g
+from stylobate.verdicts import verdict as v
 from stylobate.version import __version__
 from stylobate_report.page import Item, Picture, Points, Rows, Section, kinds, part, write_html
 

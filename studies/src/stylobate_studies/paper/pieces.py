@@ -16,10 +16,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stylobate import store
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.domain import Domain, collapse_domain, grid_coordinates
-from stylobate.analysis.probability import CollapseProbability
-from stylobate.analysis.replicates import collapse_probability
 from stylobate.atomic import replacing
 from stylobate.campaign.campaign import Campaign, Progress
 from stylobate.campaign.digests import Digests, Hasher
@@ -31,6 +27,14 @@ from stylobate.models.base import Case, Model
 from stylobate.motion import harmonic
 from stylobate.motion.scatter import MotionScatter
 from stylobate.simulate import run_options, simulate, simulate_many
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.domain import (
+    CollapseProbability,
+    Domain,
+    collapse_domain,
+    collapse_probability,
+    grid_coordinates,
+)
 from stylobate.version import __version__
 
 from . import cases as c

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.domain import Domain
 from stylobate.constants import g
 from stylobate.percent import percent
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.domain import Domain
 
 from .cases import BEAM, DEM, REFERENCE, VARIANTS
 from .study import PaperResults

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from stylobate.analysis.limit import limit_analysis
 from stylobate.column import preset
 from stylobate.column.presets import PAPER_BLOCK_MODULUS
 from stylobate.constants import g
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate
+from stylobate.statics.limit import limit_analysis
 
 from .cases import AMPLITUDES, BEAM, DEM, DRUMS, FREQUENCIES, MODELS, MONOLITH, REFERENCE
 from .reading import Reader, percent, share

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.domain import Domain
-from stylobate.analysis.probability import SAFE, UNSAFE, CollapseProbability
 from stylobate.column.presets import PAPER
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.domain import SAFE, UNSAFE, CollapseProbability, Domain
 
 from .cases import BEAM, BLOCKS, DEM, RIVALS, SHORT, SPACE
 from .reading import percent

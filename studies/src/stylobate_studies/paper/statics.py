@@ -6,14 +6,14 @@ from itertools import pairwise, product
 
 import numpy as np
 
-from stylobate.analysis.limit import limit_analysis
-from stylobate.analysis.limit_directions import limit_directions
-from stylobate.analysis.pushover import pushover
 from stylobate.column import Column, preset
 from stylobate.column.assembly import Assembly, Block
 from stylobate.column.presets import PAPER
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.statics.limit import limit_analysis
+from stylobate.statics.limit_assemblies import limit_directions
+from stylobate.statics.pushover import pushover
 
 from .cases import DRUMS, MONOLITH, SHORT, paper_column
 from .sentences import Statement, judged

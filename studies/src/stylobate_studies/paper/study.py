@@ -10,11 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stylobate.analysis.domain import Domain
-from stylobate.analysis.probability import CollapseProbability
-from stylobate.analysis.pushover import PushoverResult, pushover
-from stylobate.analysis.step_sensitivity import StepComparison, halved_step
-from stylobate.analysis.studies import StudyResult
 from stylobate.campaign.campaign import Progress
 from stylobate.column import preset
 from stylobate.column.presets import PAPER
@@ -22,7 +17,11 @@ from stylobate.constants import g
 from stylobate.models.base import Model
 from stylobate.motion import Motion, harmonic
 from stylobate.own_files import own_files
+from stylobate.probability.studies import StudyResult
 from stylobate.simulate import thread_count
+from stylobate.statics.pushover import PushoverResult, pushover
+from stylobate.verdicts.compare import StepComparison, halved_step
+from stylobate.verdicts.domain import CollapseProbability, Domain
 
 from . import cases as c
 from .ahead import compiled_meanwhile

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def infer(
     ruin: Path = o.argument("RUIN", "A ruin file (TOML): columns, what is seen of them, a prior."),
     *,
-    tail: str = o.option("TIME", "Go on for this long after the motion, such as 5s.", "3s"),
+    tail: float = o.option("TIME", "Go on for this long after the motion, such as 5s.", "3s", read=o.time),
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
     execution: o.Execution,
 ) -> None:
@@ -26,13 +26,12 @@ def infer(
     """
     from stylobate.cli import console
     from stylobate.cli.risk import hazards_of
-    from stylobate.motion.specs import parse_time
 
     from ..infer import infer as infer_from
     from ..ruin_files import read_ruin
 
     asked, found = read_ruin(ruin), ("infer.json", "draws.csv", "observations.csv")
-    campaign = execution.campaign(tail=parse_time(tail, "tail"))
+    campaign = execution.campaign(tail=tail)
     with execution.files("infer", *found, "infer", "observations", "matches") as files:
         with files.campaign(campaign, "simulations") as kept:
             answer = infer_from(asked, out=files.folder, campaign=kept)

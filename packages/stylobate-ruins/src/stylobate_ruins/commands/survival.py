@@ -32,10 +32,10 @@ def survival(
     if source.suffix.lower() == ".toml":
         _several(source, age, hazard, execution)
         return
-    from stylobate.analysis.hazard import read_hazard
     from stylobate.cli import console
     from stylobate.errors import InputError
-    from stylobate.results.sources import kept_of
+    from stylobate.probability.risk import read_hazard
+    from stylobate.results.asked import kept_of
 
     from ..survival import parse_age
     from ..survival import survival as survive

@@ -6,10 +6,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from stylobate.analysis.risk import years
 from stylobate.messages import say
 from stylobate.plots.fragility import NARROW
 from stylobate.plots.style import BLACK, BLUE, GREY, panel, styled
+from stylobate.probability.risk import years
 
 from ..survival import Survival
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from stylobate.analysis.verdicts import wilson_interval
 from stylobate.plots.style import BLACK, BLUE, BROWN, GREY, RED, WIDTH, legend_below, page, panel, styled
+from stylobate.verdicts.verdict import wilson_interval
 
 #: Observed, computed: how it is drawn, and said.
 _MARKS: dict[tuple[bool, bool], tuple[dict[str, Any], str]] = {

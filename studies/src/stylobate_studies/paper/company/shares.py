@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis.lognormal import bootstrap, fit
-from stylobate.analysis.paired import share_limits
+from stylobate.probability.lognormal import bootstrap, fit
+from stylobate.probability.states import share_limits
 from stylobate.response.words import STRUCK_IN_SPACE
 
 #: What counts: that a column loses a drum, each column of a run by itself, or that anything of the structure falls.

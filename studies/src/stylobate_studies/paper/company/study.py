@@ -9,8 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.analysis.studies import StudyResult, run_study
-from stylobate.analysis.verdicts import FAILED, UNDECIDED
 from stylobate.campaign.campaign import Progress
 from stylobate.campaign.cases import Study
 from stylobate.column.assembly_files import read_assembly
@@ -18,6 +16,8 @@ from stylobate.column.spatial.assembly import SpatialAssembly
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.motion import Motion
 from stylobate.motion.orientation import rotated
+from stylobate.probability.studies import StudyResult, run_study
+from stylobate.verdicts.verdict import FAILED, UNDECIDED
 
 #: Files of the structures beside this one; all are made of ``column.toml``. The first is what the others are compared with.
 STRUCTURES = ("alone", "two", "four", "corner")

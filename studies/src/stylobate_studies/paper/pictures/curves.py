@@ -10,12 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.pushover import PushoverResult
 from stylobate.column import Column, preset
 from stylobate.constants import g
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.plots.style import BLACK, BLUE, CYCLE, GREY, RED, SAND, WIDTH, styled, zero_line
+from stylobate.statics.pushover import PushoverResult
+from stylobate.verdicts import verdict as v
 
 from ..cases import MONOLITH
 from ..statics import joint_law

@@ -10,12 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
-from stylobate.analysis import verdicts as v
-from stylobate.analysis.domain import Domain
 from stylobate.constants import g
 from stylobate.percent import percents
 from stylobate.plots.domain import draw_boundary, draw_cells, draw_static_line
 from stylobate.plots.style import BLACK, WIDTH, page, styled
+from stylobate.verdicts import verdict as v
+from stylobate.verdicts.domain import Domain
 
 from ..doubt import Doubt
 from .maps_side_by_side import draw_panels, frame

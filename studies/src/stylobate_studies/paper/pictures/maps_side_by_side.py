@@ -10,10 +10,9 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from stylobate.analysis.domain import Domain, cell_edges
-from stylobate.analysis.probability import CollapseProbability
 from stylobate.constants import g
 from stylobate.plots.style import page
+from stylobate.verdicts.domain import CollapseProbability, Domain, cell_edges
 
 Map = TypeVar("Map", Domain, CollapseProbability)
 

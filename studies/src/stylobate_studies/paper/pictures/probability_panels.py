@@ -8,10 +8,10 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from stylobate.analysis.probability import CollapseProbability
 from stylobate.percent import percent
 from stylobate.plots.domain import draw_band, draw_shares
 from stylobate.plots.style import WIDTH, styled
+from stylobate.verdicts.domain import CollapseProbability
 
 from .maps_side_by_side import draw_panels
 

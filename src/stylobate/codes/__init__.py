@@ -1,0 +1,1 @@
+"""Codes: their spectra, records for them, and their checks."""

@@ -1,0 +1,1 @@
+"""Statics: limit analysis and pushover of rigid blocks."""
