@@ -47,6 +47,7 @@ def suite(
     import pandas
 
     from ..errors import InputError
+    from ..messages import say
     from ..models.shared.quiet import share_of
     from ..probability.suite import check_measure, suite_shares, suite_table
     from ..response.words import to_decide
@@ -84,7 +85,8 @@ def suite(
         if twins := table.attrs["twins"]:
             result |= {"replicates": campaign.replicates, "twins": twins}
         cure = to_decide(stones[0], how.parameters(), campaign.tail)
-        result["to_decide"] = cure * any(map(may_collapse, result["runs"]))
+        open_ = any(map(may_collapse, result["runs"]))
+        result["undecided"] = say("What is undecided: {cure}.", cure=cure) if open_ else ""
         compass = compass_of_shares(result["runs"], cure)
         result["worst"] = worst(result["runs"], compass if swept else None)
         if swept and result["worst"] is not None:
@@ -117,8 +119,8 @@ def suite(
         print(f"{drawn['like']} like {name}: {drawn['words']}")
     if "sentence" in result:
         print(result["sentence"])
-    elif result["to_decide"]:
-        print(f"What is undecided: {result['to_decide']}.")
+    elif result["undecided"]:
+        print(result["undecided"])
     console.print_left_out(result["inputs"])
     console.print_refused(records.refused)
     console.print_files(files)

@@ -109,10 +109,12 @@ class Hazard:
             )
         rises = np.flatnonzero(np.diff(rate) > 0.0)
         if rises.size:
-            k = int(rises[0])
+            k, remedy = int(rises[0]), "check its rows and columns"
+            if (rate >= 1.0).all() and (np.diff(rate) > 0.0).all():
+                remedy = "these look like return periods: give 1 over the period as annual_rate"
             raise InputError(
                 f"hazard curve {self.name} rises from {rate[k]:.3g} a year at {im[k]:g} {self.unit} to {rate[k + 1]:.3g} at "
-                f"{im[k + 1]:g}, and the rate of exceeding more cannot be larger; {_remedy(im, rate)}."
+                f"{im[k + 1]:g}, and the rate of exceeding more cannot be larger; {remedy}."
             )
         if im[0] <= FEEBLEST and math.log(rate[0] / rate[-1]) < math.log(im[-1] / im[0]):
             raise InputError(
@@ -153,13 +155,6 @@ class Hazard:
         if im > self.im[-1]:
             return 0.0
         return float(np.exp(np.interp(math.log(im), np.log(self.im), np.log(self.rate))))
-
-
-def _remedy(im: np.ndarray, rate: np.ndarray) -> str:
-    """What mends a curve that rises: its columns hold something else than they are called."""
-    if (rate >= 1.0).all() and (np.diff(rate) > 0.0).all():
-        return "these look like return periods: give 1 over the period as annual_rate"
-    return "check its rows and columns"
 
 
 def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Hazard:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..messages import joined, say
 from ..motion import Motion
 from . import verdict as v
 from .limit_states import codes_of, shares
@@ -123,10 +124,15 @@ class Compass:
     @property
     def may_collapse(self) -> str:
         """How many directions have runs that may yet collapse, and what decides them; empty where none has."""
-        if not (count := len(self.undecided)):
+        count, every = len(self.undecided), len(self.bearings)
+        if not count:
             return ""
-        cure = f": {self.cure}" if self.cure else ""
-        return f" From {count} of {len(self.bearings)} directions runs are undecided and may collapse it{cure}."
+        if not self.cure:
+            return say(
+                "From {count} of {every} directions runs are undecided and may collapse it.", count=count, every=every
+            )
+        words = say("From {count} of {every} directions runs are undecided and may collapse it: {cure}.")
+        return words.of(count=count, every=every, cure=self.cure)
 
 
 def harm_words(found: Mapping[str, Any], compass: Compass) -> str:
@@ -138,12 +144,17 @@ def harm_words(found: Mapping[str, Any], compass: Compass) -> str:
         Of :func:`worst`, with that compass.
     compass : Compass
     """
-    towards = "" if compass.worst is None else f"towards {compass.worst:g}°, "
-    if compass.worst is not None and compass.none_collapses:
-        words = compass.words
-        return f"{words[:1].upper()}{words[1:]}; it moves most {towards}under {found['motion']}.{compass.may_collapse}"
-    surely = "surely collapses" if compass.undecided and found["collapsed"] else ""
-    return f"Most harm: {towards}{found['motion']}{', which ' * bool(surely)}{surely}.{compass.may_collapse}"
+    if compass.worst is None:
+        words = say("Most harm: {motion}.")
+    elif compass.none_collapses and compass.undecided:
+        words = say("No direction surely collapses it; it moves most towards {at:g}°, under {motion}.")
+    elif compass.none_collapses:
+        words = say("No direction collapses it; it moves most towards {at:g}°, under {motion}.")
+    elif compass.undecided and found["collapsed"]:
+        words = say("Most harm: towards {at:g}°, {motion}, which surely collapses.")
+    else:
+        words = say("Most harm: towards {at:g}°, {motion}.")
+    return joined(" ", (words.of(at=compass.worst, motion=found["motion"]), compass.may_collapse))
 
 
 def compass_of_shares(rows: Sequence[Mapping[str, Any]], cure: str = "") -> Compass:

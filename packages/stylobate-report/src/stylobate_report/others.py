@@ -225,7 +225,8 @@ def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items += kept(result.pictures, "suite", say("Peak response against a measure of the records."))
     items += kept(result.pictures, "directions", say("Share of collapses by direction."))
     items += design_items(design_of(result), result.pictures)
-    return (joined(" ", (one.collapses for one in found)), " bad" if any(one.exceeded for one in found) else ""), items
+    said = [*(one.collapses for one in found), result.summary.get("sentence") or result.summary.get("undecided", "")]
+    return (joined(" ", said), " bad" if any(one.exceeded for one in found) else ""), items
 
 
 def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:

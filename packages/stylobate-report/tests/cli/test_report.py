@@ -472,3 +472,21 @@ def test_a_monolith_has_no_drum_that_could_be_shifted():
         assert one.sentence_of(2) == one.sentence
     block = st.simulate(st.preset("paper-monolithic"), st.harmonic(1.0, 0.5, 0.1), st.DistinctElement2D())
     assert block.sentence == "The block stood still: its joint did not open."
+
+
+def test_the_worst_direction_and_what_is_undecided_stand_in_the_answer(tmp_path):
+    """As the command says it: from where, how many directions are open, and what decides them."""
+    time = 0.02 * np.arange(60)
+    record = write_csv(st.Motion(0.02, 4.0 * np.sin(3.0 * time), 3.0 * np.cos(3.0 * time)), tmp_path / "r.csv")
+    turned = tmp_path / "turned"
+    suite = ("suite", "paper-monolithic", str(record), "--model", "housner", "--azimuths", "0:270:4")
+    assert call([*suite, "--out", str(turned)]) == 0
+    said = json.loads((turned / "suite.json").read_text())["sentence"]
+    assert call(["report", str(turned), "--out", str(tmp_path / "r.html")]) == 0
+    assert said in (tmp_path / "r.html").read_text(encoding="utf-8")
+    project = tmp_path / "project.toml"
+    project.write_text('client = "c"\nsite = "s"\nengineer = "e"\nlanguage = "it"\n')
+    assert call(["report", str(turned), "--out", str(tmp_path / "it.html"), "--project", str(project)]) == 0
+    page = (tmp_path / "it.html").read_text(encoding="utf-8")
+    assert said not in page
+    assert re.search("Danno maggiore: verso|Nessuna direzione la fa crollare", page)

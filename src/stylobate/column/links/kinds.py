@@ -64,9 +64,6 @@ class Pin(Link):
                 f"a {self.kind} of {self.material} has no embedment; give its length in each of the two stones [m].",
                 "embedment",
             )
-        self._check_hole()
-
-    def _check_hole(self) -> None:
         if self.diameter is None:
             return
         hole = 2.0 * self.diameter if self.hole is None else self.hole
