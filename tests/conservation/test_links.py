@@ -26,7 +26,7 @@ KINDS: dict[str, tuple[st.Link, ...]] = {
     "brittle dowels": tuple(
         st.Dowel(joint=j, shear_stiffness=1e7, shear_capacity=600.0, failure="brittle") for j in (1, 2, 3)
     ),
-    "short dowels": tuple(st.Dowel(joint=j, at=(-0.1, 0.0), shear_stiffness=1e7, embedment=1e-3) for j in (1, 2, 3)),
+    "short dowels": tuple(st.Dowel(joint=j, at=(-0.1, 0.0), shear_stiffness=1e7, embedment=0.01) for j in (1, 2, 3)),
     "bars": (
         st.Bar(joint=1, at=(0.1, 0.0), shear_stiffness=1e7, axial_stiffness=2e7, axial_capacity=4e3, pretension=1e3),
         st.Bar(joint=1, at=(-0.1, 0.0), shear_stiffness=1e7, axial_stiffness=2e7, axial_capacity=4e3, pretension=1e3),

@@ -153,7 +153,7 @@ class Prior:
                 "scatter",
             )
         unknown = float(self.scatter is None) if self.unknown_stiffness is None else self.unknown_stiffness
-        unknown = check_range("`unknown_stiffness`", unknown, 0.0, 1.0, field="unknown_stiffness")
+        unknown = check_range("unknown_stiffness of [prior]", unknown, 0.0, 1.0, field="unknown_stiffness")
         object.__setattr__(self, "unknown_stiffness", unknown)
         for one in self.law:
             check_choice("one of law", one, LAWS, field="law")
