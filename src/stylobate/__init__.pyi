@@ -62,3 +62,28 @@ from .simulate import simulate as simulate
 from .simulate import simulate_many as simulate_many
 
 __version__: str
+from .codes.records import select_records as select_records
+from .codes.spectra import target_spectrum as target_spectrum
+from .probability.design import design_values as design_values
+from .probability.evidence import evidence as evidence
+from .probability.fragility import fragility as fragility
+from .probability.ida import ida as ida
+from .probability.risk import read_hazard as read_hazard
+from .probability.risk import risk as risk
+from .probability.states import compare_states as compare_states
+from .probability.studies import run_study as run_study
+from .probability.suite import suite_table as suite_table
+from .statics.limit import limit_analysis as limit_analysis
+from .statics.limit_assemblies import limit_directions as limit_directions
+from .statics.pushover import pushover as pushover
+from .verdicts.compare import compare_models as compare_models
+from .verdicts.critical import critical_amplitude as critical_amplitude
+from .verdicts.domain import collapse_domain as collapse_domain
+from .verdicts.domain import collapse_probability as collapse_probability
+from .verdicts.population import certainty as certainty
+from .verdicts.population import other_laws as other_laws
+from .verdicts.rocking_spectrum import rocking_spectrum as rocking_spectrum
+from .verdicts.sequence import earthquakes_until_fall as earthquakes_until_fall
+from .verdicts.sequence import sequence as sequence
+from .vibrations.measured_frequencies import joints_from_frequencies as joints_from_frequencies
+from .vibrations.modes import modes as modes
