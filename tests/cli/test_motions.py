@@ -205,7 +205,8 @@ def test_run_over_a_folder_of_records(command, folder, tmp_path):
     assert [run["outcome"] for run in result["runs"]] == ["collapsed", "at_rest"]
     assert set(result["refused"]) == {"README.txt"}
     assert {path.name for path in (tmp_path / "out").glob("[!.]*")} == {"strong.csv", "weak.csv", "runs.sqlite"}
-    assert json.loads((tmp_path / "out" / "weak.csv" / "run.json").read_text()) == result["runs"][1]
+    written = json.loads((tmp_path / "out" / "weak.csv" / "run.json").read_text())
+    assert written | {"messages": None} == result["runs"][1] | {"messages": None}
 
 
 # -- directions, conditioning, simulated motions -----------------------------------------------------------------------

@@ -215,7 +215,9 @@ def test_the_strip_of_the_median_is_followed_as_its_run_was(monkeypatch):
     known = {"tail_s": 1.0, "output_interval_s": 0.01, "quiet_share": 0.0, "until_rest": True}
     response = SimpleNamespace(provenance=known, structure=None)
     for carried, rest in ((0, True), (15, False)):
-        model = SimpleNamespace(paced=lambda one: one, carried=lambda one, carried=carried: carried)
+        engine = SimpleNamespace(computes_for=lambda *_: True, paced=None, twins=carried)
+        chosen = type("Chosen", (), {"computes_for": engine.computes_for, "__new__": lambda *_, engine=engine: engine})
+        model = SimpleNamespace(engines=[chosen])
         write_population(*cast(Any, (population, None, model, response, files)), strip=True)
         assert asked["until_rest"] is rest
 

@@ -176,6 +176,7 @@ def closing_doubts(closures: Iterable[tuple[str, float, Joint]]) -> list[str]:
             1e3 * closure,
         )
         for name, closure, law in closures
+        if closure > 0.0  # a gravity that is none is refused where it is checked
     )
 
 

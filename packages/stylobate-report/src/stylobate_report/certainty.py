@@ -119,11 +119,11 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
         )
     if laws := summary.get("under_other_laws"):
         pairs.append((say("under other laws"), laws))
-    for one in SPREAD:
-        if one.of == JOINT:  # slips have a table of their own
+    for measure in SPREAD:
+        if measure.of == JOINT:  # slips have a table of their own
             continue
-        key, unit = one.key, "" if one.unit == "m" else f" [{one.unit}]"
-        words = one.phrase + unit + PERCENTILES
+        key, unit = measure.key, "" if measure.unit == "m" else f" [{measure.unit}]"
+        words = measure.phrase + unit + PERCENTILES
         spread = known.get(key)
         if isinstance(spread, list):
             shown = [

@@ -32,6 +32,7 @@ def structure_section(structure: Structure) -> Section:
     """The section on what stands."""
     column = structure.stack
     titles = {"column": say("The column"), "assembly": say("The assembly"), "specimen": say("The specimen")}
+    titles["assembly in space"] = say("The assembly in space")
     return Section(titles[structure.kind], _blocks(structure) if column is None else _column(column))
 
 
