@@ -78,7 +78,7 @@ def sentence_of_suite(s: Mapping[str, Any], kind: str = "column", like: str = "c
         alone, several = (one + of.of(count=records) for one in (say("motion"), say("motions")))
     grid = say("{low:g} to {high:g} g", low=s["amplitudes_g"][0], high=s["amplitudes_g"][-1])
     known = {
-        "the": THE.get(kind, kind),
+        "the": THE.get(kind, say(kind)),
         "or_like": or_like,
         "grid": grid,
         "surely": say("surely ") * bool(s["open_below"]),
@@ -117,7 +117,7 @@ def _with_twins(s: Mapping[str, Any], kind: str, like: str, twins: Mapping[str, 
     """The lowest collapse of the column and those like it, and by which amplitude shares of these have fallen."""
     number, lowest = s["replicates"], s["lowest_collapse_g"]
     if lowest is None:
-        each = say("{the} or one of {count} like it", the=THE.get(kind, kind), count=number)
+        each = say("{the} or one of {count} like it", the=THE.get(kind, say(kind)), count=number)
         return _none(s, each, s["open_below"])
     shares = [(share, _by(twins, f"critical_{share}_g")) for share in (16, 50, 84)]
     said = joined(", ", (say("{share} % {by}", share=share, by=by) for share, by in shares if by))
@@ -149,12 +149,12 @@ def _alone(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | None) -> 
     before = sum(one["runs"] for one in without if first is None or one["to_g"] < first)
     if first is None:
         if not twins:
-            return _none(s, THE.get(kind, kind), before)
+            return _none(s, THE.get(kind, say(kind)), before)
         return "" if s["lowest_collapse_g"] is None else _none(s, say("this one"), before)
     after = [stretch for stretch in stretches if stretch["from_g"] > first and stretch["verdict"] != v.COLLAPSED]
     there = twins and first == s["lowest_collapse_g"]
     who = say("This one collapses {where}") if twins else say("{the:capital} collapses {where}")
-    words = say("This one falls there") if there else who.of(the=THE.get(kind, kind), where=_at(s, first))
+    words = say("This one falls there") if there else who.of(the=THE.get(kind, say(kind)), where=_at(s, first))
     if again := [one for one in after if one["verdict"] == v.STANDS]:
         said = joined(", ", (_stretch(one) for one in again[:MOST]))
         said += say(" and {count} times more", count=len(again) - MOST) if len(again) > MOST else ""

@@ -19,9 +19,10 @@ from typing import Any
 
 from stylobate.atomic import replacing
 from stylobate.errors import InputError
-from stylobate.messages import Message, filled
+from stylobate.messages import Message, filled, say
 from stylobate.reading import read_bytes, shown
 
+from .numbers import SPANNING
 from .page import Code, Facts, Item, Note, Own, Picture, Points, Section
 
 #: Languages whose catalogues come with the package; a report is written in English and needs none.
@@ -106,6 +107,10 @@ class Language:
 
     def _name(self, text: str) -> str:
         """A name as it is; nouns of one that the program has given in this language."""
+        if link := SPANNING.fullmatch(text):
+            known = {name: value for name, value in link.groupdict().items() if value is not None}
+            start = "drum {lower}" if "lower" in known else "the base"
+            return self.say(say(f"{{kind}} from {start} to drum {{upper}}", **known | {"kind": say(known["kind"])}))
         if text in self.own or not WORD.search(text):
             return text
         if parts := numbered(text):

@@ -11,6 +11,9 @@ from stylobate.messages import Message, digits, joined, say
 
 from .page import Own
 
+#: The name of a link that has none of the reader's.
+SPANNING = re.compile(r"(?P<kind>\w+) from (?:the base|drum (?P<lower>\d+)) to drum (?P<upper>\d+)")
+
 #: Text where there is no value.
 NONE = "–"
 
@@ -62,6 +65,8 @@ def plain(value: Any) -> str:
             joined(", ", (say("{key}: {value}", key=say(key), value=plain(one)) for key, one in value.items())) or NONE
         )
     if isinstance(value, (Message, Own)):
+        return value
+    if isinstance(value, str) and SPANNING.fullmatch(value):
         return value
     return say(value) if isinstance(value, str) and re.fullmatch("[A-Za-z -]+", value) else Own(value)
 

@@ -124,7 +124,7 @@ class Inference(Shown):
             said.append(words.of(pgv=words_of("pgv_m_s", pgv)))
         told = [name for name, one in self.posterior.items() if one.informative and name != "pgv_m_s"]
         word = say("{name:capital} {value}.")
-        said += [word.of(name=CALLED[name], value=words_of(name, self.posterior[name])) for name in told]
+        said += [word.of(name=say(CALLED[name]), value=words_of(name, self.posterior[name])) for name in told]
         untold = [CALLED[name] for name, one in self.posterior.items() if not one.informative]
         if untold:
             said.append(say("The shapes do not tell {names}: what they leave is the prior.", names=listed(untold)))
