@@ -57,7 +57,7 @@ def one(rng: random.Random, folder: Path) -> str:
 
 def bearing(row: dict) -> float:
     """Direction of a run [degrees]."""
-    return float(row["azimuth_deg"]) % 360.0
+    return (float(row["azimuth_deg"]) + 180.0 * bool(row["reversed"])) % 360.0
 
 
 def measure(row: dict) -> float:
