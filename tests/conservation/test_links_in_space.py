@@ -30,7 +30,7 @@ KINDS: dict[str, list[dict[str, Any]]] = {
     "brittle": [CLAMP | {"axial_stiffness": 3e7, "axial_capacity": 2e3, "shear_stiffness": 1e7, "failure": "brittle"},
                 DOWEL | {"between": ("west", "one"), "shear_capacity": 1e3, "failure": "brittle"}],
     "dowels": [DOWEL | {"between": ("west", "one"), "shear_capacity": 1e3}, DOWEL | {"between": ("two", "east")},
-               DOWEL | {"between": ("ground", "east"), "embedment": 2e-3, "clearance": 1e-4}],
+               DOWEL | {"between": ("ground", "east"), "embedment": 1e-2, "clearance": 1e-4}],
     "bar and layer": [
         {"kind": "bar", "between": ("ground", "west"), "at": (0.1, 0.0, 0.0), "shear_stiffness": 1e7,
          "axial_stiffness": 2e7, "axial_capacity": 2e3, "ultimate_elongation": 2e-3},

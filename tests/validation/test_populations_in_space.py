@@ -83,8 +83,10 @@ def test_a_scene_stands_on_the_same_faces_however_it_is_turned(number):
 @pytest.mark.processor
 @pytest.mark.parametrize("number", [4, 17])
 def test_renumbered_stones_go_the_same_ways(number):
-    """An arch and a wall in the reverse order, after 0.2 s: to 1e-9 m; 6e-8 m and 0.14 mm where the number of a body said
-    which of two is the lower one, and which of two edges that lie on one another counts."""
+    """An arch and a wall in the reverse order, after 0.2 s: to 1e-8 m, as sums in another order are rounded otherwise
+    by 1e-16 and impacts make it grow (1.4e-9 m, 28 November 2026); 6e-8 m and 0.14 mm where the number
+    of a body said which of two is the
+    lower one, and which of two edges that lie on one another counts."""
     _, stones, motion = scene(number)
     short = slice(0, round(0.2 / motion.dt))
     motion = st.Motion(motion.dt, motion.acceleration[short], lateral=motion.lateral[short])
@@ -94,7 +96,7 @@ def test_renumbered_stones_go_the_same_ways(number):
         for some in (stones, [stones[i] for i in order])
     )
     assert one.time[-1] == pytest.approx(0.2, abs=0.01)
-    assert populations.apart(one, other, 0.0)[1] < 1e-9
+    assert populations.apart(one, other, 0.0)[1] < 1e-8
 
 
 def test_stones_that_tumble_begin_apart():

@@ -195,7 +195,7 @@ class Histories:
 
     @property
     def drum_rotation(self) -> np.ndarray:
-        """Rotation of each drum about −y (the top goes to −x) [rad], shape (T, n); in space of its axis, seen along y."""
+        """Rotation of each drum about −y (top to −x) [rad], shape (T, n), as ``rotation``; in space of its axis."""
         if isinstance(self.poses, PlanePoses):
             return self.poses.rotation
         x, _, z = np.moveaxis(self.poses.axis, -1, 0)
@@ -203,12 +203,12 @@ class Histories:
 
     @property
     def joint_opening(self) -> np.ndarray:
-        """Largest gap between the two faces of each joint [m], shape (T, J)."""
+        """Largest gap between the two faces of each joint [m], shape (T, J); as ``opening``."""
         return self.opening
 
     @property
     def joint_slip(self) -> np.ndarray:
-        """Offset along each joint, from the start [m], shape (T, J); in space (T, J, 2)."""
+        """Offset along each joint, from the start [m], shape (T, J); in space as ``slip``, (T, J, 2)."""
         return self._plane_or_space(self.slip)
 
     @property

@@ -31,7 +31,7 @@ def test_the_whole_story(open_page, tmp_path):
     # a value that cannot be is marked where it was typed, in the words of the library
     height = page.locator('[data-field="drum.3.height"]')
     height.fill("-1")
-    expect(page.locator("#column .error")).to_contain_text("Height of drum 3 is -1 m")
+    expect(page.locator("#column .error")).to_contain_text("Drum 3: height of a drum is -1 m")
     expect(height).to_have_attribute("aria-invalid", "true")
     for width in (390, 1440):  # and no number is cut off
         page.set_viewport_size({"width": width, "height": 900})

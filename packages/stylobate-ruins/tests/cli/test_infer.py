@@ -121,7 +121,7 @@ def test_joints_in_their_places_are_not_odd(ruin, capsys):
 def test_a_scatter_of_the_prior_is_all_that_varies_of_the_columns(ruin, given, varies):
     file = ruin()
     file.write_text(file.read_text() + f"[prior.scatter]\n{given}\n")
-    with pytest.warns(st.OutOfRangeWarning, match="sinks"):  # of the soft joints of these columns
+    with pytest.warns(st.OutOfRangeWarning, match="closure of joint"):  # of the soft joints of these columns
         prior = read_ruin(file).prior
     assert prior.scatter.given == varies
 
