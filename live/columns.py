@@ -104,7 +104,7 @@ def lanes_of(columns: Sequence[Any], model: Any) -> Room:
         kept["step"][lane], kept["barrier"][lane] = packed.step, packed.barrier
         kept["narrow"][lane], kept["gravity"][lane] = packed.widths.min(), column.gravity
         room.stand[lane] = stand
-        room.stand["toe"][lane] = packed.stand
+        room.stand["toe"][lane], room.stand["others"][lane] = packed.stand
         room.offset[lane], room.width[lane], room.stood[lane] = result, packed.widths, block.slip[lane]
     return room
 
