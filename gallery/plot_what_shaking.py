@@ -27,9 +27,10 @@ seen = [
 
 # %%
 # PGV and period are even in their logarithms, every direction and phase is as likely; law of contact and losses, which
-# nobody has measured, are drawn as well. A thousand draws take some seconds; several thousand are better.
+# nobody has measured, are drawn as well. The stiffness of these joints is taken as known; where it is not, leave
+# ``unknown_stiffness`` out: stiff joints take small steps. Several thousand draws are better.
 
-prior = st.Prior(pgv=(0.1, 2.0), period=(0.4, 1.6))
+prior = st.Prior(pgv=(0.1, 2.0), period=(0.4, 1.6), unknown_stiffness=0.0)
 found = st.infer(st.Ruin(columns, seen, prior, simulations=1000, seed=2))
 print(found.sentence)
 
