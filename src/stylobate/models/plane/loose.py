@@ -27,7 +27,16 @@ from ..drums.stepped import StackEngine, SteppedEngine, with_provenance
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.lanes import longest_piece
-from ..shared.stable_step import LOCAL_DAMPING, chosen_step, highest_frequency, settled, stable_step, whole_steps
+from ..shared.stable_step import (
+    AS_DRAWN,
+    LOCAL_DAMPING,
+    caution_of_settling,
+    chosen_step,
+    highest_frequency,
+    settled,
+    stable_step,
+    whole_steps,
+)
 from .columns import Records, slope_base
 from .packing import (
     fill_hands,
@@ -56,8 +65,8 @@ FINER = 8
 AHEAD = (0.08, 0.04, 0.02, 0.01)
 
 #: An assembly is in equilibrium as drawn if its accelerations fall below this [m/s²] within so many steps of local
-#: damping, while no corner goes farther than this share of the smallest block.
-SETTLED, SETTLE_STEPS, AS_DRAWN = 1e-4, 40_000, 0.01
+#: damping, while no corner goes farther than ``AS_DRAWN`` of the smallest block.
+SETTLED, SETTLE_STEPS = 1e-4, 40_000
 
 #: About what a step costs on one core for each body and contact point [s]; of blocks that all stand on one another.
 COST, COST_STANDING = 2e-7, 5e-8
@@ -116,7 +125,8 @@ class Loose:
         e = restitution
         now["eta"], now["calm"] = (1.0 - e * e) / (1.0 + e * e), CALM
         now["touched"], now["finer"] = -1, FINER
-        now["skin"] = SKIN * min(body.size for body in bodies if not body.fixed)
+        self.smallest = min(body.size for body in bodies if not body.fixed)
+        now["skin"] = SKIN * self.smallest
         self.now, self.hand, self.shape = now, hand, shape
         self.law, self.memory = bed_laws(structure, model.block_modulus), np.zeros((n, n, 3))
         real = tuple(np.zeros(kernel.MOST) for _ in range(8))
@@ -260,13 +270,14 @@ class Loose:
         g, gx = lane["g"][0, 0], lane["gx"][0, 0]
         return float(np.abs(np.concatenate((b["fx"] * b["im"] - gx, b["fz"] * b["im"] - g, turn))).max())
 
-    def settle(self) -> bool:
+    def settle(self) -> float:
         """Close the contacts by the weight that they carry, with local damping.
 
         Returns
         -------
-        bool
-            Whether it rests, about where it was drawn; if not, everything is as it was.
+        float
+            How far the farthest corner is from where it was drawn [m]; infinite if it does not rest near there, and then
+            everything is as it was.
         """
         records = self.records
         arrays: tuple[Any, ...] = (
@@ -283,7 +294,7 @@ class Loose:
         records.feed["x"], records.feed["z"] = 0, 0
         rests = settled(
             self._relax, self.residual_acceleration, SETTLED, SETTLE_STEPS // CHUNK,
-            lost=lambda: self._farthest_from(drawn[0]) > AS_DRAWN or self.failed,
+            lost=lambda: self._farthest_from(drawn[0]) > AS_DRAWN * self.smallest or self.failed,
         )  # fmt: skip
         records.lane["damp"][0, LOCAL] = 0.0
         for name in ("work", "shear", "visc"):
@@ -296,18 +307,18 @@ class Loose:
             self.begin_links()
         self.safe = 0
         self._push()
-        return rests
+        return self._farthest_from(drawn[0]) if rests else math.inf
 
     def _relax(self, chunks: int) -> None:
         self.advance(chunks)
         self.begin_links()
 
     def _farthest_from(self, before: np.ndarray) -> float:
-        """Way of the farthest corner from other poses, as a share of the smallest block [-]."""
+        """Way of the farthest corner from other poses [m]."""
         b = self.records.body
         way = np.hypot(b["x"] - before["x"], b["z"] - before["z"])[:, 0]
         way = way + self.shape["r"] * np.abs(b["th"] - before["th"])[:, 0]
-        return float(way.max()) * SKIN / float(self.now["skin"][0])
+        return float(way.max())
 
     def deepest(self) -> float:
         """Depth to which bodies have entered each other, joints aside [m].
@@ -447,15 +458,15 @@ def run_assembly(
     refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
     refuse_long_histories(length / options.output_interval, len(assembly.blocks))
     engine.start(step)
-    balanced = engine.settle()
+    way = engine.settle()
+    balanced = math.isfinite(way)
     if not balanced and model.start == "settle":
         raise InputError(
             f"{assembly.name!r} is not in equilibrium as drawn; support its blocks, or leave start=settle out to let "
             "it move."
         )
-    if not balanced:
-        said = f"{assembly.name!r} is not in equilibrium as drawn; it moves from the start."
-        warn(said)
+    if caution := caution_of_settling(assembly.name, way, engine.smallest):
+        warn(caution)
     start = engine.energies()
     states, still = follow(engine, options, recorded)
     stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}

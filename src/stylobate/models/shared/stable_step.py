@@ -166,6 +166,22 @@ LOCAL_DAMPING = 0.8
 CHUNKS, LOOKS = 100, 2
 
 
+#: What comes to rest within the first share of a stone of where it is drawn is in equilibrium as drawn; beyond the second it
+#: is worth a sentence. Soft joints under a tall structure sway by more than its smallest stone would.
+AS_DRAWN, AWAY = 0.1, 0.01
+
+
+def caution_of_settling(name: str, way: float, size: float) -> str | None:
+    """Sentence about a structure that settles away from where it is drawn [m], by the size of its smallest stone [m]."""
+    if math.isinf(way):
+        return f"{name!r} is not in equilibrium as drawn; it moves from the start."
+    if way > AWAY * size:
+        return (
+            f"{name!r} sinks and sways by {1000.0 * way:.2g} mm under its own weight before it rests, and begins there."
+        )
+    return None
+
+
 def settled(
     advance: Callable[[int], None],
     residual: Callable[[], float],
