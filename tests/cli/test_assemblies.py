@@ -270,9 +270,9 @@ def test_what_does_not_stand_cannot_settle(portal, capsys, tmp_path):
     ],
     ids=lambda arguments: arguments[0],
 )
-def test_other_commands_say_that_assemblies_are_for_run(arguments, refused, portal):
+def test_commands_for_columns_refuse_assemblies(arguments, refused, portal):
     message = refused(*(portal if one == "PORTAL" else one for one in arguments))
-    assert "describes an assembly of blocks, which 'run', 'critical', 'suite', 'study', 'ida', 'states' " in message
+    assert "describes an assembly of blocks, and this is for columns; give a preset" in message
 
 
 def test_settings_of_the_model_side_by_side(command, refused, portal, tmp_path):

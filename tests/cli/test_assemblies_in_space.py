@@ -128,9 +128,9 @@ def test_it_is_shaken_by_dem3d(answered):
         (["compare", STATUE, "--models", "dem3d,dem2d", *SHAKEN], "dem2d cannot shake 'statue'"),
         (
             ["compare", STATUE, "--models", "dem3d", "--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2"],
-            "and where it is in space 'limit'",
+            "describes an assembly of blocks, and this is for columns",
         ),
-        (["pushover", STATUE], "and where it is in space 'limit'"),
+        (["pushover", STATUE], "describes an assembly of blocks, and this is for columns"),
         (["limit", STATUE, "--project", "30deg"], "--project is for columns, and 'statue' is an assembly in space."),
         (["limit", STATUE, "--tilt", "3"], "--pattern, --tilt and --compressive-strength are for"),
         (["columns", STATUE, "--out", "never"], "--out writes column files, and 'statue' is an assembly in space"),

@@ -127,9 +127,14 @@ class Command(TyperCommand):
     """A command whose help is one screen."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Options as typed; ``--help-all`` is a help that leaves nothing out."""
+        """Options as typed, each once unless it may be repeated; ``--help-all`` is a help that leaves nothing out."""
         ctx.meta[_ALL] = "--help-all" in args
-        return super().parse_args(ctx, ["--help"] if ctx.meta[_ALL] else args)
+        args = ["--help"] if ctx.meta[_ALL] else args
+        _, _, given = self.make_parser(ctx).parse_args(list(args))
+        for option in given:
+            if isinstance(option, TyperOption) and not (option.multiple or option.is_flag) and given.count(option) > 1:
+                ctx.fail(f"{option.opts[0]} is given {given.count(option)} times; give it once.")
+        return super().parse_args(ctx, args)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the options: all where they were asked for, else the rare ones by their names."""

@@ -124,9 +124,8 @@ def read_as(kind: Any, path: str | Path) -> Any:
     data = parse_toml(check_kind("path", path, (str, Path)))
     if describes_assembly(data):
         raise InputError(
-            f"{shown(path)} describes an assembly of blocks, which 'run', 'critical', 'suite', 'study', 'ida', 'states' "
-            "and, under one motion, 'compare' take, and where it is in space 'limit'; give a column here: a preset, or a "
-            "file with [tapered] or [[drum]]."
+            f"{shown(path)} describes an assembly of blocks, and this is for columns; give a preset, or a file with "
+            "[tapered] or [[drum]]."
         )
     return made_of(kind, data, shown(path), shown(Path(path).stem))
 
