@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from oracles import joint_probe as probe
 
+import stylobate as st
+
 #: Poses of each law, of one lane at a time or of sixteen.
 POSES = 4
 
@@ -56,3 +58,17 @@ def test_a_joint_that_hands_over_to_the_bed_feeds_nothing(degrees):
     """A box on its edge: between 0.7 and all of the tilt at which the bed acts alone, the share of the joint falls."""
     for seed in (0, 1):
         assert probe.tipped(probe.LAWS["space joint, box on ground"](), degrees, seed).max() < ROUND
+
+
+def test_heat_of_friction_never_falls_in_a_shaken_column():
+    """A layer of friction that has opened holds nothing: what was rounded of its torsion counted 14 J, on no spring."""
+    drum = st.Drum(0.6, 0.6, 0.6, 2500.0, section="circular")
+    column = st.Column.of_drums([drum, drum], st.Joint(5e9, 2.5e9, friction_coefficient=0.7))
+    rng, time = np.random.default_rng(0), np.arange(0.0, 2.5, 0.01)
+    along, across = (
+        sum(rng.normal() * np.sin(2.0 * np.pi * f * time + rng.uniform(0.0, 6.0)) for f in (0.7, 1.3, 2.1, 3.7))
+        for _ in range(2)
+    )
+    push = 0.175 * st.g * np.minimum(time, 1.0)
+    response = st.simulate(column, st.Motion(0.01, push * along, lateral=push * across), st.DistinctElement3D())
+    assert np.diff(response.energy["friction"]).min() > -1e-9

@@ -163,6 +163,9 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     turned = (wound - twist) * k * both
     f = along(f, -kf, along(scaled(j * both, minus(drawn, total)), -beyond * turned, w))
     torsion -= jf * turned
+    # what is rounded: a layer of nothing holds nothing
+    f = scaled(1.0 if kf > NO_LAYER * k else 0.0, f)
+    torsion = torsion if jf > NO_LAYER * j else 0.0
     keep = max(1.0 - SLIPPED * over, 0.0)
     f, torsion, kf, jf = scaled(keep, f), keep * torsion, keep * kf, keep * jf
     s = minus(total, f)
