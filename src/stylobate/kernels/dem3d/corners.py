@@ -47,7 +47,7 @@ def share_out(e, f, u, v, l):
     cx, cy, dx, dy = clamped(cx, tx), clamped(cy, ty), clamped(dx, tx), clamped(dy, ty)
     area = 0.5 * ((ax - cx) * (by - dy) - (ay - cy) * (bx - dx))
     w[21, l] = 0.25 * max(area, 0.0)
-    e.kf[l] = e.ks[l] * w[21, l]
+    e.kc[l] = e.ks[l] * w[21, l]
     for c in range(3):
         f.f[c, l] = f.up[c, l] = 0.0
 
@@ -65,7 +65,7 @@ def press(e, f, o, sums, u, v, p, l):
     ax, ay, az = cross(w[18, l], w[19, l], w[20, l], x - cx, y - cy, z - cz)
     vx, vy, vz = w[15, l] + ax, w[16, l] + ay, w[17, l] + az
     share = w[21, l]
-    kn, ks = e.kn[l] * share, e.kf[l]
+    kn, ks = e.kn[l] * share, e.kc[l]
     beta = o.damp[BETA, l] if damped else 0.0
     normal, push, sx, sy, sz, gx, gy, gz, work = touch(
         gap, nx, ny, nz, vx, vy, vz, e.s[3 * p, l], e.s[3 * p + 1, l], e.s[3 * p + 2, l],

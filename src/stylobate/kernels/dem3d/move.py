@@ -251,10 +251,10 @@ def stored_in_faces(joint, lane, l):
         e = joint[q]
         elastic += e.en[l]
         if e.s.shape[0] == 3:
-            core = (e.s[0, l], e.s[1, l], e.s[2, l]), e.t[l], e.kf[l], e.kt[l]
-            shear, torsion = stored(core, ((e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.ff[l], e.fj[l]))
+            core = (e.s[0, l], e.s[1, l], e.s[2, l]), e.t[l], e.kc[l], e.jc[l]
+            shear, torsion = stored(core, ((e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.kf[l], e.jf[l]))
             held += shear + lane[0].pivot[l] * torsion
-        elif e.kf[l] > 0.0:
+        elif e.kc[l] > 0.0:
             for c in range(e.s.shape[0]):
-                held += 0.5 * e.s[c, l] ** 2 / e.kf[l]
+                held += 0.5 * e.s[c, l] ** 2 / e.kc[l]
     return elastic, held

@@ -19,11 +19,11 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
                f[3] mo[3]     force and moment of all its contacts at t_n, where the ledger is asked for [N], [N m]
     joint[j]   kn ks co       stiffness and cohesion per area [N/m³], [N/m³], [Pa]
                mu             tan φ
-               s[3] t kf kt   core of the shear, see shared/friction.py: force on the drum above in the axes of that below
+               s[3] t kc jc   core of the shear, see shared/friction.py: force on the drum above in the axes of that below
                               [N], torsion [N m], its k [N/m] and j [N m];  at[3]  its place from the middle of the face
-                              below, in the same axes [m];  fs[3] ft ff fj  the same of the fresh layer;
+                              below, in the same axes [m];  fs[3] ft kf jf  the same of the fresh layer;
                               tm[3]  moment of both about the middle of the face below, in space [N m];
-                              with corners ``s`` is one shear force for each of them, x, y, z, and all else but kf is 0
+                              with corners ``s`` is one shear force for each of them, x, y, z, and all else but kc is 0
                en             elastic energy of the normal pressure [J]
                ox oy ot       slip in the axes of the drum below [m] and twist [rad] at the start
                tw             twist at the last look, full turns counted [rad]
@@ -161,7 +161,7 @@ def joint_type(face: str, damped: bool, some: Fields) -> np.dtype:
         "corner": some("chip", 1) + some("w", SHARED),
     }
     return np.dtype(
-        some("kn ks co mu t kf kt en ox oy ot tw ft ff fj")
+        some("kn ks co mu t kc jc en ox oy ot tw ft kf jf")
         + some("s", 3 * CORNERS if cornered else 3)
         + some("fs at tm", 1 if cornered else 3)
         + some("d", dashpots)

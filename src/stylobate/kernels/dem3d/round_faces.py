@@ -139,19 +139,19 @@ def layers(e, v, l, pivot, centre):
         (
             in_space(v, l, e.s[0, l], e.s[1, l], e.s[2, l]),
             e.t[l],
-            e.kf[l],
-            e.kt[l],
+            e.kc[l],
+            e.jc[l],
             at,
         ),
-        (in_space(v, l, e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.ff[l], e.fj[l]),
+        (in_space(v, l, e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.kf[l], e.jf[l]),
     )
 
 
 @law
 def remember(e, v, l, core, fresh):
     """Write both layers into the record of a joint, in the axes of the drum below."""
-    s, e.t[l], e.kf[l], e.kt[l], at = core
+    s, e.t[l], e.kc[l], e.jc[l], at = core
     e.at[0, l], e.at[1, l], e.at[2, l] = in_body(v, l, at[0], at[1], at[2])
     e.s[0, l], e.s[1, l], e.s[2, l] = in_body(v, l, s[0], s[1], s[2])
-    s, e.ft[l], e.ff[l], e.fj[l] = fresh
+    s, e.ft[l], e.kf[l], e.jf[l] = fresh
     e.fs[0, l], e.fs[1, l], e.fs[2, l] = in_body(v, l, s[0], s[1], s[2])

@@ -41,6 +41,21 @@ SLIPPED = 1e3
 
 
 @long_law
+def inverses(a, b, c, d, e):
+    """Reciprocals of five positive numbers by one division."""
+    ab, de = a * b, d * e
+    abc, cde = ab * c, c * de
+    all_of_them = 1.0 / (abc * de)
+    return (
+        b * cde * all_of_them,
+        a * cde * all_of_them,
+        ab * de * all_of_them,
+        abc * e * all_of_them,
+        abc * d * all_of_them,
+    )
+
+
+@long_law
 def limited(force, torsion, before, turning, k, j, arm, n, limits):
     """Shear force at the centroid and torsion about it, brought back to the limit surface if they are beyond it.
 
@@ -54,37 +69,40 @@ def limited(force, torsion, before, turning, k, j, arm, n, limits):
     centroid. ``before`` and ``turning`` are force and torsion a step ago. The third result is how far they were beyond the
     surface, over its distance.
     """
-    square = max(limits[0] * limits[0], NO_LIMIT)
-    other = max(limits[0] * limits[0] * limits[1], NO_LIMIT)
-    each = 1.0 / (square * other)
-    one, two = each * other, each * square
-    twist = dot(cross(arm, force), n)
-    moment = torsion + twist
-    turning += dot(cross(arm, before), n)
-    # shares of both limits a step ago, and now
-    u, v = dot(before, before) * one, turning * turning * two
-    x, y = dot(force, force) * one, moment * moment * two
-    past, now = max(u + v, NOTHING), max(x + y, NOTHING)
-    each = 1.0 / (past * now)
-    distance = math.sqrt(max((now * now + COUPLING * x * y) * past * each, 1.0))
-    u, v = u * now * each, v * now * each
-    # the step along the normal
-    a, b = one * (1.0 + COUPLING * v * v), two * (1.0 + COUPLING * u * u)
+    force_limit = max(limits[0] * limits[0], NO_LIMIT)
+    moment_limit = max(limits[0] * limits[0] * limits[1], NO_LIMIT)
+    inverse = 1.0 / (force_limit * moment_limit)
+    per_force, per_moment = inverse * moment_limit, inverse * force_limit
+    # moments about P
+    of_force = dot(cross(arm, force), n)
+    moment = torsion + of_force
+    moment_before = turning + dot(cross(arm, before), n)
+    # X and Y a step ago, and now
+    x_before, y_before = dot(before, before) * per_force, moment_before * moment_before * per_moment
+    x, y = dot(force, force) * per_force, moment * moment * per_moment
+    sum_before, sum_now = max(x_before + y_before, NOTHING), max(x + y, NOTHING)
+    inverse = 1.0 / (sum_before * sum_now)
+    distance = math.sqrt(max((sum_now * sum_now + COUPLING * x * y) * sum_before * inverse, 1.0))
+    # H = diag(a, a, b), and the slip and the spin along H F
+    x_share, y_share = x_before * sum_now * inverse, y_before * sum_now * inverse
+    a, b = per_force * (1.0 + COUPLING * y_share * y_share), per_moment * (1.0 + COUPLING * x_share * x_share)
     w = cross(n, arm)
     slip, spin = along(scaled(a, force), b * moment, w), b * moment
-    more = (distance - 1.0) * distance * distance
+    # λ = flow/size, and 1 + λ k a and 1 + λ b (j + k arm²/(1 + λ k a)) by common denominators
     size = max(k * dot(slip, slip) + j * spin * spin, NOTHING)
-    shear = size + more * k * a
-    turn = more * b * (j * shear + k * dot(arm, arm) * size)
-    whole = size * shear + turn
-    each = 1.0 / (shear * whole)
-    gone, size = more * k * a * whole * each, more * whole * each
-    moment = (moment - twist * gone) * (1.0 - turn * shear * each)
-    force = along(scaled(1.0 - gone, force), -size * k * b * moment, w)
+    flow = (distance - 1.0) * distance * distance
+    shear = size + flow * k * a
+    turn = flow * b * (j * shear + k * dot(arm, arm) * size)
+    both = size * shear + turn
+    inverse = 1.0 / (shear * both)
+    lost, per_size = flow * k * a * both * inverse, flow * both * inverse
+    moment = (moment - of_force * lost) * (1.0 - turn * shear * inverse)
+    force = along(scaled(1.0 - lost, force), -per_size * k * b * moment, w)
     # what is still beyond it: 2/(1 + q) is below 1/√q
-    x, y = dot(force, force) * one, moment * moment * two
-    past, now = x + y, (x + y) * (x + y) + COUPLING * x * y
-    less = 1.0 - max(now - past, 0.0) / max(now + past, NOTHING)
+    x, y = dot(force, force) * per_force, moment * moment * per_moment
+    total = x + y
+    surface = total * total + COUPLING * x * y
+    less = 1.0 - max(surface - total, 0.0) / max(surface + total, NOTHING)
     force = scaled(less, force)
     return force, less * moment - dot(cross(arm, force), n), distance - 1.0
 
@@ -113,66 +131,68 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     force, torsion : vector, float
         Of both layers, at C and about it.
     """
-    s, core_torsion, kc, jc, place = core
-    f, torsion, kf, jf = fresh
+    core_force, core_torsion, k_core, j_core, place = core
+    fresh_force, fresh_torsion, k_fresh, j_fresh = fresh
     k, j, centre, middle, compact = face
-    before = along(s, 1.0, f)
+    before = along(core_force, 1.0, fresh_force)
     # the core: beyond the extent of what touches it has opened, and its centroid moves towards C
     away = minus(place, centre)
     away = along(away, -dot(away, n), n)
     far = k / EXTENT * math.sqrt(dot(away, away) * compact)
-    lost = max(kc - k, far + 0.5 * (kc - k), 0.0)
-    # where nothing is left of it, the fresh layer becomes core; what touches nowhere holds nothing
-    new = lost >= kc
-    whole = 1.0 if k > 0.0 else 0.0
-    rest = k if new else kc - lost
-    left = max(k - rest, 0.0)
-    kc, far, least = max(kc, NOTHING), max(far, NOTHING), max(left, NO_LAYER * k, NOTHING)
-    each = 1.0 / (kc * far * least)
-    keep, joins = (whole, whole) if new else (1.0 - lost * far * least * each, 0.0)
-    away = scaled(0.0 if new else 1.0 - min(0.5 * lost * kc * least * each, 1.0), away)
-    beyond = rest * kc * far * each  # of the fresh layer's centroid from C, over the core's
-    s, core_torsion = along(scaled(keep, s), joins, f), keep * core_torsion + joins * torsion
-    kc, jc = rest, j if new else keep * jc
+    opened = max(k_core - k, far + 0.5 * (k_core - k), 0.0)
+    gone = opened >= k_core  # the fresh layer becomes core
+    core_stays = k if gone else k_core - opened
+    closed_since = max(k - core_stays, 0.0)
+    floor = max(closed_since, NO_LAYER * k, NOTHING)
+    per_core, per_far, per_closed, per_fresh, per_j = inverses(
+        max(k_core, NOTHING), max(far, NOTHING), floor, max(k_fresh, NOTHING), max(j_fresh, NOTHING)
+    )
+    keep = 0.0 if gone else 1.0 - opened * per_core
+    away = scaled(0.0 if gone else 1.0 - min(0.5 * opened * per_far, 1.0), away)
+    lever = core_stays * per_closed  # of the fresh layer's centroid from C, over that of the core, the other way
+    joins, joins_torsion = (min(k * per_fresh, 1.0), min(j * per_j, 1.0)) if gone else (0.0, 0.0)
+    core_force = along(scaled(keep, core_force), joins, fresh_force)
+    core_torsion = keep * core_torsion + joins_torsion * fresh_torsion
+    j_core = j if gone else keep * j_core
     # what the layers resist by where they are, beside their own torsion
-    apart = k * beyond * dot(away, away)
+    apart = k * lever * dot(away, away)
     j = max(j, apart)
-    most = min(jc, j - apart)
-    turns = j - apart - most
+    j_core_now = min(j_core, j - apart)
+    j_fresh_now = j - apart - j_core_now
     # what opened is taken from them
-    keep = 0.0 if new else 1.0
-    closed, opened, unwound = jc - most, max(kf - left, 0.0), max(jf - turns, 0.0)
-    jc, kf, jf, both = max(jc, NOTHING), max(kf, NOTHING), max(jf, NOTHING), max(k, NOTHING) * max(j, NOTHING)
-    each = 1.0 / (jc * kf * jf * both)
-    core_torsion *= 1.0 - closed * kf * jf * both * each
-    f = scaled(keep * (1.0 - opened * jc * jf * both * each), f)
-    torsion *= keep * (1.0 - unwound * jc * kf * both * each)
-    both = jc * kf * jf * each
-    jc, kf, jf = most, left, turns
+    keep = 0.0 if gone else 1.0
+    per_jc, per_fresh, per_j, per_k, per_all = inverses(
+        max(j_core, NOTHING), max(k_fresh, NOTHING), max(j_fresh, NOTHING), max(k, NOTHING), max(j, NOTHING)
+    )
+    core_torsion *= 1.0 - (j_core - j_core_now) * per_jc
+    fresh_force = scaled(keep * (1.0 - max(k_fresh - closed_since, 0.0) * per_fresh), fresh_force)
+    fresh_torsion *= keep * (1.0 - max(j_fresh - j_fresh_now, 0.0) * per_j)
+    k_core, j_core, k_fresh, j_fresh = core_stays, j_core_now, closed_since, j_fresh_now
     # both springs, in sum that of all that touches
     w = cross(n, away)
-    turning = core_torsion + torsion + dot(along(s, -beyond, f), w)
-    total = along(along(s, 1.0, f), -k * dt, slip)
-    s = along(s, -kc * dt, along(slip, spin, w))
-    torsion -= jf * dt * spin
-    f = minus(total, s)
+    turning = core_torsion + fresh_torsion + dot(along(core_force, -lever, fresh_force), w)
+    total = along(along(core_force, 1.0, fresh_force), -k * dt, slip)
+    core_force = along(core_force, -k_core * dt, along(slip, spin, w))
+    fresh_torsion -= j_fresh * dt * spin
+    fresh_force = minus(total, core_force)
     total = along(total, -dot(total, n), n)
     drawn, wound = total, turning - j * dt * spin
     total, twist, over = limited(drawn, wound, before, turning, k, j, minus(centre, middle), n, limits)
-    # both slip alike; where the face slips, all that touches becomes core
-    turned = (wound - twist) * k * both
-    f = along(f, -kf, along(scaled(j * both, minus(drawn, total)), -beyond * turned, w))
-    torsion -= jf * turned
-    # what is rounded: a layer of nothing holds nothing
-    f = scaled(1.0 if kf > NO_LAYER * k else 0.0, f)
-    torsion = torsion if jf > NO_LAYER * j else 0.0
+    # both slip alike; a layer of nothing, which is what is rounded, holds nothing
+    spun = (wound - twist) * per_all
+    fresh_force = along(fresh_force, -k_fresh, along(scaled(per_k, minus(drawn, total)), -lever * spun, w))
+    fresh_force = scaled(1.0 if k_fresh > NO_LAYER * k else 0.0, fresh_force)
+    fresh_torsion = fresh_torsion - j_fresh * spun if j_fresh > NO_LAYER * j else 0.0
+    # where the face slips, all that touches becomes core: its centroid moves to C, and that of the fresh layer away from it
     keep = max(1.0 - SLIPPED * over, 0.0)
-    f, torsion, kf, jf = scaled(keep, f), keep * torsion, keep * kf, keep * jf
-    s = minus(total, f)
-    jc += (1.0 - keep) * (j - jf - jc)
-    core_torsion = twist - torsion - dot(along(scaled(keep, s), -beyond, f), w)
-    core_torsion = core_torsion if jc > NO_LAYER * j else 0.0  # what is rounded
-    return (s, core_torsion, k - kf, jc, along(centre, keep, away)), (f, torsion, kf, jf), total, twist
+    fresh_force, fresh_torsion = scaled(keep, fresh_force), keep * fresh_torsion
+    k_fresh, j_fresh = keep * k_fresh, keep * j_fresh
+    core_force = minus(total, fresh_force)
+    j_core += (1.0 - keep) * (j - j_fresh - j_core)
+    core_torsion = twist - fresh_torsion - dot(along(scaled(keep, core_force), keep - 1.0 - lever, fresh_force), w)
+    core_torsion = core_torsion if j_core > NO_LAYER * j else 0.0  # what is rounded
+    core = core_force, core_torsion, k - k_fresh, j_core, along(centre, keep, away)
+    return core, (fresh_force, fresh_torsion, k_fresh, j_fresh), total, twist
 
 
 @long_law
@@ -188,7 +208,8 @@ def dragged(total, twist, face, n, slip, spin, beta, limits):
 @law
 def stored(core, fresh):
     """Energy that the two layers, force, torsion, k and j of each, hold in shear and in torsion [J]."""
-    f, t, k, j = core
-    g, s, kf, jf = fresh
-    shear = dot(f, f) / max(k, NOTHING) + dot(g, g) / max(kf, NOTHING)
-    return 0.5 * shear, 0.5 * (t * t / max(j, NOTHING) + s * s / max(jf, NOTHING))
+    core_force, core_torsion, k_core, j_core = core
+    fresh_force, fresh_torsion, k_fresh, j_fresh = fresh
+    shear = dot(core_force, core_force) / max(k_core, NOTHING) + dot(fresh_force, fresh_force) / max(k_fresh, NOTHING)
+    torsion = core_torsion * core_torsion / max(j_core, NOTHING) + fresh_torsion * fresh_torsion / max(j_fresh, NOTHING)
+    return 0.5 * shear, 0.5 * torsion

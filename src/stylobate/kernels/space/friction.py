@@ -67,8 +67,8 @@ def rub(q, at, n, slip, rolling, spin, past, past_spin, face, limits, push, velo
     """
     dt = now.last
     tell(q, past, past_spin, now)
-    core = turned(of(q.s), n, rolling * dt), q.st, q.kf, q.kt, at
-    fresh = turned(of(q.fs), n, rolling * dt), q.ft, q.ff, q.fj
+    core = turned(of(q.s), n, rolling * dt), q.st, q.kc, q.jc, at
+    fresh = turned(of(q.fs), n, rolling * dt), q.ft, q.kf, q.jf
     there = at_centroid(face, n, slip, spin)
     core, fresh, f, torsion = friction(core, fresh, face, n, there, spin, dt, limits)
     g, more = (0.0, 0.0, 0.0), 0.0
@@ -82,7 +82,7 @@ def rub(q, at, n, slip, rolling, spin, past, past_spin, face, limits, push, velo
     now.visc -= 0.5 * dt * q.pd
     put(q.s, core[0])
     put(q.fs, fresh[0])
-    q.st, q.kf, q.kt, q.ft, q.ff, q.fj = core[1], core[2], core[3], fresh[1], fresh[2], fresh[3]
+    q.st, q.kc, q.jc, q.ft, q.kf, q.jf = core[1], core[2], core[3], fresh[1], fresh[2], fresh[3]
     put(q.f, f)
     put(q.d, g)
     q.t = twist
@@ -102,13 +102,13 @@ def turned(f, n, angle):
 @long_law
 def held_by(q):
     """Energy that the friction springs of a contact hold [J]."""
-    shear, torsion = stored((of(q.s), q.st, q.kf, q.kt), (of(q.fs), q.ft, q.ff, q.fj))
+    shear, torsion = stored((of(q.s), q.st, q.kc, q.jc), (of(q.fs), q.ft, q.kf, q.jf))
     return shear + torsion
 
 
 @kernel
 def relax(q):
     """Nothing is remembered any more."""
-    q.t = q.dt = q.kf = q.kt = q.st = q.ft = q.ff = q.fj = q.en = q.pf = q.pd = 0.0
+    q.t = q.dt = q.kc = q.jc = q.st = q.ft = q.kf = q.jf = q.en = q.pf = q.pd = 0.0
     for c in range(3):
         q.f[c] = q.d[c] = q.s[c] = q.fs[c] = 0.0

@@ -127,8 +127,8 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
     spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
     pressing *= share
     closed, polar, centre = closed
-    kf = share * e.ks * closed
-    face = kf, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at, max(closed, 0.0) / max(polar, NOTHING)
+    k = share * e.ks * closed
+    face = k, TORSION * share * e.ks * polar, along(ml, 1.0, centre), at, max(closed, 0.0) / max(polar, NOTHING)
     i, j = outward(u, of(e.il)), outward(u, of(e.jl))
     z = cross(i, j)
     core = along(along(along(ml, e.at[0], i), e.at[1], j), e.at[2], z)

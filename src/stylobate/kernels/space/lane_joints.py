@@ -163,8 +163,8 @@ def act(damped, e, u, v, s, o, l):
     face = e.ks[l] * closed, TORSION * e.ks[l] * polar, centre, at, max(closed, 0.0) / max(polar, NOTHING)
     limits = e.tan[l] * pressing + e.co[l] * closed, LEVER * LEVER * spread
     rolling = 0.5 * (spin_u + spin_v) * last
-    core = turned(row(e.s, l), n, rolling), e.st[l], e.kf[l], e.kt[l], along(ml, 1.0, in_axes(s, l, row(e.at, l)))
-    fresh = turned(row(e.fs, l), n, rolling), e.ft[l], e.ff[l], e.fj[l]
+    core = turned(row(e.s, l), n, rolling), e.st[l], e.kc[l], e.jc[l], along(ml, 1.0, in_axes(s, l, row(e.at, l)))
+    fresh = turned(row(e.fs, l), n, rolling), e.ft[l], e.kf[l], e.jf[l]
     there = at_centroid(face, n, slip, spin)
     core, fresh, f, torsion = friction(core, fresh, face, n, there, spin, last, limits)
     # nothing is remembered of a joint that is open
@@ -173,8 +173,8 @@ def act(damped, e, u, v, s, o, l):
     write(e.s, l, scaled(keep, core[0]))
     write(e.at, l, seen(s, l, minus(core[4], ml)))
     write(e.fs, l, scaled(keep, fresh[0]))
-    e.st[l], e.kf[l], e.kt[l] = keep * core[1], keep * core[2], keep * core[3]
-    e.ft[l], e.ff[l], e.fj[l] = keep * fresh[1], keep * fresh[2], keep * fresh[3]
+    e.st[l], e.kc[l], e.jc[l] = keep * core[1], keep * core[2], keep * core[3]
+    e.ft[l], e.kf[l], e.jf[l] = keep * fresh[1], keep * fresh[2], keep * fresh[3]
     twist = keep * about_middle(face, n, f, torsion)
     g, more = f, torsion
     f = scaled(keep, f)

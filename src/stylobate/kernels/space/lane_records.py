@@ -50,7 +50,7 @@ def types() -> dict[str, np.dtype]:
         "joint": np.dtype(
             counts("lower upper level first_l many_l first_u many_u")
             + fields("ml il jl mu iu ju f d gf gm n ra rb s fs at", 3)
-            + fields("rl ru kn ks tan co width from_c apart_c apart t dt kf kt en st ft ff fj")
+            + fields("rl ru kn ks tan co width from_c apart_c apart t dt kc jc en st ft kf jf")
         ),
         "corner": np.dtype(fields("x y z")),
         "between": np.dtype(counts("lower upper") + fields("gap")),

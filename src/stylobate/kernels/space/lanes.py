@@ -161,8 +161,8 @@ def look(state):
 @strict
 def held_by(e, l):
     """Energy that the friction springs of a joint hold [J]."""
-    core = row(e.s, l), e.st[l], e.kf[l], e.kt[l]
-    shear, torsion = stored(core, (row(e.fs, l), e.ft[l], e.ff[l], e.fj[l]))
+    core = row(e.s, l), e.st[l], e.kc[l], e.jc[l]
+    shear, torsion = stored(core, (row(e.fs, l), e.ft[l], e.kf[l], e.jf[l]))
     return shear + torsion
 
 

@@ -22,9 +22,9 @@ Legend::
                ta[3] tb[3]    directions in which drums a and b turn a facet, from their axes; along n where they are 0
                side           1, 2: it is the side of drum a, or b, that is touched
                f[3] t         shear force on b at the middle of what touches [N], torsion on b about n there [N m]
-               s[3] st kf kt  core of the shear, see shared/friction.py, in space: force, torsion [N m], k [N/m], j [N m];
+               s[3] st kc jc  core of the shear, see shared/friction.py, in space: force, torsion [N m], k [N/m], j [N m];
                               at[3]  its place in the axes of the first body from its centroid, of a joint in those of the
-                              lower face from its middle [m];  fs[3] ft ff fj  the same of the fresh layer
+                              lower face from its middle [m];  fs[3] ft kf jf  the same of the fresh layer
                fn en          normal force at the last step [N], elastic energy of the pressure [J]
                pn pf pd       power of pressure, friction springs and dashpots at the last step, before they acted [W]
                d[3]           dashpots: force on b [N], and torsion [N m] in ``dt``
@@ -45,7 +45,7 @@ Legend::
                apart_c apart  faces that open at a tilt of more than this cosine, or an overlap below it [m²], part for good
                weight live    1 joint, 0 bed, between them both; 0: the faces have parted for good
                gf gm          force and moment of damping on the upper body about the middle of the lower face [N], [N m]
-               f t s st kf kt at fs ft ff fj d dt en pf pd n ra rb  what is remembered, as of a pair;  over  area of the
+               f t s st kc jc at fs ft kf jf d dt en pf pd n ra rb  what is remembered, as of a pair;  over  area of the
                               overlap [m²]
     law[a, b]  k_n, k_s [N/m³], tan φ of bodies a < b
     now        dt last earlier  step, the last part of one that was taken, and the one before [s]
@@ -110,12 +110,12 @@ def types() -> dict[str, np.dtype]:
             counts("a b joint side")
             + fields("n ta tb f d ra rb va s fs at", 3)
             + fields("total", SUMS)
-            + fields("t dt kf kt st ft ff fj fn en area gap share whole held pn pf pd")
+            + fields("t dt kc jc st ft kf jf fn en area gap share whole held pn pf pd")
         ),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
             + fields("ml il jl mu iu ju f d gf gm n ra rb s fs at", 3)
-            + fields("rl ru kn ks tan co width from_c to_c apart_c apart weight t dt kf kt st ft ff fj en over pf pd")
+            + fields("rl ru kn ks tan co width from_c to_c apart_c apart weight t dt kc jc st ft kf jf en over pf pd")
         ),
         "now": np.dtype(
             fields("dt last earlier kick eta dull calm beta skin rate deepest work shear visc")

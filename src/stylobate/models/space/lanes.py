@@ -54,8 +54,8 @@ POSE = ("x", "y", "z", "ix", "iy", "iz", "jx", "jy", "jz", "kx", "ky", "kz")
 OF_BODY = (*POSE, "vx", "vy", "vz", "lx", "ly", "lz", "wx", "wy", "wz", "m", "im", "ia", "ic", "ib")
 OF_JOINT = (
     "ml", "il", "jl", "mu", "iu", "ju", "f", "d", "gf", "gm", "n", "ra", "rb",
-    "rl", "ru", "kn", "ks", "tan", "co", "width", "from_c", "apart_c", "apart", "t", "dt", "kf", "kt", "en",
-    "s", "st", "at", "fs", "ft", "ff", "fj",
+    "rl", "ru", "kn", "ks", "tan", "co", "width", "from_c", "apart_c", "apart", "t", "dt", "kc", "jc", "en",
+    "s", "st", "at", "fs", "ft", "kf", "jf",
 )  # fmt: skip
 OF_NOW = ("last", "beta", "work", "shear", "visc", "g")
 
