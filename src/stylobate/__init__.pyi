@@ -74,7 +74,7 @@ from .probability.states import compare_states as compare_states
 from .probability.studies import run_study as run_study
 from .probability.suite import suite_table as suite_table
 from .statics.limit import limit_analysis as limit_analysis
-from .statics.limit_assemblies import limit_directions as limit_directions
+from .statics.limit import limit_directions as limit_directions
 from .statics.pushover import pushover as pushover
 from .verdicts.compare import compare_models as compare_models
 from .verdicts.critical import critical_amplitude as critical_amplitude

@@ -17,7 +17,7 @@ from .errors import InputError, check_all, check_choice, check_kind, check_range
 from .models import devices
 from .models.base import Case, Cases, Model, RunOptions, duration
 from .models.engine import engine_for
-from .models.shared.quiet import share_of
+from .models.shared.ground import share_of
 from .models.start import Start, Toss
 from .motion import Motion
 from .response import Measures, Response

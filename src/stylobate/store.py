@@ -19,7 +19,7 @@ import numpy as np
 
 from .atomic import replacing
 from .errors import InputError, check_kind
-from .reading import read_bytes, shown
+from .text_tables import read_bytes, shown
 
 if TYPE_CHECKING:
     import pandas

@@ -9,7 +9,7 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.main import call
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.errors import OutOfRangeWarning
 from stylobate.motion import (
     along,

@@ -13,8 +13,7 @@ from stylobate.models.base import RunOptions
 from stylobate.models.engine import engine_for
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_beam.state import PackedBeam, faces, given, histories_of, measures_of
-from stylobate.models.rocking.block import lightest_weight, off_the_ground
-from stylobate.models.rocking.single import Ground
+from stylobate.models.rocking.block import Ground, lightest_weight, off_the_ground
 from stylobate.models.shared import ledger
 from stylobate.motion import Motion
 from stylobate.response import Response

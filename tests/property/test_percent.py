@@ -9,7 +9,7 @@ from sources import sources
 
 from stylobate.campaign.twins import Twins
 from stylobate.column.scatter import Scatter
-from stylobate.percent import percent, percents, whole
+from stylobate.messages import percent, percents, whole
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.limit_states import shares
 from stylobate.verdicts.population import Population, chance_words

@@ -9,7 +9,7 @@ import stylobate as st
 from stylobate.column.assembly_files import is_assembly, load_structure
 from stylobate.column.files import load_column, read_column
 from stylobate.motion.readers import read_suite
-from stylobate.reading import SETTINGS, read_bytes, shown
+from stylobate.text_tables import SETTINGS, read_bytes, shown
 
 COLUMN = """\
 density = 1600.0

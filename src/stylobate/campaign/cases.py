@@ -18,7 +18,7 @@ from ..atomic import replacing
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_choice, check_range
 from ..models.base import Case, Cases, Model
-from ..models.shared.quiet import share_of
+from ..models.shared.ground import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
 from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse_measure, powers_by_column

@@ -18,7 +18,7 @@ from ..models.base import Case, Cases, Model
 from ..models.registry import make_models
 from ..motion import harmonic
 from ..motion.specs import amplitude_range, frequency_range, parse_acceleration, parse_frequency
-from ..reading import shown
+from ..text_tables import shown
 from .campaign import DECIDED
 from .digests import Hasher
 from .runs import Request

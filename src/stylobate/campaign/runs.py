@@ -13,12 +13,12 @@ from typing import Any
 
 import numpy as np
 
+from ..atomic import digest as digest_of_file
 from ..errors import InputError
 from ..models import devices
 from ..models.base import Case, Cases, Model, RunOptions
 from ..models.engine import engine_for
-from ..models.shared.quiet import share_of
-from ..own_files import digest as digest_of_file
+from ..models.shared.ground import share_of
 from ..response.measures import CPU, GPU
 from ..response.rows import Rows
 from ..simulate import check_cases, run_on_card

@@ -23,7 +23,7 @@ from ..motion.readers.source import PREFIX
 from ..motion.request import MotionRequest
 from ..motion.sequence import REST, in_sequence
 from ..motion.specs import azimuth_range, parse_acceleration, parse_time, parse_velocity
-from ..reading import shown
+from ..text_tables import shown
 from .campaign import Campaign
 from .cases import Study
 from .grid import read_grid

@@ -35,7 +35,7 @@ def animate(
     The film is written to --out, or beside the response.
     """
     from ..plots.film import write_gif, write_mp4, write_player
-    from ..plots.solids import OBLIQUE, parse_view
+    from ..plots.scene import OBLIQUE, parse_view
     from ..response import load_response
     from ..response.words import doubt_of
     from . import console

@@ -30,9 +30,8 @@ def columns(
     A preset by its name is shown with the source of every figure. With --out, writes columns as files to start from.
     """
     from ..column.assembly_files import load_structure
-    from ..column.catalogue import CATALOGUE
+    from ..column.catalogue import CATALOGUE, PRESETS, known_column
     from ..column.files import write_column
-    from ..column.presets import PRESETS, known_column
     from . import console
 
     known = [known_column(name) for name in which or PRESETS] if catalogue else []

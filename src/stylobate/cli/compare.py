@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
 from . import options as o
-from .design import WRITES, describe_design, write_design
+from .files import WRITES, describe_design, write_design
 
 if TYPE_CHECKING:
     from .files import Files

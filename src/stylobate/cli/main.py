@@ -42,7 +42,7 @@ from . import (
     study,
     suite,
 )
-from .groups import WIDTH, Command, takes
+from .options import WIDTH, Command, takes
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
 

@@ -38,7 +38,7 @@ def motion(
     with execution.files("motion", "motion.json", "motion.csv", "motion", "spectra") as written:
         if written.wanted:
             from .. import plots
-            from ..motion.writing import write_csv
+            from ..motion.motion import write_csv
 
             written.json(summary, "motion.json")
             written.append(write_csv(found, written / "motion.csv"))

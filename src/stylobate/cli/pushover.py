@@ -68,8 +68,7 @@ def pushover(
     in which the limit analysis finds it weaker.
     """
     from ..codes.checks import CodeSite, code_check
-    from ..statics.limit import limit_analysis, towards
-    from ..statics.limit_assemblies import limit_directions
+    from ..statics.limit import limit_analysis, limit_directions, towards
     from ..statics.pushover import pushover as follow
     from . import console
 

@@ -75,7 +75,7 @@ def records(
         if files.wanted:
             from .. import plots
             from ..atomic import output_folder
-            from ..motion.writing import write_csv
+            from ..motion.motion import write_csv
 
             place = files / "scaled"
             there = sorted(one.name for one in place.iterdir()) if place.is_dir() else []

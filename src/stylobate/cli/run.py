@@ -202,7 +202,7 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
 
 def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, drawn: Drawn) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
-    from ..motion.writing import write_csv
+    from ..motion.motion import write_csv
     from ..verdicts.directions import direction_of
     from ..verdicts.population import other_laws
     from . import console
@@ -354,7 +354,7 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 def population_facts(population: Population) -> dict[str, str]:
     """Columns like this one, or assemblies, and their displacements; of an assembly where its bodies lie."""
-    from ..percent import percents
+    from ..messages import percents
     from ..verdicts.population import OVER_ALL, not_safe, not_yet_debris, only_as_seen
     from . import console
 

@@ -137,7 +137,7 @@ def _run(
     stone: Structure, how: Model, kinds: list[Motion], campaign: Any, options: dict[str, Any], execution: o.Execution,
     pictures: bool,
 ) -> None:  # fmt: skip
-    from ..motion.writing import write_csv
+    from ..motion.motion import write_csv
     from ..verdicts.sequence import sequence as run_sequence
     from . import console
     from .run import SPACE_PICTURES, write, write_population

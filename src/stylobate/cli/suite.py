@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from . import options as o
-from .design import WRITES, describe_design, write_design
+from .files import WRITES, describe_design, write_design
 
 #: Columns of the table that are printed.
 SHOWN = (
@@ -48,7 +48,7 @@ def suite(
 
     from ..errors import InputError
     from ..messages import say
-    from ..models.shared.quiet import share_of
+    from ..models.shared.ground import share_of
     from ..probability.suite import check_measure, suite_shares, suite_table
     from ..response.words import to_decide
     from ..verdicts.directions import compass_of_shares, harm_words, may_collapse, worst

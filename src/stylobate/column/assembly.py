@@ -25,9 +25,8 @@ from .block import (
 )
 from .column import GRAVITIES
 from .joint import Joint, given
-from .links.in_assembly import Scene, in_numbers, place_between
 from .links.link import Link
-from .links.placed import PlacedLink
+from .links.placed import PlacedLink, Scene, in_numbers, place_between
 from .structure import Bed, FacePair, Structure, face_between
 
 

@@ -8,8 +8,9 @@ from typing import Any
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, warn, within
-from ..reading import shown
+from ..text_tables import shown
 from .assembly import Assembly, Block
+from .catalogue import ASSEMBLIES, PRESETS
 from .column import Column
 from .files import column_from_dict, load_column
 from .joint import Joint
@@ -17,7 +18,6 @@ from .links import link_from_dict
 from .links.tables import BlockLinkTable, links_between
 from .materials import Material, material
 from .plausible import Piece, piece_doubts
-from .presets import ASSEMBLIES, PRESETS
 from .spatial.assembly import SpatialAssembly
 from .spatial.files import spatial_assembly
 from .spatial.tables import SpatialTable, describes_space, refuse_mixed

@@ -29,9 +29,8 @@ from .found_geometry import (
     uplift_accelerations,
 )
 from .joint import Joint, Losses, given
-from .links.in_column import ends_on_bodies, place_in_column
 from .links.link import Link
-from .links.placed import PlacedLink, pulls_in_plane
+from .links.placed import PlacedLink, ends_on_bodies, place_in_column, pulls_in_plane
 from .materials import material
 from .plausible import shape_doubts, size_doubts
 from .shapes import Shape, shape_of

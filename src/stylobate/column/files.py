@@ -11,11 +11,11 @@ from typing import Any
 from ..atomic import replacing
 from ..errors import InputError, suggest
 from .as_found import AsFound, FoundDrum
+from .catalogue import PRESETS, preset
 from .column import Column
 from .drum import Drum
 from .joint import Joint, Losses, given
 from .links import link_from_dict
-from .presets import PRESETS, preset
 from .toml import toml_text
 
 

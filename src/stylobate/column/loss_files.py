@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal
 
 from ..atomic import replacing
 from ..errors import InputError, suggest, within
-from ..reading import shown
+from ..text_tables import shown
 from .joint import NAMED, Losses
 from .toml import Table, read_table
 

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_choice, check_kind, check_range, warn, within
-from ..reading import shown
+from ..text_tables import shown
 from .as_found import AsFound, FoundDrum
 from .drum import DENSITIES, LENGTHS, SECTIONS, Drum
 from .joint import FRICTION, Joint, given

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, TypeVar
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from ..errors import InputError, suggest
-from ..reading import SETTINGS, read_bytes, shown
+from ..text_tables import SETTINGS, read_bytes, shown
 
 #: Most levels of tables and lists in a file, and the largest whole number [-].
 DEEPEST, LARGEST = 20, 2**63

@@ -14,10 +14,8 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_range, warn
-from ..messages import joined, say
-from ..percent import percent, percents
-from .integration import arias_growth, displacement
-from .motion import MAX_SAMPLES, STRONGEST, Motion, integrate
+from ..messages import joined, percent, percents, say
+from .motion import MAX_SAMPLES, STRONGEST, Motion, arias_growth, displacement, integrate
 
 #: An end with less than this share of the peak is quiet.
 QUIET_SHARE = 0.01

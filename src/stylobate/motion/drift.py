@@ -8,8 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..errors import InputError
-from .integration import displacement, square_integral
-from .motion import Motion, integrate
+from .motion import Motion, displacement, integrate, square_integral
 
 #: A displacement that has not come back by the end of a record is drift from this share of its peak on [-], where it
 #: also exceeds what a column would be surveyed to [m].

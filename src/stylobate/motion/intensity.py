@@ -11,8 +11,7 @@ from ..constants import g
 from ..errors import OutOfRangeWarning, check_range, warn
 from ..messages import say
 from .drift import as_asked, cure_of, cured, drift_of
-from .integration import absolute_integral, arias, displacement, square_integral, time_above
-from .motion import Motion, peak_velocity
+from .motion import Motion, absolute_integral, arias, displacement, peak_velocity, square_integral, time_above
 from .pulses import pulse_match
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
 

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from ..constants import g
-from ..percent import percent
+from ..messages import percent
 from ..verdicts import domain as p
 from ..verdicts import verdict as v
 from ..verdicts.domain import CollapseProbability, Domain, cell_edges

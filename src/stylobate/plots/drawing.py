@@ -18,13 +18,12 @@ from ..column.as_found import AS_BUILT, IN_LINE, SIDES, AsFound
 from ..column.block import FAR_AWAY
 from ..column.found_geometry import base_axes, rotation, space_geometry
 from ..column.links.placed import strokes
-from ..column.shapes import cut, hull
+from ..column.shapes import cut, hull, matrix_of
 from ..column.spatial.touching import SpaceJoint
 from ..column.structure import Body, Structure
-from ..column.turning import matrix_of
 from ..constants import DEGREE
 from ..messages import digits, joined, say
-from .solids import ALONG_X, ALONG_Y, MARK, OBLIQUE, STONE, Solid, Surface, View, painted, painting_order, surface_of
+from .scene import ALONG_X, ALONG_Y, MARK, OBLIQUE, STONE, Solid, Surface, View, painted, painting_order, surface_of
 from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, in_lines, page, panel, signed, styled
 
 #: Height of the picture of a column, and most of an assembly's [inch].

@@ -23,8 +23,23 @@ from ..response import Response
 from ..response.poses import quaternions, rotation_matrices
 from ..response.recorded import ASIDE, telling_states
 from ..response.words import title_of
-from .scene import Scene, draw_bodies, draw_links, draw_solids, marks_of, paint, scale_bar, seen
-from .solids import ALONG_X, ALONG_Y, COLOURS, DIFFUSE, LIGHT, OBLIQUE, View
+from .scene import (
+    ALONG_X,
+    ALONG_Y,
+    COLOURS,
+    DIFFUSE,
+    LIGHT,
+    OBLIQUE,
+    Scene,
+    View,
+    draw_bodies,
+    draw_links,
+    draw_solids,
+    marks_of,
+    paint,
+    scale_bar,
+    seen,
+)
 from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, plain, signed, styled
 
 #: Size [inch] and resolution of a frame.

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..errors import InputError
+from ..messages import percent
 from ..motion.intensity_specs import parse_measure
-from ..percent import percent
 from ..probability.design import basis_of, where, worst_of
 from ..probability.evidence import Ida
 from ..probability.fragility import FEWEST, Fragility

@@ -12,8 +12,7 @@ from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
 from ..models.rigid_block.block_stack import BlockStack
-from ..statics.limit import LimitResult
-from ..statics.limit_assemblies import LimitByDirection
+from ..statics.limit import LimitByDirection, LimitResult
 from ..statics.pushover import PushoverResult
 from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, in_lines, page, panel, styled, zero_line
 

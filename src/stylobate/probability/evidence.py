@@ -19,8 +19,8 @@ from ..models.base import Model
 from ..motion.intensity_specs import ENDS, IntensityMeasure, measure_of_column, parse_measure
 from ..notebook import Shown
 from ..outcome import Outcome
-from ..reading import check_file, shown
 from ..response.measures import blank_row
+from ..text_tables import check_file, shown
 from ..verdicts import verdict as v
 from ..verdicts.directions import peak_of
 from ..verdicts.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, LimitState, parse_state

@@ -24,7 +24,7 @@ from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, suggest, warn
 from ..messages import say
 from ..models.base import Case, Model
-from ..models.shared.quiet import level
+from ..models.shared.ground import level
 from ..motion import Motion
 from ..motion.intensity_specs import KINDS, IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of

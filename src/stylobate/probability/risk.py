@@ -14,11 +14,10 @@ from scipy.special import log_ndtr, ndtr
 
 from .. import text_tables as tables
 from ..errors import InputError, check_kind
-from ..messages import digits, joined, say
+from ..messages import digits, joined, percent, say
 from ..motion.intensity_specs import ENDS, measure_of_column, parse_measure
 from ..notebook import Shown
-from ..percent import percent
-from ..reading import read_bytes, shown
+from ..text_tables import read_bytes, shown
 from .fragility import Fragility
 from .lognormal import curve, log_interval
 

@@ -17,12 +17,11 @@ from ..campaign.cases import Study
 from ..column.links.placed import stone_that_breaks
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
-from ..messages import joined, say
+from ..messages import joined, say, whole
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
 from ..notebook import Shown
-from ..percent import whole
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
 from ..response.response import Response

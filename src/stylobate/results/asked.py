@@ -11,6 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..atomic import LIST, OwnFiles, digest
 from ..column.assembly_files import FROM_DICT
 from ..column.structure import Structure
 from ..constants import g
@@ -20,10 +21,9 @@ from ..models.base import Model
 from ..models.registry import MODELS, model_class
 from ..motion import Motion
 from ..motion.orientation import record_of
-from ..own_files import LIST, OwnFiles, digest
 from ..probability.evidence import STOOD
-from ..reading import read_bytes, shown
 from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, cautions_in_space, undamped
+from ..text_tables import read_bytes, shown
 from ..verdicts.directions import direction_of
 from ..version import __version__
 

@@ -9,6 +9,7 @@ from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ..atomic import LIST, OwnFiles, digest
 from ..campaign.cases import PLAN_FILE
 from ..campaign.ledger import FORMER_FILES, RUNS_FILE, refuse_former
 from ..column import Column
@@ -16,10 +17,9 @@ from ..column.structure import Structure
 from ..errors import InputError, OutOfRangeWarning
 from ..motion import Motion
 from ..motion.readers import read_motion
-from ..own_files import LIST, OwnFiles, digest
 from ..probability.studies import StudyResult
-from ..reading import check_file, shown
 from ..response import Response, load_response
+from ..text_tables import check_file, shown
 from ..verdicts.domain import CollapseProbability, Domain
 from .asked import Asked, asked_file, read_json
 

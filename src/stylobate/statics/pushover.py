@@ -16,8 +16,15 @@ from ..errors import InputError, check_choice, check_range, check_whole
 from ..messages import say
 from ..models.rigid_block.block_stack import SHEAR, BlockStack, Hold, link_strain, link_strains
 from ..notebook import Shown
-from .limit import mechanism_rows, towards
-from .loads import check_standing, crushing_forces, gravity_forces, horizontal_forces, joint_forces
+from .limit import (
+    check_standing,
+    crushing_forces,
+    gravity_forces,
+    horizontal_forces,
+    joint_forces,
+    mechanism_rows,
+    towards,
+)
 
 if TYPE_CHECKING:
     import pandas

@@ -22,14 +22,13 @@ from ..column.joint import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import spread_of
 from ..column.structure import Structure
-from ..messages import joined, say
+from ..messages import joined, percents, say
 from ..models.base import Case, Model, RunOptions
 from ..models.engine import engine_for
-from ..models.shared.quiet import share_of
+from ..models.shared.ground import share_of
 from ..motion import Motion
 from ..notebook import Shown
 from ..outcome import Outcome
-from ..percent import percents
 from ..response import Response
 from ..response.measures import CPU, SPREAD
 from ..response.recorded import Recorded

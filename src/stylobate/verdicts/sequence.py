@@ -16,7 +16,7 @@ from ..column.structure import Structure
 from ..errors import InputError, check_all, check_kind, check_whole
 from ..messages import joined, say
 from ..models.base import Case, Model
-from ..models.shared.quiet import share_of
+from ..models.shared.ground import share_of
 from ..motion import Motion
 from ..motion.sequence import REST, Span, in_sequence, number_at, spans_of
 from ..notebook import Shown

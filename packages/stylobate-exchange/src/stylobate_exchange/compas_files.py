@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stylobate.column.shapes import Mesh
-from stylobate.column.spatial.mesh import LARGEST, MeshPart, check_closed
+from stylobate.column.spatial.stone import LARGEST, MeshPart, check_closed
 from stylobate.errors import InputError
-from stylobate.reading import read_bytes, shown
+from stylobate.text_tables import read_bytes, shown
 
 #: The kinds of files, by what their ``dtype`` ends in.
 MODELS = "compas_dem.models/BlockModel", "compas_model.models/Model"

@@ -18,13 +18,13 @@ from stylobate.column.block import FAR_AWAY, length_of
 from stylobate.column.files import tables_of
 from stylobate.column.shapes import Mesh
 from stylobate.column.spatial.files import spatial_assembly
-from stylobate.column.spatial.mesh import MESHES, UPWARD, MeshPart, check_closed, read_stones, unit_of, upward
+from stylobate.column.spatial.stone import MESHES, UPWARD, MeshPart, check_closed, read_stones, unit_of, upward
 from stylobate.column.spatial.tables import SpatialTable
 from stylobate.column.structure import Structure
 from stylobate.column.tables import made_of
 from stylobate.column.toml import checked, toml_text
 from stylobate.errors import InputError, check_range, within
-from stylobate.reading import shown
+from stylobate.text_tables import shown
 
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
 from .contact_planes import ROUGH, SMOOTH, Closed, brought_together

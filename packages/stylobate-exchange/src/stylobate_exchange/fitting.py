@@ -9,8 +9,7 @@ import numpy as np
 
 from stylobate.column.drum import LENGTHS
 from stylobate.column.shapes import Mesh
-from stylobate.column.spatial.mesh import MeshPart
-from stylobate.column.spatial.stone import MOST_CORNERS, mesh_moments
+from stylobate.column.spatial.stone import MOST_CORNERS, MeshPart, mesh_moments
 from stylobate.errors import InputError
 
 #: Between two corners a drum's side lies this share of its radius within the circle at most: twelve corners or more.

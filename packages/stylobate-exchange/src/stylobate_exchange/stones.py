@@ -13,8 +13,8 @@ from stylobate.column.block import length_of
 from stylobate.column.drum import Drum
 from stylobate.column.found_geometry import space_geometry
 from stylobate.column.materials import material
-from stylobate.column.spatial.mesh import MeshPart
-from stylobate.column.turning import about
+from stylobate.column.shapes import about
+from stylobate.column.spatial.stone import MeshPart
 from stylobate.constants import DEGREE
 from stylobate.errors import InputError
 

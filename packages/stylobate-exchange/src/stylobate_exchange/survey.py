@@ -14,8 +14,7 @@ from stylobate.column import Column
 from stylobate.column.files import tables_of
 from stylobate.column.plausible import length_doubts
 from stylobate.errors import InputError, suggest
-from stylobate.reading import SETTINGS, read_bytes, shown
-from stylobate.text_tables import text_of
+from stylobate.text_tables import SETTINGS, read_bytes, shown, text_of
 
 if TYPE_CHECKING:
     from openpyxl.worksheet.worksheet import Worksheet

@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stylobate.column.spatial.mesh import LARGEST, MeshPart, check_closed
+from stylobate.column.spatial.stone import LARGEST, MeshPart, check_closed
 from stylobate.errors import InputError
-from stylobate.reading import read_bytes, shown
+from stylobate.text_tables import read_bytes, shown
 
 #: What is read, in the words of messages.
 KNOWN = (

@@ -10,7 +10,7 @@ import numpy as np
 
 from stylobate.atomic import replacing
 from stylobate.plots.film import film_data, film_of, frame_indices
-from stylobate.plots.solids import OBLIQUE
+from stylobate.plots.scene import OBLIQUE
 from stylobate.response import Response
 from stylobate.response.histories import ENERGY_TERMS
 

@@ -11,8 +11,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from stylobate.atomic import replacing
-from stylobate.own_files import LIST
+from stylobate.atomic import LIST, replacing
 
 from .forms import in_page_words
 

@@ -17,8 +17,8 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 
+from stylobate.column.catalogue import PRESETS, preset
 from stylobate.column.files import write_column
-from stylobate.column.presets import PRESETS, preset
 from stylobate.column.structure import Structure
 from stylobate.column.toml import checked
 from stylobate.errors import InputError

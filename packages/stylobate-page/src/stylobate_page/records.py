@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from stylobate.atomic import output_folder, replacing
 from stylobate.campaign.ledger import Holding
 from stylobate.errors import InputError
-from stylobate.reading import shown
+from stylobate.text_tables import shown
 
 #: Largest file, and all together [bytes]; most records. Three components of an hour at 200 Hz take some 30 MB.
 FILE, ALL, MOST = 32_000_000, 600_000_000, 1000

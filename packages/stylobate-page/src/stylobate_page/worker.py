@@ -104,7 +104,6 @@ def warm(tell: Callable[..., None]) -> None:
 
     from stylobate import DistinctElement2D, certainty, harmonic, preset
     from stylobate.cli.main import ask
-    from stylobate.motion import writing  # noqa: F401
 
     from .film import film
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from stylobate.messages import digits, joined, say
-from stylobate.percent import percents
+from stylobate.messages import digits, joined, percents, say
 from stylobate.results import Numbers
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.critical import as_recorded

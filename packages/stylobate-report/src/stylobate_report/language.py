@@ -20,7 +20,7 @@ from typing import Any
 from stylobate.atomic import replacing
 from stylobate.errors import InputError
 from stylobate.messages import Message, filled, say
-from stylobate.reading import read_bytes, shown
+from stylobate.text_tables import read_bytes, shown
 
 from .numbers import SPANNING
 from .page import Code, Facts, Item, Note, Own, Picture, Points, Section

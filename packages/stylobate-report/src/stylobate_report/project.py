@@ -14,8 +14,8 @@ from stylobate.column.toml import Table, read_table
 from stylobate.errors import InputError
 from stylobate.messages import joined, say
 from stylobate.probability.design import OPEN
-from stylobate.reading import shown
 from stylobate.results import Result, RunResult, SeveralRuns
+from stylobate.text_tables import shown
 from stylobate.version import __version__
 
 from .design import SHOWN, design_of, governing_rows

@@ -11,9 +11,8 @@ import numpy as np
 from stylobate import plots
 from stylobate.bibliography import cite_run
 from stylobate.constants import g
-from stylobate.messages import digits, joined, say
+from stylobate.messages import digits, joined, percent, say
 from stylobate.outcome import Outcome
-from stylobate.percent import percent
 from stylobate.response import Response
 from stylobate.response.words import doubt_of, each_doubt, opening_words, to_decide
 from stylobate.results import RunResult, SeveralRuns

@@ -23,7 +23,7 @@ from stylobate.plots.drawing import (
     plan_axes,
     plan_reach,
 )
-from stylobate.plots.solids import ALONG_X, ALONG_Y, View
+from stylobate.plots.scene import ALONG_X, ALONG_Y, View
 from stylobate.plots.style import BLACK, GREY, styled
 from stylobate.version import __version__
 

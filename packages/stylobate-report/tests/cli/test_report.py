@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.atomic import OwnFiles
 from stylobate.campaign.ledger import APPLICATION
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.motion import write_csv
-from stylobate.own_files import OwnFiles
 from stylobate.plots import style
 from stylobate.results import Kind, read_results
 from stylobate_report import pdf, pictures

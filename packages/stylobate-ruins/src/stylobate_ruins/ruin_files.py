@@ -8,8 +8,8 @@ from typing import Any
 
 from stylobate.campaign.study_files import ColumnScatterTable, listed
 from stylobate.column.assembly_files import load_structure
+from stylobate.column.catalogue import PRESETS
 from stylobate.column.joint import LAWS
-from stylobate.column.presets import PRESETS
 from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.column.structure import Structure
 from stylobate.column.toml import Table, read_table
@@ -19,7 +19,7 @@ from stylobate.models.registry import make_model
 from stylobate.motion import Motion
 from stylobate.motion.request import MotionRequest
 from stylobate.motion.specs import parse_acceleration, parse_angle, parse_time, parse_velocity
-from stylobate.reading import shown
+from stylobate.text_tables import shown
 
 from .outlasted import Outlasted
 from .prior import LOSSES, Prior

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from stylobate.atomic import digest as digest_of_file
 from stylobate.atomic import replacing
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.digests import LENGTH, Digests, Hasher, laws
@@ -21,8 +22,7 @@ from stylobate.column.structure import Structure
 from stylobate.errors import InputError
 from stylobate.models.base import Case, Cases, Model
 from stylobate.models.drums.stepped import LossyDrums
-from stylobate.models.shared.quiet import QUIET
-from stylobate.own_files import digest as digest_of_file
+from stylobate.models.shared.ground import QUIET
 from stylobate.response.rows import Rows
 from stylobate.version import __version__
 

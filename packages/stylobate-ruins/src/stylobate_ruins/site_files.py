@@ -10,9 +10,9 @@ from stylobate.column.toml import Table, read_table
 from stylobate.errors import InputError, as_typed, check_choice, check_whole, within
 from stylobate.motion.intensity_specs import parse_measure
 from stylobate.probability.risk import read_hazard
-from stylobate.reading import shown
 from stylobate.results.asked import read_json
 from stylobate.results.fragilities import fitted
+from stylobate.text_tables import shown
 
 from .ground_motion import MODELS, Source
 from .monuments import Branch, Capacity, Monument, Site, Sites

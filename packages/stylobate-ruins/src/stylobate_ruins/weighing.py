@@ -15,8 +15,8 @@ import numpy as np
 from scipy.special import ndtri
 
 from stylobate.errors import InputError, check_kind, within
+from stylobate.messages import percent
 from stylobate.notebook import Shown
-from stylobate.percent import percent
 from stylobate.probability.risk import Hazard, doubts, rates
 
 from .monuments import Branch, Sites

@@ -17,9 +17,8 @@ from ..block import FAR_AWAY, Block, ground_block, length_of
 from ..column import GRAVITIES, Column
 from ..joint import Joint, given
 from ..links import link_from_dict
-from ..links.in_assembly import in_numbers, place_between
 from ..links.link import Link
-from ..links.placed import PlacedLink
+from ..links.placed import PlacedLink, in_numbers, place_between
 from ..structure import Bed, Body, Structure
 from .links import SpaceScene
 from .placing import drums_in_space

@@ -13,7 +13,7 @@ from pathlib import Path
 from ...added import RECORDS, entries, missing
 from ...errors import InputError, check_all, check_kind, warn
 from ...messages import say
-from ...reading import shown
+from ...text_tables import shown
 from ..motion import Motion
 from ..recordings import recorded_again
 from . import columns as columns_of_text

@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from ...errors import InputError, suggest
-from ...reading import read_bytes, shown
+from ...text_tables import read_bytes, shown
 from ..motion import MAX_SAMPLES
 
 if TYPE_CHECKING:

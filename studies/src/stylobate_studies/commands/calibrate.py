@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from stylobate.cli import options as o
-from stylobate.percent import whole
+from stylobate.messages import whole
 
 if TYPE_CHECKING:
     from ..calibration.calibration import Calibration

@@ -24,8 +24,8 @@ from stylobate.errors import InputError, check_choice, check_range, within
 from stylobate.models.base import Model
 from stylobate.motion import Motion
 from stylobate.motion.request import MotionRequest
-from stylobate.reading import SETTINGS, read_bytes, shown
 from stylobate.response.measures import blank_row
+from stylobate.text_tables import SETTINGS, read_bytes, shown
 
 #: The file that makes a folder one of tests.
 FILE = "experiment.toml"

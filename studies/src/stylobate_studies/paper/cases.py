@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stylobate.column import Column, preset
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.column.scatter import WITHIN, Scatter
 from stylobate.constants import g
 from stylobate.models.base import Model

@@ -79,9 +79,9 @@ def survival(
 
 def _several(source: Path, age: str | None, hazard: list[Path] | None, execution: o.Plain) -> None:
     """Weigh the branches of a file of sites."""
+    from stylobate.atomic import digest
     from stylobate.cli import console
     from stylobate.errors import InputError
-    from stylobate.own_files import digest
 
     from ..site_files import read_sites
     from ..weighing import weigh

@@ -7,9 +7,8 @@ import math
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
-from stylobate.messages import say
+from stylobate.messages import percents, say
 from stylobate.motion.intensity_specs import parse_measure
-from stylobate.percent import percents
 from stylobate.plots.style import BLACK, BLUE, GREY, WIDTH, in_lines, page, styled
 
 from ..weighing import FRACTILES, WAYS, Weighing
