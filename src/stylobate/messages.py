@@ -112,18 +112,18 @@ def filled(template: str, values: Mapping[str, Any], written: Callable[[Any, str
     return "".join(texts)
 
 
-def kept(value: Any, place: str = "") -> dict[str, Any]:
+def messages_in(value: Any, place: str = "") -> dict[str, Any]:
     """All messages in the plain values of a result by their places, for the file that holds it."""
     if isinstance(value, Message):
         return {place: _plain(value)}
     each = value.items() if isinstance(value, Mapping) else enumerate(value) if isinstance(value, (list, tuple)) else ()
-    return {key: one for name, inside in each for key, one in kept(inside, f"{place}/{name}").items()}
+    return {key: one for name, inside in each for key, one in messages_in(inside, f"{place}/{name}").items()}
 
 
 def restored(value: Any, messages: Mapping[str, Any], place: str = "") -> Any:
     """The plain values of a result with their messages, where their English texts are still those of the file."""
     if isinstance(value, str) and place in messages:
-        found = _made(messages[place])
+        found = _restored(messages[place])
         return found if found == value else value
     if isinstance(value, dict):
         return {key: restored(one, messages, f"{place}/{key}") for key, one in value.items()}
@@ -141,12 +141,12 @@ def _plain(value: Any) -> Any:
     return {"template": value.template, "values": values} if values else {"template": value.template}
 
 
-def _made(value: Any) -> Any:
+def _restored(value: Any) -> Any:
     if not isinstance(value, dict):
         return value
     if "parts" in value:
-        return joined("", map(_made, value["parts"]))
-    template, values = value["template"], {key: _made(one) for key, one in value.get("values", {}).items()}
+        return joined("", map(_restored, value["parts"]))
+    template, values = value["template"], {key: _restored(one) for key, one in value.get("values", {}).items()}
     if any(len(form or "") > LONGEST_FORMAT for _, _, form, _ in _FORMATTER.parse(template)):
         raise ValueError(f"a format of {template!r} is too long")
     return Message(filled(template, values) if values else template, template, values)
@@ -158,7 +158,7 @@ def _made(value: Any) -> Any:
 CLOSE = 1e-9
 
 
-def whole(share: float) -> str:
+def whole_percent(share: float) -> str:
     """A share in whole per cent, the nearest to it, half of a per cent rounded up; a dash where there is none.
 
     What is not nothing is never written as 0, and what is not all never as 100.
@@ -173,11 +173,11 @@ def whole(share: float) -> str:
 
 def percent(share: float) -> str:
     """A share as a percentage."""
-    return f"{whole(share)} %"
+    return f"{whole_percent(share)} %"
 
 
 def percents(low: float, high: float) -> str:
     """From which share to which, as percentages; one where both are written alike."""
-    if whole(low) == whole(high):
+    if whole_percent(low) == whole_percent(high):
         return percent(low)
-    return say("{low} to {high} %", low=whole(low), high=whole(high))
+    return say("{low} to {high} %", low=whole_percent(low), high=whole_percent(high))

@@ -28,7 +28,7 @@ from ..response.rows import Rows
 from ..version import __version__
 from .campaign import COMPUTING, Campaign
 from .digests import LENGTH, Digests, Hasher, samples_of
-from .runs import Group, Request, known
+from .runs import Group, Request, finished_rows
 from .twins import LAW, Twins, the_twins
 
 if TYPE_CHECKING:
@@ -325,7 +325,7 @@ class Plan:
     def known(self, ledger: Path) -> Rows:
         """Rows of the cases that a ledger holds."""
         found = Rows(len(self))
-        for number, row in known(ledger, self.digests):
+        for number, row in finished_rows(ledger, self.digests):
             found[number] = row
         return found
 

@@ -28,7 +28,7 @@ def animate(
         "From where a response in space is seen, in degrees: azimuth from x towards y; -40,18 if not given.",
     ),
     *,
-    execution: Annotated[o.Execution, o.But(*o.CAMPAIGNS)],
+    execution: Annotated[o.Execution, o.Without(*o.CAMPAIGNS)],
 ) -> None:
     """Draw a recorded response as a film: GIF, MP4, or an HTML page with a scrubber.
 

@@ -22,7 +22,7 @@ def ida(
     about: Path | None = o.option("FILE", "CSV about the records: record, magnitude, distance_km; or QuakeML."),
     *,
     population: o.Population,
-    motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, "azimuths", "scale", "pga")],
+    motions: Annotated[o.Motions, o.Without(*o.FILES_NAMED, "azimuths", "scale", "pga")],
     following: o.Following,
     modelling: o.Modelling,
     execution: o.Execution,

@@ -25,7 +25,7 @@ def limit(
     ),
     *,
     pushing: Loads,
-    modelling: Annotated[o.Modelling, o.But("settings", "losses")],
+    modelling: Annotated[o.Modelling, o.Without("settings", "losses")],
     execution: o.Plain,
 ) -> None:
     """Collapse multiplier and mechanism of rigid blocks.

@@ -15,7 +15,7 @@ def motion(
     ),
     samples: bool = o.option(None, "List the sample motions that come with it.", False),
     *,
-    motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, *o.SEVERAL, "vertical")],
+    motions: Annotated[o.Motions, o.Without(*o.FILES_NAMED, *o.SEVERAL, "vertical")],
     execution: o.Plain,
 ) -> None:
     """Contents of records of ground motion, and the records that come with the package.

@@ -76,7 +76,7 @@ class Group:
     """Options as fields of a value."""
 
 
-class But:
+class Without:
     """Fields of a group that are no options of a command: ``Annotated[Motions, But("scale", "pga")]``."""
 
     def __init__(self, *names: str) -> None:
@@ -106,7 +106,7 @@ def takes(command: Callable[..., None], within: Callable[[], AbstractContextMana
             options.append(parameter.replace(kind=parameter.KEYWORD_ONLY))
         else:
             every: dict[str, Any] = {field.name: field.default for field in fields(kind)}
-            left_out = {name: every.pop(name) for note in notes if isinstance(note, But) for name in note.names}
+            left_out = {name: every.pop(name) for note in notes if isinstance(note, Without) for name in note.names}
             types = get_type_hints(kind)
             options += [one.parameter(name, types[name]) for name, one in every.items()]
             groups[parameter.name] = kind, every, left_out
@@ -193,7 +193,7 @@ def number(text: str, name: str, example: str = "such as 0.5") -> float:
     return parse_number(f"`{name}`", text, example)
 
 
-def whole(text: str, name: str) -> int:
+def whole_number(text: str, name: str) -> int:
     """A whole number as typed."""
     if not text.isdecimal():
         raise InputError(f"`{name}` is {text!r}; allowed is a whole number from 0 on, such as 30.", name)
@@ -359,7 +359,7 @@ class Following(Group):
     """How long each run goes on."""
 
     tail: float = option("TIME", "Go on for this long after the motion, such as 5s.", "0s", read=time)
-    whole: bool = option(None, "Step all of a record, its quiet before, between and after shocks too.", False)
+    whole_number: bool = option(None, "Step all of a record, its quiet before, between and after shocks too.", False)
 
     @property
     def fields(self) -> dict[str, Any]:
@@ -371,14 +371,16 @@ class Following(Group):
 class Population(Group):
     """Columns like the one that stands."""
 
-    replicates: int | None = option("N", "How sure that is: so many columns like this one, by --scatter.", read=whole)
+    replicates: int | None = option(
+        "N", "How sure that is: so many columns like this one, by --scatter.", read=whole_number
+    )
     scatter: Any = option(
         "NAME=SIZE,…",
         "How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%; in space also "
         "stiffness_damping=80%,rolling_resistance=80%,law=50%,unknown_stiffness=100%.",
         read=scatter,
     )
-    seed: int | None = option("N", "Of these columns; the same seed, the same ones.", read=whole)
+    seed: int | None = option("N", "Of these columns; the same seed, the same ones.", read=whole_number)
 
     @property
     def fields(self) -> dict[str, Any]:
@@ -461,7 +463,7 @@ class Execution(Group):
 CAMPAIGNS = "dask", "device", "mix_devices"
 
 #: Of commands whose runs are no campaign.
-Plain = Annotated[Execution, But(*CAMPAIGNS)]
+Plain = Annotated[Execution, Without(*CAMPAIGNS)]
 
 
 def _settings(given: list[str]) -> dict[str, str]:

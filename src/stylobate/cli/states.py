@@ -95,7 +95,7 @@ def states(
     state: str = o.option("STATE", "Limit state, such as collapse or top:0.35d.", "collapse"),
     *,
     population: o.Population,
-    motions: Annotated[o.Motions, o.But(*o.SEVERAL)],
+    motions: Annotated[o.Motions, o.Without(*o.SEVERAL)],
     following: o.Following,
     modelling: o.Modelling,
     execution: o.Execution,

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, warn, within
-from ..text_tables import shown
+from ..text_tables import printable
 from .assembly import Assembly, Block
 from .catalogue import ASSEMBLIES, PRESETS
 from .column import Column
@@ -92,12 +92,12 @@ def read_assembly(path: str | Path) -> Assembly | SpatialAssembly:
     InputError
         The file cannot be read or does not describe an assembly; the message names the block and the remedy.
     """
-    data, name, folder = parse_toml(path), shown(Path(path).stem), Path(path).parent
-    with within(shown(path)):
+    data, name, folder = parse_toml(path), printable(Path(path).stem), Path(path).parent
+    with within(printable(path)):
         if describes_space(data):
             refuse_mixed(data)
-    table = checked(data, SpatialTable if describes_space(data) else AssemblyTable, shown(path))
-    with within(shown(path)):
+    table = checked(data, SpatialTable if describes_space(data) else AssemblyTable, printable(path))
+    with within(printable(path)):
         if isinstance(table, SpatialTable):
             return spatial_assembly(table, name, folder)
         return _assembly(table, name, folder)

@@ -188,7 +188,7 @@ def _paper(name: str, drums: int, title: str) -> KnownColumn:
 
 _WITH_CAPITAL = "of the whole column; the capital is taken as part of the taper"
 
-_KNOWN = (
+_COLUMNS = (
     _paper("paper-monolithic", 1, "The founding paper's column in one piece"),
     _paper("paper-12-drums", 12, "The founding paper's column in twelve drums"),
     KnownColumn(
@@ -297,7 +297,7 @@ _KNOWN = (
 )  # fmt: skip
 
 #: All columns by the names of their presets, the paper's first.
-CATALOGUE = {one.name: one for one in _KNOWN}
+CATALOGUE = {one.name: one for one in _COLUMNS}
 
 
 # Presets: the columns of the catalogue by name.

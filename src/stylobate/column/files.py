@@ -14,7 +14,7 @@ from .as_found import AsFound, FoundDrum
 from .catalogue import PRESETS, preset
 from .column import Column
 from .drum import Drum
-from .joint import Joint, Losses, given
+from .joint import Joint, Losses, stated_fields
 from .links import link_from_dict
 from .toml import toml_text
 
@@ -98,7 +98,7 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
 
 def _joint_fields(joint: Joint) -> dict[str, float]:
     """Joint of a file: the form of its friction from which the other follows to the last bit."""
-    fields = given(joint)
+    fields = stated_fields(joint)
     without = {key: value for key, value in fields.items() if key != "friction_coefficient"}
     drop = "friction_coefficient" if Joint(**without) == joint else "friction_angle"
     return {key: value for key, value in fields.items() if key != drop}

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal
 
 from ..atomic import replacing
 from ..errors import InputError, suggest, within
-from ..text_tables import shown
+from ..text_tables import printable
 from .joint import NAMED, Losses
 from .toml import Table, read_table
 
@@ -65,7 +65,7 @@ def read_losses(path: str | Path) -> Losses:
         The file cannot be read, or is no file of losses.
     """
     found = read_table(path, LossFile)
-    with within(shown(path)):
+    with within(printable(path)):
         if found.stylobate_losses != FORMAT:
             raise InputError(
                 f"stylobate_losses is {found.stylobate_losses}, a format that this version does not know; it reads {FORMAT}."

@@ -46,7 +46,7 @@ STEPS: dict[str, Step] = {
     ),
     "highpass": Step("highpass=0.1Hz", (1,), lambda m, v: c.bandpass(m, parse_frequency(v), None)),
     "lowpass": Step("lowpass=25Hz", (1,), lambda m, v: c.bandpass(m, None, parse_frequency(v))),
-    "baseline": Step("baseline=6", (0, 1), lambda m, *v: c.baseline_polynomial(m, *map(_whole, v))),
+    "baseline": Step("baseline=6", (0, 1), lambda m, *v: c.baseline_polynomial(m, *map(_whole_number, v))),
     "baseline-piecewise": Step(
         "baseline-piecewise or baseline-piecewise=5s,20s",
         (0, 2),
@@ -127,7 +127,7 @@ def _number(text: str) -> float:
         raise InputError(f"{text!r} is not a number.") from None
 
 
-def _whole(text: str) -> int:
+def _whole_number(text: str) -> int:
     if not text.isdecimal():
         raise InputError(f"{text!r} is not a whole number.")
     return int(text)

@@ -90,7 +90,7 @@ KINDS: dict[str, Kind] = {
 }
 
 #: Measures of every run's motion that tables hold, those of both components where a motion has two.
-TOLD = (
+TABLE_MEASURES = (
     *("pga", "pgv", "pgv_over_pga", "sa:0.5s", "sa:1s", "sa:2s", "avgsa", "cav", "arias", "d5_95"),
     *("pga_over_g_tan_alpha", "pgv_p_over_g_tan_alpha", "omega_g_over_p"),
 )
@@ -271,7 +271,7 @@ def measure_of_column(name: str) -> IntensityMeasure | None:
 
 def measures_by_column(motion: Motion, columns: Sequence[tuple[float, float]]) -> list[dict[str, float]]:
     """The measures that tables hold, by their names there, for a motion and (tan α, p) of each column."""
-    names = TOLD if motion.y_samples is None else (*TOLD, *TOLD_OF_TWO)
+    names = TABLE_MEASURES if motion.y_samples is None else (*TABLE_MEASURES, *TOLD_OF_TWO)
     measures = [parse_measure(name) for name in names]
     if motion.pga == 0.0:
         return [dict.fromkeys((measure.key for measure in measures), math.nan) for _ in columns]
@@ -286,7 +286,7 @@ def measures_by_column(motion: Motion, columns: Sequence[tuple[float, float]]) -
 
 def powers_by_column() -> dict[str, int]:
     """Powers of the factor of a motion with which these measures grow, by their columns."""
-    return {one.key: one.power for one in map(parse_measure, (*TOLD, *TOLD_OF_TWO))}
+    return {one.key: one.power for one in map(parse_measure, (*TABLE_MEASURES, *TOLD_OF_TWO))}
 
 
 #: Units in which a level may be typed, by the unit of the measure.

@@ -36,7 +36,7 @@ def recorded_again(motions: Sequence[Motion]) -> dict[int, int]:
     order = sorted(range(len(motions)), key=lambda k: -len(motions[k].peaks))
     rank = {k: place for place, k in enumerate(order)}
     own = {k: list(_shapes(motions[k])) for k in order}
-    seen = {kind: _Seen(sum(one == kind for some in own.values() for one, _ in some)) for kind in KINDS}
+    seen = {kind: _SpectrumShapes(sum(one == kind for some in own.values() for one, _ in some)) for kind in KINDS}
     again: dict[int, int] = {}
     for k in order:
         near = {other for kind, shape in own[k] for other in seen[kind].near(shape)}
@@ -49,7 +49,7 @@ def recorded_again(motions: Sequence[Motion]) -> dict[int, int]:
     return again
 
 
-class _Seen:
+class _SpectrumShapes:
     """Shapes of one kind of the records that were looked at, with room for so many."""
 
     def __init__(self, room: int) -> None:

@@ -345,7 +345,7 @@ BESIDE = 5.0
 
 
 #: Elevations and plan, with what is said of each.
-SEEN = (
+VIEWS = (
     (ALONG_X, say("along y: x to the right")),
     (ALONG_Y, say("against x: y to the right")),
     (PLAN, say("plan: x to the right, y upward")),
@@ -381,7 +381,7 @@ def sheet_size(structure: Structure) -> tuple[float, float]:
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class StructureViews:
     """A structure as elevations and plans show it.
 
     Parameters
@@ -404,7 +404,7 @@ class Seen:
     levels: list[float]
 
     @classmethod
-    def of(cls, structure: Structure) -> Seen:
+    def of(cls, structure: Structure) -> StructureViews:
         """A structure that is to be drawn."""
         solids, names = solids_of(structure)
         ends = np.concatenate([part.mesh(ROUND).vertices for body in _near(structure) for part in body.placed])
@@ -467,14 +467,14 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
     ----------
     structure : Column, Assembly, SpatialAssembly or Specimen
     """
-    seen = Seen.of(structure)
+    seen = StructureViews.of(structure)
     across, deep, heights = _proportions(seen.solids)
     figure = page(figure, (WIDTH, sum(heights)))
     ratio = min(max(across / deep, 0.6), 1.7)
     (front, side), (plan, oblique) = figure.subplots(2, 2, width_ratios=(ratio, 1.0), height_ratios=heights)
-    sheets = [seen.sheet(axes, view) for axes, (view, _) in zip((front, side), SEEN)]
+    sheets = [seen.sheet(axes, view) for axes, (view, _) in zip((front, side), VIEWS)]
     scale = max(sheet.metres for sheet in sheets)
-    for axes, (view, said) in zip((front, side, plan), SEEN):
+    for axes, (view, said) in zip((front, side, plan), VIEWS):
         seen.draw(axes, seen.sheet(axes, view, 0.0 if view is PLAN else scale), view)
         axes.set_title(said, fontsize=8.5, color=GREY)
     _mark_north(plan, structure)
@@ -561,7 +561,7 @@ def _mark_north(plan: Axes, structure: Structure) -> None:
     plan.annotate("N", (0.93, 0.9), way, arrowprops=arrow, fontsize=8, annotation_clip=False, **words)
 
 
-def _mark_found(axes: Axes, seen: Seen, view: View) -> None:
+def _mark_found(axes: Axes, seen: StructureViews, view: View) -> None:
     """Red outlines of drums that are not where they were built, and of those that are chipped."""
     column = seen.structure.stack
     if column is None or view is PLAN:

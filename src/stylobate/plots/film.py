@@ -38,7 +38,7 @@ from .scene import (
     marks_of,
     paint,
     scale_bar,
-    seen,
+    time_window,
 )
 from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, plain, signed, styled
 
@@ -64,7 +64,7 @@ def frame_indices(
     """
     check_rate(frames_per_second)
     check_range("speed", speed, 0.0, 1000.0, open_low=True)
-    begin, end = (time[0], time[-1]) if window is None else seen(time, window)
+    begin, end = (time[0], time[-1]) if window is None else time_window(time, window)
     wanted = np.arange(begin, end + 1e-9, speed / frames_per_second)
     if len(wanted) > MOST_FRAMES:
         raise InputError(

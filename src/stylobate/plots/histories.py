@@ -21,7 +21,7 @@ from ..response.poses import rotation_matrices
 from ..response.recorded import ASIDE, size_of, way_of
 from ..response.words import title_of
 from .film import draw_filmstrip
-from .scene import seen
+from .scene import time_window
 from .style import BLACK, BLUE, BROWN, CYCLE, GREY, RED, SAND, WIDTH, in_lines, only_panel, page, styled, zero_line
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def draw_histories(
     window : (float, float), optional
         Beginning and end of what is drawn [s]; all by default.
     """
-    begin, end = seen(response.time, window)
+    begin, end = time_window(response.time, window)
     if response.histories.top is None:
         return _draw_blocks(response, title, (begin, end), figure)
     h = response.histories
@@ -141,7 +141,7 @@ def draw_comparison(
     window : (float, float), optional
         Beginning and end of what is drawn [s]; all by default.
     """
-    begin, end = seen(max((one.time for one in responses), key=lambda time: time[-1]), window)
+    begin, end = time_window(max((one.time for one in responses), key=lambda time: time[-1]), window)
     figure = page(figure, (WIDTH, 3.6))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
     zero_line(upper)
@@ -253,7 +253,7 @@ def draw_energy(
     lower.plot(time, response.imbalance / (largest or 1.0), color=GREY)
     lower.set_ylabel(say("imbalance\n/ {what}", what=word))
     lower.set_xlabel(say("time [s]"))
-    lower.set_xlim(*seen(time, window))
+    lower.set_xlim(*time_window(time, window))
     lower.set_title(
         say("missing at the end: {r.energy_imbalance:.1e} of the energy at stake", r=response),
         loc="right",
@@ -504,7 +504,7 @@ def draw_joints(
     """
     h, n = response.histories, response.opening.shape[1]
     opening = np.nan_to_num(np.abs(h.joint_opening))
-    begin, end = seen(h.time, window)
+    begin, end = time_window(h.time, window)
     opening = np.where(((h.time >= begin) & (h.time <= end))[:, None], opening, np.nan)
     time = response.measures.collapse_time
     if not math.isnan(time):  # gaps of a fallen column are far larger and would flatten every other curve
@@ -531,7 +531,7 @@ def draw_joints(
         axes.annotate(
             say("collapse {time:.2f} s", time=time) + "  ", (time, n + 1), fontsize=8.0, va="bottom", ha="right"
         )
-    axes.set_xlim(*seen(h.time, window))
+    axes.set_xlim(*time_window(h.time, window))
     axes.set_ylim(0.85, n + 1.35)
     every = 1 if n <= 30 else math.ceil(n / 25)
     axes.set_yticks(range(1, n + 1, every))

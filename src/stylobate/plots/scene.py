@@ -466,7 +466,7 @@ class Scene:
         return [shape for shape, fixed in zip(self.outlines(index), self.fixed, strict=True) if not fixed]
 
 
-def seen(time: np.ndarray, window: tuple[float, float] | None) -> tuple[float, float]:
+def time_window(time: np.ndarray, window: tuple[float, float] | None) -> tuple[float, float]:
     """Beginning and end of what is drawn [s]: a window, or everything that is recorded.
 
     Raises

@@ -73,7 +73,7 @@ def fit(low: np.ndarray, high: np.ndarray, weight: np.ndarray | None = None) -> 
     return Fit(log_median, beta)
 
 
-def seen(beta: float) -> float | None:
+def resolved_beta(beta: float) -> float | None:
     """β, if runs show one; None where the fit ends at the least of all."""
     return beta if beta > BETAS[0] * (1.0 + AT_END) else None
 

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from .. import Film
 
 
-_LEFT_OUT = ("outcome", "reason", "wall_s", "model", "version", "mechanism", "collapse")
+_NOT_IN_TABLE = ("outcome", "reason", "wall_s", "model", "version", "mechanism", "collapse")
 
 
 def as_html(response: Recorded) -> str:
     """HTML without scripts and without anything from the network."""
-    facts = {key: value for key, value in summary_of(response).items() if key not in _LEFT_OUT}
+    facts = {key: value for key, value in summary_of(response).items() if key not in _NOT_IN_TABLE}
     return notebook.page(title_of(response), sentence_of(response), facts, _strip(response))
 
 

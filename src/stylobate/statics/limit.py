@@ -27,7 +27,7 @@ from ..constants import DEGREE
 from ..errors import InputError, StylobateError, check_choice, check_kind, check_range
 from ..messages import joined, say
 from ..models.rigid_block.block_stack import APART, LINE, SHEAR, BlockStack, Hold, holds, link_strains
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from .contacts import MOVES, ContactProgramme, Holder, InfeasibleError, Rim, Solved, gentlest, largest_held
 
 # Loads and strength of a stack of blocks, for limit analysis and pushover alike; what cannot stand is refused.
@@ -152,7 +152,7 @@ NEARLY = 1e-3
 STEPS = 40
 
 
-class Borne(NamedTuple):
+class CapacityLoad(NamedTuple):
     """Load of a programme with links of given capacities.
 
     ``multiplier`` [g]; ``worth``, by how much a larger capacity of each link would raise it [g/N], and ``held``, what each
@@ -165,7 +165,7 @@ class Borne(NamedTuple):
     forces: np.ndarray
 
 
-class Needed(NamedTuple):
+class LinkDemand(NamedTuple):
     """Links in every answer of a programme.
 
     ``least`` [N], the least that each holds, with the sign of that answer; ``yields``, whether that is its capacity;
@@ -178,7 +178,9 @@ class Needed(NamedTuple):
     forces: np.ndarray
 
 
-def needed_forces(solve: Callable[[np.ndarray, float], Borne], capacity: np.ndarray, whole: Borne) -> Needed:
+def needed_forces(
+    solve: Callable[[np.ndarray, float], CapacityLoad], capacity: np.ndarray, whole: CapacityLoad
+) -> LinkDemand:
     """Demand on links at the multiplier that they reach together.
 
     Parameters
@@ -205,7 +207,7 @@ def needed_forces(solve: Callable[[np.ndarray, float], Borne], capacity: np.ndar
     least, idle = np.where(yields, np.sign(whole.held) * finite, 0.0), ~yields
     answer = solve(np.where(idle, 0.0, capacity), same) if idle.any() else whole
     if answer.multiplier >= same:
-        return Needed(least, yields, idle, answer.forces)
+        return LinkDemand(least, yields, idle, answer.forces)
     for k in np.flatnonzero(idle):
         least[k], yields[k] = _least(solve, capacity, int(k), whole, same)
     idle = least == 0.0
@@ -213,11 +215,11 @@ def needed_forces(solve: Callable[[np.ndarray, float], Borne], capacity: np.ndar
     if answer.multiplier < same:  # each can be left out, all at once cannot: one stands in for another
         idle[:] = False
         answer = whole
-    return Needed(least, yields, idle, answer.forces)
+    return LinkDemand(least, yields, idle, answer.forces)
 
 
 def _least(
-    solve: Callable[[np.ndarray, float], Borne], capacity: np.ndarray, k: int, whole: Borne, same: float
+    solve: Callable[[np.ndarray, float], CapacityLoad], capacity: np.ndarray, k: int, whole: CapacityLoad, same: float
 ) -> tuple[float, bool]:
     """The least that a link must hold [N], with its sign, and whether that is its capacity."""
     less, most = capacity.copy(), float(capacity[k])
@@ -569,7 +571,7 @@ class DirectionLimit:
 
 
 @dataclass(frozen=True, eq=False)
-class LimitResult(Shown):
+class LimitResult(NotebookSummary):
     """Result of :func:`limit_analysis`.
 
     Parameters
@@ -674,12 +676,12 @@ def limit_analysis(
     check_standing(stack, dead, strength, base_tilt)
     equilibrium = equilibrium_matrix(stack)
 
-    def bear(facets: Facets) -> Borne:
+    def bear(facets: Facets) -> CapacityLoad:
         lower, forces, slopes = static_bound(equilibrium, dead, live, facets)
         # The crushing domain is curved: its tangents are added where the last answer left it.  (Kelley's cutting planes)
         while facets.cut(forces, strength):
             lower, forces, slopes = static_bound(equilibrium, dead, live, facets)
-        return Borne(lower, facets.worth(slopes), -forces[3 * stack.n :], forces)
+        return CapacityLoad(lower, facets.worth(slopes), -forces[3 * stack.n :], forces)
 
     facets = Facets(stack)
     whole = bear(facets)
@@ -699,7 +701,7 @@ def limit_analysis(
 
 
 def link_forces(
-    links: Sequence[Any], needed: Needed, largest: np.ndarray | None = None, towards: Sequence[Any] | None = None
+    links: Sequence[Any], needed: LinkDemand, largest: np.ndarray | None = None, towards: Sequence[Any] | None = None
 ) -> tuple[LinkForce, ...]:
     """Demand on the links of a programme, which have a name, an action and a capacity; the most of it [N] where known, and
     in space its direction."""
@@ -871,18 +873,18 @@ def demand(
         return ()
     every = programme.capacities
 
-    def borne(found: Solved) -> Borne:
+    def borne(found: Solved) -> CapacityLoad:
         prices, held = found.prices[links] / programme.weight, programme.held(found.forces)[links]
-        return Borne(found.multiplier, prices, held, found.forces)
+        return CapacityLoad(found.multiplier, prices, held, found.forces)
 
-    def bear(some: np.ndarray, enough: float) -> Borne:
+    def bear(some: np.ndarray, enough: float) -> CapacityLoad:
         capacity = every.copy()
         capacity[links] = some
         try:
             return borne(programme.converged(dead, live, capacity, enough))
         except InfeasibleError:  # it does not even stand
             none = np.zeros(len(links))
-            return Borne(-math.inf, none, none, found.forces)
+            return CapacityLoad(-math.inf, none, none, found.forces)
 
     needed = needed_forces(bear, every[links], borne(found))
     told = [programme.holders[k] for k in links]
@@ -1055,7 +1057,7 @@ Solve = Callable[[float, bool], DirectionLimit]
 
 
 @dataclass(frozen=True, eq=False)
-class LimitByDirection(Shown):
+class LimitByDirection(NotebookSummary):
     """Result of :func:`limit_directions`: one limit for each direction.
 
     Parameters

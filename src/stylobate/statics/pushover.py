@@ -15,7 +15,7 @@ from ..column import Column
 from ..errors import InputError, check_choice, check_range, check_whole
 from ..messages import say
 from ..models.rigid_block.block_stack import SHEAR, BlockStack, Hold, link_strain, link_strains
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from .limit import (
     check_standing,
     crushing_forces,
@@ -38,7 +38,7 @@ PLATEAU = 2e-7
 
 
 @dataclass(frozen=True, eq=False)
-class PushoverResult(Shown):
+class PushoverResult(NotebookSummary):
     """Equilibrium path of a pushover analysis, as far as it was found.
 
     Parameters

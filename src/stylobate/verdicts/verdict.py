@@ -33,7 +33,7 @@ STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN = "stands", "collapsed", "undecide
 VERDICTS = (STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN)
 
 #: Verdicts of runs that were made.
-MADE = (COLLAPSED, STANDS, UNDECIDED, FAILED)
+COMPUTED = (COLLAPSED, STANDS, UNDECIDED, FAILED)
 
 #: Attribute of a labelled array that holds verdicts as their places in VERDICTS.
 FLAGS = {

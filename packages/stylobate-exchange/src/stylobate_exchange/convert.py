@@ -24,7 +24,7 @@ from stylobate.column.structure import Structure
 from stylobate.column.tables import made_of
 from stylobate.column.toml import checked, toml_text
 from stylobate.errors import InputError, check_range, within
-from stylobate.text_tables import shown
+from stylobate.text_tables import printable
 
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
 from .contact_planes import ROUGH, SMOOTH, Closed, brought_together
@@ -179,21 +179,21 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
     if path.suffix.lower() in SURVEYS:
         tables, notes = survey_tables(path, reading.material, reading.columns, reading.north)
         tables.setdefault("name", path.stem)
-        column = made_of(Column, tables, shown(path))
+        column = made_of(Column, tables, printable(path))
         return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]
     stated: dict[str, Any] | None = None
     if path.suffix.lower() == ".dat":
-        name, up, factor = path.stem, reading.up or "z", unit_of(reading.unit, shown(path))
+        name, up, factor = path.stem, reading.up or "z", unit_of(reading.unit, printable(path))
         found, stated = read_three_dec(path)
         parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in found]
     elif path.suffix.lower() == ".json":
         name, blocks = read_compas(path)
-        up, factor = reading.up or "z", unit_of(reading.unit, shown(path))
+        up, factor = reading.up or "z", unit_of(reading.unit, printable(path))
         parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in parts_of(blocks)]
     else:
         name, up = path.stem, reading.up or upward(path)
         parts = [(part, False, None) for part in read_stones(path, reading.unit, up)]
-    structure, tables, words = stand_up(name, parts, reading, shown(path), path.parent, stated)
+    structure, tables, words = stand_up(name, parts, reading, printable(path), path.parent, stated)
     words.insert(-1, f"{up} is taken as upward" + ("" if reading.up else "; `up` says otherwise"))
     return structure, tables, words
 

@@ -89,14 +89,14 @@ class Job:
         left_out = ("folder", "_files", "requests", *(() if whole else ("asked", "results")))
         plain = {field.name: getattr(self, field.name) for field in fields(self) if field.name not in left_out}
         plain |= {"results": in_page_words(plain["results"])} if whole else {}
-        plain["commands"] = [shown(command) for command in self.commands]
+        plain["commands"] = [as_typed(command) for command in self.commands]
         plain["files"] = [] if self.open else self.files()
         plain["film"] = (self.filmed or not self.open) and (self.folder / FILM).is_file()
         return plain
 
     def lines(self) -> bytes:
         """Its command lines as a text file."""
-        return "".join(f"{shown(command)}\n" for command in self.commands).encode("utf-8", "backslashreplace")
+        return "".join(f"{as_typed(command)}\n" for command in self.commands).encode("utf-8", "backslashreplace")
 
     def save(self) -> None:
         """Keep it in its folder."""
@@ -121,6 +121,6 @@ class Job:
         return job
 
 
-def shown(command: Sequence[str]) -> str:
+def as_typed(command: Sequence[str]) -> str:
     """A command line as a person types it."""
     return shlex.join(("stylobate", *command))

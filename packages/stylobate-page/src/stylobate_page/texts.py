@@ -92,7 +92,7 @@ def describe(text: str) -> dict[str, Any]:
     except InputError as error:
         error.args = (str(error).replace(f"{FILE}: ", "").replace(FILE, "the file"),)  # it is the text at hand
         raise
-    from stylobate.plots.drawing import SEEN, solids_of
+    from stylobate.plots.drawing import VIEWS, solids_of
     from stylobate.plots.scene import OBLIQUE
 
     bodies = [one for one in assembly.bodies if not (one.fixed and one.size > FAR_AWAY)]
@@ -110,14 +110,14 @@ def describe(text: str) -> dict[str, Any]:
         },
         "model": model_of(assembly),
         "views": [
-            _seen(assembly, solids, view, said)
-            for view, said in (SEEN[:1] if plane else (*SEEN, (OBLIQUE, "from above")))
+            _view(assembly, solids, view, said)
+            for view, said in (VIEWS[:1] if plane else (*VIEWS, (OBLIQUE, "from above")))
         ],
         "warnings": warned(doubts),
     }
 
 
-def _seen(assembly: Structure, solids: list[Any], view: Any, said: str) -> dict[str, Any]:
+def _view(assembly: Structure, solids: list[Any], view: Any, said: str) -> dict[str, Any]:
     """What is seen from a direction: polygons with their colours in the order of painting, links, the ground's level [m]."""
     from stylobate.plots.scene import painted
 

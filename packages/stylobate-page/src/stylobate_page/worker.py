@@ -61,7 +61,7 @@ def main() -> None:
             requests = json.loads((Path(job["folder"]) / JOB).read_text(encoding="utf-8"))["requests"]
             work(job, requests, tell)
             console.LISTENER = None
-    signals.said()
+    signals.mark_ended()
     signals.end_now(signals.INTERRUPTED)
 
 

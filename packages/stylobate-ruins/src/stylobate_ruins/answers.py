@@ -16,10 +16,10 @@ from .simulations import Simulations
 from .traces import EVENTS, errors, features, left_by, matches
 
 #: Parameters that are told, and their units.
-TOLD = {"pgv_m_s": "m/s", "pga_g": "g", "period_s": "s", "azimuth_deg": "°"}
+UNITS = {"pgv_m_s": "m/s", "pga_g": "g", "period_s": "s", "azimuth_deg": "°"}
 
 #: What they are called.
-CALLED = {"pgv_m_s": "PGV", "pga_g": "PGA", "period_s": say("period"), "azimuth_deg": say("azimuth")}
+LABELS = {"pgv_m_s": "PGV", "pga_g": "PGA", "period_s": say("period"), "azimuth_deg": say("azimuth")}
 
 #: Fewest draws that a posterior may rest on, and the share that is accepted of those that match all events.
 FEWEST, SHARE = 100, 0.3
@@ -83,7 +83,7 @@ class Answers:
     def __init__(self, table: Simulations, facts: Sequence[Fact], seed: int, weights: np.ndarray | None = None) -> None:
         self.table, self.facts, self.seed = table, tuple(facts), seed
         self.weights = np.ones(len(table)) if weights is None else weights
-        self.scores = {name: abc.Scores(table.parameters[name]) for name in TOLD if name != "azimuth_deg"}
+        self.scores = {name: abc.Scores(table.parameters[name]) for name in UNITS if name != "azimuth_deg"}
         directions = abc.vectors(table.parameters["azimuth_deg"], table.prior.turn)
         self.targets = np.column_stack([*(one.scores for one in self.scores.values()), directions])
         self.matched = {fact: matches(fact, table) for fact in self.facts if fact.kind in EVENTS}
@@ -200,7 +200,7 @@ class Answers:
 
 def words_of(name: str, one: Posterior) -> str:
     """A posterior with its interval, for people."""
-    unit = f" {TOLD[name]}" if TOLD[name] != "°" else "°"
+    unit = f" {UNITS[name]}" if UNITS[name] != "°" else "°"
     return say("{p.median:.3g}{unit}, {p.low:.3g} to {p.high:.3g}", p=one, unit=unit)
 
 

@@ -17,7 +17,7 @@ from stylobate.probability.risk import Hazard
 from .ground_motion import GroundMotionModel, Source
 
 #: What is seen of a state.
-SEEN = ("stands", "reached")
+OBSERVATIONS = ("stands", "reached")
 
 #: Longest time that anything has stood [y].
 OLDEST = 1e6
@@ -143,7 +143,7 @@ class Monument:
 
     def __post_init__(self) -> None:
         of = self.called
-        check_choice("seen", self.seen, SEEN, of=of)
+        check_choice("seen", self.seen, OBSERVATIONS, of=of)
         for name in ("age", "until"):
             low, high = getattr(self, name)
             check_range(f"`{name}`", low, 0.0, OLDEST, unit="years", of=of)

@@ -19,7 +19,7 @@ from stylobate.models.registry import make_model
 from stylobate.motion import Motion
 from stylobate.motion.request import MotionRequest
 from stylobate.motion.specs import parse_acceleration, parse_angle, parse_time, parse_velocity
-from stylobate.text_tables import shown
+from stylobate.text_tables import printable
 
 from .outlasted import Outlasted
 from .prior import LOSSES, Prior
@@ -98,7 +98,7 @@ def read_ruin(path: str | Path) -> Ruin:
         The file cannot be read, or describes no ruin; the message names the place and the remedy.
     """
     table, folder = read_table(path, RuinFile), Path(path).parent
-    with within(shown(path)):
+    with within(printable(path)):
         structures = [load_structure(name if name in PRESETS else folder / name) for name in table.columns]
         observed = []
         for number, one in enumerate(table.observed or [], 1):

@@ -16,7 +16,7 @@ from .ground_motion import GroundMotionModel, Source, alike, events_of, plane
 CELL = 0.1
 
 #: Share of the rate whose events are taken for ones that reach one state at most [-].
-LEFT_OUT = 2e-3
+NEGLIGIBLE_SHARE = 2e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +150,7 @@ class SharedEvents:
         z = (self.log_median[:, place] - log_median) / np.hypot(beta, self.spread)
         part = (self.rate[:, None] * ndtr(z)).sum(axis=1)
         order = np.argsort(part)
-        return order[np.cumsum(part[order]) > LEFT_OUT * part.sum()]
+        return order[np.cumsum(part[order]) > NEGLIGIBLE_SHARE * part.sum()]
 
 
 def _gathered(rate: np.ndarray, median: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -12,7 +12,7 @@ from stylobate.motion.intensity_specs import parse_measure
 from stylobate.probability.risk import read_hazard
 from stylobate.results.asked import read_json
 from stylobate.results.fragilities import fitted
-from stylobate.text_tables import shown
+from stylobate.text_tables import printable
 
 from .ground_motion import MODELS, Source
 from .monuments import Branch, Capacity, Monument, Site, Sites
@@ -21,7 +21,7 @@ from .monuments import Branch, Capacity, Monument, Site, Sites
 MOST, MOST_BRANCHES = 50_000_000, 5000
 
 #: Columns of a table of branches that name no site.
-OWN = ("branch", "weight", "sources", "model")
+BRANCH_COLUMNS = ("branch", "weight", "sources", "model")
 
 
 class SiteTable(Table):
@@ -69,7 +69,7 @@ def read_sites(path: str | Path) -> Sites:
         The file cannot be read, or describes nothing that can be weighed; the message names the place and the remedy.
     """
     file, folder = read_table(path, SitesFile), Path(path).parent
-    with within(shown(path)):
+    with within(printable(path)):
         sites = tuple(Site(one.name, None if one.at is None else _pair("at", one.at), one.vs30) for one in file.sites)
         monuments = []
         for number, one in enumerate(file.monuments, 1):
@@ -104,7 +104,9 @@ def _capacity(table: MonumentTable, folder: Path) -> Capacity:
         found = read_json(place / "fragility.json")
         curves = [one for one in found.get("curves") or [found] if table.of in (None, one.get("name"))]
         if len(curves) != 1 or not {"median", "beta", "im", "unit", "state"} <= set(curves[0]):
-            raise InputError(f"{shown(place)} holds {len(curves)} curves that may be meant; name one with `of`.", "of")
+            raise InputError(
+                f"{printable(place)} holds {len(curves)} curves that may be meant; name one with `of`.", "of"
+            )
         return Capacity.of(curves[0])
     how = {"records_are_one": table.records_are_one}
     (curve,), _ = fitted([place], table.im, table.state, [table.of] if table.of else None, single=True, **how)
@@ -118,7 +120,7 @@ def _branches(path: Path, sites: tuple[Site, ...]) -> tuple[Branch, ...]:
     if "weight" not in table.columns:
         raise InputError(f"{table.name} has no column 'weight'; add what each branch weighs before anything is seen.")
     for column in table.columns:
-        check_choice("column", column, [*OWN, *known], of=table.name)
+        check_choice("column", column, [*BRANCH_COLUMNS, *known], of=table.name)
     if len(table.rows) > MOST_BRANCHES:
         raise InputError(f"{table.name} has {len(table.rows)} branches; allowed are {MOST_BRANCHES}.")
     found = []
@@ -140,19 +142,19 @@ def _branches(path: Path, sites: tuple[Site, ...]) -> tuple[Branch, ...]:
 
 
 #: Columns of a table of sources.
-NEEDED = ("source", "lon", "lat", "magnitude_min", "magnitude_max", "rate", "b", "mechanism")
+SOURCE_COLUMNS = ("source", "lon", "lat", "magnitude_min", "magnitude_max", "rate", "b", "mechanism")
 FURTHER = ("lon2", "lat2", "radius_km", "strike")
 
 
 def _sources(path: Path) -> list[Source]:
     table = tables.read(
-        path, MOST, "source", f"the columns {', '.join(NEEDED)}; {', '.join(FURTHER)} where they are known"
+        path, MOST, "source", f"the columns {', '.join(SOURCE_COLUMNS)}; {', '.join(FURTHER)} where they are known"
     )
     for column in table.columns:
-        check_choice("column", column, [*NEEDED, *FURTHER], of=table.name)
-    missing = next((one for one in NEEDED if one not in table.columns), None)
+        check_choice("column", column, [*SOURCE_COLUMNS, *FURTHER], of=table.name)
+    missing = next((one for one in SOURCE_COLUMNS if one not in table.columns), None)
     if missing:
-        raise InputError(f"{table.name} has no column {missing!r}; it needs {', '.join(NEEDED)}.")
+        raise InputError(f"{table.name} has no column {missing!r}; it needs {', '.join(SOURCE_COLUMNS)}.")
     numbers: dict[str, list[Any]] = {
         one: table.numbers(one, float("nan") if one in FURTHER else None)
         for one in table.columns

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from stylobate.errors import InputError, check_all, check_kind, check_range
-from stylobate.notebook import Shown
+from stylobate.notebook import NotebookSummary
 from stylobate.probability.fragility import Fragility
 from stylobate.probability.risk import Hazard, Risk, risk
 
@@ -117,7 +117,7 @@ def together(rates: np.ndarray, sets: np.ndarray, structures: np.ndarray, shared
 
 
 @dataclass(frozen=True, eq=False)
-class Survival(Shown):
+class Survival(NotebookSummary):
     """Evidence of the age of a column that still stands on hazard curves.
 
     Parameters

@@ -8,7 +8,7 @@ import numpy as np
 
 from .abc import vectors
 from .ruin import Fact
-from .simulations import FELL, STANDS, Left, Simulations
+from .simulations import FELL, STANDS, FinalState, Simulations
 
 #: Kinds of facts that a draw matches or does not.
 EVENTS = ("state", "body", "no slip above")
@@ -49,7 +49,7 @@ def errors(fact: Fact, shape: tuple[int, ...], seed: int) -> np.ndarray:
     return fact.sd * stream.standard_normal(shape)
 
 
-def plan(fact: Fact, left: Left) -> np.ndarray:
+def plan(fact: Fact, left: FinalState) -> np.ndarray:
     """What every draw leaves in the place of a vector in plan [m], shape (draws, 2)."""
     return (left.slip if fact.kind == "offset" else left.moved)[:, fact.joint]
 

@@ -16,7 +16,7 @@ from scipy.special import ndtri
 
 from stylobate.errors import InputError, check_kind, within
 from stylobate.messages import percent
-from stylobate.notebook import Shown
+from stylobate.notebook import NotebookSummary
 from stylobate.probability.risk import Hazard, doubts, rates
 
 from .monuments import Branch, Sites
@@ -43,7 +43,7 @@ WAYS = ("as weighed", "each its own", "all shared")
 
 
 @dataclass(frozen=True, eq=False)
-class Weighing(Shown):
+class Weighing(NotebookSummary):
     """Weights of branches before and after what is seen.
 
     Parameters

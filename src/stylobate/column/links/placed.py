@@ -290,7 +290,7 @@ def pull_on_part(
 
 #: What follows where the stone gives way first: of capacities that are computed, and of those that are given.
 BREAKS = say("Computed is that the stone breaks there, and the link then holds nothing.")
-GIVEN = say("That capacity is given, and taken as it is: it has to be known of the link in this stone.")
+CAPACITY_STATED = say("That capacity is given, and taken as it is: it has to be known of the link in this stone.")
 
 
 #: What limit analysis does not see of it.
@@ -313,7 +313,7 @@ def stone_words(links: Sequence[PlacedLink]) -> str:
         if bears < holds
     ]
     told = []
-    for given, words in ((False, BREAKS), (True, GIVEN)):
+    for given, words in ((False, BREAKS), (True, CAPACITY_STATED)):
         weak = [way for way in ways if way[-1] == given]
         if weak:
             _, link, how, bears, holds, stone, _ = min(weak, key=lambda way: way[0])

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...errors import InputError, as_typed, check_all, check_kind, check_name, check_range
-from ...text_tables import read_bytes, shown
+from ...text_tables import printable, read_bytes
 from ..drum import DENSITIES, LENGTHS, Drum
 from ..joint import Joint
 from ..plausible import bulk_doubts
@@ -533,7 +533,7 @@ def parsed_parts(path: Path) -> list[MeshPart]:
     InputError
         The ending is unknown, the file is none of its format, or trimesh, which reads it, is not installed.
     """
-    name, suffix = shown(path), path.suffix.lower()
+    name, suffix = printable(path), path.suffix.lower()
     if suffix not in MESHES:
         raise InputError(f"{name} ends in {suffix!r}; meshes are files that end in {', '.join(MESHES)}.")
     data = read_bytes(path, LARGEST, "thin the mesh out")
@@ -682,7 +682,7 @@ def read_mesh(path: Path, unit: str = "m") -> np.ndarray:
     InputError
         No mesh; one of several parts, with holes, that is not convex, or of a size that no stone has.
     """
-    name, factor = shown(path), unit_of(unit, shown(path))
+    name, factor = printable(path), unit_of(unit, printable(path))
     objects = parsed_parts(path)
     parts = objects if len(objects) > 1 else pieces_of(objects[0])
     if len(parts) > 1:
@@ -709,7 +709,7 @@ def read_stones(path: Path, unit: str = "m", up: str | None = None) -> list[Mesh
     InputError
         No mesh; a part with holes; or sizes all of which no stone has.
     """
-    name, factor = shown(path), unit_of(unit, shown(path))
+    name, factor = printable(path), unit_of(unit, printable(path))
     parts = [piece for part in parsed_parts(path) for piece in pieces_of(part)]
     _check_sizes(parts, factor, name, "`unit` " + ", ".join(UNITS))
     names = [part.name for part in parts]

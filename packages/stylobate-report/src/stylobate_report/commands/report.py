@@ -22,7 +22,7 @@ def report(
         flag="--translation-template",
     ),
     *,
-    execution: Annotated[o.Execution, o.But(*o.CAMPAIGNS, "out")],
+    execution: Annotated[o.Execution, o.Without(*o.CAMPAIGNS, "out")],
 ) -> None:
     """A report of any results: one page that prints on A4, for an engineer who signs it.
 

@@ -13,7 +13,7 @@ from stylobate.messages import say
 from stylobate.plots.style import BLACK, BLUE, GREY, RED, SAND, WIDTH, in_lines, page, styled
 
 from .. import abc
-from ..answers import CALLED, TOLD
+from ..answers import LABELS, UNITS
 from ..infer import Inference
 from ..ruin import joints_of
 from ..simulations import FELL
@@ -21,7 +21,7 @@ from ..simulations import FELL
 if TYPE_CHECKING:
     from stylobate.column.structure import Structure
 
-    from ..simulations import Left
+    from ..simulations import FinalState
 
 #: Bars of a marginal.
 BARS = 24
@@ -42,7 +42,7 @@ def draw_posterior(
     """
     figure = page(figure, (WIDTH, 4.4))
     answers, taken = inference.answers, inference.taken
-    for number, (axes, name) in enumerate(zip(figure.subplots(2, 2).flat, TOLD, strict=True)):
+    for number, (axes, name) in enumerate(zip(figure.subplots(2, 2).flat, UNITS, strict=True)):
         one, prior = inference.posterior[name], answers.table.parameters[name]
         if name == "azimuth_deg":
             turn, middle = answers.table.prior.turn, 0.5 * (one.low + one.high)
@@ -61,11 +61,11 @@ def draw_posterior(
         axes.set_xlim(bins[0], bins[-1])
         axes.set_yticks([])
         axes.spines["left"].set_visible(False)
-        axes.set_xlabel(f"{CALLED[name]} [{TOLD[name]}]" + (", from x towards y" if name == "azimuth_deg" else ""))
+        axes.set_xlabel(f"{LABELS[name]} [{UNITS[name]}]" + (", from x towards y" if name == "azimuth_deg" else ""))
         axes.set_title("" if one.informative else "the shapes do not tell", fontsize=8.5, color=GREY)
         if number == 0:
             axes.legend(loc="best", fontsize=7.5)
-    figure.suptitle(in_lines(title or _said(inference)), x=0.02, ha="left", fontsize=10.0)
+    figure.suptitle(in_lines(title or _title(inference)), x=0.02, ha="left", fontsize=10.0)
     return figure
 
 
@@ -149,7 +149,13 @@ def draw_matches(inference: Inference, title: str | None = None, *, figure: Figu
 
 
 def _column(
-    axes: Axes, inference: Inference, i: int, at: tuple[float, float], width: float, left: Left | None, k: int | None
+    axes: Axes,
+    inference: Inference,
+    i: int,
+    at: tuple[float, float],
+    width: float,
+    left: FinalState | None,
+    k: int | None,
 ) -> None:
     """One structure in plan: as it is seen, or as a draw leaves it."""
     facts = [fact for fact in inference.answers.facts if fact.structure == i]
@@ -204,7 +210,7 @@ def _width(structure: Structure) -> float:
     return float(max(column.joint_widths)) if column is not None else 1.0
 
 
-def _said(inference: Inference) -> str:
+def _title(inference: Inference) -> str:
     one = inference.posterior["pgv_m_s"]
     if not one.informative:
         return "What shaking was it? These shapes do not tell the PGV"
