@@ -18,7 +18,7 @@ from stylobate.motion.intensity_specs import parse_measure
 from stylobate.verdicts.verdict import verdict
 
 from .asked import FRAGILITY, RESULT, STUDY
-from .job import GROWING
+from .workshop import GROWING
 
 if TYPE_CHECKING:
     from stylobate.probability.evidence import Ida

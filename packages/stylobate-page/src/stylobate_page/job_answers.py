@@ -43,10 +43,9 @@ from .asked import (
 )
 from .curves import curves, new_cells
 from .forms import FORMS
-from .job import FILM, Job
 from .records import RECORDS, Records
 from .texts import assembly_of, ruin_of
-from .workshop import Workshop
+from .workshop import FILM, Job, Workshop
 
 #: Files of jobs that a browser shows, by the end of their names; it saves the others.
 PICTURES = {"png": "image/png", "svg": "image/svg+xml", "html": "text/html"}

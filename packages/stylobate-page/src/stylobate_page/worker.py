@@ -25,7 +25,7 @@ from stylobate.errors import StylobateError
 
 from .asked import ASSEMBLY, COLUMN, RUIN, STUDY
 from .forms import in_page_words
-from .job import FILM, GROWING, JOB
+from .workshop import FILM, GROWING, JOB
 
 if TYPE_CHECKING:
     from stylobate.probability.evidence import Ida

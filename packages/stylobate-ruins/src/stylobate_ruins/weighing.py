@@ -19,8 +19,8 @@ from stylobate.messages import percent
 from stylobate.notebook import NotebookSummary
 from stylobate.probability.risk import Hazard, doubts, rates
 
+from .ground_motion import SharedEvents
 from .monuments import Branch, Sites
-from .shared_events import SharedEvents
 from .survival import Pattern, together
 
 #: Draws of ages, and of fragilities with each, where events are known by hazard curves and where they are drawn.
