@@ -80,10 +80,6 @@ def simulate(
     progress : callable, optional
         Called with (time so far, time of the whole run) [s], by models that step drums.
 
-    Returns
-    -------
-    Response
-
     Raises
     ------
     InputError

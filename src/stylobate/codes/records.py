@@ -389,10 +389,6 @@ def select_records(
     about : dict of str to dict, optional
         ``magnitude`` and ``distance_km`` by the names of records.
 
-    Returns
-    -------
-    RecordSelection
-
     Raises
     ------
     InputError

@@ -403,11 +403,6 @@ def arias(acceleration: np.ndarray, dt: float) -> float:
 def write_csv(motion: Motion, path: str | Path) -> Path:
     """Write a motion as CSV in m/s², with a header that names the units.
 
-    Parameters
-    ----------
-    motion : Motion
-    path : path
-
     Returns
     -------
     Path

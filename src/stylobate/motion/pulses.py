@@ -153,10 +153,6 @@ def ricker(frequency: float, amplitude: float, duration: float | None = None, *,
     antisymmetric : bool
         The third derivative of a Gaussian instead of the second.
 
-    Returns
-    -------
-    Motion
-
     Notes
     -----
     With τ the time from the middle, the symmetric wavelet is a (1 − 2π²f²τ²) exp(−π²f²τ²), the antisymmetric one
@@ -207,10 +203,6 @@ def gabor(
         ν: phase of the cosine in the middle of the bell [degrees]; 0 gives a one-sided velocity pulse in the middle,
         90 a two-sided one.
 
-    Returns
-    -------
-    Motion
-
     Notes
     -----
     v(τ) = V exp(−2π²f²τ²/γ²) cos(2πfτ + ν), τ the time from the middle.
@@ -253,10 +245,6 @@ def mavroeidis_papageorgiou(
         γ: number of half-cycles, more than 1 [-].
     phase : float
         ν [degrees]: 0 gives a velocity pulse symmetric about its middle, 90 an antisymmetric one.
-
-    Returns
-    -------
-    Motion
 
     Notes
     -----
@@ -366,10 +354,6 @@ def pulse_match(
         Periods to look at [s].
     per_octave : int
         Number of them per doubling.
-
-    Returns
-    -------
-    PulseMatch
 
     Raises
     ------

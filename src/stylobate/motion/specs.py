@@ -213,10 +213,6 @@ def parse_pulse(
     allow_unknown : bool
         As for :func:`parse_harmonic`.
 
-    Returns
-    -------
-    Motion or (Motion, bool)
-
     Raises
     ------
     InputError

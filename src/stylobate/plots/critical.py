@@ -51,12 +51,7 @@ _MARKS: dict[str, dict[str, Any]] = {
 
 @styled
 def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: Axes | None = None) -> Figure:
-    """Peak top displacement of the runs that have one, the verdict of every run, and the lowest collapse, of twins too.
-
-    Parameters
-    ----------
-    result : CriticalAmplitude
-    """
+    """Peak top displacement of the runs that have one, the verdict of every run, and the lowest collapse, of twins too."""
     amplitudes, verdicts = result.amplitudes / g, np.array(result.verdicts)
     if (width := result.column.base_width) is None:  # nor is there one top
         peaks, label = (
@@ -103,10 +98,6 @@ def draw_collapse_over_amplitude(
     """Share of the twins that collapse over the amplitude, with its confidence band; above it the factor of the record.
 
     Where twins are undecided there is no line, but a bar: from the share if none of them collapses to that if all do.
-
-    Parameters
-    ----------
-    population : CriticalPopulation
     """
     figure, axes = panel(ax, (WIDTH, 3.4))
     amplitudes, (low, high) = population.amplitudes / g, population.interval
@@ -147,12 +138,7 @@ LONGEST = 30
 def draw_record_verdicts(
     suite: CriticalSuite, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """Share of collapse over the peak acceleration, and below it one strip of verdicts per record.
-
-    Parameters
-    ----------
-    suite : CriticalSuite
-    """
+    """Share of collapse over the peak acceleration, and below it one strip of verdicts per record."""
     count, amplitudes = len(suite.results), suite.amplitudes / g
     column = suite.results[0].column
     figure = page(figure, (WIDTH, 2.9 + 0.24 * count))
@@ -199,10 +185,6 @@ def draw_directions(compass: Compass, title: str | None = None, *, figure: Figur
     """A value over the direction of the shaking along x: north up, azimuths clockwise as those of records.
 
     The worst direction is marked. Values beyond what was looked at stand open at the rim.
-
-    Parameters
-    ----------
-    compass : Compass
     """
     figure = page(figure, (4.6, 4.9))
     axes = cast(PolarAxes, figure.add_subplot(projection="polar"))

@@ -46,10 +46,6 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     Of a column: heights of drums and of all, widths (diameters, with ⌀) of both faces of each drum, numbers of drums and
     joints, joints whose friction differs, links in blue. Red are drums that are not where they were built, over
     dashed outlines of the column as built, and what was measured.
-
-    Parameters
-    ----------
-    structure : Column, Assembly or Specimen
     """
     outlines, column = outlines_of(structure), structure.stack
     if column is None:
@@ -461,12 +457,7 @@ class StructureViews:
 
 @styled
 def draw_views(structure: Structure, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
-    """What stands, before the motion: elevations along x and along y, the plan, and an oblique view, dimensions in m.
-
-    Parameters
-    ----------
-    structure : Column, Assembly, SpatialAssembly or Specimen
-    """
+    """What stands, before the motion: elevations along x and along y, the plan, and an oblique view, dimensions in m."""
     seen = StructureViews.of(structure)
     across, deep, heights = _proportions(seen.solids)
     figure = page(figure, (WIDTH, sum(heights)))
@@ -757,10 +748,6 @@ def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure
     """What stands, before the motion: :func:`draw_views`, and under it the plan of every joint, x to the right.
 
     The face above is sand, that below a dashed line; what is as found is red, links are blue.
-
-    Parameters
-    ----------
-    structure : Column, Assembly, SpatialAssembly or Specimen
     """
     plans = joint_plans(structure)
     shown = plans[:MOST]

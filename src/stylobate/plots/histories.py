@@ -385,11 +385,6 @@ def draw_sequence(
 
     The displacement is that of a column's top along x, or of an assembly's body that is farthest from its place; the tilt
     that of the body which has turned most since the start.
-
-    Parameters
-    ----------
-    response : Response
-    events : sequence of Event
     """
     figure = page(figure, (WIDTH, 4.6))
     upper, middle, lower = figure.subplots(3, 1, sharex=True, height_ratios=(2.2, 1.8, 1.0))
@@ -428,13 +423,7 @@ def draw_sequence(
 def draw_ends(
     response: Response, events: Sequence[Event], title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """The structure before the first earthquake and at the end of each; of more than eight of some of them.
-
-    Parameters
-    ----------
-    response : Response
-    events : sequence of Event
-    """
+    """The structure before the first earthquake and at the end of each; of more than eight of some of them."""
     last = [float(event.run.time[-1]) for event in events]
     some = np.unique(np.linspace(0, len(last) - 1, min(len(last), MOST_STATES - 1)).round().astype(int))
     return draw_filmstrip(response, [float(response.time[0]), *(last[k] for k in some)], title=title, figure=figure)

@@ -645,10 +645,6 @@ def fragility(
     records_are_one : bool
         Runs of few records count as if each had a record of its own: the curve is then that of these records.
 
-    Returns
-    -------
-    Fragility
-
     Raises
     ------
     InputError

@@ -176,10 +176,6 @@ def ida(
         With replicates, these are run instead of the column itself; ``progress`` is called with (finished, most that there
         will be).
 
-    Returns
-    -------
-    Ida
-
     Raises
     ------
     InputError

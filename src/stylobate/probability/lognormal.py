@@ -43,10 +43,6 @@ def fit(low: np.ndarray, high: np.ndarray, weight: np.ndarray | None = None) -> 
         Ends of the intervals of ln capacity, −inf and +inf where open, shape (n,), or (S, n) for S samples.
     weight : array, optional
         How often each interval counts, shape (n,) or (S, n); once by default.
-
-    Returns
-    -------
-    Fit
     """
     low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
     weight = np.ones(low.shape) if weight is None else np.asarray(weight, dtype=float)

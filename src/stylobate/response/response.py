@@ -106,10 +106,6 @@ class Response(Recorded):
             At which that many are shown: 0.5 keeps twice as many states. The viewer chooses how fast it plays.
         window : (float, float), optional
             Beginning and end of what is shown [s]; all by default.
-
-        Returns
-        -------
-        stylobate.Film
         """
         from .. import Film
 
@@ -117,10 +113,6 @@ class Response(Recorded):
 
     def joint_forces(self) -> JointForces:
         """Normal force, shear and moment of every joint of a column in the plane, averaged over two recording intervals.
-
-        Returns
-        -------
-        JointForces
 
         Raises
         ------

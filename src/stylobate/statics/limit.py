@@ -659,10 +659,6 @@ def limit_analysis(
     compressive_strength : float, optional
         f_c of the joints [Pa]; unlimited by default.
 
-    Returns
-    -------
-    LimitResult
-
     Raises
     ------
     InputError
@@ -787,10 +783,6 @@ class SpaceLimit(NamedTuple):
 class SpaceProgramme:
     """The programmes of a column: a new one for each direction, which stays small.
 
-    Parameters
-    ----------
-    column : Column
-
     Raises
     ------
     InputError
@@ -908,10 +900,6 @@ NAMED = 4
 
 class AssemblyProgramme:
     """The programme of an assembly: what has been added for one direction stays for the next.
-
-    Parameters
-    ----------
-    structure : SpatialAssembly
 
     Raises
     ------

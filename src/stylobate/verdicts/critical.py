@@ -584,10 +584,6 @@ def critical_amplitude(
     campaign, **settings : Campaign, optional
         With replicates, twins of the column go through the amplitudes as well.
 
-    Returns
-    -------
-    CriticalAmplitude
-
     Raises
     ------
     InputError
@@ -860,10 +856,6 @@ def critical_suite(
         As for :func:`stylobate.verdicts.critical.critical_amplitude`.
     campaign, **settings : Campaign, optional
         As there.
-
-    Returns
-    -------
-    CriticalSuite
 
     Raises
     ------

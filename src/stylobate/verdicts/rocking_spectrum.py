@@ -154,10 +154,6 @@ def rocking_spectrum(
     threads : int, optional
         All cores by default.
 
-    Returns
-    -------
-    RockingSpectrum
-
     Raises
     ------
     InputError

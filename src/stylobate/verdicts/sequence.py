@@ -265,10 +265,6 @@ def sequence(
         Go on after the collapse of a column, where the model does.
     campaign, **settings : Campaign, optional
 
-    Returns
-    -------
-    SequenceResult
-
     Raises
     ------
     InputError

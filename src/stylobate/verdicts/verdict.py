@@ -116,11 +116,6 @@ def collapse_interval(
 def wilson_interval(successes: Any, trials: Any, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
     """Confidence limits of a probability from counts; 0 and 1 where there is no trial.
 
-    Parameters
-    ----------
-    successes, trials : array of int
-    confidence : float
-
     References
     ----------
     Wilson 1927: the probabilities p with (successes/trials − p)² ≤ z² p (1 − p)/trials.

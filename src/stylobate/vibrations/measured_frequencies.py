@@ -537,10 +537,6 @@ def joints_from_frequencies(
         Of ground and columns.
     seed : int
 
-    Returns
-    -------
-    MeasuredJoints
-
     Raises
     ------
     InputError

@@ -211,10 +211,6 @@ def modes(column: Structure, model: Any) -> Modes:
     model : DistinctElement2D or DistinctElement3D
         Where its joints carry.
 
-    Returns
-    -------
-    Modes
-
     Raises
     ------
     InputError

@@ -46,12 +46,7 @@ UPLIFT = say(
 
 
 def run_sections(run: RunResult) -> list[Section]:
-    """All sections of one run.
-
-    Parameters
-    ----------
-    run : RunResult
-    """
+    """All sections of one run."""
     r, summary = run.response, run.summary
     column = r.structure.stack
     asked = run.asked.motions[0] if run.asked is not None and run.asked.motions else None

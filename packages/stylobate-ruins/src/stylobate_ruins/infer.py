@@ -212,10 +212,6 @@ def infer(
         seconds, and more ``simulations`` add to it.
     campaign, **settings : Campaign, optional
 
-    Returns
-    -------
-    Inference
-
     Raises
     ------
     InputError

@@ -204,14 +204,7 @@ class Branch:
 
 @dataclass(frozen=True, eq=False)
 class Sites:
-    """All that is weighed together.
-
-    Parameters
-    ----------
-    sites : tuple of Site
-    monuments : tuple of Monument
-    branches : tuple of Branch
-    """
+    """All that is weighed together."""
 
     sites: tuple[Site, ...]
     monuments: tuple[Monument, ...]

@@ -231,14 +231,6 @@ def bits(after: np.ndarray, before: np.ndarray) -> float:
 def weigh(sites: Sites) -> Weighing:
     """Weigh hazards by what is seen of monuments.
 
-    Parameters
-    ----------
-    sites : Sites
-
-    Returns
-    -------
-    Weighing
-
     Raises
     ------
     InputError

@@ -309,10 +309,6 @@ def run_single(
     options : RunOptions
     initial_rotation : float
         Counter-clockwise positive [rad].
-
-    Returns
-    -------
-    Histories, Measures
     """
     from scipy.integrate import DOP853
     from scipy.optimize import brentq

@@ -289,10 +289,6 @@ def read_suite(
     component : str or int, optional
         The one component of each file that is to be the horizontal input, as for :func:`read_motion`.
 
-    Returns
-    -------
-    Suite
-
     Raises
     ------
     InputError

@@ -40,12 +40,7 @@ MATCHES, TIMES = 10, 5.0
 def draw_posterior(
     inference: Inference, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """PGV, PGA, period and azimuth after what is seen, the prior grey behind; the line is the median, the band holds 90 %.
-
-    Parameters
-    ----------
-    inference : Inference
-    """
+    """PGV, PGA, period and azimuth after what is seen, the prior grey behind; the line is the median, the band 90 %."""
     figure = page(figure, (WIDTH, 4.4))
     answers, taken = inference.answers, inference.taken
     for number, (axes, name) in enumerate(zip(figure.subplots(2, 2).flat, UNITS, strict=True)):
@@ -79,12 +74,7 @@ def draw_posterior(
 def draw_observations(
     inference: Inference, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """What is left of the prior's spread of ln PGV with each observation alone, and without it; odd ones in red.
-
-    Parameters
-    ----------
-    inference : Inference
-    """
+    """What is left of the prior's spread of ln PGV with each observation alone, and without it; odd ones in red."""
     rows, odd = inference.told, [one.odd for one in inference.checks]
     figure = page(figure, (WIDTH, 1.3 + 0.24 * len(rows)))
     axes = figure.subplots()
@@ -118,10 +108,6 @@ def draw_matches(inference: Inference, title: str | None = None, *, figure: Figu
     """The ruin in plan beside the draws that are nearest to it, and the nearest of those that differ in a state.
 
     Offsets of drums are drawn five times as long as they are; an arrow is a fall.
-
-    Parameters
-    ----------
-    inference : Inference
     """
     answers, ruin = inference.answers, inference.ruin
     table, taken = answers.table, inference.taken
@@ -239,12 +225,7 @@ def _plain_ticks(axes: Axes, low: float, high: float) -> None:
 
 @styled
 def draw_survival(result: Survival, title: str | None = None, *, ax: Axes | None = None) -> Figure:
-    """Probability that the column would still stand, by hazard curve, with the interval of its fragility.
-
-    Parameters
-    ----------
-    result : Survival
-    """
+    """Probability that the column would still stand, by hazard curve, with the interval of its fragility."""
     figure, axes = panel(ax, (NARROW[0], 1.2 + 0.62 * len(result.risks)))
     low, high = result.interval
     at = np.arange(len(result.risks))
@@ -278,10 +259,6 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
     """Weights of branches, bits of monuments, and hazard curves of sites; grey before, blue after what is seen.
 
     The mark across a weight reaches from events that each site has for its own to events that shake all.
-
-    Parameters
-    ----------
-    result : Weighing
     """
     sites = list(result.im)[:SITES]
     order = np.argsort(-np.maximum(result.prior, result.weight), kind="stable")[:BRANCHES]
