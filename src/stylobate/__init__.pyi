@@ -13,6 +13,7 @@ from .column.assembly import Assembly as Assembly
 from .column.assembly import Block as Block
 from .column.assembly_files import read_assembly as read_assembly
 from .column.files import read_column as read_column
+from .column.files import read_losses as read_losses
 from .column.joint import Losses as Losses
 from .column.links import Bar as Bar
 from .column.links import Clamp as Clamp
@@ -22,7 +23,6 @@ from .column.links import Layer as Layer
 from .column.links import Pad as Pad
 from .column.links import Tie as Tie
 from .column.links.anchorage import stone_at_anchor as stone_at_anchor
-from .column.loss_files import read_losses as read_losses
 from .column.scatter import Scatter as Scatter
 from .column.spatial.assembly import SpatialAssembly as SpatialAssembly
 from .column.spatial.stone import Stone as Stone

@@ -19,11 +19,10 @@ from ..messages import joined, say
 from ..motion import Motion
 from ..motion.drift import cure_of
 from ..motion.earthquakes import MAX_BYTES, is_catalogue, places_of, read_earthquake, station_of
-from ..motion.events import events_of, unknown_events
+from ..motion.events import events_of, recorded_again, unknown_events
 from ..motion.intensity import displacement_drift
 from ..motion.intensity_specs import IntensityMeasure
 from ..motion.readers.source import Source
-from ..motion.recordings import recorded_again
 from ..motion.spectra import pseudo_acceleration, rotated_pga, rotated_spectrum
 from ..notebook import NotebookSummary
 from .spectra import TargetSpectrum

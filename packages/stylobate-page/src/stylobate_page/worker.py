@@ -105,7 +105,7 @@ def warm(tell: Callable[..., None]) -> None:
     from stylobate import DistinctElement2D, certainty, harmonic, preset
     from stylobate.cli.main import ask
 
-    from .film import film
+    from .curves import film
 
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         ask({"command": "run", "column": "paper-12-drums", "harmonic": "1Hz,0.05g,0.1s", "json": True})
@@ -170,7 +170,7 @@ def growing(job: str, state: str, tell: Callable[..., None]) -> Callable[[Callab
 
 def make_film(job: str, tell: Callable[..., None], response: Response) -> None:
     """Make the film of a run, in the folder of its job."""
-    from .film import write_film
+    from .curves import write_film
 
     try:
         write_film(response, Path(FILM))

@@ -17,7 +17,8 @@ from stylobate.column.files import write_column
 from stylobate.motion import write_csv
 from stylobate.plots import style
 from stylobate.results import Kind, read_results
-from stylobate_report import pdf, pictures
+from stylobate_report import page as pdf
+from stylobate_report import pictures
 from stylobate_report.case import write_report
 from stylobate_report.language import LANGUAGES, Language, catalogue_of, file_of
 from stylobate_report.project import Project

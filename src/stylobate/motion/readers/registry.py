@@ -14,8 +14,8 @@ from ...added import RECORDS, entries, missing
 from ...errors import InputError, check_all, check_kind, warn
 from ...messages import say
 from ...text_tables import printable
+from ..events import recorded_again
 from ..motion import Motion
-from ..recordings import recorded_again
 from . import columns as columns_of_text
 from .record import OWN_FACTS, Component, UnstatedError, assemble, check_whole
 from .source import PREFIX, Source

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stylobate.column import Column
+from stylobate.column.files import write_losses
 from stylobate.column.joint import Losses
-from stylobate.column.loss_files import write_losses
 from stylobate.column.scatter import LARGEST
 from stylobate.errors import InputError
 from stylobate.messages import percent

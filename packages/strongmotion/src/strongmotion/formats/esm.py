@@ -25,7 +25,7 @@ from stylobate.motion.readers.record import (
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 
-from .keyed import is_numeric, number_after
+from .volume1 import is_numeric, number_after
 
 #: Beginnings of the keys, after ``_`` has become a blank.
 _KEYS = {

@@ -10,7 +10,7 @@ from stylobate.motion.readers.record import Component, check_count, check_length
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 
-from .keyed import is_numeric
+from .volume1 import is_numeric
 
 _UNIT = re.compile(
     r"accel\w*\s+time\s+(?:series|history)\s+in\s+units\s+of\s+(?P<unit>[a-z][a-z/0-9^]*)", re.IGNORECASE

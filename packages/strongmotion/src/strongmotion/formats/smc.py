@@ -23,7 +23,7 @@ from stylobate.motion.readers.record import (
 )
 from stylobate.motion.readers.source import Source
 
-from .keyed import is_numeric
+from .volume1 import is_numeric
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 11, 6, 10
 _FIRST = re.compile(r"^\s*(?P<volume>\d)\s+(?P<what>.*\S)\s*$")

@@ -21,7 +21,7 @@ from stylobate.motion.readers.record import (
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 
-from .keyed import is_numeric, keyed, number_of
+from .volume1 import is_numeric, keyed, number_of
 
 _COLUMN = re.compile(r"(?P<label>[UNE])\((?P<sign>[+-])\)")
 _MOST = re.compile(rf"(?P<high>{NUMBER})\s*~\s*(?P<low>{NUMBER})")

@@ -19,7 +19,7 @@ from stylobate.motion.readers.record import (
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 
-from .keyed import is_numeric, keyed
+from .volume1 import is_numeric, keyed
 
 
 def recognises(source: Source) -> bool:

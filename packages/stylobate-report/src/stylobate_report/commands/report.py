@@ -35,7 +35,7 @@ def report(
 
     from ..case import write_report
     from ..language import write_template
-    from ..pdf import is_root, needs_browser
+    from ..page import is_root, needs_browser
     from ..project import read_project
 
     if template is not None:
