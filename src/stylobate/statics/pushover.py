@@ -701,8 +701,6 @@ def _stiffer(stack: BlockStack, factor: float) -> BlockStack:
     )
 
 
-__all__ = ["CONTROLS", "STATES", "PushoverResult", "pushover"]
-
 CONTROLS = ("displacement", "arc-length")
 
 

@@ -19,9 +19,6 @@ from stylobate.notebook import NotebookSummary
 from stylobate.probability.fragility import Fragility
 from stylobate.probability.risk import Hazard, Risk, risk
 
-#: Most states that are seen to be reached: each doubles the sum.
-MOST_REACHED = 8
-
 
 def stands(rate: np.ndarray | float, years: np.ndarray | float) -> np.ndarray:
     """Probability that no event came, exp(−λ t), shapes broadcast.  # Eq. (G6)

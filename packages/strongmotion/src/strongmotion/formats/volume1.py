@@ -10,17 +10,10 @@ import numpy as np
 
 from stylobate.errors import InputError, within
 from stylobate.motion.readers.numbers import NUMBER, number_in, read_numbers
-from stylobate.motion.readers.record import (
-    CUT,
-    Component,
-    check_count,
-    check_peak,
-    check_peak_time,
-    printed,
-    rising_pairs,
-    step_of,
-)
+from stylobate.motion.readers.record import CUT, Component, rising_pairs, step_of
 from stylobate.motion.specs import acceleration_unit
+
+from .stated import check_count, check_peak, check_peak_time, printed
 
 # Headers of lines ``KEY: value`` or ``KEY   value``, as several networks write them.
 
