@@ -6,6 +6,7 @@ import errno
 import hashlib
 import os
 import platform
+import re
 import secrets
 import tempfile
 from collections.abc import Iterable, Iterator
@@ -204,7 +205,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
     if guard is not None:
         guard.check(target)
     _remove_left(target)
-    partial = target.with_name(_partial_name(target, os.getpid(), secrets.token_hex(4)))
+    partial = target.with_name(_partial_name(target, str(os.getpid()), secrets.token_hex(4)))
     PARTIAL.add(partial)
     try:
         try:
@@ -283,22 +284,19 @@ def set_aside(path: Path, endings: Iterable[str] = ("",)) -> Path:
     return new
 
 
-def _partial_name(target: Path, process: int, token: str) -> str:
-    # The seal tells our own from any other hidden file: it stands for this machine, the process and the whole name.
-    seal = hashlib.sha256(os.fsencode(f"stylobate {platform.node()} {process} {token} {target.name}")).hexdigest()[:12]
-    return f".{target.stem[:40]}.{process}-{token}-{seal}{target.suffix[:20]}"
+def _partial_name(target: Path, process: str, token: str) -> str:
+    """Temporary name beside a file: whose process on which machine writes it, and that it is ours."""
+    return f".{target.stem[:40]}.{process}-{token}@{platform.node()[:30]}.stylobate{target.suffix[:20]}"
 
 
 def _remove_left(target: Path) -> None:
-    start, end = f".{target.stem[:40]}.", target.suffix[:20]
+    start, middle, end = map(re.escape, _partial_name(target, "\0", "\0").split("\0"))
+    left = re.compile(rf"{start}(\d{{1,9}}){middle}[0-9a-f]{{8}}{end}")
     with suppress(OSError):
-        for name in os.listdir(target.parent):
-            process, _, rest = name[len(start) : len(name) - len(end)].partition("-")
-            if name.startswith(start) and name.endswith(end) and process.isdecimal() and len(rest) == 21:
-                own = name == _partial_name(target, int(process), rest[:8])
-                left = target.with_name(name)
-                if own and not _is_running(int(process)) and not left.is_symlink():
-                    left.unlink(missing_ok=True)
+        for path in target.parent.iterdir():
+            found = left.fullmatch(path.name)
+            if found and not path.is_symlink() and not _is_running(int(found[1])):
+                path.unlink(missing_ok=True)
 
 
 def _is_running(process: int) -> bool:
