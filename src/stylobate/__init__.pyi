@@ -43,6 +43,7 @@ from .motion import MotionRequest as MotionRequest
 from .motion import harmonic as harmonic
 from .motion import pulses as pulses
 from .motion import stochastic_motion as stochastic_motion
+from .motion.pulses import MotionScatter as MotionScatter
 from .motion.pulses import cosine_pulse as cosine_pulse
 from .motion.pulses import gabor as gabor
 from .motion.pulses import half_sine_pulse as half_sine_pulse
@@ -53,7 +54,6 @@ from .motion.pulses import sine_pulse as sine_pulse
 from .motion.readers import read_motion as read_motion
 from .motion.readers import read_suite as read_suite
 from .motion.readers import sample_motion as sample_motion
-from .motion.scatter import MotionScatter as MotionScatter
 from .outcome import Outcome as Outcome
 from .plots.film import Film as Film
 from .response import Response as Response

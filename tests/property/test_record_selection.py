@@ -11,7 +11,7 @@ import pytest
 import stylobate as st
 from stylobate.codes.records import OWN_MISFIT, RecordRange, select_records
 from stylobate.motion.events import recorded_again
-from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.intensity import parse_measure
 from stylobate.motion.specs import parse_synthetic
 from stylobate.motion.spectra import pseudo_acceleration
 

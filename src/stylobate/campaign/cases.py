@@ -21,7 +21,7 @@ from ..models.base import Case, Cases, Model
 from ..models.shared.ground import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
-from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
+from ..motion.intensity import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
 from ..motion.sequence import spans_of
 from ..response.rows import Rows
@@ -59,7 +59,7 @@ class Study:
         Of ``im`` in its unit (pga and sa in g, pgv in m/s), to each of which every motion is scaled; factors of the
         motions without ``im``.
     im : IntensityMeasure or str, optional
-        Such as ``pga``; see :func:`stylobate.motion.intensity_specs.parse_measure`.
+        Such as ``pga``; see :func:`stylobate.motion.intensity.parse_measure`.
     keep : {"rows", "histories"}
         ``histories`` keeps a file of histories per case, not only of the worst and the median one.
     campaign, **settings : Campaign, optional

@@ -18,7 +18,7 @@ from ..errors import InputError, as_typed, check_whole, within
 from ..models.base import Model
 from ..models.registry import make_models
 from ..motion import Motion, Suite, harmonic
-from ..motion.intensity_specs import IntensityMeasure, parse_measure
+from ..motion.intensity import IntensityMeasure, parse_measure
 from ..motion.readers.source import PREFIX
 from ..motion.request import MotionRequest
 from ..motion.sequence import REST, in_sequence

@@ -32,7 +32,7 @@ def ida(
     Levels are hunted and filled, all records at a time; with the table of which intensity measure tells most.
     """
     from ..codes.records import facts_of_records
-    from ..motion.intensity_specs import parse_levels, parse_measure
+    from ..motion.intensity import parse_levels, parse_measure
     from ..probability.evidence import check_response, median_of
     from ..probability.ida import FEWEST, which_tells_most
     from ..probability.ida import ida as analyse

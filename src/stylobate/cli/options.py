@@ -203,7 +203,7 @@ def whole_number(text: str, name: str) -> int:
 def scatter(text: str, name: str) -> Any:
     """Sizes as typed, each a share such as ``1%`` or ``0.01``, of the scatter of columns or of a motion."""
     from ..column.scatter import LARGEST, Scatter
-    from ..motion.scatter import LARGEST_OF_MOTION, MotionScatter
+    from ..motion.pulses import LARGEST_OF_MOTION, MotionScatter
 
     kind, names, example = Scatter, LARGEST, f"`{name}=friction=10%,joint_stiffness=20%`"
     if name == "motion_scatter":

@@ -46,8 +46,7 @@ def records(
     """
     from ..codes.records import facts_of_records, select_records
     from ..codes.spectra import target_spectrum
-    from ..motion.condition_specs import scales
-    from ..motion.drift import THEN
+    from ..motion.conditioning import THEN, scales
     from ..motion.specs import parse_number, parse_time
     from . import console
 
@@ -123,7 +122,7 @@ def _pair(name: str, text: str, parse: Callable[[str], float], example: str) -> 
 def _range_of_measure(text: str) -> RecordRange:
     """A range of a measure as typed: ``pgv=0.1m/s:0.8m/s``."""
     from ..codes.records import ABOUT, RecordRange
-    from ..motion.intensity_specs import parse_level, parse_measure
+    from ..motion.intensity import parse_level, parse_measure
     from ..motion.specs import parse_number
 
     name, sign, span = (part.strip() for part in text.partition("="))

@@ -17,11 +17,10 @@ from ..constants import g
 from ..errors import InputError, check_choice, check_range, check_whole
 from ..messages import joined, say
 from ..motion import Motion
-from ..motion.drift import cure_of
+from ..motion.conditioning import cure_of
 from ..motion.earthquakes import MAX_BYTES, is_catalogue, places_of, read_earthquake, station_of
 from ..motion.events import events_of, recorded_again, unknown_events
-from ..motion.intensity import displacement_drift
-from ..motion.intensity_specs import IntensityMeasure
+from ..motion.intensity import IntensityMeasure, displacement_drift
 from ..motion.readers.source import Source
 from ..motion.spectra import pseudo_acceleration, rotated_pga, rotated_spectrum
 from ..notebook import NotebookSummary

@@ -1,10 +1,10 @@
 """Motions, harmonic and pulse-like, recorded and simulated, and measures of them."""
 
-from .condition_specs import conditioned
 from .conditioning import (
     bandpass,
     baseline_piecewise,
     baseline_polynomial,
+    conditioned,
     demean,
     detrend,
     resample,

@@ -14,7 +14,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..errors import InputError
 from ..messages import percent
-from ..motion.intensity_specs import parse_measure
+from ..motion.intensity import parse_measure
 from ..probability.design import basis_of, where, worst_of
 from ..probability.evidence import Ida
 from ..probability.fragility import FEWEST, Fragility

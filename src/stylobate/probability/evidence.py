@@ -16,7 +16,7 @@ from ..column.structure import Structure
 from ..errors import InputError, check_kind
 from ..messages import say
 from ..models.base import Model
-from ..motion.intensity_specs import ENDS, IntensityMeasure, measure_of_column, parse_measure
+from ..motion.intensity import ENDS, IntensityMeasure, measure_of_column, parse_measure
 from ..notebook import NotebookSummary
 from ..outcome import Outcome
 from ..response.measures import blank_row

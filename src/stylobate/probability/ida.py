@@ -26,7 +26,7 @@ from ..messages import say
 from ..models.base import Case, Model
 from ..models.shared.ground import level
 from ..motion import Motion
-from ..motion.intensity_specs import KINDS, IntensityMeasure, measures_by_column, parse_measure, powers_by_column
+from ..motion.intensity import KINDS, IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
 from ..verdicts import verdict as v
 from ..verdicts.directions import peak_of

@@ -15,7 +15,7 @@ from scipy.special import log_ndtr, ndtr
 from .. import text_tables as tables
 from ..errors import InputError, check_kind
 from ..messages import digits, joined, percent, say
-from ..motion.intensity_specs import ENDS, measure_of_column, parse_measure
+from ..motion.intensity import ENDS, measure_of_column, parse_measure
 from ..notebook import NotebookSummary
 from ..text_tables import printable, read_bytes
 from .fragility import Fragility

@@ -20,7 +20,7 @@ from ..errors import InputError, check_kind
 from ..messages import joined, say, whole_percent
 from ..models.base import Model
 from ..motion import Motion
-from ..motion.intensity_specs import IntensityMeasure
+from ..motion.intensity import IntensityMeasure
 from ..notebook import NotebookSummary
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row

@@ -133,7 +133,7 @@ class Response(Recorded):
         xarray.Dataset
             Dimensions ``time`` [s], ``drum`` (``body`` for an assembly), ``axis`` (x, y, z) and ``joint``.
         """
-        from .labelled import to_dataset
+        from .recorded import to_dataset
 
         return to_dataset(self)
 
@@ -147,7 +147,7 @@ class Response(Recorded):
         StylobateError
             The disk is full.
         """
-        from .labelled import to_dataset
+        from .recorded import to_dataset
 
         return store.write(to_dataset(self, derived=False), "response", path)
 
@@ -160,6 +160,6 @@ class Response(Recorded):
         InputError
             There is no such file, it is damaged, or it is not a response.
         """
-        from .labelled import load
+        from .recorded import load
 
         return cls.of(load(path))

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 from ..atomic import refuse_existing, replacing
 from ..errors import InputError
-from ..motion.intensity_specs import parse_measure
+from ..motion.intensity import parse_measure
 from ..probability.evidence import evidence, names_in, read_table, scaled_to, table_of
 from ..probability.fragility import Fragility
 from ..probability.fragility import fragility as fit

@@ -24,7 +24,7 @@ from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError, check_range
 from ..models.base import Case, Model
-from ..motion.scatter import MotionScatter, ScatteredSines
+from ..motion.pulses import MotionScatter, ScatteredSines
 from ..notebook import NotebookSummary
 from ..outcome import Outcome
 from ..response.measures import STEPS, Measures, measures_of

@@ -16,7 +16,7 @@ import numpy as np
 from stylobate.atomic import replacing
 from stylobate.campaign.grid import read_grid
 from stylobate.campaign.ledger import RUNS_FILE, rows_in
-from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.intensity import parse_measure
 from stylobate.plots.film import film_data, film_of, frame_indices
 from stylobate.plots.scene import OBLIQUE
 from stylobate.response import Response

@@ -14,7 +14,7 @@ from scipy.special import ndtri
 from stylobate import text_tables as tables
 from stylobate.column.toml import Table, read_table
 from stylobate.errors import InputError, as_typed, check_choice, check_range, check_whole, within
-from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.intensity import parse_measure
 from stylobate.probability.lognormal import BETAS
 from stylobate.probability.risk import Hazard, read_hazard
 from stylobate.results.asked import read_json

@@ -21,9 +21,9 @@ from stylobate.motion.request import MotionRequest
 from stylobate.motion.specs import parse_acceleration, parse_angle, parse_time, parse_velocity
 from stylobate.text_tables import printable
 
-from .outlasted import Outlasted
 from .prior import LOSSES, Prior
 from .ruin import DRAWN_OF_MODEL, USUAL_COUNT, Observed, Ruin, refuse_drawn
+from .survival import Outlasted
 
 #: Columns that are as surveyed: of a ``[prior.scatter]`` that names nothing.
 AS_SURVEYED = Scatter(**dict.fromkeys(LARGEST, 0.0))

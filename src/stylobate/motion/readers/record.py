@@ -13,7 +13,7 @@ import numpy as np
 from ...constants import g
 from ...errors import InputError, OutOfRangeWarning, warn
 from ...messages import joined, percent, say
-from ..drift import as_asked, best_of, cures_of
+from ..conditioning import as_asked, best_of, cures_of
 from ..events import moment_of
 from ..motion import MAX_SAMPLES, STRONGEST, Motion, integrate
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Circle
 
 from stylobate.messages import percents, say
-from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.intensity import parse_measure
 from stylobate.plots.fragility import NARROW
 from stylobate.plots.style import BLACK, BLUE, GREY, RED, SAND, WIDTH, in_lines, page, panel, styled
 from stylobate.probability.risk import years
