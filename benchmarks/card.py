@@ -38,7 +38,7 @@ from stylobate.kernels.run_codes import CHUNK, RUNNING
 from stylobate.kernels.sources import source_digest
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.engine import engine_for
-from stylobate.motion.writing import write_csv
+from stylobate.motion.motion import write_csv
 from stylobate.simulate import thread_count
 from stylobate_gpu import card as records
 from stylobate_gpu import card_check, driver, kinds

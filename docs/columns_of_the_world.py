@@ -13,8 +13,7 @@ from pathlib import Path
 
 import stylobate as st
 from stylobate.bibliography import bibliography
-from stylobate.column.catalogue import CATALOGUE, JOINT, KnownColumn
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import CATALOGUE, JOINT, PAPER, KnownColumn
 from stylobate.probability.fragility import Fragility
 
 PAGE = Path(__file__).with_suffix(".md")

@@ -21,9 +21,9 @@ from stylobate.column.assembly_files import load_structure
 from stylobate.column.structure import Structure
 from stylobate.constants import DEGREE
 from stylobate.plots.drawing import solids_of
-from stylobate.plots.solids import View, painted
+from stylobate.plots.scene import View, painted
 from stylobate.plots.style import BLACK, GREY, RED, page
-from stylobate.statics.limit_assemblies import limit_directions
+from stylobate.statics.limit import limit_directions
 
 #: Directions of the forces [degrees]; the weakest is looked for between them.
 AZIMUTHS = [45.0 * k for k in range(8)]

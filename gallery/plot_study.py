@@ -10,7 +10,7 @@ from pathlib import Path
 
 import stylobate as st
 from stylobate import plots
-from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.intensity import parse_measure
 
 column = st.preset("paper-monolithic")
 records = [st.stochastic_motion(6.5, 15e3, "greece", seed=seed) for seed in range(10)]

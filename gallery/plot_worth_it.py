@@ -10,7 +10,7 @@ import numpy as np
 
 import stylobate as st
 from stylobate import plots
-from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.intensity import parse_measure
 
 # %%
 # Two dowels of 30 mm in each joint between drums, with a millimetre of slack; a bar of 26 mm in the axis, pretensioned to

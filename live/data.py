@@ -9,7 +9,7 @@ import numpy as np
 import stylobate as st
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.twins import the_twins
-from stylobate.column.presets import known_column
+from stylobate.column.catalogue import known_column
 from stylobate.kernels.run_codes import CHUNK, LANES
 from stylobate.models.engine import engine_for
 from stylobate.models.shared.stable_step import resolving

@@ -45,7 +45,7 @@ from stylobate.kernels.shared.records import (
 )  # fmt: skip
 from stylobate.models.drums.runs import WAIT
 from stylobate.models.shared import ledger
-from stylobate.models.shared.quiet import AT_REST
+from stylobate.models.shared.ground import AT_REST
 from stylobate.models.shared.stable_step import chunks_in
 from stylobate.outcome import Outcome, classify
 

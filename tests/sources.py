@@ -10,7 +10,7 @@ FOLDERS = (ROOT / "src" / "stylobate", *(path.parent for path in sorted(ROOT.glo
 
 
 def sources(*endings: str) -> Iterator[tuple[str, Path]]:
-    """Files with one of the endings, such as ``py``, by name: ``stylobate/cli/run.py``, ``stylobate_report/pdf.py``."""
+    """Files with one of the endings, such as ``py``, by name: ``stylobate/cli/run.py``, ``stylobate_report/page.py``."""
     for folder in FOLDERS:
         for path in sorted(folder.rglob("*")):
             if path.suffix[1:] in endings:

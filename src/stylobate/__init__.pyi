@@ -13,6 +13,7 @@ from .column.assembly import Assembly as Assembly
 from .column.assembly import Block as Block
 from .column.assembly_files import read_assembly as read_assembly
 from .column.files import read_column as read_column
+from .column.files import read_losses as read_losses
 from .column.joint import Losses as Losses
 from .column.links import Bar as Bar
 from .column.links import Clamp as Clamp
@@ -22,7 +23,6 @@ from .column.links import Layer as Layer
 from .column.links import Pad as Pad
 from .column.links import Tie as Tie
 from .column.links.anchorage import stone_at_anchor as stone_at_anchor
-from .column.loss_files import read_losses as read_losses
 from .column.scatter import Scatter as Scatter
 from .column.spatial.assembly import SpatialAssembly as SpatialAssembly
 from .column.spatial.stone import Stone as Stone
@@ -43,6 +43,7 @@ from .motion import MotionRequest as MotionRequest
 from .motion import harmonic as harmonic
 from .motion import pulses as pulses
 from .motion import stochastic_motion as stochastic_motion
+from .motion.pulses import MotionScatter as MotionScatter
 from .motion.pulses import cosine_pulse as cosine_pulse
 from .motion.pulses import gabor as gabor
 from .motion.pulses import half_sine_pulse as half_sine_pulse
@@ -53,7 +54,6 @@ from .motion.pulses import sine_pulse as sine_pulse
 from .motion.readers import read_motion as read_motion
 from .motion.readers import read_suite as read_suite
 from .motion.readers import sample_motion as sample_motion
-from .motion.scatter import MotionScatter as MotionScatter
 from .outcome import Outcome as Outcome
 from .plots.film import Film as Film
 from .response import Response as Response
@@ -74,7 +74,7 @@ from .probability.states import compare_states as compare_states
 from .probability.studies import run_study as run_study
 from .probability.suite import suite_table as suite_table
 from .statics.limit import limit_analysis as limit_analysis
-from .statics.limit_assemblies import limit_directions as limit_directions
+from .statics.limit import limit_directions as limit_directions
 from .statics.pushover import pushover as pushover
 from .verdicts.compare import compare_models as compare_models
 from .verdicts.critical import critical_amplitude as critical_amplitude

@@ -271,7 +271,7 @@ def check_kind(name: str, value: Any, kind: Any, *, allowed: str = "", optional:
         return value
     is_class = isinstance(value, type) and issubclass(value, kind)
     remedy = f"write {value.__name__}() with brackets" if is_class else ""
-    raise _wrong(name, value, _shown(value), f"is {_wanted(kind, allowed)}", remedy, "", None)
+    raise _wrong(name, value, _value_in_words(value), f"is {_expected_kind(kind, allowed)}", remedy, "", None)
 
 
 def check_name(what: str, value: Any) -> str:
@@ -292,7 +292,9 @@ def check_all(name: str, values: Any, kind: Any, *, allowed: str = "") -> Sequen
     if isinstance(values, kind):
         return (values,)
     if isinstance(values, (str, bytes, Mapping, type)) or not hasattr(values, "__iter__"):
-        raise _wrong(name, values, _shown(values), f"is a list, each {_wanted(kind, allowed)}", "", "", None)
+        raise _wrong(
+            name, values, _value_in_words(values), f"is a list, each {_expected_kind(kind, allowed)}", "", "", None
+        )
     found = values if isinstance(values, (list, tuple)) else tuple(values)
     for number, one in enumerate(found, 1):
         check_kind(f"number {number} of {name}", one, kind, allowed=allowed)
@@ -310,7 +312,7 @@ _PLAIN = {
 }
 
 
-def _wanted(kind: Any, allowed: str) -> str:
+def _expected_kind(kind: Any, allowed: str) -> str:
     kinds = kind if isinstance(kind, tuple) else (kind,)
     called = (
         getattr(one, "wanted", None) or _with_article(str(_PLAIN.get(one.__name__, one.__name__))) for one in kinds
@@ -318,7 +320,7 @@ def _wanted(kind: Any, allowed: str) -> str:
     return allowed or " or ".join(called)
 
 
-def _shown(value: Any) -> str:
+def _value_in_words(value: Any) -> str:
     """What came in place of something else, in few words: a plain value as it is typed, else what it is."""
     if isinstance(value, type):
         return f"the class {value.__name__}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 from itertools import chain
 from string import Formatter
@@ -111,18 +112,18 @@ def filled(template: str, values: Mapping[str, Any], written: Callable[[Any, str
     return "".join(texts)
 
 
-def kept(value: Any, place: str = "") -> dict[str, Any]:
+def messages_in(value: Any, place: str = "") -> dict[str, Any]:
     """All messages in the plain values of a result by their places, for the file that holds it."""
     if isinstance(value, Message):
         return {place: _plain(value)}
     each = value.items() if isinstance(value, Mapping) else enumerate(value) if isinstance(value, (list, tuple)) else ()
-    return {key: one for name, inside in each for key, one in kept(inside, f"{place}/{name}").items()}
+    return {key: one for name, inside in each for key, one in messages_in(inside, f"{place}/{name}").items()}
 
 
 def restored(value: Any, messages: Mapping[str, Any], place: str = "") -> Any:
     """The plain values of a result with their messages, where their English texts are still those of the file."""
     if isinstance(value, str) and place in messages:
-        found = _made(messages[place])
+        found = _restored(messages[place])
         return found if found == value else value
     if isinstance(value, dict):
         return {key: restored(one, messages, f"{place}/{key}") for key, one in value.items()}
@@ -140,12 +141,43 @@ def _plain(value: Any) -> Any:
     return {"template": value.template, "values": values} if values else {"template": value.template}
 
 
-def _made(value: Any) -> Any:
+def _restored(value: Any) -> Any:
     if not isinstance(value, dict):
         return value
     if "parts" in value:
-        return joined("", map(_made, value["parts"]))
-    template, values = value["template"], {key: _made(one) for key, one in value.get("values", {}).items()}
+        return joined("", map(_restored, value["parts"]))
+    template, values = value["template"], {key: _restored(one) for key, one in value.get("values", {}).items()}
     if any(len(form or "") > LONGEST_FORMAT for _, _, form, _ in _FORMATTER.parse(template)):
         raise ValueError(f"a format of {template!r} is too long")
     return Message(filled(template, values) if values else template, template, values)
+
+
+# Shares as percentages: the one rule of rounding for pages, reports, pictures and the command line.
+
+#: Shares that differ by less are one: 0.575 is a little less in binary digits, and is rounded as it is written [%].
+CLOSE = 1e-9
+
+
+def whole_percent(share: float) -> str:
+    """A share in whole per cent, the nearest to it, half of a per cent rounded up; a dash where there is none.
+
+    What is not nothing is never written as 0, and what is not all never as 100.
+    """
+    if not math.isfinite(share):
+        return "–"
+    size = 100.0 * share
+    if CLOSE < size < 0.5 - CLOSE:
+        return "<1"
+    return ">99" if 99.5 - CLOSE <= size < 100.0 - CLOSE else str(math.floor(size + 0.5 + CLOSE))
+
+
+def percent(share: float) -> str:
+    """A share as a percentage."""
+    return f"{whole_percent(share)} %"
+
+
+def percents(low: float, high: float) -> str:
+    """From which share to which, as percentages; one where both are written alike."""
+    if whole_percent(low) == whole_percent(high):
+        return percent(low)
+    return say("{low} to {high} %", low=whole_percent(low), high=whole_percent(high))

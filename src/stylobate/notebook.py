@@ -15,7 +15,7 @@ HEIGHT = 180
 ROWS = 40
 
 
-class Shown:
+class NotebookSummary:
     """Results with a ``summary()``, and a ``sentence`` where they have one, as a notebook shows them."""
 
     def summary(self) -> dict[str, Any]:
@@ -23,7 +23,7 @@ class Shown:
         raise NotImplementedError
 
     def __init_subclass__(cls) -> None:
-        cls.__repr__ = Shown.__repr__  # a dataclass would write its arrays out
+        cls.__repr__ = NotebookSummary.__repr__  # a dataclass would write its arrays out
 
     def __repr__(self) -> str:
         said = getattr(self, "sentence", "") or ", ".join(f"{key} {_words(one)}" for key, one in self._facts().items())

@@ -17,7 +17,7 @@ from .errors import InputError, check_all, check_choice, check_kind, check_range
 from .models import devices
 from .models.base import Case, Cases, Model, RunOptions, duration
 from .models.engine import engine_for
-from .models.shared.quiet import share_of
+from .models.shared.ground import share_of
 from .models.start import Start, Toss
 from .motion import Motion
 from .response import Measures, Response
@@ -79,10 +79,6 @@ def simulate(
         The histories hold the state in which the column lies at rest while the quiet is left out.
     progress : callable, optional
         Called with (time so far, time of the whole run) [s], by models that step drums.
-
-    Returns
-    -------
-    Response
 
     Raises
     ------

@@ -19,7 +19,7 @@ import numpy as np
 
 from .atomic import replacing
 from .errors import InputError, check_kind
-from .reading import read_bytes, shown
+from .text_tables import printable, read_bytes
 
 if TYPE_CHECKING:
     import pandas
@@ -109,7 +109,7 @@ def read(path: str | Path, *kinds: str) -> xarray.Dataset:
         There is no such file, it is none of these, is damaged, or of a format that this version does not know.
     """
     content = read_bytes(path, MOST)
-    name, wanted = shown(path), " or ".join(f"a {kind}" for kind in kinds)
+    name, wanted = printable(path), " or ".join(f"a {kind}" for kind in kinds)
     data = _open(content, name)
     kind = data.attrs.get("kind")
     if kind is None or (kinds and kind not in kinds):
@@ -122,7 +122,7 @@ def read(path: str | Path, *kinds: str) -> xarray.Dataset:
 def unreadable(path: str | Path, error: Exception) -> InputError:
     """The error for a file that was opened, but does not hold what it must."""
     why = f"{type(error).__name__}: {error}".split("\n")[0][:200]
-    return InputError(f"{shown(path)} is damaged: {why}; take a copy of it, or run again.")
+    return InputError(f"{printable(path)} is damaged: {why}; take a copy of it, or run again.")
 
 
 def as_json(value: Any) -> str:
@@ -148,7 +148,7 @@ def read_provenance(path: str | Path) -> dict[str, Any]:
         return dict(json.loads(str(data["provenance"].item())))
     except (KeyError, TypeError, ValueError, RecursionError) as error:
         raise InputError(
-            f"{shown(path)} holds no provenance that can be read ({error}); give a netCDF file of this package, such as "
+            f"{printable(path)} holds no provenance that can be read ({error}); give a netCDF file of this package, such as "
             "response.nc."
         ) from None
 

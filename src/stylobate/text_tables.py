@@ -5,12 +5,79 @@ from __future__ import annotations
 import codecs
 import csv
 import io
+import os
 import re
+import stat
 from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import InputError
-from .reading import read_bytes, shown
+
+# Files of other people: kind and size are looked at before anything is read, and names are made fit to be shown.
+
+#: Most that a text of settings (a column, a study, an assembly) may hold [bytes].
+SETTINGS = 2_000_000
+
+
+def read_bytes(path: str | Path, most: int, remedy: str = "give another file") -> bytes:
+    """Content of a file of at most ``most`` bytes.
+
+    Parameters
+    ----------
+    path : str or Path
+    most : int
+        [bytes]
+    remedy : str
+        One clause that says what to do with a file that is larger.
+
+    Raises
+    ------
+    InputError
+        There is no such file, it cannot be read, is larger, or is no file: a folder, a pipe or a device, which might
+        never end.
+    """
+    check_file(path, most, remedy)
+    try:
+        with Path(path).open("rb") as file:
+            told = min(os.fstat(file.fileno()).st_size, most)
+            data = file.read(told + 1)  # a buffer of this size: not of the most that is allowed
+            if len(data) > told:  # it grows, or its size is not told beforehand; no more even so
+                data += file.read(most + 1 - len(data))
+    except OSError as error:
+        raise _unreadable(path, error) from None
+    if len(data) > most:
+        raise InputError(f"{printable(path)} holds more than {most} bytes, which is the most here: {remedy}.")
+    return data
+
+
+def check_file(path: str | Path, most: int, remedy: str = "give another file") -> None:
+    """Refuse what is no file or too large a one, without opening it; see :func:`read_bytes`."""
+    try:
+        found = Path(path).stat()
+    except (OSError, ValueError) as error:
+        raise _unreadable(path, error) from None
+    if stat.S_ISDIR(found.st_mode):
+        raise InputError(f"{printable(path)} is a folder; name the file in it.")
+    if not stat.S_ISREG(found.st_mode):
+        raise InputError(f"{printable(path)} is not a file but a pipe or a device; give a file.")
+    if found.st_size > most:
+        raise InputError(f"{printable(path)} holds {found.st_size} bytes; allowed is up to {most}: {remedy}.")
+
+
+def printable(path: str | Path) -> str:
+    """A path as it can be printed and stored: bytes that are no UTF-8, and control characters, as ``\\x…``."""
+    text = os.fsencode(str(path)).decode("utf-8", "backslashreplace")
+    return "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in text)
+
+
+def _unreadable(path: str | Path, error: OSError | ValueError) -> InputError:
+    if isinstance(error, FileNotFoundError):
+        slashed = str(path).replace("\\", "/")
+        remedy = f"; write {slashed}" if slashed != str(path) and Path(slashed).exists() else ""
+        return InputError(f"there is no file {printable(path)}{remedy}.")
+    reason = getattr(error, "strerror", None) or str(error)
+    return InputError(f"{printable(path)} cannot be read: {reason}; check the path.")
+
 
 #: Separators of columns.
 DELIMITERS = (",", ";", "\t")
@@ -62,7 +129,7 @@ class Table:
                 numbers.append(missing if missing is not None and not text else float(text.replace("_", "?")))
             except ValueError:
                 raise InputError(
-                    f"line {line} of {self.name} has {shown(text)[:LONGEST]!r} as {column}, where a number is "
+                    f"line {line} of {self.name} has {printable(text)[:LONGEST]!r} as {column}, where a number is "
                     f"needed{points(text)}; mend the file."
                 ) from None
         return numbers
@@ -81,8 +148,8 @@ class Table:
             return
         if all(row[k].isdigit() and row[k + 1].isdigit() for row in self.rows):
             raise InputError(
-                f"{self.name} has whole numbers only as {column} and as {shown(self.columns[k + 1])!r} behind it, which may "
-                f"be numbers with decimal commas; write {column} with a decimal point, such as {self.rows[0][k]}.0."
+                f"{self.name} has whole numbers only as {column} and as {printable(self.columns[k + 1])!r} behind it, which "
+                f"may be numbers with decimal commas; write {column} with a decimal point, such as {self.rows[0][k]}.0."
             )
 
     def to_csv(self) -> io.StringIO:
@@ -120,7 +187,7 @@ def read(path: str | Path, most: int, key: str, needs: str) -> Table:
     InputError
         It cannot be read, has no such column, two columns of one name, or a row with more or fewer fields than the header.
     """
-    name = shown(path)
+    name = printable(path)
     text = text_of(read_bytes(path, most), name)
     lines = io.StringIO(text, newline=None).readlines()
     above = next((k for k, line in enumerate(lines) if line.strip() and not line.lstrip().startswith("#")), len(lines))
@@ -128,7 +195,7 @@ def read(path: str | Path, most: int, key: str, needs: str) -> Table:
         found = _parse(name, lines[above:], delimiter, above, key)
         if found is not None:
             return found
-    first = f"; its first line is {shown(lines[above].strip())[:LONGEST]!r}" if above < len(lines) else ""
+    first = f"; its first line is {printable(lines[above].strip())[:LONGEST]!r}" if above < len(lines) else ""
     raise InputError(f"{name} has no column {key!r}{first}; it needs {needs}.")
 
 
@@ -173,7 +240,7 @@ def _parse(name: str, lines: list[str], delimiter: str, above: int, key: str) ->
         return None
     twice = next((one for k, one in enumerate(header) if one and one in header[:k]), None)
     if twice is not None:
-        raise InputError(f"{name} has two columns called {shown(twice)!r}; rename or remove one.")
+        raise InputError(f"{name} has two columns called {printable(twice)!r}; rename or remove one.")
     numbers, rows = [], []
     try:
         for row in reader:
@@ -205,7 +272,7 @@ def _ragged(name: str, line: int, cells: list[str], header: list[str], delimiter
         why = "write numbers with decimal points, not commas, and texts that hold a comma in quotation marks"
     else:
         why = "an empty field needs its separator, too"
-    text = shown(delimiter.join(cells))[:LONGEST]
+    text = printable(delimiter.join(cells))[:LONGEST]
     return InputError(
         f"line {line} of {name} has {len(cells)} fields where the header names {len(header)}: {text!r}; {why}."
     )

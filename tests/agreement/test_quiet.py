@@ -11,9 +11,9 @@ from stylobate.constants import g
 from stylobate.errors import OutOfRangeWarning
 from stylobate.models.base import Case
 from stylobate.models.drums.runs import LaneRuns
-from stylobate.models.shared.quiet import BEFORE, LOOK, QUIET, level, shaking, share_of
+from stylobate.models.shared.ground import BEFORE, LOOK, QUIET, level, shaking, share_of
 from stylobate.motion import harmonic
-from stylobate.motion.writing import write_csv
+from stylobate.motion.motion import write_csv
 from stylobate.probability.suite import suite_table
 from stylobate.simulate import run_cases
 from stylobate.verdicts.verdict import verdict

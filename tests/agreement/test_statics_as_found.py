@@ -9,8 +9,7 @@ import pytest
 import stylobate as st
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.limit_assemblies import limit_directions, limit_in_space
+from stylobate.statics.limit import limit_analysis, limit_directions, limit_in_space
 from stylobate.statics.pushover import pushover
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.limit_assemblies import limit_in_space
+from stylobate.statics.limit import limit_analysis, limit_in_space
 
 STIFF = st.Joint(5e11, 2.5e11, friction_coefficient=0.7)
 SMOOTH = st.Joint(5e10, 2.5e10, friction_coefficient=0.1)

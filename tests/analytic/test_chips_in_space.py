@@ -12,7 +12,7 @@ from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.engine import engine_for
 from stylobate.models.shared.toes import point_toes
 from stylobate.motion import Motion
-from stylobate.plots.solids import surface_of
+from stylobate.plots.scene import surface_of
 from stylobate.response.poses import bodies_of
 
 HALF, DEEP, HEIGHT = 0.3, 0.2, 3.0

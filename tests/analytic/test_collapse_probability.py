@@ -11,7 +11,7 @@ from stylobate.campaign import runs
 from stylobate.column import preset
 from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.models.engine import engine_for
-from stylobate.motion.scatter import PHASES, MotionScatter, ScatteredSines
+from stylobate.motion.pulses import PHASES, MotionScatter, ScatteredSines
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.compare import compare_steps, halved_step
 from stylobate.verdicts.domain import (

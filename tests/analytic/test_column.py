@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 import stylobate as st
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.column.scatter import Scatter, twins_of
 
 JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)

@@ -13,7 +13,7 @@ import xarray
 
 import stylobate as st
 from stylobate.campaign.ledger import RUNS_FILE
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.models.base import Model
 from stylobate.models.engine import Engine
 from stylobate.response import Measures

@@ -14,7 +14,7 @@ from stylobate.campaign.twins import LAW
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.models.drums.links import link_histories
-from stylobate.motion.writing import write_csv
+from stylobate.motion.motion import write_csv
 from stylobate.probability.design import clearances, fractile, governing, values_of_runs, worst_of
 
 SMOOTH = st.Joint(1e9, 5e8, friction_coefficient=0.1)

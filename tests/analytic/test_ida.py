@@ -11,7 +11,7 @@ import pytest
 import stylobate as st
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import half_sine_pulse
-from stylobate.motion.intensity_specs import parse_levels, parse_measure
+from stylobate.motion.intensity import parse_levels, parse_measure
 from stylobate.probability.evidence import evidence, intervals, median_of
 from stylobate.probability.fragility import fragility
 from stylobate.probability.ida import CLOSE, ida, next_levels, which_tells_most

@@ -11,8 +11,7 @@ from stylobate.column.as_found import AsFound
 from stylobate.column.found_geometry import gravity_vector
 from stylobate.errors import InputError
 from stylobate.models.rigid_block.block_stack import BlockStack
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.loads import gravity_forces
+from stylobate.statics.limit import gravity_forces, limit_analysis
 from stylobate.statics.pushover import pushover
 
 JOINT = Joint(5e10, 2.5e10, friction_angle=35.0)

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.statics import limit_assemblies
+from stylobate.statics import limit
 from stylobate.statics.contacts import ContactProgramme, gentlest
-from stylobate.statics.limit_assemblies import AssemblyProgramme
+from stylobate.statics.limit import AssemblyProgramme
 
 LAW = st.Joint(5e9, 2.5e9, friction_coefficient=0.7)
 CORNERS = ((-1.2, -1.2), (1.2, -1.2), (1.2, 1.2), (-1.2, 1.2))
@@ -209,7 +209,7 @@ def test_what_has_no_multiplier_is_said(stones, joint, says):
 
 
 def test_what_would_take_too_long_or_has_no_weight_is_refused(monkeypatch):
-    monkeypatch.setattr(limit_assemblies, "MOST_JOINTS", 3)
+    monkeypatch.setattr(limit, "MOST_JOINTS", 3)
     with pytest.raises(st.InputError, match=r"has 4 joints, .* about 6 minutes a direction; allowed are up to 3"):
         limits(portal(), [0.0])
     with pytest.raises(st.InputError, match="'assembly' has no gravity"):
@@ -242,6 +242,6 @@ def test_what_is_no_prism_of_the_plane_and_limit_analysis_in_the_plane_are_refus
 
 def test_names_in_a_sentence():
     names = ["column 1, drum 1", "column 1, drum 2", "beam", "column 2, drum 1"]
-    assert limit_assemblies.listed(names) == "column 1 (2 drums), beam and column 2, drum 1"
-    assert limit_assemblies.listed([f"v{i}" for i in range(9)]) == "v0, v1, v2, v3 and 5 more"
-    assert limit_assemblies.listed(["v0"]) == "v0"
+    assert limit.listed(names) == "column 1 (2 drums), beam and column 2, drum 1"
+    assert limit.listed([f"v{i}" for i in range(9)]) == "v0, v1, v2, v3 and 5 more"
+    assert limit.listed(["v0"]) == "v0"

@@ -9,7 +9,7 @@ import pytest
 
 import stylobate as st
 from stylobate.column.links import Link, block_link
-from stylobate.column.turning import about
+from stylobate.column.shapes import about
 
 G = 9.80665
 DENSITY = 2000.0

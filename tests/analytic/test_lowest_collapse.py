@@ -11,7 +11,7 @@ import pytest
 import stylobate as st
 from stylobate import plots
 from stylobate.campaign.twins import Twins
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.column.scatter import Scatter
 from stylobate.verdicts.critical import (
     CriticalAmplitude,

@@ -30,8 +30,7 @@ from stylobate.motion import (
     rotated_spectrum,
     significant_duration,
 )
-from stylobate.motion.condition_specs import conditioned
-from stylobate.motion.drift import CURES, KEPT_VELOCITY, THEN, cure_of, cured, cures_of, drift_of
+from stylobate.motion.conditioning import CURES, KEPT_VELOCITY, THEN, conditioned, cure_of, cured, cures_of, drift_of
 from stylobate.motion.intensity import displacement_drift, warn_of_drift, warn_of_velocity
 from stylobate.motion.motion import integrate
 from stylobate.motion.readers.registry import sample_motion

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.models.shared.opening import PRESSED, on_beds, on_rims, opening
-from stylobate.models.shared.toes import disc_on_bed
+from stylobate.models.shared.toes import PRESSED, disc_on_bed, on_beds, on_rims, opening
 
 SIZE = {"height": 4.0, "bottom_width": 1.0, "top_width": 1.0, "density": 2700.0, "drums": 1}
 

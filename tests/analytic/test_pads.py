@@ -17,8 +17,7 @@ from stylobate.models.base import Case, RunOptions
 from stylobate.models.drums.records import bed_laws
 from stylobate.models.engine import engine_for
 from stylobate.simulate import simulate
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.limit_assemblies import limit_in_space
+from stylobate.statics.limit import limit_analysis, limit_in_space
 from stylobate.statics.pushover import pushover
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()]

@@ -10,8 +10,7 @@ from stylobate.cli.main import call
 from stylobate.column.as_found import AsFound, FoundDrum
 from stylobate.column.files import write_column
 from stylobate.column.projection import project, projected
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.limit_assemblies import limit_in_space
+from stylobate.statics.limit import limit_analysis, limit_in_space
 
 LAW = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 BLOCK = st.Column.of_drums([st.Drum(4.0, 1.0, 1.0, 2500.0, "circular")], LAW, name="block")

@@ -10,8 +10,7 @@ from validation.statics import COLUMNS, MULTIPLIERS, tapered
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.errors import InputError
 from stylobate.models.rigid_block.block_stack import BlockStack
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.loads import crushing_forces, gravity_forces, horizontal_forces
+from stylobate.statics.limit import crushing_forces, gravity_forces, horizontal_forces, limit_analysis
 from stylobate.statics.pushover import STATES, EquilibriumPath, pushover
 
 JOINT = Joint(5e10, 2.5e10, friction_angle=35.0)

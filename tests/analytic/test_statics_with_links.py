@@ -10,8 +10,7 @@ import stylobate as st
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.statics.contacts import ContactProgramme
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.limit_assemblies import SpaceProgramme, limit_directions, limit_in_space, weakest_direction
+from stylobate.statics.limit import SpaceProgramme, limit_analysis, limit_directions, limit_in_space, weakest_direction
 from stylobate.statics.pushover import pushover
 
 ROUGH = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)

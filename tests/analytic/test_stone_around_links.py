@@ -10,7 +10,7 @@ import stylobate as st
 from stylobate.column.assembly_files import FROM_DICT, read_assembly
 from stylobate.column.files import write_column
 from stylobate.column.links import block_link
-from stylobate.column.links.placed import BREAKS, GIVEN, stone_at_limit, stone_words
+from stylobate.column.links.placed import BREAKS, CAPACITY_STATED, stone_at_limit, stone_words
 from stylobate.statics.limit import limit_analysis
 from stylobate.statics.pushover import pushover
 
@@ -65,7 +65,7 @@ def test_the_smallest_of_bar_anchor_and_stone_by_hand():
 def test_a_capacity_that_is_given_stays_and_that_the_stone_bears_less_is_told():
     (link,) = STATED.placed_links
     assert (link.shear_capacity, link.failure, link.breaks_stone) == (8e4, "ductile", False)
-    assert stone_words([link]).endswith(GIVEN)
+    assert stone_words([link]).endswith(CAPACITY_STATED)
     (near,) = DOWELLED.placed_links
     assert stone_words([near]).endswith(BREAKS)
     assert "pushover" in stone_at_limit([near])

@@ -102,7 +102,10 @@ def test_run(changes, words, refused, tmp_path):
 
 def test_options_given_twice(refused, tmp_path):
     """The last one would win, and the other earthquake be lost without a word."""
-    twice = [*with_options("sequence", "paper-monolithic", tmp_path, harmonic=None), *2 * ("--pulse", "ricker,1Hz,0.3g")]
+    twice = [
+        *with_options("sequence", "paper-monolithic", tmp_path, harmonic=None),
+        *2 * ("--pulse", "ricker,1Hz,0.3g"),
+    ]
     assert "--pulse is given 2 times; give it once" in refused(*twice)
 
 

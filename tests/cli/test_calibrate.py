@@ -7,8 +7,7 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.main import call
-from stylobate.column.files import write_column
-from stylobate.column.loss_files import losses_by, write_losses
+from stylobate.column.files import losses_by, write_column, write_losses
 from stylobate.models.drums.impact import released
 from stylobate.models.registry import make_model
 

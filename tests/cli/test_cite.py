@@ -11,8 +11,7 @@ import xarray
 
 import stylobate as st
 from stylobate.bibliography import bibliography
-from stylobate.bibliography.citation import PACKAGE
-from stylobate.bibliography.references import parse
+from stylobate.bibliography.citation import PACKAGE, parse
 from stylobate.cli.main import call
 from stylobate.column import preset
 from stylobate.column.standing import of_column

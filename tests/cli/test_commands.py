@@ -9,8 +9,8 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.main import call, commands
+from stylobate.column.catalogue import PRESETS, preset
 from stylobate.column.files import read_column, write_column
-from stylobate.column.presets import PRESETS, preset
 
 RUN = ["run", "paper-monolithic", "--model", "housner", "--harmonic", "1Hz,0.3g,4s"]
 RUN_KEYS = {

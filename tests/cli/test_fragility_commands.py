@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.atomic import digest
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.motion import half_sine_pulse, write_csv
-from stylobate.own_files import digest
 from stylobate.response.words import ROUND_IN_THE_PLANE
 from stylobate.results import read_results
 from stylobate.verdicts.rocking_spectrum import rocking_block

@@ -9,17 +9,9 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.main import call
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.errors import OutOfRangeWarning
-from stylobate.motion import (
-    along,
-    bandpass,
-    condition_specs,
-    parse_synthetic,
-    ricker,
-    rotated_spectrum,
-    write_csv,
-)
+from stylobate.motion import along, bandpass, conditioning, parse_synthetic, ricker, rotated_spectrum, write_csv
 from stylobate.probability.suite import INTENSITIES, suite_table
 from stylobate.verdicts.rocking_spectrum import rocking_spectrum
 
@@ -293,10 +285,10 @@ def test_conditioning_is_done_in_order_and_said(command, record, tmp_path):
     assert low != high
 
 
-@pytest.mark.parametrize("name", sorted(condition_specs.STEPS))
+@pytest.mark.parametrize("name", sorted(conditioning.STEPS))
 def test_every_step_of_conditioning_can_be_typed(name):
-    for example in condition_specs.STEPS[name].example.split(" or "):
-        motion = condition_specs.conditioned(shaking(), example.replace("20s", "10s"))
+    for example in conditioning.STEPS[name].example.split(" or "):
+        motion = conditioning.conditioned(shaking(), example.replace("20s", "10s"))
         assert len(motion.processing) == 1
 
 

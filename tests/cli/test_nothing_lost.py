@@ -6,11 +6,11 @@ import math
 import pandas
 import pytest
 
+from stylobate.atomic import LIST
 from stylobate.campaign.ledger import Holding
 from stylobate.cli.main import call
 from stylobate.models.drums.stepped import LaneEngine
 from stylobate.models.rocking.model import Rocking
-from stylobate.own_files import LIST
 from stylobate.results.asked import Asked
 
 HOUSNER = ["--model", "housner"]

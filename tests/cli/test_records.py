@@ -9,8 +9,8 @@ import pytest
 
 from stylobate.cli.main import call
 from stylobate.motion import Motion
+from stylobate.motion.motion import write_csv
 from stylobate.motion.specs import parse_synthetic
-from stylobate.motion.writing import write_csv
 
 TARGET = "ec8,ag=0.2g,soil=B"
 

@@ -14,11 +14,10 @@ import xarray
 from tiny_study import GRIDS, shorten
 
 import stylobate as st
-from stylobate.atomic import output_folder, replacing
+from stylobate.atomic import LIST, output_folder, own_files, replacing
 from stylobate.campaign.ledger import APPLICATION, RUNS_FILE, finished_runs_in
 from stylobate.cli.main import call
 from stylobate.errors import DamagedFileWarning
-from stylobate.own_files import LIST, own_files
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.domain import Domain
 from stylobate_report.page import Picture, Rows, Section

@@ -11,8 +11,8 @@ import pytest
 import stylobate as st
 from stylobate.cli.main import call
 from stylobate.cli.schema import schemas
+from stylobate.column.catalogue import PRESETS
 from stylobate.column.files import tables_of
-from stylobate.column.presets import PRESETS
 from stylobate.column.tables import describes_assembly
 
 jsonschema = pytest.importorskip("jsonschema", reason="needs jsonschema")

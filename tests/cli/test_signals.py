@@ -85,9 +85,9 @@ def test_a_signal_while_the_commands_are_loaded_is_one_sentence():
 def test_a_signal_after_the_command_has_ended_changes_nothing():
     done = python(
         "import signal, sys\nfrom stylobate.cli import main, signals\n"
-        "said = signals.said\n"
-        "def late():\n    said()\n    signal.raise_signal(signal.SIGTERM)\n"
-        "signals.said = late\nsys.argv[1:] = ['--version']\nmain.main()\n"
+        "mark_ended = signals.mark_ended\n"
+        "def late():\n    mark_ended()\n    signal.raise_signal(signal.SIGTERM)\n"
+        "signals.mark_ended = late\nsys.argv[1:] = ['--version']\nmain.main()\n"
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.startswith("stylobate ")

@@ -25,7 +25,7 @@ def told(capsys):
     """What is told to the log, as the command line says it."""
     log = logging.getLogger("stylobate")
     before, level = list(log.handlers), log.level
-    console.tell()
+    console.log_to_stderr()
     yield lambda: capsys.readouterr().err
     log.handlers[:] = before
     log.setLevel(level)

@@ -8,7 +8,7 @@ import pytest
 
 import stylobate as st
 from stylobate.column import Joint
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.models.base import Case
 from stylobate.models.engine import engine_for
 from stylobate.models.shared.stable_step import longest_step, whole_steps

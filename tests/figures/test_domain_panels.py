@@ -11,7 +11,7 @@ import stylobate as st
 from stylobate import plots
 from stylobate.column import preset
 from stylobate.column.scatter import Scatter
-from stylobate.motion.scatter import MotionScatter
+from stylobate.motion.pulses import MotionScatter
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.compare import StepComparison
 from stylobate.verdicts.domain import CollapseProbability, Domain

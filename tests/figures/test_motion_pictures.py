@@ -12,7 +12,7 @@ from matplotlib.image import imread
 
 import stylobate as st
 from stylobate import plots
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.errors import InputError
 from stylobate.plots.domain import _FILL, SHADES
 from stylobate.probability.suite import INTENSITIES, suite_table

@@ -11,7 +11,7 @@ from matplotlib.image import imread
 
 import stylobate as st
 from stylobate import plots
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.plots import style
 from stylobate.plots.domain import FILL
 from stylobate.response import ENERGY_TERMS, Histories, Measures

@@ -8,7 +8,7 @@ import stylobate as st
 from stylobate import plots
 from stylobate.column import preset
 from stylobate.column.scatter import Scatter
-from stylobate.motion.scatter import MotionScatter
+from stylobate.motion.pulses import MotionScatter
 from stylobate.plots.domain import CLASSES
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.domain import CollapseProbability

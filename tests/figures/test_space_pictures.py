@@ -20,15 +20,15 @@ from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.plots.film import draw_frame, film_of, write_gif, write_player
-from stylobate.plots.joints import rim_radius, rim_uplift, round_factor
-from stylobate.plots.scene import Scene
-from stylobate.plots.solids import (
+from stylobate.plots.histories import rim_radius, rim_uplift, round_factor
+from stylobate.plots.scene import (
     ALONG_X,
     ALONG_Y,
     FLUTE,
     MARK,
     OBLIQUE,
     STONE,
+    Scene,
     Solid,
     View,
     painted,

@@ -10,7 +10,7 @@ import pytest
 import stylobate as st
 from stylobate import plots
 from stylobate.column.links import block_link
-from stylobate.column.turning import about
+from stylobate.column.shapes import about
 from stylobate.plots.style import BLUE
 
 FOLDER = Path(__file__).parents[2] / "gallery" / "assemblies"

@@ -11,7 +11,7 @@ import numpy as np
 
 from stylobate.column.assembly_files import FROM_DICT, load_structure
 from stylobate.errors import InputError
-from stylobate.statics.limit_assemblies import limit_directions
+from stylobate.statics.limit import limit_directions
 
 from . import odd
 from .target import Fault, Target, sentence

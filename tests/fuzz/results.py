@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import stylobate as st
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.errors import InputError
 from stylobate.response import Response
 from stylobate.response.assemblies import recorded_blocks

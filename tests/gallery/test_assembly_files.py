@@ -9,7 +9,7 @@ import pytest
 
 from stylobate.cli.main import call
 from stylobate.column.assembly_files import is_assembly, load_structure, read_assembly
-from stylobate.column.presets import ASSEMBLIES
+from stylobate.column.catalogue import ASSEMBLIES
 
 FOLDER = Path(__file__).parents[2] / "gallery" / "assemblies"
 

@@ -12,9 +12,8 @@ from stylobate.kernels.run_codes import SUPPORT_MARGIN
 from stylobate.models.base import RunOptions
 from stylobate.models.engine import engine_for
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.models.rigid_beam.state import PackedBeam, faces, given, histories_of, measures_of
-from stylobate.models.rocking.block import lightest_weight, off_the_ground
-from stylobate.models.rocking.single import Ground
+from stylobate.models.rigid_beam.state import PackedBeam, energy_at_loss, faces, histories_of, measures_of
+from stylobate.models.rocking.block import Ground, lightest_weight, off_the_ground
 from stylobate.models.shared import ledger
 from stylobate.motion import Motion
 from stylobate.response import Response
@@ -216,7 +215,7 @@ def run_adaptive(column: Column, motion: Motion, model: RigidBeam, **chosen) -> 
         facts | {
             "theta": theta, "omega": rates.split(solver.y)[1], "slip": slip,
             "energy": float(energy[-1, 1:4].sum() + start.sum()), "start": float(start.sum()), "work": worst,
-            "given": given(energy[-1], worst, facts["time"] > motion.duration and inside),
+            "given": energy_at_loss(energy[-1], worst, facts["time"] > motion.duration and inside),
             "unaccounted": ledger.unaccounted(energy[-1]), "released": ledger.released(energy[-1]),
             "end": t, "failure": off_the_ground(motion, column.gravity, facts["time"]) or failure,
             "top": top, "turn": turn, "opening": opening,

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 
 import stylobate as st
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.column.standing import of_column
 from stylobate.response import Measures, Response, load_response
 from stylobate.response.assemblies import recorded_blocks

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from stylobate.bibliography import bibliography
-from stylobate.bibliography.references import FILE
+from stylobate.bibliography.citation import FILE
 from stylobate.models.registry import MODELS, model_class
 from stylobate.motion import REGIONS, parse_pulse, stochastic_motion
 from stylobate.motion.specs import PULSES

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.column.shapes import Chipped, CircularFrustum, ConvexSolid, Prism, RectangularFrustum
 from stylobate.response import Collapse, Histories, Measures, Residuals, Response, SpaceMeasures, Touch
 from stylobate.response.poses import SpacePoses, exaggerated, quaternions, rotation_matrices

@@ -7,8 +7,7 @@ import pytest
 
 import stylobate as st
 from stylobate.bibliography import bibliography
-from stylobate.column.catalogue import CATALOGUE
-from stylobate.column.presets import PAPER, PRESETS, known_column
+from stylobate.column.catalogue import CATALOGUE, PAPER, PRESETS, known_column
 
 WORLD = [name for name in PRESETS if name not in PAPER]
 

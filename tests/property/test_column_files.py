@@ -11,9 +11,9 @@ from hypothesis import strategies as some
 
 import stylobate as st
 from stylobate.column.assembly_files import read_assembly
+from stylobate.column.catalogue import PRESETS, preset
 from stylobate.column.files import column_from_dict, load_column, read_column, write_column
 from stylobate.column.plausible import length_doubts, unit_doubts
-from stylobate.column.presets import PRESETS, preset
 from stylobate.column.scatter import Scatter, twins_of
 from stylobate.column.toml import parse_toml, toml_text
 from stylobate.errors import InputError

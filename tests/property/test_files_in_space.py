@@ -10,7 +10,7 @@ import pytest
 
 import stylobate as st
 from stylobate.column.assembly_files import FROM_DICT
-from stylobate.column.spatial.mesh import read_stones
+from stylobate.column.spatial.stone import read_stones
 
 HEAD = """
 density = 2500.0

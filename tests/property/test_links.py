@@ -17,8 +17,7 @@ from stylobate.column.links.kinds import shear_limits, shear_stiffness
 from stylobate.column.links.link import MATERIALS
 from stylobate.models.engine import engine_for
 from stylobate.models.registry import MODELS, model_class
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.limit_assemblies import limit_in_space
+from stylobate.statics.limit import limit_analysis, limit_in_space
 
 JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
 COLUMN = st.Column.tapered(

@@ -8,7 +8,7 @@ import pytest
 
 from stylobate.cli.console import in_options, write_json
 from stylobate.errors import InputError
-from stylobate.messages import Message, digits, joined, kept, restored, say
+from stylobate.messages import Message, digits, joined, messages_in, restored, say
 from stylobate.results.asked import read_json
 
 MESSAGE = say("{n} drums are shifted by up to {far}.", n=2, far=say("{value:.3g} mm", value=12.3456))
@@ -80,4 +80,4 @@ def test_names_of_options_are_values_not_templates():
     asked = in_options(message)
     assert asked == "take it off (--condition demean) unless it is meant."
     assert asked.template == message.template
-    assert restored({"a": str(asked)}, kept({"a": asked}))["a"].values == {"step": "--condition demean"}
+    assert restored({"a": str(asked)}, messages_in({"a": asked}))["a"].values == {"step": "--condition demean"}

@@ -9,7 +9,7 @@ from sources import sources
 
 from stylobate.campaign.twins import Twins
 from stylobate.column.scatter import Scatter
-from stylobate.percent import percent, percents, whole
+from stylobate.messages import percent, percents, whole_percent
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.limit_states import shares
 from stylobate.verdicts.population import Population, chance_words
@@ -22,7 +22,7 @@ from stylobate.verdicts.population import Population, chance_words
      (1 / 3, "33"), (2 / 3, "67"), (0.5749, "57"), (float("nan"), "–"), (float("inf"), "–")],
 )  # fmt: skip
 def test_half_of_a_per_cent_is_rounded_up(share, said):
-    assert whole(share) == said
+    assert whole_percent(share) == said
     assert percent(share) == f"{said} %"
 
 
@@ -31,7 +31,7 @@ def test_every_share_of_up_to_four_hundred_runs_is_rounded_as_its_fraction_and_n
         for count in range(runs + 1):
             exact = (Fraction(100 * count, runs) + Fraction(1, 2)).__floor__()
             said = "<1" if exact == 0 < count else ">99" if exact == 100 > Fraction(100 * count, runs) else str(exact)
-            assert whole(count / runs) == said, (count, runs)
+            assert whole_percent(count / runs) == said, (count, runs)
 
 
 def test_all_who_tell_a_share_tell_the_same():

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.codes.records import OWN_MISFIT, Wanted, select_records
-from stylobate.motion.intensity_specs import parse_measure
-from stylobate.motion.recordings import recorded_again
+from stylobate.codes.records import OWN_MISFIT, RecordRange, select_records
+from stylobate.motion.events import recorded_again
+from stylobate.motion.intensity import parse_measure
 from stylobate.motion.specs import parse_synthetic
 from stylobate.motion.spectra import pseudo_acceleration
 
@@ -87,11 +87,11 @@ def test_ranges_and_events(motions):
     with pytest.raises(st.InputError, match="4 records can be chosen with at most 1 of one event"):
         select_records(told, target, 5, factors=(0.01, 100.0), per_event=1)
     about = {one.name: {"magnitude": 6.0 + 0.1 * k} for k, one in enumerate(motions)}
-    wanted = [Wanted("magnitude", 6.25, 6.75), Wanted(parse_measure("pgv"), 0.0, 10.0)]
+    wanted = [RecordRange("magnitude", 6.25, 6.75), RecordRange(parse_measure("pgv"), 0.0, 10.0)]
     found = select_records(motions, target, 3, factors=(0.01, 100.0), wanted=wanted, about=about)
     assert set(found.refused) == {"record 0", "record 1", "record 2"}
     with pytest.raises(st.InputError, match="0 of 8 records can be used, and 3 are asked for"):
-        select_records(motions, target, 3, wanted=[Wanted("distance_km", 0.0, 10.0)])
+        select_records(motions, target, 3, wanted=[RecordRange("distance_km", 0.0, 10.0)])
 
 
 def test_wider_limits_that_are_told_let_in_as_many_as_are_asked_for(motions):

@@ -8,7 +8,7 @@ import pytest
 
 import stylobate as st
 from stylobate import store
-from stylobate.response.labelled import to_dataset
+from stylobate.response.recorded import to_dataset
 from stylobate.response.residuals import NAMES, Residuals, residuals_of
 from stylobate.response.rows import Rows
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as some
 
 import stylobate as st
 from stylobate.atomic import replacing
+from stylobate.column.catalogue import preset
 from stylobate.column.files import column_from_dict
-from stylobate.column.presets import preset
 from stylobate.response import ENERGY_TERMS, Histories, Measures
 
 RECORDED = (

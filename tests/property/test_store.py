@@ -12,7 +12,7 @@ import pytest
 import stylobate as st
 from stylobate import store
 from stylobate.atomic import replacing
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.errors import InputError, StylobateError
 from stylobate.response import Response
 from stylobate.verdicts.domain import Domain

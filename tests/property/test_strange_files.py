@@ -9,7 +9,7 @@ import stylobate as st
 from stylobate.column.assembly_files import is_assembly, load_structure
 from stylobate.column.files import load_column, read_column
 from stylobate.motion.readers import read_suite
-from stylobate.reading import SETTINGS, read_bytes, shown
+from stylobate.text_tables import SETTINGS, printable, read_bytes
 
 COLUMN = """\
 density = 1600.0
@@ -84,7 +84,7 @@ def test_names_that_are_not_utf8_can_be_shown_and_their_files_read(tmp_path):
     column = read_column(os.fsdecode(path))
     assert column.name == r"s\xe4ule\x1b"
     assert column.digest
-    assert shown("Säule 柱.toml") == "Säule 柱.toml"
+    assert printable("Säule 柱.toml") == "Säule 柱.toml"
     record = os.fsencode(tmp_path) + b"/record\xff.csv"
     with open(record, "w") as file:
         file.write("time_s,ax_g\n0,0\n0.01,0.1\n0.02,-0.1\n0.03,0.0\n")

@@ -12,8 +12,8 @@ from sources import sources
 import stylobate as st
 from stylobate.column.as_found import AsFound, FoundDrum
 from stylobate.column.assembly_files import FROM_DICT
+from stylobate.column.catalogue import preset
 from stylobate.column.found_geometry import geometry
-from stylobate.column.presets import preset
 from stylobate.column.standing import of_column
 from stylobate.column.structure import Structure
 

@@ -19,8 +19,8 @@ from stylobate.campaign.runs import Request, its_turn
 from stylobate.campaign.study_files import read_plan
 from stylobate.cli.main import call
 from stylobate.column.files import load_column
-from stylobate.motion.condition_specs import conditioned
-from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.conditioning import conditioned
+from stylobate.motion.intensity import parse_measure
 from stylobate.probability.studies import StudyResult, write_table
 
 COLUMN = st.Column.tapered(

@@ -16,7 +16,7 @@ from stylobate.errors import PARAMETER, InputError, check_range, reworded, withi
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
 
 #: What makes the command line of a browser.
-COMMAND_LINES = {"stylobate_report/pdf.py"}
+COMMAND_LINES = {"stylobate_report/page.py"}
 
 
 @cache

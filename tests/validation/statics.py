@@ -9,8 +9,7 @@ from stylobate.column import Column, Joint, preset
 from stylobate.column.spatial.assembly import SpatialAssembly
 from stylobate.column.spatial.stone import Stone
 from stylobate.models.rigid_block.block_stack import BlockStack
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.limit_assemblies import limit_directions
+from stylobate.statics.limit import limit_analysis, limit_directions
 from stylobate.statics.pushover import PushoverResult, pushover
 
 from .case import AtMost, Case, Near, collected

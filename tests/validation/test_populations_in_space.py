@@ -9,7 +9,7 @@ from validation.in_space.random_scenes import FAMILIES, scene, tumble, turned
 from validation.in_space.resting import CREEPS, SCENES, rests
 
 import stylobate as st
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 
 
 def test_turning_and_renumbering_change_no_more_verdicts_than_a_nudge():

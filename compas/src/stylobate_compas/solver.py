@@ -17,12 +17,11 @@ from compas_dem.problem import Problem
 from compas_dem.problem.results import Results
 
 import stylobate as st
-from stylobate.column.turning import matrix_of
+from stylobate.column.shapes import matrix_of
 from stylobate.errors import check_kind
 from stylobate_exchange.compas_files import Block, compas_blocks
-from stylobate_exchange.convert import Reading, parts_of, stand_up
+from stylobate_exchange.convert import Reading, body_of, parts_of, stand_up
 from stylobate_exchange.recording import Recording
-from stylobate_exchange.stones import body_of
 
 
 def assembly_of(problem: Problem, material: str, joint: st.Joint | None = None) -> st.SpatialAssembly:

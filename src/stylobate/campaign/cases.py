@@ -18,17 +18,17 @@ from ..atomic import replacing
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_choice, check_range
 from ..models.base import Case, Cases, Model
-from ..models.shared.quiet import share_of
+from ..models.shared.ground import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
-from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
+from ..motion.intensity import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
 from ..motion.sequence import spans_of
 from ..response.rows import Rows
 from ..version import __version__
 from .campaign import COMPUTING, Campaign
 from .digests import LENGTH, Digests, Hasher, samples_of
-from .runs import Group, Request, known
+from .runs import Group, Request, finished_rows
 from .twins import LAW, Twins, the_twins
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ class Study:
         Of ``im`` in its unit (pga and sa in g, pgv in m/s), to each of which every motion is scaled; factors of the
         motions without ``im``.
     im : IntensityMeasure or str, optional
-        Such as ``pga``; see :func:`stylobate.motion.intensity_specs.parse_measure`.
+        Such as ``pga``; see :func:`stylobate.motion.intensity.parse_measure`.
     keep : {"rows", "histories"}
         ``histories`` keeps a file of histories per case, not only of the worst and the median one.
     campaign, **settings : Campaign, optional
@@ -325,7 +325,7 @@ class Plan:
     def known(self, ledger: Path) -> Rows:
         """Rows of the cases that a ledger holds."""
         found = Rows(len(self))
-        for number, row in known(ledger, self.digests):
+        for number, row in finished_rows(ledger, self.digests):
             found[number] = row
         return found
 

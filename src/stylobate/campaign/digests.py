@@ -16,11 +16,11 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from ..atomic import digest as digest_of_file
 from ..column.structure import Structure
 from ..kernels.sources import source_digest
 from ..models.base import Case, Model, RunOptions
 from ..motion import Motion
-from ..own_files import digest as digest_of_file
 from ..version import __version__ as PACKAGE_VERSION
 from .campaign import DECIDED
 

@@ -18,7 +18,7 @@ from ..models.base import Case, Cases, Model
 from ..models.registry import make_models
 from ..motion import harmonic
 from ..motion.specs import amplitude_range, frequency_range, parse_acceleration, parse_frequency
-from ..reading import shown
+from ..text_tables import printable
 from .campaign import DECIDED
 from .digests import Hasher
 from .runs import Request
@@ -110,7 +110,7 @@ def read_grid(path: str | Path) -> HarmonicGrid:
     table = read_table(path, GridTable)
     beside = Path(path).parent / table.column
     settings = {key: str(value) for key, value in (table.set or {}).items()}
-    with within(shown(path)):
+    with within(printable(path)):
         return HarmonicGrid(
             column=load_column(beside if beside.is_file() else table.column),
             model=make_models([(table.model, settings)], table.losses)[0],

@@ -35,10 +35,6 @@ _TRIES = 3
 class LocalWorkers:
     """A scheduler and workers of one thread each.
 
-    Parameters
-    ----------
-    count : int
-
     Raises
     ------
     StylobateError

@@ -13,12 +13,12 @@ from typing import Any
 
 import numpy as np
 
+from ..atomic import digest as digest_of_file
 from ..errors import InputError
 from ..models import devices
 from ..models.base import Case, Cases, Model, RunOptions
 from ..models.engine import engine_for
-from ..models.shared.quiet import share_of
-from ..own_files import digest as digest_of_file
+from ..models.shared.ground import share_of
 from ..response.measures import CPU, GPU
 from ..response.rows import Rows
 from ..simulate import check_cases, run_on_card
@@ -244,7 +244,7 @@ class Runs:
 
     def _known(self, digests: Digests) -> Iterator[tuple[int, dict[str, Any]]]:
         if self.path is not None:
-            yield from known(self.path, digests)
+            yield from finished_rows(self.path, digests)
 
     def _keep(self, digests: Digests, number: int, row: dict[str, Any]) -> Finished:
         key = int(digests.keys[number])
@@ -263,7 +263,7 @@ class Runs:
         return digest_of_file(place) if place.is_file() else None
 
 
-def known(ledger: Path, digests: Digests) -> Iterator[tuple[int, dict[str, Any]]]:
+def finished_rows(ledger: Path, digests: Digests) -> Iterator[tuple[int, dict[str, Any]]]:
     """(number, row) of the cases that a ledger holds; those of other requests and other laws in it are passed over."""
     for key, row in rows_in(ledger, digests.numbers):
         digest = row.pop("case", None)

@@ -18,12 +18,12 @@ from ..errors import InputError, as_typed, check_whole, within
 from ..models.base import Model
 from ..models.registry import make_models
 from ..motion import Motion, Suite, harmonic
-from ..motion.intensity_specs import IntensityMeasure, parse_measure
+from ..motion.intensity import IntensityMeasure, parse_measure
 from ..motion.readers.source import PREFIX
 from ..motion.request import MotionRequest
 from ..motion.sequence import REST, in_sequence
 from ..motion.specs import azimuth_range, parse_acceleration, parse_time, parse_velocity
-from ..reading import shown
+from ..text_tables import printable
 from .campaign import Campaign
 from .cases import Study
 from .grid import read_grid
@@ -110,7 +110,7 @@ class RunsTable(Table):
 
     def made_campaign(self) -> Campaign:
         """Realisations, time after each motion and what of it is stepped."""
-        drawn = {} if self.scatter is None else _drawn(self.scatter)
+        drawn = {} if self.scatter is None else _twin_settings(self.scatter)
         return Campaign(**drawn, tail=_seconds(self.tail), whole=self.whole)
 
 
@@ -144,9 +144,9 @@ def read_plan(path: str | Path) -> tuple[Study, dict[str, str]]:
     if "frequencies" in found or "amplitudes" in found:
         return _of_grid(path), {}
     if "motions" not in found:
-        raise InputError(f"{shown(path)} names no record; add [motions] with files = [...].")
+        raise InputError(f"{printable(path)} names no record; add [motions] with files = [...].")
     table = read_table(path, StudyFile)
-    with within(shown(path)):
+    with within(printable(path)):
         return _study(table, Path(path).parent)
 
 
@@ -307,7 +307,7 @@ def _level(value: Any, unit: str) -> float:
     return float(value)
 
 
-def _drawn(table: ScatterTable) -> dict[str, Any]:
+def _twin_settings(table: ScatterTable) -> dict[str, Any]:
     """Fields of a campaign of a study's twins."""
     number = check_whole("realisations in [scatter]", table.realisations, 1)
     seed = check_whole("seed in [scatter]", table.seed, 0)

@@ -28,14 +28,14 @@ def animate(
         "From where a response in space is seen, in degrees: azimuth from x towards y; -40,18 if not given.",
     ),
     *,
-    execution: Annotated[o.Execution, o.But(*o.CAMPAIGNS)],
+    execution: Annotated[o.Execution, o.Without(*o.CAMPAIGNS)],
 ) -> None:
     """Draw a recorded response as a film: GIF, MP4, or an HTML page with a scrubber.
 
     The film is written to --out, or beside the response.
     """
     from ..plots.film import write_gif, write_mp4, write_player
-    from ..plots.solids import OBLIQUE, parse_view
+    from ..plots.scene import OBLIQUE, parse_view
     from ..response import load_response
     from ..response.words import doubt_of
     from . import console

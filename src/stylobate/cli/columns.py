@@ -30,9 +30,8 @@ def columns(
     A preset by its name is shown with the source of every figure. With --out, writes columns as files to start from.
     """
     from ..column.assembly_files import load_structure
-    from ..column.catalogue import CATALOGUE
+    from ..column.catalogue import CATALOGUE, PRESETS, known_column
     from ..column.files import write_column
-    from ..column.presets import PRESETS, known_column
     from . import console
 
     known = [known_column(name) for name in which or PRESETS] if catalogue else []
@@ -145,7 +144,7 @@ def _assembled(structure: Structure) -> dict[str, str]:
         "mass": f"{p['mass_kg']:.0f} kg",
         "heaviest": f"{p['heaviest']}, {p['heaviest_mass_kg']:.0f} kg",
         "north": structure.north_words,
-        **{link["name"]: _held(link) for link in p["links"]},
+        **{link["name"]: _resistance_words(link) for link in p["links"]},
         **_stone(structure),
     }
 
@@ -204,7 +203,7 @@ def _facts(column: Column) -> dict[str, str]:
         "static uplift": f"{p['uplift_g']:.4f} g",
         "north": column.north_words,
         **_as_found(column),
-        **{link["name"]: _held(link) for link in p["links"]},
+        **{link["name"]: _resistance_words(link) for link in p["links"]},
         **_stone(column),
     }
 
@@ -217,7 +216,7 @@ def _stone(structure: Structure) -> dict[str, str]:
     return {"stone around links": words} if words else {}
 
 
-def _held(link: dict) -> str:
+def _resistance_words(link: dict) -> str:
     """Resistance of a link, in words."""
     held = []
     for kind, name in (("shear", "shear"), ("tension", "axial")):

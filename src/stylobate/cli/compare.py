@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
 from . import options as o
-from .design import WRITES, describe_design, write_design
+from .files import WRITES, describe_design, write_design
 
 if TYPE_CHECKING:
     from .files import Files
@@ -31,7 +31,7 @@ def compare(
         "A,B,C", "Models to compare, such as housner,dem2d; with options, such as dem3d:planar=true,dem3d.", ...
     ),
     *,
-    motions: Annotated[o.Motions, o.But(*o.SEVERAL)],
+    motions: Annotated[o.Motions, o.Without(*o.SEVERAL)],
     frequencies: str | None = o.option("F:F:N", "Compare domains: such as 0.33:4:24."),
     amplitudes: str | None = o.option("A:A:N", "Compare domains: such as 0.05g:0.6g:32."),
     duration: float = o.option("TIME", "Of each motion of a domain.", "10s", read=o.time),

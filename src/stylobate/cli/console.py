@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import reworded
-from ..messages import MESSAGES, Message, kept
+from ..messages import MESSAGES, Message, messages_in
 
 if TYPE_CHECKING:
     import pandas
@@ -97,7 +97,7 @@ def as_json(value: Any, indent: int | None = None) -> str:
 
 def write_json(path: Path, value: Any) -> Path:
     """Write a JSON file, whole or not at all; what its messages are made of stands in it, for reports in other languages."""
-    messages = kept(value)
+    messages = messages_in(value)
     return write_text(path, as_json(value | {MESSAGES: messages} if messages else value, indent=2))
 
 
@@ -252,7 +252,7 @@ class Notes(logging.Handler):
         note(record.getMessage().rstrip(".") + " ...")
 
 
-def tell() -> None:
+def log_to_stderr() -> None:
     """From now on let a person who waits know for what; for a process that is one command."""
     log = logging.getLogger("stylobate")
     log.setLevel(logging.INFO)

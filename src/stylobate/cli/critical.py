@@ -40,7 +40,7 @@ def critical(
     step: float = o.option("A", "Step of the grid.", "0.005g", read=o.acceleration),
     model: str = o.model(),
     *,
-    motions: Annotated[Shapes, o.But("scale", "pga")],
+    motions: Annotated[Shapes, o.Without("scale", "pga")],
     following: o.Following,
     modelling: o.Modelling,
     population: o.Population,

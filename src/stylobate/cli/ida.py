@@ -22,7 +22,7 @@ def ida(
     about: Path | None = o.option("FILE", "CSV about the records: record, magnitude, distance_km; or QuakeML."),
     *,
     population: o.Population,
-    motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, "azimuths", "scale", "pga")],
+    motions: Annotated[o.Motions, o.Without(*o.FILES_NAMED, "azimuths", "scale", "pga")],
     following: o.Following,
     modelling: o.Modelling,
     execution: o.Execution,
@@ -32,7 +32,7 @@ def ida(
     Levels are hunted and filled, all records at a time; with the table of which intensity measure tells most.
     """
     from ..codes.records import facts_of_records
-    from ..motion.intensity_specs import parse_levels, parse_measure
+    from ..motion.intensity import parse_levels, parse_measure
     from ..probability.evidence import check_response, median_of
     from ..probability.ida import FEWEST, which_tells_most
     from ..probability.ida import ida as analyse

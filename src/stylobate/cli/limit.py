@@ -25,7 +25,7 @@ def limit(
     ),
     *,
     pushing: Loads,
-    modelling: Annotated[o.Modelling, o.But("settings", "losses")],
+    modelling: Annotated[o.Modelling, o.Without("settings", "losses")],
     execution: o.Plain,
 ) -> None:
     """Collapse multiplier and mechanism of rigid blocks.
@@ -35,8 +35,7 @@ def limit(
     """
     from ..column.links.placed import stone_at_limit
     from ..motion.specs import azimuth_range
-    from ..statics.limit import limit_analysis
-    from ..statics.limit_assemblies import limit_directions, listed
+    from ..statics.limit import limit_analysis, limit_directions, listed
     from . import console
 
     stone: Any = modelling.structure(column)

@@ -42,7 +42,7 @@ from . import (
     study,
     suite,
 )
-from .groups import WIDTH, Command, takes
+from .options import WIDTH, Command, takes
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
 
@@ -98,11 +98,11 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     signals.listen()
-    console.tell()
+    console.log_to_stderr()
     code = INTERRUPTED
     try:
         code = call(sys.argv[1:])
-        signals.said()
+        signals.mark_ended()
     except KeyboardInterrupt:  # before the command had begun, or when it had ended
         signals.end_now(code)
     if signals.TOLD.is_set():

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def modes(
     column: str = o.STRUCTURE,
     model: str | None = o.model(None),
-    number: int = o.option("N", "How many modes of each kind are listed.", "3", read=o.whole),
+    number: int = o.option("N", "How many modes of each kind are listed.", "3", read=o.whole_number),
     measured: str | None = o.option(
         "F±S,…",
         "Measured frequencies ± one standard deviation, such as 1.27Hz±3%,6.5Hz±6%,torsion 9.0Hz±6%: the joints' stiffness.",
@@ -23,12 +23,14 @@ def modes(
     ground: str | None = o.option(
         "GROUND", "Under what was measured: rigid, or vs=200:400m/s,half_width=4m of the footing."
     ),
-    draws: int | None = o.option("N", "Draws of what is not known of that ground; 100 by default.", read=o.whole),
+    draws: int | None = o.option(
+        "N", "Draws of what is not known of that ground; 100 by default.", read=o.whole_number
+    ),
     left: float = o.option(
         "SHARE", "Of a joint's stiffness, in the table of what its loss takes off each frequency.", "0.5", read=o.number
     ),
     *,
-    modelling: Annotated[o.Modelling, o.But("losses")],
+    modelling: Annotated[o.Modelling, o.Without("losses")],
     execution: o.Plain,
 ) -> None:
     """Natural frequencies and shapes on closed joints, about rest.

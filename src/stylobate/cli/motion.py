@@ -15,7 +15,7 @@ def motion(
     ),
     samples: bool = o.option(None, "List the sample motions that come with it.", False),
     *,
-    motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, *o.SEVERAL, "vertical")],
+    motions: Annotated[o.Motions, o.Without(*o.FILES_NAMED, *o.SEVERAL, "vertical")],
     execution: o.Plain,
 ) -> None:
     """Contents of records of ground motion, and the records that come with the package.
@@ -38,7 +38,7 @@ def motion(
     with execution.files("motion", "motion.json", "motion.csv", "motion", "spectra") as written:
         if written.wanted:
             from .. import plots
-            from ..motion.writing import write_csv
+            from ..motion.motion import write_csv
 
             written.json(summary, "motion.json")
             written.append(write_csv(found, written / "motion.csv"))

@@ -47,7 +47,9 @@ def pushover(
     column: str = o.COLUMN,
     to: float | None = o.option("M", "Displacement of the top at which to stop, in metres.", read=NUMBER),
     at: int | None = o.option(
-        "DRUM", "Drum, from 1, that is led and told of instead of the top, as where a tie holds it.", read=o.whole
+        "DRUM",
+        "Drum, from 1, that is led and told of instead of the top, as where a tie holds it.",
+        read=o.whole_number,
     ),
     control: str = o.option("WAY", "displacement or arc-length.", "displacement"),
     linear: bool = o.option(None, "Equilibrium in the undisplaced state.", False),
@@ -59,7 +61,7 @@ def pushover(
     ),
     *,
     pushing: Loads,
-    modelling: Annotated[o.Modelling, o.But("settings", "losses")],
+    modelling: Annotated[o.Modelling, o.Without("settings", "losses")],
     execution: o.Plain,
 ) -> None:
     """Pushover curve of a column of rigid blocks.
@@ -68,8 +70,7 @@ def pushover(
     in which the limit analysis finds it weaker.
     """
     from ..codes.checks import CodeSite, code_check
-    from ..statics.limit import limit_analysis, towards
-    from ..statics.limit_assemblies import limit_directions
+    from ..statics.limit import limit_analysis, limit_directions, towards
     from ..statics.pushover import pushover as follow
     from . import console
 

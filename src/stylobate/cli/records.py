@@ -11,10 +11,10 @@ from . import options as o
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..codes.records import Wanted
+    from ..codes.records import RecordRange
 
 #: Columns of the table that are printed.
-SHOWN = ("record", "factor", "compared_by", "misfit", "pga_g", "pgv_m_s", "magnitude", "distance_km")
+PRINTED_COLUMNS = ("record", "factor", "compared_by", "misfit", "pga_g", "pgv_m_s", "magnitude", "distance_km")
 
 
 def records(
@@ -36,7 +36,7 @@ def records(
     ),
     about: Path | None = o.option("FILE", "CSV about the records: record, magnitude, distance_km; or QuakeML."),
     *,
-    motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, *o.SEVERAL, "scale", "pga", "azimuth")],
+    motions: Annotated[o.Motions, o.Without(*o.FILES_NAMED, *o.SEVERAL, "scale", "pga", "azimuth")],
     execution: o.Plain,
 ) -> None:
     """Records for a code: chosen from folders and scaled so that their mean spectrum follows a target.
@@ -46,15 +46,14 @@ def records(
     """
     from ..codes.records import facts_of_records, select_records
     from ..codes.spectra import target_spectrum
-    from ..motion.condition_specs import scales
-    from ..motion.drift import THEN
+    from ..motion.conditioning import THEN, scales
     from ..motion.specs import parse_number, parse_time
     from . import console
 
     aim = target_spectrum(target)
     between = _pair("periods", periods, parse_time, "0.2s:3s")
     limits = _pair("factors", factors, lambda text: parse_number("`factors`", text), "0.5:2")
-    ranges = [_wanted(text) for text in where or ()]
+    ranges = [_range_of_measure(text) for text in where or ()]
     scaling = next((step for step in motions.condition or () if scales(step)), None)
     if scaling is not None:
         raise InputError(
@@ -75,7 +74,7 @@ def records(
         if files.wanted:
             from .. import plots
             from ..atomic import output_folder
-            from ..motion.writing import write_csv
+            from ..motion.motion import write_csv
 
             place = files / "scaled"
             there = sorted(one.name for one in place.iterdir()) if place.is_dir() else []
@@ -97,7 +96,7 @@ def records(
     if execution.emits(summary):
         return
     print(f"Target: {aim.words}. {found.sentence}")
-    shown = found.table.filter(list(SHOWN)).dropna(axis="columns", how="all")
+    shown = found.table.filter(list(PRINTED_COLUMNS)).dropna(axis="columns", how="all")
     console.print_table(shown, digits=3)
     for row in found.table.to_dict("records"):
         if row["drift_m"]:
@@ -120,19 +119,19 @@ def _pair(name: str, text: str, parse: Callable[[str], float], example: str) -> 
     return first, last
 
 
-def _wanted(text: str) -> Wanted:
+def _range_of_measure(text: str) -> RecordRange:
     """A range of a measure as typed: ``pgv=0.1m/s:0.8m/s``."""
-    from ..codes.records import ABOUT, Wanted
-    from ..motion.intensity_specs import parse_level, parse_measure
+    from ..codes.records import ABOUT, RecordRange
+    from ..motion.intensity import parse_level, parse_measure
     from ..motion.specs import parse_number
 
     name, sign, span = (part.strip() for part in text.partition("="))
     if not sign:
         raise InputError(f"`where` is {text!r}; write it as pgv=0.1m/s:0.8m/s.", "where")
     if name in ABOUT:
-        return Wanted(name, *_pair("where", span, lambda one: parse_number(name, one), f"{name}=6:7"))
+        return RecordRange(name, *_pair("where", span, lambda one: parse_number(name, one), f"{name}=6:7"))
     measure = parse_measure(name)
-    return Wanted(measure, *_pair("where", span, lambda one: parse_level(one, measure), "pgv=0.1m/s:0.8m/s"))
+    return RecordRange(measure, *_pair("where", span, lambda one: parse_level(one, measure), "pgv=0.1m/s:0.8m/s"))
 
 
 def _file_names(names: list[str]) -> list[str]:

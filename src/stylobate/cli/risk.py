@@ -59,7 +59,7 @@ def risk(
 
 def hazards_of(files: Sequence[Path], site: str | None) -> dict[str, Any]:
     """Hazard curves with their digests, and the site, as they are kept beside what rests on them."""
-    from ..own_files import digest
+    from ..atomic import digest
 
     return {"hazards": [f"{file} (SHA-256 {digest(file)})" for file in files], "site": site}
 

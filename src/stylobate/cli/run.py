@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .files import Files
 
 
-class Drawn(NamedTuple):
+class RunPictures(NamedTuple):
     """Pictures of a run: its figures, and the strip of the median column like it."""
 
     all: bool = True
@@ -105,7 +105,7 @@ def run(
     campaign, given = execution.campaign(following, population), population.replicates is not None
     if given or not (until_end or until_rest):
         campaign = o.with_twins(stone, how, campaign, given)
-    drawn = Drawn(pictures, pictures and given and campaign.replicates > 0)
+    drawn = RunPictures(pictures, pictures and given and campaign.replicates > 0)
     asked = Settings(stone, how, campaign, output_interval, until_end, until_rest)
     out = execution.out
     if request.several:
@@ -144,7 +144,7 @@ def directions(summaries: Sequence[dict], stone: Structure, model: Model, out: P
     return "" if found is None else harm_words(found, chances)
 
 
-def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, drawn: Drawn) -> list[dict]:
+def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, drawn: RunPictures) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     import numpy as np
 
@@ -200,9 +200,9 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
     return [summaries[number] for number in range(len(motions))]
 
 
-def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, drawn: Drawn) -> dict:
+def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, drawn: RunPictures) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
-    from ..motion.writing import write_csv
+    from ..motion.motion import write_csv
     from ..verdicts.directions import direction_of
     from ..verdicts.population import other_laws
     from . import console
@@ -354,7 +354,7 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 def population_facts(population: Population) -> dict[str, str]:
     """Columns like this one, or assemblies, and their displacements; of an assembly where its bodies lie."""
-    from ..percent import percents
+    from ..messages import percents
     from ..verdicts.population import OVER_ALL, not_safe, not_yet_debris, only_as_seen
     from . import console
 

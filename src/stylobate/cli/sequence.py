@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..verdicts.sequence import SequenceResult, UntilFall
 
 #: Columns of the table that are printed, and how they are headed.
-SHOWN = {
+PRINTED_COLUMNS = {
     "earthquake": "earthquake",
     "motion": "motion",
     "outcome": "outcome so far",
@@ -46,14 +46,14 @@ def sequence(
     column: str = o.STRUCTURE,
     model: str = o.model(),
     *,
-    motions: Annotated[Earthquakes, o.But(*o.SEVERAL)],
+    motions: Annotated[Earthquakes, o.Without(*o.SEVERAL)],
     rest: float = o.option("TIME", "Quiet ground after each earthquake.", "30s", read=o.time),
-    repeat: int = o.option("N", "How often all of them come.", "1", read=o.whole),
+    repeat: int = o.option("N", "How often all of them come.", "1", read=o.whole_number),
     factors: str | None = o.option("X,X,…", "A factor for each earthquake, or for each time that a single one comes."),
     until_fall: int | None = o.option(
-        "N", "How many of each kind it takes until it falls, up to this number.", read=o.whole
+        "N", "How many of each kind it takes until it falls, up to this number.", read=o.whole_number
     ),
-    following: Annotated[o.Following, o.But("tail")],
+    following: Annotated[o.Following, o.Without("tail")],
     until_end: bool = o.option(None, "Go on after the collapse of a column (dem2d).", False),
     output_interval: float = o.option("TIME", "Time between recorded states.", "0.01s", read=o.time),
     modelling: o.Modelling,
@@ -137,7 +137,7 @@ def _run(
     stone: Structure, how: Model, kinds: list[Motion], campaign: Any, options: dict[str, Any], execution: o.Execution,
     pictures: bool,
 ) -> None:  # fmt: skip
-    from ..motion.writing import write_csv
+    from ..motion.motion import write_csv
     from ..verdicts.sequence import sequence as run_sequence
     from . import console
     from .run import SPACE_PICTURES, write, write_population
@@ -175,7 +175,7 @@ def describe(found: SequenceResult, motion: Motion) -> None:
     from .run import quiet_facts
 
     print(found.sentence)
-    table = _shown(found.table)
+    table = _printed_columns(found.table)
     if len(table):
         console.print_table(table, digits=3)
     if found.falls is not None and found.falls.low:
@@ -199,9 +199,9 @@ def describe_counts(told: UntilFall) -> None:
         print(f"Over the kinds, {told.over_motions.sentence}.")
 
 
-def _shown(table: pandas.DataFrame) -> pandas.DataFrame:
+def _printed_columns(table: pandas.DataFrame) -> pandas.DataFrame:
     """Columns that are printed; of what never happened none."""
     never = [name for name in ("fallen", "links_broken") if name in table and not any(table[name])]
     if "at_rest" in table:
         table = table.assign(at_rest=["yes" if one else "no" for one in table["at_rest"]])
-    return table.filter([name for name in SHOWN if name not in never]).rename(columns=SHOWN)
+    return table.filter([name for name in PRINTED_COLUMNS if name not in never]).rename(columns=PRINTED_COLUMNS)

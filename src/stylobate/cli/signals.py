@@ -34,7 +34,7 @@ KEPT: list[str] = []
 #: Whether this process has been told to stop: what goes wrong after that is no fault.
 TOLD = threading.Event()
 
-_said = threading.Event()
+_ended = threading.Event()
 
 #: The interrupt was raised where Python throws exceptions away: it is to be raised again.
 _thrown_away = threading.Event()
@@ -75,9 +75,9 @@ def keeping(sentence: str) -> Iterator[None]:
         KEPT.remove(sentence)
 
 
-def said() -> None:
+def mark_ended() -> None:
     """Say that a person has been told how the command ended: what is left is to end."""
-    _said.set()
+    _ended.set()
 
 
 def sentence() -> str:
@@ -87,7 +87,7 @@ def sentence() -> str:
 
 def _stop(number: int, frame: object) -> None:
     # Once, so that a second signal does not break the clean-up of the first; and not when there is nothing left to stop.
-    if _said.is_set() or (TOLD.is_set() and not _thrown_away.is_set()):
+    if _ended.is_set() or (TOLD.is_set() and not _thrown_away.is_set()):
         return
     TOLD.set()
     _thrown_away.clear()
@@ -133,7 +133,7 @@ def end_now(code: int, leave: Callable[[int], object] = os._exit) -> None:
         with suppress(OSError):
             partial.unlink(missing_ok=True)
     with suppress(Exception):
-        if not _said.is_set():
+        if not _ended.is_set():
             shown = (
                 "\r\x1b[2K\x1b[?25h" if sys.stderr.isatty() else ""
             )  # erase the progress bar and show the cursor again

@@ -20,7 +20,7 @@ def spectrum(
     files: list[Path] | None = o.argument("[MOTION]...", "Record, or the files of its components.", None),
     kind: str = o.option("KIND", "response or rocking.", "response"),
     *,
-    motions: Annotated[o.Motions, o.But("motion", *o.SEVERAL)],
+    motions: Annotated[o.Motions, o.Without("motion", *o.SEVERAL)],
     damping: float | None = o.option("SHARE", "Of a response spectrum; 0.05 by default.", read=o.number),
     periods: str | None = o.option("T:T:N", "Of a response spectrum [s], such as 0.02:10:120."),
     sizes: str | None = o.option("P:P:N", "Of a rocking spectrum [rad/s], such as 0.8:8:64.", flag="--p"),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
 from . import options as o
-from .design import WRITES, describe_design, write_design
+from .files import WRITES, describe_design, write_design
 
 if TYPE_CHECKING:
     from ..campaign.campaign import Campaign
@@ -95,7 +95,7 @@ def states(
     state: str = o.option("STATE", "Limit state, such as collapse or top:0.35d.", "collapse"),
     *,
     population: o.Population,
-    motions: Annotated[o.Motions, o.But(*o.SEVERAL)],
+    motions: Annotated[o.Motions, o.Without(*o.SEVERAL)],
     following: o.Following,
     modelling: o.Modelling,
     execution: o.Execution,

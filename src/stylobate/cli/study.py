@@ -19,7 +19,7 @@ def run(
     file: Path = STUDY_NAME,
     out: Path = o.option("DIR", "Folder that keeps the runs, for good.", ...),
     *,
-    execution: Annotated[o.Execution, o.But("out")],
+    execution: Annotated[o.Execution, o.Without("out")],
 ) -> None:
     """Run a study, or what is missing of it.
 

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from . import options as o
-from .design import WRITES, describe_design, write_design
+from .files import WRITES, describe_design, write_design
 
 #: Columns of the table that are printed.
-SHOWN = (
+PRINTED_COLUMNS = (
     "number",
     "motion",
     "factor",
@@ -33,7 +33,7 @@ def suite(
     also: list[str] | None = o.option("COLUMN", "A further column, or assembly; may be repeated."),
     against: str = o.option("MEASURE", "Measure of the records on the axis of the figure.", "pgv_m_s"),
     *,
-    motions: Annotated[o.Motions, o.But(*o.FILES_NAMED)],
+    motions: Annotated[o.Motions, o.Without(*o.FILES_NAMED)],
     following: o.Following,
     modelling: o.Modelling,
     population: o.Population,
@@ -48,7 +48,7 @@ def suite(
 
     from ..errors import InputError
     from ..messages import say
-    from ..models.shared.quiet import share_of
+    from ..models.shared.ground import share_of
     from ..probability.suite import check_measure, suite_shares, suite_table
     from ..response.words import to_decide
     from ..verdicts.directions import compass_of_shares, harm_words, may_collapse, worst
@@ -111,7 +111,7 @@ def suite(
     table["chance"] = [chance_words(row) for row in result["runs"]]
     for one, (_, rows) in zip(found, table.groupby("column", sort=False), strict=True):
         print(one.collapses)
-        shown = rows.filter(list(SHOWN))
+        shown = rows.filter(list(PRINTED_COLUMNS))
         shown = shown.rename(columns={"chance": CHANCE}) if any(shown["chance"]) else shown.drop(columns="chance")
         console.print_table(shown, digits=3)
     describe_design(designed)

@@ -89,10 +89,6 @@ def capacity_spectrum_check(
     damping : float
         Of the spectrum of a record [-].
 
-    Returns
-    -------
-    CapacityCheck
-
     Raises
     ------
     InputError

@@ -17,15 +17,13 @@ from ..constants import g
 from ..errors import InputError, check_choice, check_range, check_whole
 from ..messages import joined, say
 from ..motion import Motion
-from ..motion.drift import cure_of
+from ..motion.conditioning import cure_of
 from ..motion.earthquakes import MAX_BYTES, is_catalogue, places_of, read_earthquake, station_of
-from ..motion.events import events_of, unknown_events
-from ..motion.intensity import displacement_drift
-from ..motion.intensity_specs import IntensityMeasure
+from ..motion.events import events_of, recorded_again, unknown_events
+from ..motion.intensity import IntensityMeasure, displacement_drift
 from ..motion.readers.source import Source
-from ..motion.recordings import recorded_again
 from ..motion.spectra import pseudo_acceleration, rotated_pga, rotated_spectrum
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from .spectra import TargetSpectrum
 
 #: What may be told of a record.
@@ -193,7 +191,7 @@ FOR_MEANS = 7
 
 
 @dataclass(frozen=True)
-class Wanted:
+class RecordRange:
     """Range of a measure that a record must have, as recorded; ``magnitude`` and ``distance_km`` are told of it.
 
     Parameters
@@ -226,7 +224,7 @@ class Wanted:
 
 
 @dataclass(frozen=True, eq=False)
-class RecordSelection(Shown):
+class RecordSelection(NotebookSummary):
     """Result of :func:`select_records`.
 
     Parameters
@@ -362,7 +360,7 @@ def select_records(
     factors: tuple[float, float] = (0.5, 2.0),
     least: float = 0.9,
     per_event: int | None = None,
-    wanted: Sequence[Wanted] = (),
+    wanted: Sequence[RecordRange] = (),
     about: Mapping[str, Mapping[str, float]] | None = None,
 ) -> RecordSelection:
     """Choose and scale records so that their mean spectrum follows a target.
@@ -388,10 +386,6 @@ def select_records(
         Ranges that a record must keep to, as recorded.
     about : dict of str to dict, optional
         ``magnitude`` and ``distance_km`` by the names of records.
-
-    Returns
-    -------
-    RecordSelection
 
     Raises
     ------
@@ -476,7 +470,7 @@ def _considered(
     periods: np.ndarray,
     aim: np.ndarray,
     horizontal: str,
-    wanted: Sequence[Wanted],
+    wanted: Sequence[RecordRange],
     about: Mapping[str, float],
 ) -> tuple[str | None, np.ndarray, float]:
     """Why a record is left out, or None; its spectrum [m/s²], and the factor that makes it follow the target best."""

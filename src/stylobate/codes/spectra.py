@@ -314,10 +314,6 @@ def parse_code(text: str, more: Mapping[str, Mapping[str, str]] | None = None) -
     more : dict of str to dict, optional
         Codes that are known here, each with further names and their examples; all codes with no more by default.
 
-    Returns
-    -------
-    (str, dict of str to str)
-
     Raises
     ------
     InputError

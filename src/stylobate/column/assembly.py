@@ -24,10 +24,9 @@ from .block import (
     touching_faces,
 )
 from .column import GRAVITIES
-from .joint import Joint, given
-from .links.in_assembly import Scene, in_numbers, place_between
+from .joint import Joint, stated_fields
 from .links.link import Link
-from .links.placed import PlacedLink
+from .links.placed import PlacedLink, Scene, in_numbers, place_between
 from .structure import Bed, FacePair, Structure, face_between
 
 
@@ -260,8 +259,8 @@ class Assembly(Structure):
 
     def to_dict(self) -> dict:
         """Everything that defines the assembly, as plain values in SI units."""
-        plain = {name: value for name, value in given(self).items() if name != "links"}
-        plain["blocks"] = [{"surface": None, "solid": None} | given(block) for block in self.blocks]
-        return json.loads(json.dumps(plain, default=given)) | (  # lists for tuples, as a file gives them back
+        plain = {name: value for name, value in stated_fields(self).items() if name != "links"}
+        plain["blocks"] = [{"surface": None, "solid": None} | stated_fields(block) for block in self.blocks]
+        return json.loads(json.dumps(plain, default=stated_fields)) | (  # lists for tuples, as a file gives them back
             {"links": [link.to_dict() for link in self.links]} if self.links else {}
         )

@@ -8,8 +8,9 @@ from typing import Any
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, warn, within
-from ..reading import shown
+from ..text_tables import printable
 from .assembly import Assembly, Block
+from .catalogue import ASSEMBLIES, PRESETS
 from .column import Column
 from .files import column_from_dict, load_column
 from .joint import Joint
@@ -17,7 +18,6 @@ from .links import link_from_dict
 from .links.tables import BlockLinkTable, links_between
 from .materials import Material, material
 from .plausible import Piece, piece_doubts
-from .presets import ASSEMBLIES, PRESETS
 from .spatial.assembly import SpatialAssembly
 from .spatial.files import spatial_assembly
 from .spatial.tables import SpatialTable, describes_space, refuse_mixed
@@ -92,12 +92,12 @@ def read_assembly(path: str | Path) -> Assembly | SpatialAssembly:
     InputError
         The file cannot be read or does not describe an assembly; the message names the block and the remedy.
     """
-    data, name, folder = parse_toml(path), shown(Path(path).stem), Path(path).parent
-    with within(shown(path)):
+    data, name, folder = parse_toml(path), printable(Path(path).stem), Path(path).parent
+    with within(printable(path)):
         if describes_space(data):
             refuse_mixed(data)
-    table = checked(data, SpatialTable if describes_space(data) else AssemblyTable, shown(path))
-    with within(shown(path)):
+    table = checked(data, SpatialTable if describes_space(data) else AssemblyTable, printable(path))
+    with within(printable(path)):
         if isinstance(table, SpatialTable):
             return spatial_assembly(table, name, folder)
         return _assembly(table, name, folder)

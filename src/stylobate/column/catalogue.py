@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from ..bibliography import bibliography
+from ..errors import InputError, suggest
 from .column import Column
 from .drum import Drum
 from .joint import Joint
@@ -186,7 +188,7 @@ def _paper(name: str, drums: int, title: str) -> KnownColumn:
 
 _WITH_CAPITAL = "of the whole column; the capital is taken as part of the taper"
 
-_KNOWN = (
+_COLUMNS = (
     _paper("paper-monolithic", 1, "The founding paper's column in one piece"),
     _paper("paper-12-drums", 12, "The founding paper's column in twelve drums"),
     KnownColumn(
@@ -295,4 +297,44 @@ _KNOWN = (
 )  # fmt: skip
 
 #: All columns by the names of their presets, the paper's first.
-CATALOGUE = {one.name: one for one in _KNOWN}
+CATALOGUE = {one.name: one for one in _COLUMNS}
+
+
+# Presets: the columns of the catalogue by name.
+
+#: Young's modulus of the blocks in the paper [Pa]; see ``DistinctElement2D(block_modulus=…)``.
+PAPER_BLOCK_MODULUS = 2.5e9
+
+#: The paper's two columns (Baraldi et al., section 3).
+PAPER = ("paper-monolithic", "paper-12-drums")
+
+PRESETS = tuple(CATALOGUE)
+
+#: Assemblies by name: files, with source and licence in their first lines.
+ASSEMBLIES = {"evora": Path(__file__).with_name("evora.toml")}
+
+
+def known_column(name: str) -> KnownColumn:
+    """What the catalogue knows of the column of that name: its figures with their sources.
+
+    Raises
+    ------
+    InputError
+        There is no preset of that name.
+    """
+    if name not in CATALOGUE:
+        raise InputError(
+            f"there is no column preset {name!r}; {suggest(name, PRESETS)}presets are {', '.join(PRESETS)}.", "columns"
+        )
+    return CATALOGUE[name]
+
+
+def preset(name: str) -> Column:
+    """The column preset of that name.
+
+    Raises
+    ------
+    InputError
+        There is no preset of that name.
+    """
+    return known_column(name).column

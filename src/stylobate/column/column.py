@@ -28,10 +28,9 @@ from .found_geometry import (
     space_geometry,
     uplift_accelerations,
 )
-from .joint import Joint, Losses, given
-from .links.in_column import ends_on_bodies, place_in_column
+from .joint import Joint, Losses, stated_fields
 from .links.link import Link
-from .links.placed import PlacedLink, pulls_in_plane
+from .links.placed import PlacedLink, ends_on_bodies, place_in_column, pulls_in_plane
 from .materials import material
 from .plausible import shape_doubts, size_doubts
 from .shapes import Shape, shape_of
@@ -382,10 +381,10 @@ class Column(DrumStack):
 
     def to_dict(self) -> dict:
         """Everything that defines the column, as plain values in SI units."""
-        plain = {name: value for name, value in given(self).items() if name not in ("as_found", "links")}
-        plain |= {name: [given(one) for one in plain[name]] for name in ("drums", "joints")}
+        plain = {name: value for name, value in stated_fields(self).items() if name not in ("as_found", "links")}
+        plain |= {name: [stated_fields(one) for one in plain[name]] for name in ("drums", "joints")}
         plain |= {"as_found": self.as_found.to_dict()} if self.as_found else {}
-        plain |= {"losses": given(self.losses)} if self.losses else {}
+        plain |= {"losses": stated_fields(self.losses)} if self.losses else {}
         return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
 
     @cached_property

@@ -6,17 +6,18 @@ import dataclasses
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, Literal
 
 from ..atomic import replacing
-from ..errors import InputError, suggest
+from ..errors import InputError, suggest, within
+from ..text_tables import printable
 from .as_found import AsFound, FoundDrum
+from .catalogue import PRESETS, preset
 from .column import Column
 from .drum import Drum
-from .joint import Joint, Losses, given
+from .joint import NAMED, Joint, Losses, stated_fields
 from .links import link_from_dict
-from .presets import PRESETS, preset
-from .toml import toml_text
+from .toml import Table, read_table, toml_text
 
 
 def load_column(text: str | Path) -> Column:
@@ -98,7 +99,7 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
 
 def _joint_fields(joint: Joint) -> dict[str, float]:
     """Joint of a file: the form of its friction from which the other follows to the last bit."""
-    fields = given(joint)
+    fields = stated_fields(joint)
     without = {key: value for key, value in fields.items() if key != "friction_coefficient"}
     drop = "friction_coefficient" if Joint(**without) == joint else "friction_angle"
     return {key: value for key, value in fields.items() if key != drop}
@@ -115,3 +116,95 @@ def _as_found_fields(found: AsFound) -> dict[str, Any]:
             for drum in found.drums
         ]
     return table
+
+
+# Files of losses (TOML): what a calibration has found, read, written, and taken in place of a name.
+
+#: Number of the format that is written, and read.
+FORMAT = 1
+
+
+class IntervalTable(Table):
+    """``[interval]``: between which values a loss lies with a confidence."""
+
+    confidence: float
+    stiffness_damping: list[float] | None = None
+    rolling_resistance: list[float] | None = None
+
+
+class LossFile(Table):
+    """A file of losses."""
+
+    called: ClassVar[str | None] = ""
+
+    stylobate_losses: int
+    stiffness_damping: float
+    rolling_resistance: float | None = None
+    law: Literal["rim", "bed"] | None = None
+    interval: IntervalTable | None = None
+    measured: dict[str, Any] | None = None
+
+
+def losses_by(text: str) -> str | Losses:
+    """Losses by their name, or those of the file of that path.
+
+    Raises
+    ------
+    InputError
+        There is neither, or the file cannot be used.
+    """
+    if text in NAMED:
+        return text
+    if text.endswith(".toml") or Path(text).is_file():
+        return read_losses(text)
+    raise InputError(
+        f"losses is {text!r}; {suggest(text, NAMED)}allowed is {', '.join(NAMED)}, or a file of losses (TOML) as "
+        "stylobate calibrate writes it.",
+        "losses",
+    )
+
+
+def read_losses(path: str | Path) -> Losses:
+    """Losses of a file, as ``stylobate calibrate`` writes it.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or is no file of losses.
+    """
+    found = read_table(path, LossFile)
+    with within(printable(path)):
+        if found.stylobate_losses != FORMAT:
+            raise InputError(
+                f"stylobate_losses is {found.stylobate_losses}, a format that this version does not know; it reads {FORMAT}."
+            )
+        return Losses(found.stiffness_damping, found.rolling_resistance or 0.0, found.law)
+
+
+def write_losses(
+    losses: Losses,
+    path: str | Path,
+    interval: Mapping[str, Any] | None = None,
+    measured: Mapping[str, Any] | None = None,
+) -> Path:
+    """Write a file of losses that :func:`read_losses` reads back as equal losses.
+
+    Parameters
+    ----------
+    losses : Losses
+    path : path
+    interval : mapping, optional
+        ``confidence`` and limits by the names of losses.
+    measured : mapping, optional
+        From what they come: plain values, told to people and not read.
+    """
+    import tomli_w
+
+    table: dict[str, Any] = {"stylobate_losses": FORMAT, "stiffness_damping": losses.stiffness_damping}
+    table |= {"rolling_resistance": losses.rolling_resistance} if losses.rolling_resistance else {}
+    table |= {"law": losses.law} if losses.law is not None else {}
+    for name, one in (("interval", interval), ("measured", measured)):
+        table |= {name: dict(one)} if one else {}
+    with replacing(path) as partial:
+        partial.write_text(tomli_w.dumps(table), encoding="utf-8")
+    return Path(path)

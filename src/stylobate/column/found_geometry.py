@@ -287,12 +287,7 @@ class Geometry(NamedTuple):
 
 
 def geometry(column: DrumStack) -> Geometry:
-    """Places of a column's drums and contacts.
-
-    Parameters
-    ----------
-    column : DrumStack
-    """
+    """Places of a column's drums and contacts."""
     n, found = column.n, [column.as_found.of(i + 1) for i in range(column.n)]
     offset = np.array([one.offset for one in found])
     tilt = np.array([one.tilt * DEGREE for one in found])

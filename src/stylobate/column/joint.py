@@ -106,7 +106,7 @@ class Joint:
         return self.friction_coefficient
 
 
-def given(described: Any) -> dict[str, Any]:
+def stated_fields(described: Any) -> dict[str, Any]:
     """Fields of a dataclass by name, less those that are None where None is what leaves them out.
 
     What is added to a description later, and not given, so leaves its digest what it was.

@@ -80,12 +80,14 @@ def _box(beds: list[Bed], mass: float, height: float, structure: Structure) -> C
     ways = np.stack((np.cos(azimuth), np.sin(azimuth)))[: corners.shape[1], : 1 if corners.shape[1] == 1 else None]
     across = float(np.ptp(corners @ ways, axis=0).min())
     round_ = len(beds) == 1 and beds[0].round
-    section, depth = ("circular", 1.0) if round_ else ("rectangular", _told(area / across))
-    drum = Drum(_told(height), _told(across), _told(across), DENSITY, section, depth)
-    stiffness = {name: _told(getattr(law, name) * drum.mass / mass) for name in ("normal_stiffness", "shear_stiffness")}
+    section, depth = ("circular", 1.0) if round_ else ("rectangular", _rounded(area / across))
+    drum = Drum(_rounded(height), _rounded(across), _rounded(across), DENSITY, section, depth)
+    stiffness = {
+        name: _rounded(getattr(law, name) * drum.mass / mass) for name in ("normal_stiffness", "shear_stiffness")
+    }
     who = {"name": "body on the ground", "gravity": structure.gravity}
     return Column.of_fields(drums=(drum,), joints=(law.changed(**stiffness),), **who)
 
 
-def _told(number: float) -> float:
+def _rounded(number: float) -> float:
     return float(f"{number:.{DIGITS}g}")

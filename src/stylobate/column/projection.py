@@ -79,7 +79,7 @@ def project(column: Column, azimuth: float) -> Projection:
     """
     angle = check_range("the azimuth of a projection", azimuth, -360.0, 360.0, unit="degrees", field="azimuth")
     way = _exact(angle)
-    drums = column.drums if column.section == "circular" else tuple(_seen(drum, way, column) for drum in column.drums)
+    drums = column.drums if column.section == "circular" else tuple(_across(drum, way, column) for drum in column.drums)
     found, at = column.as_found, space_geometry(column)
     ones = [found.of(i + 1) for i in range(column.n)]
     offsets = [_parts(one.offset, one.offset_azimuth, angle) for one in ones]
@@ -130,7 +130,7 @@ def _angles(angle: float, azimuth: float, plane: float) -> tuple[float, float]:
     return math.atan(along) / DEGREE, math.atan(across) / DEGREE
 
 
-def _seen(drum: Drum, way: np.ndarray, column: Column) -> Drum:
+def _across(drum: Drum, way: np.ndarray, column: Column) -> Drum:
     """A rectangular drum as seen across a plane along its edges."""
     if way[1] == 0.0:
         return drum

@@ -13,7 +13,7 @@ from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_name, check_range
 from .block import ground_block
-from .joint import Joint, given
+from .joint import Joint, stated_fields
 from .shapes import ConvexSolid
 from .structure import Bed, Body, Standing, Structure
 
@@ -122,7 +122,7 @@ class Specimen(Structure):
     def to_dict(self) -> dict:
         """Plain values that make the specimen anew."""
         default = {one.name: one.default for one in fields(Joint)}
-        joint = {name: value for name, value in given(self.joint).items() if value != default[name]}
+        joint = {name: value for name, value in stated_fields(self.joint).items() if value != default[name]}
         joint.pop("friction_angle")  # the coefficient tells it
         return {
             "name": self.name,

@@ -21,8 +21,7 @@ from .as_found import AS_BUILT, AsFound
 from .joint import Joint
 from .links.link import Link, Numbers
 from .links.placed import PlacedLink
-from .shapes import Glued, Outlined, Placed, Shape, hull
-from .turning import about, quaternion_of
+from .shapes import Glued, Outlined, Placed, Shape, about, hull, quaternion_of
 
 
 class Face(NamedTuple):

@@ -7,10 +7,10 @@ from typing import Any, ClassVar
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_choice, check_kind, check_range, warn, within
-from ..reading import shown
+from ..text_tables import printable
 from .as_found import AsFound, FoundDrum
 from .drum import DENSITIES, LENGTHS, SECTIONS, Drum
-from .joint import FRICTION, Joint, given
+from .joint import FRICTION, Joint, stated_fields
 from .links.tables import LinkTable, links_of
 from .materials import JOINT_VALUES, Material, material
 from .plausible import found_doubts, law_doubts
@@ -124,10 +124,10 @@ def read_as(kind: Any, path: str | Path) -> Any:
     data = parse_toml(check_kind("path", path, (str, Path)))
     if describes_assembly(data):
         raise InputError(
-            f"{shown(path)} describes an assembly of blocks, and this is for columns; give a preset, or a file with "
+            f"{printable(path)} describes an assembly of blocks, and this is for columns; give a preset, or a file with "
             "[tapered] or [[drum]]."
         )
-    return made_of(kind, data, shown(path), shown(Path(path).stem))
+    return made_of(kind, data, printable(path), printable(Path(path).stem))
 
 
 def made_of(kind: Any, data: dict[str, Any], source: str = "the column", name: str = "column") -> Any:
@@ -287,5 +287,5 @@ def _overridden(common: Joint, override: OverrideTable) -> Joint:
     with within(f"[[joint_override]] with index {override.index}", "override", override.index):
         if override.material is None:
             return common.changed(**changes)
-        shape = {name: value for name, value in given(common).items() if name not in (*JOINT_VALUES, *FRICTION)}
+        shape = {name: value for name, value in stated_fields(common).items() if name not in (*JOINT_VALUES, *FRICTION)}
         return Joint(**joint_fields(shape | changes, None, "it"))

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, TypeVar
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from ..errors import InputError, suggest
-from ..reading import SETTINGS, read_bytes, shown
+from ..text_tables import SETTINGS, printable, read_bytes
 
 #: Most levels of tables and lists in a file, and the largest whole number [-].
 DEEPEST, LARGEST = 20, 2**63
@@ -50,12 +50,12 @@ def read_table(path: str | Path, schema: type[T]) -> T:
     InputError
         The file cannot be read, is not TOML, or does not follow the schema.
     """
-    return checked(parse_toml(path), schema, shown(path))
+    return checked(parse_toml(path), schema, printable(path))
 
 
 def parse_toml(path: str | Path) -> dict[str, Any]:
     """Content of a TOML file, unchecked but for the size of its numbers and how deeply it is nested."""
-    data, name = read_bytes(path, SETTINGS, "a TOML file of settings is smaller"), shown(path)
+    data, name = read_bytes(path, SETTINGS, "a TOML file of settings is smaller"), printable(path)
     if data[:2] == b"PK" or Path(path).suffix.lower() in _SPREADSHEETS:
         raise InputError(
             f"{name} is the table of a spreadsheet; of a survey `stylobate convert` makes a column file first."

@@ -80,7 +80,7 @@ class RunOptions:
         Pose and velocity at the start, instead of rest (engines of columns that are stepped, and of specimens).
     quiet : float
         Share of what opens a joint below which the lead-in and the end of a motion are not stepped (models of drums; see
-        ``models/shared/quiet.py``); 0 steps the whole motion [-].
+        ``models/shared/ground.py``); 0 steps the whole motion [-].
     twins : tuple of Column
         Columns under the same motion in the other lanes of a single run (engines with ``twins``, as many at most).
     progress : callable, optional

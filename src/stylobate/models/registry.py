@@ -7,8 +7,8 @@ import importlib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ..column.files import losses_by
 from ..column.joint import NAMED, Losses
-from ..column.loss_files import losses_by
 from ..errors import InputError, suggest
 from .base import Model
 

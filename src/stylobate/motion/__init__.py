@@ -1,10 +1,10 @@
 """Motions, harmonic and pulse-like, recorded and simulated, and measures of them."""
 
-from .condition_specs import conditioned
 from .conditioning import (
     bandpass,
     baseline_piecewise,
     baseline_polynomial,
+    conditioned,
     demean,
     detrend,
     resample,
@@ -13,7 +13,6 @@ from .conditioning import (
     taper,
     trim,
 )
-from .integration import displacement
 from .intensity import (
     arias_intensity,
     cumulative_absolute_velocity,
@@ -23,7 +22,7 @@ from .intensity import (
     rocking_measures,
     significant_duration,
 )
-from .motion import MAX_SAMPLES, Motion, integrate
+from .motion import MAX_SAMPLES, Motion, displacement, integrate, write_csv
 from .orientation import along, beyond_axes, keep_axes, principal, rotated, strongest, turned
 from .pulses import (
     PulseMatch,
@@ -43,7 +42,6 @@ from .sequence import Span, in_sequence, spans_of
 from .specs import parse_acceleration, parse_frequency, parse_harmonic, parse_pulse, parse_synthetic, parse_time
 from .spectra import ResponseSpectrum, housner_intensity, response_spectrum, rotated_pga, rotated_spectrum
 from .synthesis import REGIONS, Region, fourier_target, stochastic_motion, with_directivity_pulse
-from .writing import write_csv
 
 __all__ = [
     "MAX_SAMPLES",

@@ -1,23 +1,24 @@
-"""Steps between a record and an input motion: each a pure function that writes itself into the processing history.
+"""Conditioning between a record and an input motion: the steps, their notation, and which of them takes a drift off.
 
-Nothing is applied unless it is called. All components are treated alike, and ``factor`` is left alone, except where a
-function scales.
+A step is a pure function that writes itself into the processing history. Nothing is applied unless it is called. All
+components are treated alike, and ``factor`` is left alone, except where a function scales.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 
 from ..constants import g
-from ..errors import InputError, OutOfRangeWarning, check_range, warn
-from ..messages import joined, say
-from ..percent import percent, percents
-from .integration import arias_growth, displacement
-from .motion import MAX_SAMPLES, STRONGEST, Motion, integrate
+from ..errors import InputError, OutOfRangeWarning, check_range, suggest, warn
+from ..messages import joined, percent, percents, say
+from .motion import MAX_SAMPLES, STRONGEST, Motion, arias_growth, displacement, integrate, square_integral
+from .specs import parse_acceleration, parse_frequency, parse_time
 
 #: An end with less than this share of the peak is quiet.
 QUIET_SHARE = 0.01
@@ -429,3 +430,255 @@ def _fast_length(count: int) -> int:
     from scipy.fft import next_fast_len
 
     return next_fast_len(count, real=True)  # pyright: ignore[reportReturnType]: scipy has no types
+
+
+# Notation of a step of conditioning: ``detrend``, ``bandpass=0.1Hz,25Hz``, ``taper=2s``.
+
+#: Units of velocity that may be typed, in m/s.
+VELOCITY_UNITS = {"mm/s": 0.001, "cm/s": 0.01, "m/s": 1.0}
+
+
+@dataclass(frozen=True)
+class Step:
+    """A step by the name that it has on the command line.
+
+    Parameters
+    ----------
+    example : str
+        How to write it.
+    counts : tuple of int
+        Allowed numbers of values behind the equals sign.
+    apply : callable
+        Given the motion and the values as typed.
+    size : callable, optional
+        Of a step that multiplies a motion until it is as large as asked for: how large it is, of the same arguments.
+    """
+
+    example: str
+    counts: tuple[int, ...]
+    apply: Callable[..., Motion]
+    size: Callable[..., float] | None = None
+
+
+#: Every step, in the order in which they are usually taken.
+STEPS: dict[str, Step] = {
+    "demean": Step("demean or demean=2s", (0, 1), lambda m, *v: demean(m, *map(parse_time, v))),
+    "detrend": Step("detrend", (0,), detrend),
+    "taper": Step("taper=2s", (1,), lambda m, v: taper(m, parse_time(v))),
+    "bandpass": Step(
+        "bandpass=0.1Hz,25Hz", (2,), lambda m, low, high: bandpass(m, parse_frequency(low), parse_frequency(high))
+    ),
+    "highpass": Step("highpass=0.1Hz", (1,), lambda m, v: bandpass(m, parse_frequency(v), None)),
+    "lowpass": Step("lowpass=25Hz", (1,), lambda m, v: bandpass(m, None, parse_frequency(v))),
+    "baseline": Step("baseline=6", (0, 1), lambda m, *v: baseline_polynomial(m, *map(_whole_number, v))),
+    "baseline-piecewise": Step(
+        "baseline-piecewise or baseline-piecewise=5s,20s",
+        (0, 2),
+        lambda m, *v: baseline_piecewise(m, *map(parse_time, v)),
+    ),
+    "resample": Step("resample=0.005s", (1,), lambda m, v: resample(m, parse_time(v))),
+    "trim": Step("trim or trim=0.05,0.95", (0, 2), lambda m, *v: trim(m, *map(_number, v))),
+    "pgv": Step("pgv=0.3m/s", (1,), lambda m, v: scale_to_pgv(m, _velocity(v)), lambda m, _: m.pgv),
+    "sa": Step(
+        "sa=1.0s,0.3g",
+        (2,),
+        lambda m, t, a: scale_to_sa(m, parse_time(t), parse_acceleration(a)),
+        lambda m, t, _: sa_of(m, parse_time(t)),
+    ),
+}
+
+
+def conditioned(motion: Motion, text: str) -> Motion:
+    """Apply one step of conditioning as typed; it writes itself into the processing history.
+
+    Parameters
+    ----------
+    motion : Motion
+    text : str
+        A key of :data:`STEPS`, with its values and their units behind an equals sign.
+
+    Raises
+    ------
+    InputError
+        The text cannot be understood, or the step cannot be done to this motion.
+    """
+    step, values = _step(text)
+    return step.apply(motion, *values)
+
+
+def conditioned_alike(motions: Sequence[Motion], text: str) -> list[Motion]:
+    """Apply one step to directions of one record; where it scales, all have the factor of the strongest."""
+    step, values = _step(text)
+    if step.size is None or len(motions) < 2:
+        return [step.apply(one, *values) for one in motions]
+    sizes = [step.size(one, *values) for one in motions]
+    strongest = motions[sizes.index(max(sizes))]
+    scaled = step.apply(strongest, *values)
+    times = scaled.factor / strongest.factor
+    said = f"{scaled.processing[-1]}, that of the strongest of these directions"
+    return [one.replace(factor=one.factor * times, processing=(*one.processing, said)) for one in motions]
+
+
+def scales(text: str) -> bool:
+    """Whether a step as typed multiplies a motion until it is as large as asked for."""
+    return _step(text)[0].size is not None
+
+
+def _step(text: str) -> tuple[Step, list[str]]:
+    """A step as typed, and its values."""
+    name, sign, rest = text.partition("=")
+    key = name.strip().lower()
+    if key not in STEPS:
+        raise InputError(f"`condition` {text!r} is no step; {suggest(key, STEPS)}steps are {', '.join(STEPS)}.")
+    step = STEPS[key]
+    values = [value.strip() for value in rest.split(",")] if sign else []
+    if len(values) not in step.counts or not all(values):
+        raise InputError(f"`condition` {text!r} is not understood; write it as {step.example}.")
+    return step, values
+
+
+def _velocity(text: str) -> float:
+    for unit, size in VELOCITY_UNITS.items():
+        if text.endswith(unit):
+            return _number(text.removesuffix(unit)) * size
+    raise InputError(f"{text!r} is not a value of velocity; write it with its unit, as in '0.3m/s'.")
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(f"{text!r} is not a number.") from None
+
+
+def _whole_number(text: str) -> int:
+    if not text.isdecimal():
+        raise InputError(f"{text!r} is not a whole number.")
+    return int(text)
+
+
+# Which conditioning takes the drift off a record: tried, not guessed, so that none is named that does not help.
+
+#: A displacement that has not come back by the end of a record is drift from this share of its peak on [-], where it
+#: also exceeds what a column would be surveyed to [m].
+DRIFT_SHARE, SMALLEST_DRIFT = 0.5, 0.1
+
+#: The ground is not at rest at the end beyond this share of its peak velocity [-]; that counts above so much [m/s].
+RESIDUAL_SHARE, SMALLEST_RESIDUAL = 0.05, 0.01
+
+#: Filters that are tried, the one that takes least first, each with the longest period that it must be able to see [s].
+FILTERS = {"highpass=0.05Hz": 20.0, "highpass=0.1Hz": 10.0}
+
+#: Steps that are tried with their longest periods [s], several in a row joined by :data:`THEN`.
+THEN = " + "
+CURES = {
+    "baseline": 0.0,
+    "detrend": 0.0,
+    "demean": 0.0,
+    **FILTERS,
+    **{f"demean{THEN}{k}": t for k, t in FILTERS.items()},
+}
+
+#: Shares of the peak acceleration and of the peak velocity that must stay [-].
+KEPT, KEPT_VELOCITY = 0.95, 0.9
+
+#: Most of the displacement at the end that shaking makes between 5 and 95 % of its Arias intensity where it is drift [-].
+WITHIN_SHAKING = 0.5
+
+
+def drift_of(values: np.ndarray, dt: float) -> float:
+    """Displacement at the end, where it makes most of the peak and more than 0.1 m; else 0 [m].
+
+    Parameters
+    ----------
+    values : array
+        Accelerations [m/s²].
+    dt : float
+        [s]
+    """
+    path = displacement(values, dt)
+    last = float(path[-1])
+    return last if abs(last) > max(DRIFT_SHARE * float(np.abs(path).max()), SMALLEST_DRIFT) else 0.0
+
+
+def cure_of(motion: Motion) -> str | None:
+    """The conditioning after which no component of a motion that drifts does so any more, nor moves at its end.
+
+    A step, or ``demean + highpass=0.1Hz`` where no single step does as well; None where nothing that is tried does. Of
+    several the one that leaves the smallest displacement, as drift within the record is what makes it large.
+    """
+    dt = motion.dt
+    drifting = [values for values in motion.components.values() if drift_of(values, dt)]
+    outside = any(_outside_shaking(values, dt) for values in drifting)  # of one component: the recorder drifts
+    each = [cures_of(values, dt, outside=outside) for values in drifting]
+    left = {one: max(found[one] for found in each) for one in CURES if each and all(one in found for found in each)}
+    return best_of(left)
+
+
+def best_of(left: Mapping[str, float]) -> str | None:
+    """Of conditionings with the displacements that they leave, the one that leaves least; two steps must halve it."""
+    return min(left, key=lambda one: left[one] * len(one.split(THEN)), default=None)
+
+
+def cures_of(values: np.ndarray, dt: float, fastest: float = np.inf, *, outside: bool = False) -> dict[str, float]:
+    """What of :data:`CURES` ends the drift of a component and the motion at its end, with the largest displacement left [m].
+
+    None that takes the shaking with it: more than a tenth of the record's own peak velocity, that of a record which still
+    moves at its end without a straight line in its acceleration. Where most of the displacement comes before and after the
+    shaking, the peak velocity is that of the drift, and what the gentlest filter leaves counts as the record's own. No
+    filter whose period is longer than the record.
+
+    Parameters
+    ----------
+    values, dt
+        As of :func:`drift_of`.
+    fastest : float
+        Velocity that it must not exceed either [m/s].
+    outside : bool
+        It is known from another component that the displacement comes before and after the shaking.
+    """
+    peak, left, tops = float(np.abs(values).max()), {}, {}
+    for step in (one for one, period in CURES.items() if period <= dt * (len(values) - 1)):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                mended = cured(Motion(dt, values), step).components["x"]
+        except InputError:  # too short for it
+            continue
+        tops[step], rests = _end_velocity(mended, dt)
+        same = KEPT <= float(np.abs(mended).max()) / peak <= 1.0 / KEPT if peak else False
+        if same and rests and tops[step] <= fastest and not drift_of(mended, dt):
+            left[step] = float(np.abs(displacement(mended, dt)).max())
+    own, rests = _end_velocity(values, dt)
+    if outside or _outside_shaking(values, dt):
+        own = next((tops[one] for one in FILTERS if one in tops), own)
+    elif not rests:
+        own = min((tops[one] for one in ("detrend", "demean") if one in tops), default=own)
+    return {step: size for step, size in left.items() if tops[step] >= KEPT_VELOCITY * own}
+
+
+def cured(motion: Motion, cure: str) -> Motion:
+    """A motion after the conditioning that :func:`cure_of` names."""
+
+    for step in cure.split(THEN):
+        motion = conditioned(motion, step)
+    return motion
+
+
+def as_asked(cure: str) -> str:
+    """How to ask for the conditioning that :func:`cure_of` names."""
+    return ", then ".join(f"`condition={step!r}`" for step in cure.split(THEN))
+
+
+def _outside_shaking(values: np.ndarray, dt: float) -> bool:
+    """Whether most of the displacement at the end comes before and after the shaking, as drift does and no fault's slip."""
+    growth, path = square_integral(values, dt), displacement(values, dt)
+    first, last = np.searchsorted(growth, [0.05 * growth[-1], 0.95 * growth[-1]])
+    return bool(abs(path[last] - path[first]) < WITHIN_SHAKING * abs(path[-1]))
+
+
+def _end_velocity(values: np.ndarray, dt: float) -> tuple[float, bool]:
+    """Peak velocity of a component [m/s], and whether it is at rest at its end."""
+    velocity = np.abs(integrate(values, dt))
+    top = float(velocity.max())
+    return top, bool(velocity[-1] <= max(RESIDUAL_SHARE * top, SMALLEST_RESIDUAL))

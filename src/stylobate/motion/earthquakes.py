@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..errors import InputError
-from ..reading import read_bytes
+from ..text_tables import read_bytes
 from .readers.source import Source
 
 #: Largest catalogue that is read [bytes].

@@ -7,14 +7,16 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
 
 from .. import notebook
+from ..atomic import replacing
 from ..constants import g
-from ..errors import InputError, check_range
+from ..errors import InputError, as_typed, check_range
 
 MAX_SAMPLES = 20_000_000
 
@@ -337,3 +339,98 @@ def peak_velocity(acceleration: np.ndarray, dt: float) -> float:
     crossing = a * b < 0.0
     between = v[:-1][crossing] + 0.5 * dt * a[crossing] ** 2 / (a[crossing] - b[crossing])
     return float(max(np.abs(v).max(), np.abs(between).max(initial=0.0)))
+
+
+# Velocity, displacement and intensity of a motion that is linear between its samples, without approximation.
+
+
+def displacement(acceleration: np.ndarray, dt: float) -> np.ndarray:
+    """Displacement from rest: the double integral of an acceleration that is linear between samples [m], same shape."""
+    v = integrate(acceleration, dt)
+    steps = dt * v[:-1] + dt * dt / 6.0 * (2.0 * acceleration[:-1] + acceleration[1:])
+    out = np.zeros_like(v)
+    np.cumsum(steps, out=out[1:])
+    return out
+
+
+def square_integral(acceleration: np.ndarray, dt: float) -> np.ndarray:
+    """Running integral of the square, from zero, same shape."""
+    a, b = acceleration[:-1], acceleration[1:]
+    out = np.zeros_like(acceleration)
+    np.cumsum(dt / 3.0 * (a * a + a * b + b * b), out=out[1:])
+    return out
+
+
+def absolute_integral(acceleration: np.ndarray, dt: float) -> float:
+    """Integral of the absolute value."""
+    a, b = acceleration[:-1], acceleration[1:]
+    size = np.abs(a) + np.abs(b)
+    crossing = a * b < 0.0
+    area = 0.5 * size
+    area[crossing] = 0.5 * (a[crossing] ** 2 + b[crossing] ** 2) / size[crossing]
+    return float(dt * area.sum())
+
+
+def time_above(acceleration: np.ndarray, dt: float, level: float) -> float:
+    """Time during which the absolute value exceeds ``level`` [s]."""
+    total = 0.0
+    for sign in (1.0, -1.0):
+        a = sign * acceleration[:-1] - level
+        b = sign * acceleration[1:] - level
+        both = (a > 0.0) & (b > 0.0)
+        one = (a > 0.0) != (b > 0.0)
+        share = np.maximum(a[one], b[one]) / np.abs(a[one] - b[one])
+        total += dt * (both.sum() + share.sum())
+    return float(total)
+
+
+def arias_growth(motion: Motion) -> np.ndarray:
+    """Share of the Arias intensity of all components together that is reached at each sample, shape (steps,)."""
+    total = np.zeros(motion.steps)
+    for values in motion.components.values():
+        total += square_integral(values, motion.dt)
+    return total / total[-1] if total[-1] > 0.0 else np.linspace(0.0, 1.0, motion.steps)
+
+
+def arias(acceleration: np.ndarray, dt: float) -> float:
+    """Arias intensity π/(2g) ∫a² dt [m/s]."""
+    return float(np.pi / (2.0 * g) * square_integral(acceleration, dt)[-1])
+
+
+# Motions written as CSV that reads back to the same bits.
+
+
+def write_csv(motion: Motion, path: str | Path) -> Path:
+    """Write a motion as CSV in m/s², with a header that names the units.
+
+    Returns
+    -------
+    Path
+        The file. It appears whole or not at all.
+
+    Raises
+    ------
+    InputError
+        The place cannot be written.
+    """
+    place = Path(path)
+    azimuths = motion.metadata.get("azimuths") or {}
+    notes = [f"# dt_s: {as_typed(motion.dt)}", f"# name: {_one_line(motion.name)}"]
+    notes += [f"# azimuth_{axis}_deg: {as_typed(angle)}" for axis, angle in azimuths.items() if angle is not None]
+    for key in ("station", "network", "event", "event_id", "start_time", "stage", "terms"):
+        value = motion.metadata.get(key) or ("computed" if key == "stage" and "format" not in motion.metadata else None)
+        if value:
+            notes.append(f"# {key}: {_one_line(str(value))}")
+    notes.append(f"# sha256: {motion.multiplied.digest}")
+    notes += [f"# processing {i}: {_one_line(step)}" for i, step in enumerate(motion.processing, 1)]
+    components = motion.components
+    header = ",".join(["time_s", *(f"a{axis}_m_s2" for axis in components)])
+    rows = zip(motion.time.tolist(), *(values.tolist() for values in components.values()))
+    text = "\n".join([*notes, header, *(",".join(map(repr, row)) for row in rows), ""])
+    with replacing(place) as partial:
+        partial.write_text(text, encoding="utf-8")
+    return place
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())

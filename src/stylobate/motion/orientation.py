@@ -14,8 +14,7 @@ import numpy as np
 from ..constants import g
 from ..errors import InputError, check_range
 from ..messages import say
-from .integration import square_integral
-from .motion import Motion
+from .motion import Motion, square_integral
 
 #: The axes besides x, in words.
 OTHER_AXES = {"y": "second horizontal component", "z": "vertical component"}

@@ -14,8 +14,7 @@ import numpy as np
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, warn
 from ..messages import say
-from .condition_specs import conditioned_alike
-from .conditioning import warn_of_peak, warn_of_scaling
+from .conditioning import conditioned_alike, warn_of_peak, warn_of_scaling
 from .motion import FACTORS, Motion
 from .orientation import keep_axes, rotated, turned
 from .readers import Suite, read_motion, read_suite

@@ -68,10 +68,6 @@ def response_spectrum(
     component : str
         ``x``, ``y`` or ``z``.
 
-    Returns
-    -------
-    ResponseSpectrum
-
     Raises
     ------
     InputError

@@ -177,10 +177,6 @@ def stochastic_motion(
     horizontal : int
         1, or 2 for independent x and y. The model has no vertical component.
 
-    Returns
-    -------
-    Motion
-
     Raises
     ------
     InputError
@@ -247,10 +243,6 @@ def with_directivity_pulse(motion: Motion, pulse: Motion, time: float | None = N
         E.g. :func:`mavroeidis_papageorgiou`.
     time : float, optional
         Of the pulse's largest velocity [s]; by default that of the largest velocity of ``motion``.
-
-    Returns
-    -------
-    Motion
 
     Notes
     -----

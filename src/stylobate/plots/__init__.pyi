@@ -1,8 +1,8 @@
 from .critical import draw_amplitudes as draw_amplitudes
 from .critical import draw_collapse_over_amplitude as draw_collapse_over_amplitude
+from .critical import draw_debris as draw_debris
 from .critical import draw_directions as draw_directions
 from .critical import draw_record_verdicts as draw_record_verdicts
-from .debris import draw_debris as draw_debris
 from .domain import draw_boundaries as draw_boundaries
 from .domain import draw_domain as draw_domain
 from .domain import draw_probability as draw_probability
@@ -22,11 +22,11 @@ from .histories import draw_comparison as draw_comparison
 from .histories import draw_ends as draw_ends
 from .histories import draw_energy as draw_energy
 from .histories import draw_histories as draw_histories
+from .histories import draw_joints as draw_joints
 from .histories import draw_orbit as draw_orbit
+from .histories import draw_residuals as draw_residuals
 from .histories import draw_sequence as draw_sequence
-from .joints import draw_joints as draw_joints
-from .joints import draw_residuals as draw_residuals
-from .joints import draw_uplift as draw_uplift
+from .histories import draw_uplift as draw_uplift
 from .modes import draw_modes as draw_modes
 from .motion import draw_motion as draw_motion
 from .motion import draw_record_selection as draw_record_selection

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from ..constants import g
-from ..percent import percent
+from ..messages import percent
 from ..verdicts import domain as p
 from ..verdicts import verdict as v
 from ..verdicts.domain import CollapseProbability, Domain, cell_edges
@@ -36,12 +36,7 @@ FILL = {
 
 @styled
 def draw_domain(domain: Domain, title: str | None = None, *, ax: Axes | None = None) -> Figure:
-    """Cells by verdict, the boundary of the first collapse, and the static acceleration that opens a joint.
-
-    Parameters
-    ----------
-    domain : Domain
-    """
+    """Cells by verdict, the boundary of the first collapse, and the static acceleration that opens a joint."""
     figure, axes = panel(ax, (WIDTH, 4.4))
     handles = draw_cells(axes, domain.frequencies, domain.amplitudes, domain.verdicts)
     handles += [
@@ -159,12 +154,7 @@ _UNKNOWN: dict[str, Any] = {"facecolor": "#d9d9d9", "edgecolor": "#4d4d4d", "hat
 def draw_probability(
     result: CollapseProbability, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """Map of the share that collapses, the edges of the uncertain band, and one cut with its confidence intervals.
-
-    Parameters
-    ----------
-    result : CollapseProbability
-    """
+    """Map of the share that collapses, the edges of the uncertain band, and one cut with its confidence intervals."""
     figure = page(figure, (WIDTH, 4.7))
     chart, cut = figure.subplots(1, 2, width_ratios=(1.75, 1.0), sharey=True)
     handles = [*draw_shares(chart, result), *draw_band(chart, result)]
@@ -294,12 +284,7 @@ _TICKS = (0.2, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 10.0, 15.0, 20.0, 30
 def draw_rocking_spectrum(
     spectrum: RockingSpectrum, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """Peak rotation over slenderness, on the map of p and α; beside them ω_g/p and PGA/(g tan α).
-
-    Parameters
-    ----------
-    spectrum : RockingSpectrum
-    """
+    """Peak rotation over slenderness, on the map of p and α; beside them ω_g/p and PGA/(g tan α)."""
     figure = page(figure, (WIDTH, 5.0))
     axes = figure.subplots()
     p, alpha = spectrum.frequency_parameter, spectrum.slenderness

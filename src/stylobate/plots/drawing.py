@@ -18,13 +18,12 @@ from ..column.as_found import AS_BUILT, IN_LINE, SIDES, AsFound
 from ..column.block import FAR_AWAY
 from ..column.found_geometry import base_axes, rotation, space_geometry
 from ..column.links.placed import strokes
-from ..column.shapes import cut, hull
+from ..column.shapes import cut, hull, matrix_of
 from ..column.spatial.touching import SpaceJoint
 from ..column.structure import Body, Structure
-from ..column.turning import matrix_of
 from ..constants import DEGREE
 from ..messages import digits, joined, say
-from .solids import ALONG_X, ALONG_Y, MARK, OBLIQUE, STONE, Solid, Surface, View, painted, painting_order, surface_of
+from .scene import ALONG_X, ALONG_Y, MARK, OBLIQUE, STONE, Solid, Surface, View, painted, painting_order, surface_of
 from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, in_lines, page, panel, signed, styled
 
 #: Height of the picture of a column, and most of an assembly's [inch].
@@ -47,10 +46,6 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     Of a column: heights of drums and of all, widths (diameters, with ⌀) of both faces of each drum, numbers of drums and
     joints, joints whose friction differs, links in blue. Red are drums that are not where they were built, over
     dashed outlines of the column as built, and what was measured.
-
-    Parameters
-    ----------
-    structure : Column, Assembly or Specimen
     """
     outlines, column = outlines_of(structure), structure.stack
     if column is None:
@@ -346,7 +341,7 @@ BESIDE = 5.0
 
 
 #: Elevations and plan, with what is said of each.
-SEEN = (
+VIEWS = (
     (ALONG_X, say("along y: x to the right")),
     (ALONG_Y, say("against x: y to the right")),
     (PLAN, say("plan: x to the right, y upward")),
@@ -382,7 +377,7 @@ def sheet_size(structure: Structure) -> tuple[float, float]:
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class StructureViews:
     """A structure as elevations and plans show it.
 
     Parameters
@@ -405,7 +400,7 @@ class Seen:
     levels: list[float]
 
     @classmethod
-    def of(cls, structure: Structure) -> Seen:
+    def of(cls, structure: Structure) -> StructureViews:
         """A structure that is to be drawn."""
         solids, names = solids_of(structure)
         ends = np.concatenate([part.mesh(ROUND).vertices for body in _near(structure) for part in body.placed])
@@ -462,20 +457,15 @@ class Seen:
 
 @styled
 def draw_views(structure: Structure, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
-    """What stands, before the motion: elevations along x and along y, the plan, and an oblique view, dimensions in m.
-
-    Parameters
-    ----------
-    structure : Column, Assembly, SpatialAssembly or Specimen
-    """
-    seen = Seen.of(structure)
+    """What stands, before the motion: elevations along x and along y, the plan, and an oblique view, dimensions in m."""
+    seen = StructureViews.of(structure)
     across, deep, heights = _proportions(seen.solids)
     figure = page(figure, (WIDTH, sum(heights)))
     ratio = min(max(across / deep, 0.6), 1.7)
     (front, side), (plan, oblique) = figure.subplots(2, 2, width_ratios=(ratio, 1.0), height_ratios=heights)
-    sheets = [seen.sheet(axes, view) for axes, (view, _) in zip((front, side), SEEN)]
+    sheets = [seen.sheet(axes, view) for axes, (view, _) in zip((front, side), VIEWS)]
     scale = max(sheet.metres for sheet in sheets)
-    for axes, (view, said) in zip((front, side, plan), SEEN):
+    for axes, (view, said) in zip((front, side, plan), VIEWS):
         seen.draw(axes, seen.sheet(axes, view, 0.0 if view is PLAN else scale), view)
         axes.set_title(said, fontsize=8.5, color=GREY)
     _mark_north(plan, structure)
@@ -562,7 +552,7 @@ def _mark_north(plan: Axes, structure: Structure) -> None:
     plan.annotate("N", (0.93, 0.9), way, arrowprops=arrow, fontsize=8, annotation_clip=False, **words)
 
 
-def _mark_found(axes: Axes, seen: Seen, view: View) -> None:
+def _mark_found(axes: Axes, seen: StructureViews, view: View) -> None:
     """Red outlines of drums that are not where they were built, and of those that are chipped."""
     column = seen.structure.stack
     if column is None or view is PLAN:
@@ -758,10 +748,6 @@ def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure
     """What stands, before the motion: :func:`draw_views`, and under it the plan of every joint, x to the right.
 
     The face above is sand, that below a dashed line; what is as found is red, links are blue.
-
-    Parameters
-    ----------
-    structure : Column, Assembly, SpatialAssembly or Specimen
     """
     plans = joint_plans(structure)
     shown = plans[:MOST]

@@ -23,8 +23,23 @@ from ..response import Response
 from ..response.poses import quaternions, rotation_matrices
 from ..response.recorded import ASIDE, telling_states
 from ..response.words import title_of
-from .scene import Scene, draw_bodies, draw_links, draw_solids, marks_of, paint, scale_bar, seen
-from .solids import ALONG_X, ALONG_Y, COLOURS, DIFFUSE, LIGHT, OBLIQUE, View
+from .scene import (
+    ALONG_X,
+    ALONG_Y,
+    COLOURS,
+    DIFFUSE,
+    LIGHT,
+    OBLIQUE,
+    Scene,
+    View,
+    draw_bodies,
+    draw_links,
+    draw_solids,
+    marks_of,
+    paint,
+    scale_bar,
+    time_window,
+)
 from .style import BLACK, BLUE, GREY, RED, WIDTH, in_lines, page, plain, signed, styled
 
 #: Size [inch] and resolution of a frame.
@@ -49,7 +64,7 @@ def frame_indices(
     """
     check_rate(frames_per_second)
     check_range("speed", speed, 0.0, 1000.0, open_low=True)
-    begin, end = (time[0], time[-1]) if window is None else seen(time, window)
+    begin, end = (time[0], time[-1]) if window is None else time_window(time, window)
     wanted = np.arange(begin, end + 1e-9, speed / frames_per_second)
     if len(wanted) > MOST_FRAMES:
         raise InputError(

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..errors import InputError
-from ..motion.intensity_specs import parse_measure
-from ..percent import percent
+from ..messages import percent
+from ..motion.intensity import parse_measure
 from ..probability.design import basis_of, where, worst_of
 from ..probability.evidence import Ida
 from ..probability.fragility import FEWEST, Fragility
@@ -300,10 +300,6 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
     has two thin curves: if all of them exceeded the limit state, and if none did. Right: thick from the best to the worst
     that the undecided can come to, a circle where all is decided; the interval over records holds both ends. Grey: nothing
     is concluded.
-
-    Parameters
-    ----------
-    found : StateComparison
     """
     known = [one for one in found.curves if one is not None]
     figure = page(figure, (WIDTH, 4.4 if known else min(2.2 + 0.4 * len(found.differences), 4.4)))
@@ -472,12 +468,7 @@ def _acts(row: dict[str, Any]) -> str:
 
 @styled
 def draw_risk(result: Risk, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
-    """Hazard curve and fragility, and below them how much of the rate comes from which intensity.
-
-    Parameters
-    ----------
-    result : Risk
-    """
+    """Hazard curve and fragility, and below them how much of the rate comes from which intensity."""
     figure = page(figure, (NARROW[0], 4.6))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.2, 1.0))
     hazard, f = result.hazard, result.fragility

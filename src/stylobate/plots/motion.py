@@ -19,12 +19,7 @@ NAMES = {"x": say("horizontal x"), "y": say("horizontal y"), "z": say("vertical 
 
 @styled
 def draw_motion(motion: Motion, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
-    """Acceleration and velocity of each component, with their peaks.
-
-    Parameters
-    ----------
-    motion : Motion
-    """
+    """Acceleration and velocity of each component, with their peaks."""
     components = motion.components
     figure = page(figure, (WIDTH, 0.8 + 1.9 * len(components)))
     rows = figure.subplots(2 * len(components), 1, sharex=True, height_ratios=(1.4, 1.0) * len(components))
@@ -106,12 +101,7 @@ RATIOS = (0.25, 0.5, 0.7, 0.9, 1.3, 2.0, 4.0)
 def draw_record_selection(
     selection: RecordSelection, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """Spectra of the records, their mean and the target, and the mean over the target with its bounds.
-
-    Parameters
-    ----------
-    selection : RecordSelection
-    """
+    """Spectra of the records, their mean and the target, and the mean over the target with its bounds."""
     figure = page(figure, (WIDTH, 5.4))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2.0, 1.0))
     t, target = selection.periods, selection.wanted / g

@@ -12,8 +12,7 @@ from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
 from ..models.rigid_block.block_stack import BlockStack
-from ..statics.limit import LimitResult
-from ..statics.limit_assemblies import LimitByDirection
+from ..statics.limit import LimitByDirection, LimitResult
 from ..statics.pushover import PushoverResult
 from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, in_lines, page, panel, styled, zero_line
 
@@ -127,12 +126,7 @@ AXES = {0: " (x)", 90: " (y)", 180: " (−x)", 270: " (−y)"}
 def draw_limit_directions(
     found: LimitByDirection, title: str = "", *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """Multiplier over the azimuth that the forces push to: x to the right, y up, as seen from above.
-
-    Parameters
-    ----------
-    found : LimitByDirection
-    """
+    """Multiplier over the azimuth that the forces push to: x to the right, y up, as seen from above."""
     figure = page(figure, (4.6, 4.9))
     axes = cast(PolarAxes, figure.add_subplot(projection="polar"))
     axes.set_thetagrids(np.arange(0, 360, 30), [f"{one}°{AXES.get(one, '')}" for one in range(0, 360, 30)])

@@ -24,7 +24,7 @@ from ..errors import check_all, check_choice, check_kind
 from ..messages import digits
 
 P = ParamSpec("P")
-Drawn = TypeVar("Drawn", Figure, tuple[Figure, ...])
+FigureOrFigures = TypeVar("Drawn", Figure, tuple[Figure, ...])
 
 #: Width of a picture across the text of a page [inch].
 WIDTH = 7.0
@@ -87,7 +87,7 @@ _STYLE: dict[Any, Any] = {
 UNDATED: dict[str, Any] = {".png": None, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
 
-def styled(draw: Callable[P, Drawn]) -> Callable[P, Drawn]:
+def styled(draw: Callable[P, FigureOrFigures]) -> Callable[P, FigureOrFigures]:
     """Draw in the style of this package, whatever the settings around it; titles and legends are plain text.
 
     What is drawn is checked first, where it is declared as an object of a class, or as several of one.
@@ -98,7 +98,7 @@ def styled(draw: Callable[P, Drawn]) -> Callable[P, Drawn]:
     kind = getattr(draw, "__globals__", {}).get(alone or several)
 
     @wraps(draw)
-    def wrapped(*args: P.args, **kwargs: P.kwargs) -> Drawn:
+    def wrapped(*args: P.args, **kwargs: P.kwargs) -> FigureOrFigures:
         if drawn and isinstance(kind, type) and kind is not Any and (args or drawn.name in kwargs):
             given: Any = args[0] if args else kwargs[drawn.name]
             (check_kind if alone else check_all)(drawn.name, given, kind)

@@ -473,7 +473,7 @@ def fractile(
 
 
 #: Fields of a placed link by which candidates must differ: how it looks and how it finds its hole again is too little.
-HELD = (
+LINK_PROPERTIES = (
     "shear_stiffness", "shear_capacity", "axial_stiffness", "axial_capacity", "clearance", "damping", "lift", "pretension",
     "ultimate_slip", "ultimate_elongation", "friction_coefficient", "bed_stiffness", "bed_shear_stiffness", "failure",
 )  # fmt: skip
@@ -532,7 +532,9 @@ def candidates(structure: Structure, vary: Mapping[str, Sequence[float]]) -> dic
             raise InputError(
                 f"{label} puts two links at one place; vary what keeps them apart, or one of them.", "vary"
             )
-    if len({tuple(_told(link, HELD + PLACE) for link in one.placed_links) for one in found.values()}) < len(every):
+    if len(
+        {tuple(_properties_of(link, LINK_PROPERTIES + PLACE) for link in one.placed_links) for one in found.values()}
+    ) < len(every):
         raise InputError(
             f"two of the candidates by {' and '.join(vary)} are the same: a value is given twice, or what the links hold is "
             "given beside it and does not follow from it; leave that out of the file.",
@@ -595,12 +597,12 @@ def _changed(link: Link, field: str, value: float) -> Link:
     return dataclasses.replace(made, **{name: place})
 
 
-def _told(link: PlacedLink, names: Sequence[str]) -> tuple[Any, ...]:
+def _properties_of(link: PlacedLink, names: Sequence[str]) -> tuple[Any, ...]:
     return tuple(getattr(link, name) for name in names)
 
 
 def _places(stands: Structure) -> list[tuple[Any, ...]]:
-    return [_told(link, PLACE) for link in stands.placed_links]
+    return [_properties_of(link, PLACE) for link in stands.placed_links]
 
 
 @dataclass(frozen=True)

@@ -16,11 +16,11 @@ from ..column.structure import Structure
 from ..errors import InputError, check_kind
 from ..messages import say
 from ..models.base import Model
-from ..motion.intensity_specs import ENDS, IntensityMeasure, measure_of_column, parse_measure
-from ..notebook import Shown
+from ..motion.intensity import ENDS, IntensityMeasure, measure_of_column, parse_measure
+from ..notebook import NotebookSummary
 from ..outcome import Outcome
-from ..reading import check_file, shown
 from ..response.measures import blank_row
+from ..text_tables import check_file, printable
 from ..verdicts import verdict as v
 from ..verdicts.directions import peak_of
 from ..verdicts.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, LimitState, parse_state
@@ -95,7 +95,7 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class Ida(Shown):
+class Ida(NotebookSummary):
     """An incremental dynamic analysis.
 
     Parameters
@@ -213,7 +213,7 @@ class Ida(Shown):
             "records": int(runs["record"].nunique()),
             "curves": len(table),
             "runs": len(self.runs),
-            **{one: counts[one] for one in v.MADE},
+            **{one: counts[one] for one in v.COMPUTED},
             "resurrections": int(table["resurrections"].sum()),
             "curves_with_resurrections": int((table["resurrections"] > 0).sum()),
             **{name: one.high for name, one in shares.items()},
@@ -340,7 +340,7 @@ def table_of(source: str | Path) -> Path:
     found = next((place / table for table in TABLES if (place / table).is_file()), None)
     if found is None:
         raise InputError(
-            f"{shown(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA, a "
+            f"{printable(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA, a "
             "suite or states, or a CSV file with the columns record, im, collapsed."
         )
     return found
@@ -362,7 +362,9 @@ def read_table(source: str | Path) -> pandas.DataFrame:
         try:
             table = pandas.read_parquet(place)
         except (ValueError, OSError, ImportError) as error:
-            raise InputError(f"{shown(place)} is no table that can be read ({str(error).splitlines()[0]}).") from None
+            raise InputError(
+                f"{printable(place)} is no table that can be read ({str(error).splitlines()[0]})."
+            ) from None
     else:
         cells = tables.read(place, MOST, "record", "the columns record, im, collapsed")
         cells.refuse_halves("im", ("collapsed", "record"))
@@ -371,7 +373,7 @@ def read_table(source: str | Path) -> pandas.DataFrame:
             table["record"] = cells.texts("record")  # names, whatever they look like
     if "record" not in table or not len(table):
         raise InputError(
-            f"{shown(place)} has no runs with a column 'record'; it needs the columns record, im, collapsed."
+            f"{printable(place)} has no runs with a column 'record'; it needs the columns record, im, collapsed."
         )
     return table
 

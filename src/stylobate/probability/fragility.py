@@ -14,7 +14,7 @@ from scipy.special import ndtr, ndtri
 from ..errors import InputError, check_choice, check_kind, check_range, check_whole
 from ..messages import digits as number
 from ..messages import joined, say
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from ..verdicts.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 from ..verdicts.verdict import few_laws, under_another_law, wilson_interval
 from . import lognormal
@@ -225,7 +225,7 @@ UNEQUAL = 0.7
 
 
 @dataclass(frozen=True, eq=False)
-class Fragility(Shown):
+class Fragility(NotebookSummary):
     """A lognormal fragility with what is known about it.
 
     Parameters
@@ -388,7 +388,7 @@ class Fragility(Shown):
     @property
     def no_dispersion(self) -> str:
         """What must be said of a dispersion that these runs do not show, which β then is the least of; else empty."""
-        if lognormal.seen(self.beta) is not None:
+        if lognormal.resolved_beta(self.beta) is not None:
             return ""
         most = self.beta_interval[1]
         limit = say("it may be up to {most:.2g}", most=most) if math.isfinite(most) else say("no limit of it is known")
@@ -569,7 +569,7 @@ class Fragility(Shown):
             "median_low": self.median_interval[0],
             "median_high": self.median_interval[1],
             **self._law_facts(),
-            "beta": lognormal.seen(self.beta),
+            "beta": lognormal.resolved_beta(self.beta),
             "beta_low": self.beta_interval[0],
             "beta_high": self.beta_interval[1],
             "correlation": lognormal.correlation(self.samples),
@@ -589,8 +589,8 @@ class Fragility(Shown):
             "levels": list(self.levels),
             "outside": self.outside,
             "bracket": None if self.bracket is None else list(self.bracket),
-            "if_open_exceed": {"median": math.exp(high_median), "beta": lognormal.seen(high_beta)},
-            "if_open_do_not": {"median": math.exp(low_median), "beta": lognormal.seen(low_beta)},
+            "if_open_exceed": {"median": math.exp(high_median), "beta": lognormal.resolved_beta(high_beta)},
+            "if_open_do_not": {"median": math.exp(low_median), "beta": lognormal.resolved_beta(low_beta)},
             "largest_distance": self.distance,
             "p_value": self.p_value,
             "sentence": self.sentence,
@@ -644,10 +644,6 @@ def fragility(
         Of the intervals, between 0 and 1 [-].
     records_are_one : bool
         Runs of few records count as if each had a record of its own: the curve is then that of these records.
-
-    Returns
-    -------
-    Fragility
 
     Raises
     ------

@@ -24,9 +24,9 @@ from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, suggest, warn
 from ..messages import say
 from ..models.base import Case, Model
-from ..models.shared.quiet import level
+from ..models.shared.ground import level
 from ..motion import Motion
-from ..motion.intensity_specs import KINDS, IntensityMeasure, measures_by_column, parse_measure, powers_by_column
+from ..motion.intensity import KINDS, IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
 from ..verdicts import verdict as v
 from ..verdicts.directions import peak_of
@@ -176,10 +176,6 @@ def ida(
         With replicates, these are run instead of the column itself; ``progress`` is called with (finished, most that there
         will be).
 
-    Returns
-    -------
-    Ida
-
     Raises
     ------
     InputError
@@ -241,7 +237,7 @@ def ida(
     def wanted(one: Trace) -> list[float]:
         if stripes is not None:
             return [] if one.levels else stripes
-        return _asked(one, runs, largest_factor, measure.power)
+        return _next_levels(one, runs, largest_factor, measure.power)
 
     def made(of: Sequence[Trace]) -> Ida:
         table = _table(of, dict(zip((one.name for one in motions), facts)), column, measure, model, drawn)
@@ -289,7 +285,7 @@ def _loudest(motion: Motion, column: Structure) -> float:
     )
 
 
-def _asked(trace: Trace, runs: int, largest: float, power: int) -> list[float]:
+def _next_levels(trace: Trace, runs: int, largest: float, power: int) -> list[float]:
     verdicts = [v.verdict(row) for row in trace.rows]
     return next_levels(trace.levels, verdicts, trace.first, trace.value * largest**power, runs - len(trace.levels))
 
@@ -442,10 +438,10 @@ def which_tells_most(
             "unit": measure.unit,
             "median": math.exp(best.log_median[0]),
             # steps of its own levels show no dispersion of the measure that was run, which is not the best for that
-            "beta": math.nan if (seen := lognormal.seen(float(best.beta[0]))) is None else seen,
+            "beta": math.nan if (seen := lognormal.resolved_beta(float(best.beta[0]))) is None else seen,
             "beta_low": limits[0],
             "beta_high": limits[1],
-            "sigma_ln_edp": _given(runs, measure, edp),
+            "sigma_ln_edp": _dispersion(runs, measure, edp),
             "records": number,
         }
         both = np.isfinite(low) & np.isfinite(high)
@@ -474,7 +470,7 @@ def _measures(runs: pandas.DataFrame) -> list[IntensityMeasure]:
     return list({one.key: one for one in found}.values())
 
 
-def _given(runs: pandas.DataFrame, measure: IntensityMeasure, edp: str) -> float:
+def _dispersion(runs: pandas.DataFrame, measure: IntensityMeasure, edp: str) -> float:
     """Dispersion of ln EDP about a straight line over ln IM, of the runs that stand and rock."""
     stands = (runs["verdict"] == v.STANDS).to_numpy(copy=True)
     y = np.abs(runs[edp].to_numpy(dtype=float))

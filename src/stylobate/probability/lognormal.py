@@ -43,10 +43,6 @@ def fit(low: np.ndarray, high: np.ndarray, weight: np.ndarray | None = None) -> 
         Ends of the intervals of ln capacity, −inf and +inf where open, shape (n,), or (S, n) for S samples.
     weight : array, optional
         How often each interval counts, shape (n,) or (S, n); once by default.
-
-    Returns
-    -------
-    Fit
     """
     low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
     weight = np.ones(low.shape) if weight is None else np.asarray(weight, dtype=float)
@@ -73,7 +69,7 @@ def fit(low: np.ndarray, high: np.ndarray, weight: np.ndarray | None = None) -> 
     return Fit(log_median, beta)
 
 
-def seen(beta: float) -> float | None:
+def resolved_beta(beta: float) -> float | None:
     """β, if runs show one; None where the fit ends at the least of all."""
     return beta if beta > BETAS[0] * (1.0 + AT_END) else None
 

@@ -14,11 +14,10 @@ from scipy.special import log_ndtr, ndtr
 
 from .. import text_tables as tables
 from ..errors import InputError, check_kind
-from ..messages import digits, joined, say
-from ..motion.intensity_specs import ENDS, measure_of_column, parse_measure
-from ..notebook import Shown
-from ..percent import percent
-from ..reading import read_bytes, shown
+from ..messages import digits, joined, percent, say
+from ..motion.intensity import ENDS, measure_of_column, parse_measure
+from ..notebook import NotebookSummary
+from ..text_tables import printable, read_bytes
 from .fragility import Fragility
 from .lognormal import curve, log_interval
 
@@ -174,25 +173,25 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
     InputError
         The file cannot be read, has several sites, or holds no hazard curve.
     """
-    text = tables.text_of(read_bytes(path, MOST), shown(path))
+    text = tables.text_of(read_bytes(path, MOST), printable(path))
     if text.lstrip().startswith("<"):
-        return _nrml(shown(Path(path).name), text, site)
+        return _nrml(printable(Path(path).name), text, site)
     lines = [line.strip() for line in text.replace("\r", "").split("\n") if line.strip()]
     comments = [line for line in lines if line.startswith("#")]
     lines = [line for line in lines if not line.startswith("#")]
     head = [part.strip().strip('"') for part in lines[0].split(",")] if lines else []
     if any(_POE.fullmatch(one) for one in head):
-        return _openquake(shown(Path(path).name), " ".join(comments), head, lines[1:], site)
+        return _openquake(printable(Path(path).name), " ".join(comments), head, lines[1:], site)
     table = tables.read(
         path, MOST, "annual_rate", "im_g or im_m_s, and annual_rate, or to be a hazard curve of OpenQuake"
     )
-    name = shown(Path(path).name)
+    name = printable(Path(path).name)
     measures = {column: measure_of_column(column) for column in table.columns}
     keys = [one for one, measure in measures.items() if one in COLUMNS or measure is not None]
     if len(keys) != 1:
         raise InputError(
-            f"{name} has the columns {shown(', '.join(table.columns))[:200]}; it needs one intensity beside annual_rate, "
-            f"called after its measure, such as pgv_m_s, pga_g or sa_1s_g, or {', '.join(COLUMNS)}."
+            f"{name} has the columns {printable(', '.join(table.columns))[:200]}; it needs one intensity beside "
+            f"annual_rate, called after its measure, such as pgv_m_s, pga_g or sa_1s_g, or {', '.join(COLUMNS)}."
         )
     (key,), measure = keys, measures[keys[0]]
     unit, imt = (COLUMNS[key], "") if measure is None else (measure.unit, measure.name)
@@ -345,7 +344,7 @@ PARTS = 10
 
 
 @dataclass(frozen=True, eq=False)
-class Risk(Shown):
+class Risk(NotebookSummary):
     """Mean annual rate of a state.
 
     Parameters

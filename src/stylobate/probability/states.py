@@ -17,12 +17,11 @@ from ..campaign.cases import Study
 from ..column.links.placed import stone_that_breaks
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
-from ..messages import joined, say
+from ..messages import joined, say, whole_percent
 from ..models.base import Model
 from ..motion import Motion
-from ..motion.intensity_specs import IntensityMeasure
-from ..notebook import Shown
-from ..percent import whole
+from ..motion.intensity import IntensityMeasure
+from ..notebook import NotebookSummary
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
 from ..response.response import Response
@@ -249,7 +248,7 @@ class Difference:
 
 def _percent(value: float, direction: bool = True) -> str:
     """A change of a ratio by its size, and its direction where that is asked for."""
-    size = whole(abs(value))
+    size = whole_percent(abs(value))
     if size == "0":
         return say("the same")
     if not direction:
@@ -259,7 +258,7 @@ def _percent(value: float, direction: bool = True) -> str:
 
 def _points(value: float, direction: bool = True) -> str:
     """A change of a share by its size, and its direction where that is asked for."""
-    size = whole(abs(value))
+    size = whole_percent(abs(value))
     if size == "0":
         return say("the same")
     if not direction:
@@ -281,7 +280,7 @@ def _span(low: float, high: float, words: Callable[[float, bool], str]) -> str:
     below, above = words(low, True), words(high, True)
     if below == above:
         return below
-    changes = whole(abs(low)) != "0" and whole(abs(high)) != "0"
+    changes = whole_percent(abs(low)) != "0" and whole_percent(abs(high)) != "0"
     if low > 0.0 and high > 0.0 and changes:
         below = words(low, False)
     if low < 0.0 and high < 0.0 and changes:
@@ -363,7 +362,7 @@ FEWEST_STATES = 2
 
 
 @dataclass(frozen=True, eq=False)
-class StateComparison(Shown):
+class StateComparison(NotebookSummary):
     """Several states of a column, or of an assembly, under the same motions.
 
     Parameters
@@ -584,15 +583,15 @@ def with_undecided(
         known,
         share_low=best.share_low,
         share_high=worst.share_high,
-        ratio_low=math.nan if no_ratio else _known(worst.ratio_low, 0.0),
-        ratio_high=math.nan if no_ratio else _known(best.ratio_high, math.inf),
+        ratio_low=math.nan if no_ratio else _limit_or(worst.ratio_low, 0.0),
+        ratio_high=math.nan if no_ratio else _limit_or(best.ratio_high, math.inf),
         undecided=int(open_.sum()),
         failed=int((~computed).sum()),
         records=len(np.unique(first.records[computed])),
         share_best=best.share,
         share_worst=worst.share,
-        ratio_best=math.nan if no_ratio else _known(best.ratio, math.inf),
-        ratio_worst=math.nan if no_ratio else _known(worst.ratio, 0.0),
+        ratio_best=math.nan if no_ratio else _limit_or(best.ratio, math.inf),
+        ratio_worst=math.nan if no_ratio else _limit_or(worst.ratio, 0.0),
         limit_state=first.state,
         im="" if first.measure in ("im", "factor") else first.measure,
         confidence=confidence,
@@ -605,7 +604,7 @@ def _ended(one: Evidence, code: int) -> Evidence:
     return dataclasses.replace(one, codes=np.where(one.codes == OPEN, code, one.codes))
 
 
-def _known(value: float, otherwise: float) -> float:
+def _limit_or(value: float, otherwise: float) -> float:
     """A limit, or the end of all that can be where there is none."""
     return otherwise if math.isnan(value) else value
 

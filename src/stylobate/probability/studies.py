@@ -17,7 +17,7 @@ from ..campaign.cases import Plan, Study
 from ..campaign.ledger import RUNS_FILE, finished_runs_in
 from ..campaign.runs import Runs, Stopped, its_turn
 from ..errors import InputError, check_kind
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from ..response import Response
 from ..response.rows import Rows
 from ..simulate import simulate
@@ -34,7 +34,7 @@ TABLES = (".parquet", ".csv")
 
 
 @dataclass(frozen=True, eq=False)
-class StudyResult(Shown):
+class StudyResult(NotebookSummary):
     """A study as far as it has been run.
 
     Parameters

@@ -93,9 +93,9 @@ class Event:
         alone = {name: own[name] for name in ("earthquake", "motion", "begins_s", "ends_s")}
         alone["quiet_s"] = self.span.quiet
         alone["alone"] = {
-            "peak_rotation_rad": _known(self.peak_rotation),
-            "peak_joint_opening_m": _known(self.peak_opening),
-            "added_slip_m": _known(self.added_slip),
+            "peak_rotation_rad": _number_or_none(self.peak_rotation),
+            "peak_joint_opening_m": _number_or_none(self.peak_opening),
+            "added_slip_m": _number_or_none(self.added_slip),
             "fallen": list(self.fallen),
             "links_broken": list(self.broken),
             "at_rest": self.at_rest,
@@ -243,5 +243,5 @@ def _link_by(link: LinkMeasures, k: int, histories: Histories, now: float) -> Li
     return replace(link, broken_at=link.broken_at if link.broken_at <= now else math.nan, **peaks)
 
 
-def _known(value: float) -> float | None:
+def _number_or_none(value: float) -> float | None:
     return None if math.isnan(value) else value

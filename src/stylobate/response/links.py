@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..messages import joined, say
-from ..percent import percent
+from ..messages import joined, percent, say
 
 #: Names of the histories of links, in the order in which models record them.
 NAMES = ("shear", "tension", "slip", "elongation")

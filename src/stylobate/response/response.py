@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from .. import Film
 
 
-_LEFT_OUT = ("outcome", "reason", "wall_s", "model", "version", "mechanism", "collapse")
+_NOT_IN_TABLE = ("outcome", "reason", "wall_s", "model", "version", "mechanism", "collapse")
 
 
 def as_html(response: Recorded) -> str:
     """HTML without scripts and without anything from the network."""
-    facts = {key: value for key, value in summary_of(response).items() if key not in _LEFT_OUT}
+    facts = {key: value for key, value in summary_of(response).items() if key not in _NOT_IN_TABLE}
     return notebook.page(title_of(response), sentence_of(response), facts, _strip(response))
 
 
@@ -106,10 +106,6 @@ class Response(Recorded):
             At which that many are shown: 0.5 keeps twice as many states. The viewer chooses how fast it plays.
         window : (float, float), optional
             Beginning and end of what is shown [s]; all by default.
-
-        Returns
-        -------
-        stylobate.Film
         """
         from .. import Film
 
@@ -117,10 +113,6 @@ class Response(Recorded):
 
     def joint_forces(self) -> JointForces:
         """Normal force, shear and moment of every joint of a column in the plane, averaged over two recording intervals.
-
-        Returns
-        -------
-        JointForces
 
         Raises
         ------
@@ -141,7 +133,7 @@ class Response(Recorded):
         xarray.Dataset
             Dimensions ``time`` [s], ``drum`` (``body`` for an assembly), ``axis`` (x, y, z) and ``joint``.
         """
-        from .labelled import to_dataset
+        from .recorded import to_dataset
 
         return to_dataset(self)
 
@@ -155,7 +147,7 @@ class Response(Recorded):
         StylobateError
             The disk is full.
         """
-        from .labelled import to_dataset
+        from .recorded import to_dataset
 
         return store.write(to_dataset(self, derived=False), "response", path)
 
@@ -168,6 +160,6 @@ class Response(Recorded):
         InputError
             There is no such file, it is damaged, or it is not a response.
         """
-        from .labelled import load
+        from .recorded import load
 
         return cls.of(load(path))

@@ -11,6 +11,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..atomic import LIST, OwnFiles, digest
 from ..column.assembly_files import FROM_DICT
 from ..column.structure import Structure
 from ..constants import g
@@ -20,10 +21,9 @@ from ..models.base import Model
 from ..models.registry import MODELS, model_class
 from ..motion import Motion
 from ..motion.orientation import record_of
-from ..own_files import LIST, OwnFiles, digest
 from ..probability.evidence import STOOD
-from ..reading import read_bytes, shown
 from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, cautions_in_space, undamped
+from ..text_tables import printable, read_bytes
 from ..verdicts.directions import direction_of
 from ..version import __version__
 
@@ -47,14 +47,14 @@ def read_json(path: Path) -> dict[str, Any]:
     try:
         found = json.loads(content)
     except (ValueError, RecursionError) as error:
-        raise InputError(f"{shown(path)} is no JSON that can be read ({error}); run again.") from None
+        raise InputError(f"{printable(path)} is no JSON that can be read ({error}); run again.") from None
     if not isinstance(found, dict):
-        raise InputError(f"{shown(path)} holds no object as stylobate writes it; run again.")
+        raise InputError(f"{printable(path)} holds no object as stylobate writes it; run again.")
     messages = found.pop(MESSAGES, {})
     try:
         return restored(found, messages)
     except (AttributeError, KeyError, TypeError, ValueError):
-        raise InputError(f"{shown(path)} holds messages as nobody writes them; run again.") from None
+        raise InputError(f"{printable(path)} holds messages as nobody writes them; run again.") from None
 
 
 #: Number of the form of these files; a larger one is of a later version.
@@ -167,7 +167,8 @@ class Asked:
         form = found.pop("form", None)
         if isinstance(form, int) and form > FORM:
             raise InputError(
-                f"{shown(path)} is of form {form}; this version of stylobate reads up to {FORM}: update it, or run again."
+                f"{printable(path)} is of form {form}; this version of stylobate reads up to {FORM}: update it, or run "
+                "again."
             )
         try:
             fields: dict[str, Any] = {
@@ -182,7 +183,7 @@ class Asked:
                     raise ValueError(f"{key!r} is no list of its entries")
             return cls(**fields)
         except (TypeError, ValueError) as error:
-            raise InputError(f"{shown(path)} is not what stylobate wrote ({error}); run again.") from None
+            raise InputError(f"{printable(path)} is not what stylobate wrote ({error}); run again.") from None
 
     def holds(self, other: Asked) -> bool:
         """Whether all that stood and shook in another request is in this one as well."""

@@ -11,11 +11,11 @@ from xml.etree import ElementTree
 
 from ..atomic import refuse_existing, replacing
 from ..errors import InputError
-from ..motion.intensity_specs import parse_measure
+from ..motion.intensity import parse_measure
 from ..probability.evidence import evidence, names_in, read_table, scaled_to, table_of
 from ..probability.fragility import Fragility
 from ..probability.fragility import fragility as fit
-from ..probability.lognormal import seen
+from ..probability.lognormal import resolved_beta
 from ..verdicts.limit_states import parse_state
 from .asked import Source
 
@@ -139,7 +139,7 @@ def write_nrml(curves: Sequence[Fragility], path: str | Path) -> Path:
     ElementTree.SubElement(model, "description").text = text
     ElementTree.SubElement(model, "limitStates").text = state
     for one in curves:
-        if seen(one.beta) is None or not math.isfinite(one.log_median):
+        if resolved_beta(one.beta) is None or not math.isfinite(one.log_median):
             raise InputError(
                 f"the runs of {one.evidence.name} do not show how capacities scatter, and NRML needs a dispersion; run more "
                 "levels between those at which none and all exceed the state.",

@@ -9,6 +9,7 @@ from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ..atomic import LIST, OwnFiles, digest
 from ..campaign.cases import PLAN_FILE
 from ..campaign.ledger import FORMER_FILES, RUNS_FILE, refuse_former
 from ..column import Column
@@ -16,10 +17,9 @@ from ..column.structure import Structure
 from ..errors import InputError, OutOfRangeWarning
 from ..motion import Motion
 from ..motion.readers import read_motion
-from ..own_files import LIST, OwnFiles, digest
 from ..probability.studies import StudyResult
-from ..reading import check_file, shown
 from ..response import Response, load_response
+from ..text_tables import check_file, printable
 from ..verdicts.domain import CollapseProbability, Domain
 from .asked import Asked, asked_file, read_json
 
@@ -266,9 +266,9 @@ def read_folder(folder: str | Path) -> list[Result]:
     """
     place = Path(folder)
     if not place.exists():
-        raise InputError(f"there is no folder {shown(place)}; give one in which a command wrote its files.")
+        raise InputError(f"there is no folder {printable(place)}; give one in which a command wrote its files.")
     if not place.is_dir():
-        raise InputError(f"{shown(place)} is a file; give the folder in which a command wrote its files.")
+        raise InputError(f"{printable(place)} is a file; give the folder in which a command wrote its files.")
     markers = [reader for reader in _READERS if (place / reader).is_file()]
     finished = (place / "study.json").is_file() and "states.json" not in markers
     if PLAN_FILE in markers and len(markers) > 1 and not finished:
@@ -283,13 +283,15 @@ def read_folder(folder: str | Path) -> list[Result]:
 
 def _foreign(place: Path) -> str:
     if not any(place.iterdir()):
-        return f"folder {shown(place)} is empty; give one in which a command wrote its files."
+        return f"folder {printable(place)} is empty; give one in which a command wrote its files."
     if (place / "data" / "study.json").is_file() or (place / "index.html").is_file():
-        return f"{shown(place)} holds no result of a command, but a page or the paper's study; open its HTML file."
+        return f"{printable(place)} holds no result of a command, but a page or the paper's study; open its HTML file."
     refuse_former(*place.glob(FORMER_FILES))
     if (place / RUNS_FILE).is_file():
-        return f"{shown(place)} holds a command's work that is not finished; give the same command again, then report."
-    return f"{shown(place)} holds no result of stylobate; give a folder in which a command wrote its files."
+        return (
+            f"{printable(place)} holds a command's work that is not finished; give the same command again, then report."
+        )
+    return f"{printable(place)} holds no result of stylobate; give a folder in which a command wrote its files."
 
 
 # -- kinds ---------------------------------------------------------------------------------------------------------
@@ -317,7 +319,7 @@ def _motion(path: Path) -> Motion:
 def _runs_in(place: Path) -> list[Path]:
     found = sorted(path for path in place.iterdir() if path.is_dir() and not path.is_symlink())
     if len(found) > MOST_RUNS:
-        raise InputError(f"{shown(place)} holds {len(found)} folders; allowed is up to {MOST_RUNS} runs.")
+        raise InputError(f"{printable(place)} holds {len(found)} folders; allowed is up to {MOST_RUNS} runs.")
     return [one for one in found if (one / "response.nc").is_file()]
 
 
@@ -325,7 +327,8 @@ def _several(place: Path, runs: Sequence[Path]) -> SeveralRuns:
     read = tuple(_read_run(run) for run in runs)
     if len({one.response.structure.digest for one in read}) > 1:
         raise InputError(
-            f"the runs in {shown(place)} are not all of one column; name their folders one by one to report them together."
+            f"the runs in {printable(place)} are not all of one column; name their folders one by one to report "
+            "them together."
         )
     facts: dict[str, Any] = _common(place, Kind.RUNS, "run", FILES[Kind.RUNS].further, {}) | {"asked": read[0].asked}
     return SeveralRuns(**facts, runs=read)
@@ -435,7 +438,7 @@ def _object(place: Path, name: str, kind: Kind) -> dict[str, Any]:
     missing = [key for key in FILES[kind].keys if key not in found]
     if missing:
         raise InputError(
-            f"{shown(place / name)} is not what 'stylobate {kind.value}' of this version writes: it has "
+            f"{printable(place / name)} is not what 'stylobate {kind.value}' of this version writes: it has "
             f"no {missing[0]!r}; run again."
         )
     return found
@@ -449,5 +452,5 @@ def _table(path: Path) -> Any:
         return pandas.read_csv(path)
     except (ValueError, OSError, pandas.errors.ParserError) as error:
         raise InputError(
-            f"{shown(path)} is no table that can be read ({str(error).splitlines()[0]}); run again."
+            f"{printable(path)} is no table that can be read ({str(error).splitlines()[0]}); run again."
         ) from None

@@ -15,9 +15,16 @@ from ..column import Column
 from ..errors import InputError, check_choice, check_range, check_whole
 from ..messages import say
 from ..models.rigid_block.block_stack import SHEAR, BlockStack, Hold, link_strain, link_strains
-from ..notebook import Shown
-from .limit import mechanism_rows, towards
-from .loads import check_standing, crushing_forces, gravity_forces, horizontal_forces, joint_forces
+from ..notebook import NotebookSummary
+from .limit import (
+    check_standing,
+    crushing_forces,
+    gravity_forces,
+    horizontal_forces,
+    joint_forces,
+    mechanism_rows,
+    towards,
+)
 
 if TYPE_CHECKING:
     import pandas
@@ -31,7 +38,7 @@ PLATEAU = 2e-7
 
 
 @dataclass(frozen=True, eq=False)
-class PushoverResult(Shown):
+class PushoverResult(NotebookSummary):
     """Equilibrium path of a pushover analysis, as far as it was found.
 
     Parameters
@@ -693,8 +700,6 @@ def _stiffer(stack: BlockStack, factor: float) -> BlockStack:
         cohesion=np.full(stack.n, np.inf),
     )
 
-
-__all__ = ["CONTROLS", "STATES", "PushoverResult", "pushover"]
 
 CONTROLS = ("displacement", "arc-length")
 

@@ -20,7 +20,7 @@ from ..column import Column
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_kind
 from ..models.base import Case, Model
-from ..models.shared.quiet import share_of
+from ..models.shared.ground import share_of
 from ..motion import Motion, harmonic
 from ..response import Response, load_response
 from ..simulate import run_options, simulate

@@ -24,7 +24,7 @@ from ..models.base import Case, Cases, Model
 from ..models.engine import engine_for
 from ..motion import Motion
 from ..motion.orientation import record_of
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from ..response.rows import Rows
 from ..response.words import to_decide
 from . import verdict as v
@@ -64,7 +64,7 @@ def sentence(s: Mapping[str, Any], kind: str = "column", like: str = "columns") 
         What stands: column, assembly; what several like it are, if there are any.
     """
     twins = s.get("certainty")
-    words = [_with_twins(s, kind, like, twins) if twins else "", _alone(s, kind, twins), _open(s, twins)]
+    words = [_with_twins(s, kind, like, twins) if twins else "", _own_amplitudes(s, kind, twins), _open(s, twins)]
     return joined(" ", [*words, "" if twins else one_alone(like)])
 
 
@@ -142,7 +142,7 @@ def _by(twins: Mapping[str, Any], name: str) -> str:
     return say("by {low:.4g} to {high:.4g} g", low=least, high=value)
 
 
-def _alone(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | None) -> str:
+def _own_amplitudes(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | None) -> str:
     """At which amplitudes the column itself falls, and at which larger ones it stands again."""
     first, stretches = s["critical_g"], s["alternation"]
     without = [stretch for stretch in stretches if stretch["verdict"] not in (v.STANDS, v.COLLAPSED)]
@@ -229,7 +229,7 @@ def _last(s: Mapping[str, Any]) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class CriticalPopulation(Shown):
+class CriticalPopulation(NotebookSummary):
     """Verdicts on twins over a grid of amplitudes.
 
     Parameters
@@ -260,7 +260,7 @@ class CriticalPopulation(Shown):
     @property
     def counts(self) -> dict[str, np.ndarray]:
         """Number of twins of each verdict at each amplitude, under the names of tables."""
-        return {f"twins_{one}": (self.verdicts == one).sum(axis=0) for one in v.MADE}
+        return {f"twins_{one}": (self.verdicts == one).sum(axis=0) for one in v.COMPUTED}
 
     @property
     def probability(self) -> np.ndarray:
@@ -356,7 +356,7 @@ class CriticalPopulation(Shown):
                 **self.percentiles,
                 **self.least,
                 "bounds": self.bounds,
-                **{one: total[one] for one in v.MADE},
+                **{one: total[one] for one in v.COMPUTED},
             },
         }
 
@@ -369,7 +369,7 @@ CLOSE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class CriticalAmplitude(Shown):
+class CriticalAmplitude(NotebookSummary):
     """Outcomes over a grid of amplitudes.
 
     Parameters
@@ -584,10 +584,6 @@ def critical_amplitude(
     campaign, **settings : Campaign, optional
         With replicates, twins of the column go through the amplitudes as well.
 
-    Returns
-    -------
-    CriticalAmplitude
-
     Raises
     ------
     InputError
@@ -697,7 +693,7 @@ def _in_g(value: float | None) -> float | None:
 
 
 @dataclass(frozen=True, eq=False)
-class CriticalSuite(Shown):
+class CriticalSuite(NotebookSummary):
     """Outcomes of many records over one grid of amplitudes.
 
     Parameters
@@ -860,10 +856,6 @@ def critical_suite(
         As for :func:`stylobate.verdicts.critical.critical_amplitude`.
     campaign, **settings : Campaign, optional
         As there.
-
-    Returns
-    -------
-    CriticalSuite
 
     Raises
     ------

@@ -59,7 +59,7 @@ def worst(rows: Sequence[Mapping[str, Any]], compass: Compass | None = None) -> 
 
 
 #: Columns of the table of several runs.
-SHOWN = ("motion", "outcome", "undecided", "collapse_time_s", "collapse_probability", "collapse_interval_low",
+TABLE_COLUMNS = ("motion", "outcome", "undecided", "collapse_time_s", "collapse_probability", "collapse_interval_low",
          "collapse_interval_high", "replicates", "peak_top_displacement_m", "peak_displacement_m",
          "peak_rotation_rad")  # fmt: skip
 
@@ -69,7 +69,7 @@ def table_of_runs(rows: Sequence[Mapping[str, Any]]) -> pandas.DataFrame:
     import pandas
 
     table = pandas.DataFrame([{**row, "undecided": "undecided" * (v.verdict(row) == v.UNDECIDED)} for row in rows])
-    return table.filter(list(SHOWN)).replace("", None).dropna(axis="columns", how="all")
+    return table.filter(list(TABLE_COLUMNS)).replace("", None).dropna(axis="columns", how="all")
 
 
 @dataclass(frozen=True, eq=False)

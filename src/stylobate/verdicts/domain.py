@@ -24,8 +24,8 @@ from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError, check_range
 from ..models.base import Case, Model
-from ..motion.scatter import MotionScatter, ScatteredSines
-from ..notebook import Shown
+from ..motion.pulses import MotionScatter, ScatteredSines
+from ..notebook import NotebookSummary
 from ..outcome import Outcome
 from ..response.measures import STEPS, Measures, measures_of
 from ..response.rows import Rows
@@ -43,7 +43,7 @@ _GRIDS = [one for one in measures_of(Measures) if one.of != STEPS]
 
 
 @dataclass(frozen=True, eq=False)
-class Domain(Shown):
+class Domain(NotebookSummary):
     """Verdicts over frequency and amplitude.
 
     Parameters
@@ -123,7 +123,7 @@ class Domain(Shown):
         counts = self.counts
         return {
             "cells": len(self.rows),
-            **{one: counts[one] for one in v.MADE},
+            **{one: counts[one] for one in v.COMPUTED},
             "not_run": counts[v.NOT_RUN],
             "runs": len(self.rows) - counts[v.NOT_RUN],
             "uplift_g": self.column.uplift_acceleration / g,
@@ -316,7 +316,7 @@ KINDS = (SAFE, UNCERTAIN, UNSAFE, UNKNOWN)
 
 
 @dataclass(frozen=True, eq=False)
-class CollapseProbability(Shown):
+class CollapseProbability(NotebookSummary):
     """Verdicts of all columns alike in all cells.
 
     Parameters
@@ -483,7 +483,7 @@ class CollapseProbability(Shown):
             "band_open_frequencies": int(self.band_is_open.sum()),
             "amplitude_step_g": float(np.diff(self.amplitudes).max() / g) if len(self.amplitudes) > 1 else None,
             "runs": int(self.codes.size - runs[v.NOT_RUN]),
-            **{one: runs[one] for one in v.MADE},
+            **{one: runs[one] for one in v.COMPUTED},
             "not_run": runs[v.NOT_RUN],
             "uplift_g": self.column.uplift_acceleration / g,
             "wall_s": self.wall_time,

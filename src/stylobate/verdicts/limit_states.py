@@ -13,8 +13,7 @@ import numpy as np
 
 from ..column.structure import Structure
 from ..errors import InputError
-from ..messages import digits, joined, say
-from ..percent import percents
+from ..messages import digits, joined, percents, say
 from ..response.measures import MEASURES
 from . import verdict as v
 from .verdict import share_under_another_law

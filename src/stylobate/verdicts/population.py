@@ -22,14 +22,13 @@ from ..column.joint import LAWS, Losses
 from ..column.materials import CONTACT, ROLLING
 from ..column.scatter import spread_of
 from ..column.structure import Structure
-from ..messages import joined, say
+from ..messages import joined, percents, say
 from ..models.base import Case, Model, RunOptions
 from ..models.engine import engine_for
-from ..models.shared.quiet import share_of
+from ..models.shared.ground import share_of
 from ..motion import Motion
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from ..outcome import Outcome
-from ..percent import percents
 from ..response import Response
 from ..response.measures import CPU, SPREAD
 from ..response.recorded import Recorded
@@ -373,7 +372,7 @@ class Population:
             "replicates": len(self.rows),
             "certainty": {
                 "sentence": self.sentence,
-                **{one: counts[one] for one in v.MADE},
+                **{one: counts[one] for one in v.COMPUTED},
                 "confidence": self.confidence,
                 **({"interval": [low, high]} if self.drawn.groups else {}),
                 **({"interval_of_columns": list(self.interval_of_columns)} if self.drawn.groups else {}),
@@ -410,7 +409,7 @@ def chance_words(row: Mapping[str, Any]) -> str:
         Of a table with :attr:`Population.columns`, or the JSON object of ``stylobate run`` with twins; their interval is
         that of :attr:`Population.interval`, which holds another law of the joints where that is not known.
     """
-    known = row.get("certainty") or {one: row.get(f"twins_{one}") for one in v.MADE}
+    known = row.get("certainty") or {one: row.get(f"twins_{one}") for one in v.COMPUTED}
     fell, stood, open_, failed = (int(known.get(one) or 0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED))
     number = fell + stood + open_
     if not number:
@@ -473,7 +472,7 @@ def _not_fallen(counts: Mapping[str, int]) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class Certainty(Shown):
+class Certainty(NotebookSummary):
     """One run, and how sure its verdict is.
 
     Parameters
@@ -560,7 +559,7 @@ def certainty(
     else:
         product = {"own run": [column.digest, motion.name, motion.digest, [one.nameless_digest for one in riding]]}
         digest = Hasher(model, run_options(tail, until_decided=True)).of_product(product | following, __file__)
-        response, rows = _kept(Case(column, motion), model, digest, make, kept, campaign)
+        response, rows = _stored_run(Case(column, motion), model, digest, make, kept, campaign)
     rest = until_rest and not engine_for(model, column).twins  # what is followed one by one, so are its twins
     options = run_options(tail, until_rest=rest, quiet=quiet, until_decided=True)
     rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, options)
@@ -600,7 +599,7 @@ def wait_for(
     )
 
 
-def _kept(
+def _stored_run(
     case: Case, model: Model, digest: str, make: Callable[[], Response], place: Path, campaign: Campaign
 ) -> tuple[Response, list[dict]]:
     """A run with histories and the rows of those that rode along: from its file, or made and kept there."""

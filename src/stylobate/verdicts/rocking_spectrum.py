@@ -15,7 +15,7 @@ from ..errors import InputError, check_kind
 from ..models.base import Case
 from ..models.rocking.model import HousnerBlock
 from ..motion import Motion, pulse_match
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from ..outcome import Outcome
 from ..simulate import run_cases
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class RockingSpectrum(Shown):
+class RockingSpectrum(NotebookSummary):
     """Peaks of rigid rocking blocks.
 
     Parameters
@@ -153,10 +153,6 @@ def rocking_spectrum(
         Time to go on after the motion [s].
     threads : int, optional
         All cores by default.
-
-    Returns
-    -------
-    RockingSpectrum
 
     Raises
     ------

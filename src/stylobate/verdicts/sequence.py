@@ -16,10 +16,10 @@ from ..column.structure import Structure
 from ..errors import InputError, check_all, check_kind, check_whole
 from ..messages import joined, say
 from ..models.base import Case, Model
-from ..models.shared.quiet import share_of
+from ..models.shared.ground import share_of
 from ..motion import Motion
 from ..motion.sequence import REST, Span, in_sequence, number_at, spans_of
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from ..response import Response
 from ..response.events import Event, events_of
 from ..simulate import simulate
@@ -127,7 +127,7 @@ class Count:
 
 
 @dataclass(frozen=True, eq=False)
-class SequenceResult(Shown):
+class SequenceResult(NotebookSummary):
     """A structure under earthquakes one after another.
 
     Parameters
@@ -265,10 +265,6 @@ def sequence(
         Go on after the collapse of a column, where the model does.
     campaign, **settings : Campaign, optional
 
-    Returns
-    -------
-    SequenceResult
-
     Raises
     ------
     InputError
@@ -300,7 +296,7 @@ def _alike(motions: Sequence[Motion], model: Model) -> Sequence[Motion]:
 
 
 @dataclass(frozen=True, eq=False)
-class UntilFall(Shown):
+class UntilFall(NotebookSummary):
     """How many earthquakes of a kind, one after another, a structure stands.
 
     Parameters

@@ -33,7 +33,7 @@ STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN = "stands", "collapsed", "undecide
 VERDICTS = (STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN)
 
 #: Verdicts of runs that were made.
-MADE = (COLLAPSED, STANDS, UNDECIDED, FAILED)
+COMPUTED = (COLLAPSED, STANDS, UNDECIDED, FAILED)
 
 #: Attribute of a labelled array that holds verdicts as their places in VERDICTS.
 FLAGS = {
@@ -115,11 +115,6 @@ def collapse_interval(
 
 def wilson_interval(successes: Any, trials: Any, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
     """Confidence limits of a probability from counts; 0 and 1 where there is no trial.
-
-    Parameters
-    ----------
-    successes, trials : array of int
-    confidence : float
 
     References
     ----------

@@ -42,11 +42,6 @@ DISC_LEVER = 2.0 / 3.0
 def vibrating(structure: Structure, model: Any) -> Vibrating:
     """What stands, linear about rest, on the joints of a model.
 
-    Parameters
-    ----------
-    structure : Column, Assembly or SpatialAssembly
-    model : DistinctElement2D or DistinctElement3D
-
     Raises
     ------
     InputError

@@ -14,7 +14,7 @@ import numpy as np
 from ..column.column import Column
 from ..column.files import tables_of
 from ..errors import InputError, check_kind, check_range, check_whole
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from .closed_joints import vibrating
 from .modes import ACROSS, ALONG, AROUND, UPWARD, _coupled
 from .small_vibrations import Vibrating
@@ -388,7 +388,7 @@ def _relative(standing: Vibrating, joint: Any) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class MeasuredJoints(Shown):
+class MeasuredJoints(NotebookSummary):
     """Result of :func:`joints_from_frequencies`: intervals of 95 %.
 
     Parameters
@@ -536,10 +536,6 @@ def joints_from_frequencies(
     draws : int
         Of ground and columns.
     seed : int
-
-    Returns
-    -------
-    MeasuredJoints
 
     Raises
     ------

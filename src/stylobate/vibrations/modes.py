@@ -12,7 +12,7 @@ import numpy as np
 from ..column.materials import STIFFEST_STONE
 from ..column.structure import Structure
 from ..errors import InputError, check_range, check_whole
-from ..notebook import Shown
+from ..notebook import NotebookSummary
 from .closed_joints import vibrating
 from .small_vibrations import Vibrating
 
@@ -94,7 +94,7 @@ class Mode:
 
 
 @dataclass(frozen=True, eq=False)
-class Modes(Shown):
+class Modes(NotebookSummary):
     """Result of :func:`modes`.
 
     Parameters
@@ -210,10 +210,6 @@ def modes(column: Structure, model: Any) -> Modes:
     column : Column, Assembly or SpatialAssembly
     model : DistinctElement2D or DistinctElement3D
         Where its joints carry.
-
-    Returns
-    -------
-    Modes
 
     Raises
     ------

@@ -10,7 +10,7 @@ import stylobate as st
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.engine import engine_for
 from stylobate.models.space.loose import engine_of, step_for
-from stylobate.statics.limit_assemblies import AssemblyProgramme
+from stylobate.statics.limit import AssemblyProgramme
 
 from .row import MET, MISSED, NONE, Judged, Rows, both_sides, family, near
 

@@ -15,8 +15,8 @@ import numpy as np
 
 import stylobate as st
 from stylobate.column.assembly_files import load_structure
-from stylobate.column.presets import PAPER
-from stylobate.column.turning import matrix_of
+from stylobate.column.catalogue import PAPER
+from stylobate.column.shapes import matrix_of
 from stylobate.models.engine import engine_for
 from stylobate.models.shared.ledger import TERMS, released, unaccounted
 from stylobate.models.space import loose as assemblies

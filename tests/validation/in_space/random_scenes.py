@@ -7,9 +7,8 @@ from itertools import pairwise
 import numpy as np
 
 import stylobate as st
-from stylobate.column.shapes import Placed
+from stylobate.column.shapes import Placed, matrix_of, product
 from stylobate.column.spatial.stone import box_shape, drum_shape
-from stylobate.column.turning import matrix_of, product
 
 DENSITY = 2700.0
 

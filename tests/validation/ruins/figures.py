@@ -14,7 +14,7 @@ from scipy.stats import chi2
 import stylobate as st
 from stylobate.campaign.campaign import Campaign
 from stylobate_ruins import abc
-from stylobate_ruins.answers import FEWEST, TOLD, Answers
+from stylobate_ruins.answers import FEWEST, UNITS, Answers
 from stylobate_ruins.infer import infer
 from stylobate_ruins.prior import Prior
 from stylobate_ruins.ruin import Fact, Observed, Ruin
@@ -120,9 +120,9 @@ def calibration(ruins: Simulations, numbers: np.ndarray, table: Simulations, ins
     table : Simulations
         From which they are inferred; where ``inside``, these draws are among its own and left out, twenty together.
     """
-    stream, few, wide = np.random.default_rng(11), 0, {name: [] for name in TOLD}
-    ranks, around, off, off_ln = ({name: [] for name in TOLD} for _ in range(4))
-    sizes = {name: float(np.log(table.parameters[name]).std()) for name in TOLD if name != "azimuth_deg"}
+    stream, few, wide = np.random.default_rng(11), 0, {name: [] for name in UNITS}
+    ranks, around, off, off_ln = ({name: [] for name in UNITS} for _ in range(4))
+    sizes = {name: float(np.log(table.parameters[name]).std()) for name in UNITS if name != "azimuth_deg"}
     for block in np.array_split(numbers, max(1, len(numbers) // 20)):
         kept = np.ones(len(table), bool)
         if inside:
@@ -154,7 +154,7 @@ def calibration(ruins: Simulations, numbers: np.ndarray, table: Simulations, ins
             wide["azimuth_deg"].append(abc.spread_around(angles, taken.weights, turn) / level)
             off["azimuth_deg"].append(away / level)
     found: dict = {"ruins": len(ranks["pgv_m_s"]), "too_few_matched": few}
-    for name in TOLD:
+    for name in UNITS:
         rank, beside = np.array(ranks[name]), np.array(around[name])
         counts = np.bincount(np.minimum((10 * rank).astype(int), 9), minlength=10)
         even = len(rank) / 10.0
@@ -174,7 +174,7 @@ def by_kind(table: Simulations, numbers: np.ndarray) -> dict:
     found = {}
     for name, kinds in KINDS.items():
         told = calibration(table, numbers, table, True, kinds=kinds)
-        found[name] = {one: told[one]["cover_90"] for one in TOLD}
+        found[name] = {one: told[one]["cover_90"] for one in UNITS}
         found[name] |= {"ruins": told["ruins"], "spread_of_pgv": told["pgv_m_s"]["spread_over_prior"]}
     return found
 
@@ -186,7 +186,7 @@ def other_law(table: Simulations, count: int) -> dict:
         own = table.parameters["law"] == law
         made = np.flatnonzero(own & table.sound)[:count]
         told = calibration(table, made, table.some(np.flatnonzero(~own)), False)
-        found[f"made with {name}"] = {one: told[one]["cover_90"] for one in TOLD} | {"ruins": told["ruins"]}
+        found[f"made with {name}"] = {one: told[one]["cover_90"] for one in UNITS} | {"ruins": told["ruins"]}
     return found
 
 

@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stylobate.column.shapes import Mesh
-from stylobate.column.spatial.mesh import LARGEST, MeshPart, check_closed
+from stylobate.column.spatial.stone import LARGEST, MeshPart, check_closed
 from stylobate.errors import InputError
-from stylobate.reading import read_bytes, shown
+from stylobate.text_tables import printable, read_bytes
 
 #: The kinds of files, by what their ``dtype`` ends in.
 MODELS = "compas_dem.models/BlockModel", "compas_model.models/Model"
@@ -49,7 +49,7 @@ def read_compas(path: Path) -> tuple[str, list[Block]]:
     InputError
         No JSON, another kind of object, or a block whose geometry is no mesh.
     """
-    name = shown(path)
+    name = printable(path)
     try:
         found = json.loads(read_bytes(path, LARGEST).decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:

@@ -14,8 +14,7 @@ from stylobate.column import Column
 from stylobate.column.files import tables_of
 from stylobate.column.plausible import length_doubts
 from stylobate.errors import InputError, suggest
-from stylobate.reading import SETTINGS, read_bytes, shown
-from stylobate.text_tables import text_of
+from stylobate.text_tables import SETTINGS, printable, read_bytes, text_of
 
 if TYPE_CHECKING:
     from openpyxl.worksheet.worksheet import Worksheet
@@ -134,9 +133,9 @@ JOINT = {
 NOTE = "note"
 
 #: What stands for a column that is left out, where columns are stated; and all names of columns.
-LEFT_OUT = "-"
+IGNORED = "-"
 DIRECTIONS = (*ANGLES, *list(BEARINGS)[:2])
-KNOWN = ("drum", "density", *LENGTHS, *DIRECTIONS, *JOINT, NOTE)
+NAMES = ("drum", "density", *LENGTHS, *DIRECTIONS, *JOINT, NOTE)
 
 #: What spreadsheets show where a formula has failed.
 FAILED_CELL = re.compile(r"#[A-Z0-9/_]+[!?]?|Err:\d+")
@@ -217,7 +216,7 @@ def survey_tables(
     InputError
         What cannot be, in one sentence that names row and column.
     """
-    name, content = shown(path), read_bytes(path, SETTINGS, "a survey is smaller")
+    name, content = printable(path), read_bytes(path, SETTINGS, "a survey is smaller")
     if path.suffix.lower() in WORKBOOKS:
         rows, separator = rows_of_workbook(content, name), ","
     else:
@@ -232,7 +231,7 @@ def survey_tables(
     if stated is None:
         columns = _columns_of(head, rows, decimal, name)
     else:
-        columns = _stated(stated)
+        columns = _typed_columns(stated)
         if len(columns) != len(head):
             raise InputError(
                 f"`columns` names {len(columns)} columns, {name} has {len(head)}; name each once, those to leave out -.",
@@ -241,7 +240,7 @@ def survey_tables(
         if all(_is_number(cell, decimal) for cell, (key, _) in zip(head, columns) if key in LENGTHS):  # no row of names
             rows = [head, *rows]
     known = [one for one, _ in columns]
-    double = next((one for one in known if known.count(one) > 1 and one != LEFT_OUT), None)
+    double = next((one for one in known if known.count(one) > 1 and one != IGNORED), None)
     if double is not None:
         raise InputError(f"{name} has two columns of {double!r}; keep one.")
     missing = next((one for one in ("height", "bottom_width", "top_width") if one not in known), None)
@@ -353,7 +352,7 @@ def _facts(rows: list[list[str]], separator: str, name: str) -> tuple[dict[str, 
     return facts, rest
 
 
-def _stated(text: str) -> list[tuple[str, float]]:
+def _typed_columns(text: str) -> list[tuple[str, float]]:
     """Columns as typed, and how many of their units are one of the SI."""
     columns = []
     for part in text.split(","):
@@ -361,12 +360,12 @@ def _stated(text: str) -> list[tuple[str, float]]:
         name, unit = (found["name"].replace(" ", "_"), found["unit"]) if found else ("", None)
         if name in LENGTHS and unit in UNITS:
             columns.append((name, UNITS[unit]))
-        elif name in (LEFT_OUT, "drum", NOTE, "density", *DIRECTIONS, *JOINT) and unit in (None, _unit_of(name)):
+        elif name in (IGNORED, "drum", NOTE, "density", *DIRECTIONS, *JOINT) and unit in (None, _unit_of(name)):
             columns.append((name, 1.0))
         else:
             raise InputError(
-                f"`columns` {text!r}: {part.strip()!r} is not understood; {suggest(name, KNOWN)}allowed are lengths "
-                f"({', '.join(LENGTHS)}) with [m], [cm] or [mm], {', '.join(one for one in KNOWN if one not in LENGTHS)}, "
+                f"`columns` {text!r}: {part.strip()!r} is not understood; {suggest(name, NAMES)}allowed are lengths "
+                f"({', '.join(LENGTHS)}) with [m], [cm] or [mm], {', '.join(one for one in NAMES if one not in LENGTHS)}, "
                 "and - for a column to leave out.",
                 "columns",
             )
@@ -386,7 +385,7 @@ def _columns_of(head: list[str], rows: list[list[str]], decimal: str, name: str)
     except InputError as error:
         proposal = _proposed(head, rows, decimal)
         if proposal is not None:
-            line = shown(", ".join(head))[:200]
+            line = printable(", ".join(head))[:200]
             raise InputError(
                 f"{error} Or state what each column of the row {line!r} holds, which may be `columns='{proposal}'`: check "
                 "names and units.",
@@ -409,7 +408,7 @@ def _proposed(head: list[str], rows: list[list[str]], decimal: str) -> str | Non
     found = []
     for k, (cell, key) in enumerate(zip(head, own)):
         numbers = all(k < len(row) and _is_number(row[k], decimal) for row in rows)
-        key = key or (wanted.pop(0) if numbers and wanted else LEFT_OUT)
+        key = key or (wanted.pop(0) if numbers and wanted else IGNORED)
         unit = re.search(r"[\[(_ ](mm|cm|m)[\])]?\s*$", cell.lower())
         found.append(f"{key} [{unit[1] if unit else 'm'}]" if key in LENGTHS else key)
     return None if wanted else ", ".join(found)
@@ -427,7 +426,7 @@ def _column(cell: str, name: str) -> tuple[str, float]:
     text = "_".join(
         cell.strip().lower().replace("[", " ").replace("]", " ").replace("(", " ").replace(")", " ").split()
     )
-    if text in KNOWN:
+    if text in NAMES:
         return text, 1.0
     stem, _, unit = text.rpartition("_")
     if stem in LENGTHS and unit in UNITS:
@@ -438,7 +437,7 @@ def _column(cell: str, name: str) -> tuple[str, float]:
     if own is not None:
         return own, 1.0
     raise InputError(
-        f"{name} has a column {cell.strip()!r}; {suggest(text, KNOWN)}known are {', '.join(KNOWN)}, lengths with _m, _cm or "
+        f"{name} has a column {cell.strip()!r}; {suggest(text, NAMES)}known are {', '.join(NAMES)}, lengths with _m, _cm or "
         "_mm behind them."
     )
 
@@ -450,7 +449,7 @@ def _row(row: list[str], columns: list[tuple[str, float]], number: int, decimal:
         )
     found: dict[str, float] = {}
     for cell, (key, factor) in zip(row, columns):
-        if cell.strip() and key not in (NOTE, LEFT_OUT):
+        if cell.strip() and key not in (NOTE, IGNORED):
             value = _number(cell.strip(), f"{key} in row {number} of {name}", decimal)
             found[key] = value / factor
     missing = next((key for key in ("height", "bottom_width", "top_width") if key not in found), None)

@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stylobate.column.spatial.mesh import LARGEST, MeshPart, check_closed
+from stylobate.column.spatial.stone import LARGEST, MeshPart, check_closed
 from stylobate.errors import InputError
-from stylobate.reading import read_bytes, shown
+from stylobate.text_tables import printable, read_bytes
 
 #: What is read, in the words of messages.
-KNOWN = (
+COMMANDS = (
     "poly [region N] prism a (…) b (…), poly [region N] face (…) face (…), range name, property material density, property "
     "jmat, change material range, fix range, gravity"
 )
@@ -62,7 +62,7 @@ def read_three_dec(path: Path) -> Model:
     InputError
         A command that is not known, by its line; a range or a material without definition; no polyhedra.
     """
-    where = shown(path)
+    where = printable(path)
     blocks: list[Polyhedron] = []
     ranges: dict[str, Range] = {}
     regions: dict[int, str] = {}
@@ -99,7 +99,7 @@ def read_three_dec(path: Path) -> Model:
         except (ValueError, KeyError, _Unknown) as error:
             what = f", for {error} is not defined before it" if isinstance(error, KeyError) else ""
             raise InputError(
-                f"line {line} of {where} is {command[:60]!r}, which is not read{what}; known are {KNOWN}: leave it out, "
+                f"line {line} of {where} is {command[:60]!r}, which is not read{what}; known are {COMMANDS}: leave it out, "
                 "or write the polyhedra as closed meshes, in OBJ for one."
             ) from None
     if not blocks:

@@ -20,10 +20,10 @@ from hypothesis import strategies as some
 import stylobate as st
 from stylobate.column.as_found import AsFound, FoundDrum
 from stylobate.column.assembly_files import FROM_DICT, load_structure
+from stylobate.column.catalogue import preset
 from stylobate.column.files import write_column
 from stylobate.column.found_geometry import space_geometry
 from stylobate.column.links import Dowel
-from stylobate.column.presets import preset
 from stylobate.column.projection import project
 from stylobate.column.tables import made_of
 from stylobate_exchange.convert import Reading, convert, read_model

@@ -23,7 +23,7 @@ from chromium import browser
 
 import stylobate as st
 from stylobate.column.assembly_files import load_structure
-from stylobate.column.presets import preset
+from stylobate.column.catalogue import preset
 from stylobate.response import Histories, Measures, Response
 from stylobate.response.links import LinkHistories, LinkMeasures
 from stylobate_exchange.export import export_response
@@ -361,7 +361,7 @@ def test_nothing_is_written_over(in_plane, tmp_path):
 
 
 def test_without_trimesh_one_sentence_says_what_to_install(tmp_path, monkeypatch):
-    from stylobate.column.spatial.mesh import read_stones
+    from stylobate.column.spatial.stone import read_stones
 
     real = builtins.__import__
 

@@ -11,7 +11,7 @@ import trimesh
 import stylobate as st
 from stylobate.column.shapes import ConvexSolid, Mesh, cut
 from stylobate.column.spatial.stone import mesh_moments
-from stylobate.statics.limit_assemblies import limit_directions
+from stylobate.statics.limit import limit_directions
 from stylobate_exchange.compas_files import compas_json
 from stylobate_exchange.convert import Reading, convert, read_model
 from stylobate_exchange.mesh_writers import TEXTS, Named

@@ -122,20 +122,20 @@ def requests(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[dict
     if asked.kind == "domain":
         return [{"command": "domain", "what": STUDY, "out": RESULT}]
     made = {"command": asked.kind, "column": _stands(asked)}
-    end = _given(tail=asked.tail) | {"out": RESULT}
+    end = _without_empty(tail=asked.tail) | {"out": RESULT}
     if asked.kind in ("run", "critical"):
         more = (
             {"pictures": False} if asked.kind == "run" else {"from": asked.first, "to": asked.last, "step": asked.step}
         )
         made |= _model(asked.model, asked.settings) | _motion(_the_motion(asked), records)
-        return [made | _given(replicates=asked.replicates, **more) | end]
+        return [made | _without_empty(replicates=asked.replicates, **more) | end]
     from stylobate.probability.fragility import FEWEST
 
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
     made |= {"sources": _each(asked.records, records)} | _model(asked.model, asked.settings)
-    made |= _given(unit=asked.unit, columns=asked.columns, im=asked.im, runs=asked.runs) | end
-    curve = {"command": "fragility", "sources": [RESULT], **_given(state=asked.state), "out": FRAGILITY}
+    made |= _without_empty(unit=asked.unit, columns=asked.columns, im=asked.im, runs=asked.runs) | end
+    curve = {"command": "fragility", "sources": [RESULT], **_without_empty(state=asked.state), "out": FRAGILITY}
     return [made] if len(asked.records) < FEWEST else [made, curve]
 
 
@@ -176,8 +176,8 @@ def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) 
             )
         files = [f"{HAZARDS}/{name}" for name in hazard_files(asked)]
         made["hazard"] = files if "hazards" in takes else files[0]
-    made |= _given(**{name: text and text + boxes[name].unit for name, text in given.items()}) | form.fixed
-    return made | _given(tail=asked.tail if "tail" in takes else None) | {"out": RESULT}
+    made |= _without_empty(**{name: text and text + boxes[name].unit for name, text in given.items()}) | form.fixed
+    return made | _without_empty(tail=asked.tail if "tail" in takes else None) | {"out": RESULT}
 
 
 def hazard_files(asked: JobAsked) -> dict[str, str]:
@@ -213,7 +213,7 @@ def _stands(asked: JobAsked) -> str:
 
 
 def _model(model: str, settings: Mapping[str, str]) -> dict[str, Any]:
-    return _given(model=model, set=[f"{name}={value}" for name, value in settings.items() if value])
+    return _without_empty(model=model, set=[f"{name}={value}" for name, value in settings.items() if value])
 
 
 def _each(chosen: Sequence[str], records: Mapping[str, Sequence[str]]) -> list[str]:
@@ -259,7 +259,7 @@ def report_of(folder: Path) -> list[dict[str, Any]]:
     return [{"command": "report", "folders": found, "out": REPORT}]
 
 
-def _given(**values: Any) -> dict[str, Any]:
+def _without_empty(**values: Any) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value or value is False}
 
 

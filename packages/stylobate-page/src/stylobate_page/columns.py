@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from stylobate.column import Column
+from stylobate.column.catalogue import PRESETS, preset
 from stylobate.column.files import tables_of
 from stylobate.column.found_geometry import base_axes, space_geometry
 from stylobate.column.links.placed import strokes
-from stylobate.column.presets import PRESETS, preset
 from stylobate.column.shapes import hull
 from stylobate.column.tables import made_of
 from stylobate.constants import g

@@ -17,8 +17,8 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 
+from stylobate.column.catalogue import PRESETS, preset
 from stylobate.column.files import write_column
-from stylobate.column.presets import PRESETS, preset
 from stylobate.column.structure import Structure
 from stylobate.column.toml import checked
 from stylobate.errors import InputError
@@ -43,10 +43,9 @@ from .asked import (
 )
 from .curves import curves, new_cells
 from .forms import FORMS
-from .job import FILM, Job
 from .records import RECORDS, Records
 from .texts import assembly_of, ruin_of
-from .workshop import Workshop
+from .workshop import FILM, Job, Workshop
 
 #: Files of jobs that a browser shows, by the end of their names; it saves the others.
 PICTURES = {"png": "image/png", "svg": "image/svg+xml", "html": "text/html"}

@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from stylobate.atomic import output_folder, replacing
 from stylobate.campaign.ledger import Holding
 from stylobate.errors import InputError
-from stylobate.reading import shown
+from stylobate.text_tables import printable
 
 #: Largest file, and all together [bytes]; most records. Three components of an hour at 200 Hz take some 30 MB.
 FILE, ALL, MOST = 32_000_000, 600_000_000, 1000
@@ -186,7 +186,7 @@ class Records:
 
     def _keep(self, upload: _Upload, name: str, joined: str, beside: str) -> Record:
         """A file that has come in becomes a record, or a part of one, which may have changed or gone meanwhile."""
-        called, token = shown(name)[:200] or "record", upload.token
+        called, token = printable(name)[:200] or "record", upload.token
         file = generated_name(name, token)
         whole = self.kept.get(joined)
         if whole is not None:
@@ -257,7 +257,7 @@ def _notes(place: Path) -> Iterable[tuple[str, str, tuple[str, ...]]]:
             note = json.loads(path.read_text(encoding="utf-8"))
             parts = tuple(map(str, note["files"]))
             if token is not None and parts and len(set(parts)) == len(parts):
-                yield token[1], shown(note["name"]), parts
+                yield token[1], printable(note["name"]), parts
 
 
 def generated_name(name: str, token: str) -> str:
@@ -277,11 +277,11 @@ PRIVATE_FOLDER, PRIVATE_FILE = 0o700, 0o600
 RECORDS, JOBS = "records", "jobs"
 
 #: Lock while a page is served; an empty file of that name and ``-lock`` lies in the folder meanwhile.
-HELD = "page"
+LOCK = "page"
 
 
 @contextmanager
-def held(folder: Path) -> Iterator[Path]:
+def locked_folder(folder: Path) -> Iterator[Path]:
     """Hold a folder for one page; it is made if it is not there, and then it is its owner's alone.
 
     Raises
@@ -295,10 +295,11 @@ def held(folder: Path) -> Iterator[Path]:
     if new:
         folder.chmod(PRIVATE_FOLDER)
     try:
-        holding = Holding(folder / HELD)
+        holding = Holding(folder / LOCK)
     except InputError:
         raise InputError(
-            f"{shown(folder)} is not free: a page is served from it already; use or end that one, or choose another `out`."
+            f"{printable(folder)} is not free: a page is served from it already; use or end that one, or "
+            "choose another `out`."
         ) from None
     try:
         for name in (RECORDS, JOBS):
@@ -318,11 +319,11 @@ def private(folder: Path) -> Path:
     """
     if folder.is_symlink():
         raise InputError(
-            f"{shown(folder)} is a link, behind which nothing is kept; remove it, or choose another `out`."
+            f"{printable(folder)} is a link, behind which nothing is kept; remove it, or choose another `out`."
         )
     folder.mkdir(mode=PRIVATE_FOLDER, parents=True, exist_ok=True)
     if hasattr(os, "geteuid") and folder.stat().st_uid != os.geteuid():
-        raise InputError(f"{shown(folder)} belongs to another user; choose another `out`.")
+        raise InputError(f"{printable(folder)} belongs to another user; choose another `out`.")
     folder.chmod(PRIVATE_FOLDER)
     return folder
 

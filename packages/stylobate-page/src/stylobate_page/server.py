@@ -16,7 +16,7 @@ import uvicorn
 from stylobate.errors import InputError
 
 from .guard import BACKLOG, HEAD, Connection, Keys, is_loopback
-from .records import held
+from .records import locked_folder
 from .site import create_app
 
 #: Most connections at a time, silent ones included.
@@ -48,7 +48,7 @@ def serve(host: str, port: int, folder: Path | None, worker: Sequence[str], brow
         The address cannot be used, or another page is served from the folder.
     """
     place = tempfile.TemporaryDirectory(prefix="stylobate-") if folder is None else nullcontext(str(folder))
-    with listening_at(host, port) as listening, place as kept, held(Path(kept)):
+    with listening_at(host, port) as listening, place as kept, locked_folder(Path(kept)):
         name = f"[{host}]" if ":" in host else host
         address, keys = f"http://{name}:{listening.getsockname()[1]}/", Keys()
         app = create_app(Path(kept), worker, (name,), keys)

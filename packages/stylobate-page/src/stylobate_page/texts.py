@@ -9,9 +9,9 @@ from typing import Any
 
 from stylobate.column.assembly_files import read_assembly
 from stylobate.column.block import FAR_AWAY
+from stylobate.column.catalogue import PRESETS
 from stylobate.column.files import write_column
 from stylobate.column.links.placed import strokes
-from stylobate.column.presets import PRESETS
 from stylobate.column.structure import Structure
 from stylobate.column.toml import parse_toml
 from stylobate.errors import InputError
@@ -92,8 +92,8 @@ def describe(text: str) -> dict[str, Any]:
     except InputError as error:
         error.args = (str(error).replace(f"{FILE}: ", "").replace(FILE, "the file"),)  # it is the text at hand
         raise
-    from stylobate.plots.drawing import SEEN, solids_of
-    from stylobate.plots.solids import OBLIQUE  # matplotlib is loaded for those who look at an assembly
+    from stylobate.plots.drawing import VIEWS, solids_of
+    from stylobate.plots.scene import OBLIQUE
 
     bodies = [one for one in assembly.bodies if not (one.fixed and one.size > FAR_AWAY)]
     plane, solids = assembly.space_joints is None, solids_of(assembly)[0]
@@ -110,16 +110,16 @@ def describe(text: str) -> dict[str, Any]:
         },
         "model": model_of(assembly),
         "views": [
-            _seen(assembly, solids, view, said)
-            for view, said in (SEEN[:1] if plane else (*SEEN, (OBLIQUE, "from above")))
+            _view(assembly, solids, view, said)
+            for view, said in (VIEWS[:1] if plane else (*VIEWS, (OBLIQUE, "from above")))
         ],
         "warnings": warned(doubts),
     }
 
 
-def _seen(assembly: Structure, solids: list[Any], view: Any, said: str) -> dict[str, Any]:
+def _view(assembly: Structure, solids: list[Any], view: Any, said: str) -> dict[str, Any]:
     """What is seen from a direction: polygons with their colours in the order of painting, links, the ground's level [m]."""
-    from stylobate.plots.solids import painted
+    from stylobate.plots.scene import painted
 
     polygons, colours, outlines = painted(solids, view)
     lines = [(low, high) for _, (*_, low), (*_, high) in strokes(assembly.placed_links)]

@@ -25,7 +25,7 @@ from stylobate.errors import StylobateError
 
 from .asked import ASSEMBLY, COLUMN, RUIN, STUDY
 from .forms import in_page_words
-from .job import FILM, GROWING, JOB
+from .workshop import FILM, GROWING, JOB
 
 if TYPE_CHECKING:
     from stylobate.probability.evidence import Ida
@@ -61,7 +61,7 @@ def main() -> None:
             requests = json.loads((Path(job["folder"]) / JOB).read_text(encoding="utf-8"))["requests"]
             work(job, requests, tell)
             console.LISTENER = None
-    signals.said()
+    signals.mark_ended()
     signals.end_now(signals.INTERRUPTED)
 
 
@@ -104,9 +104,8 @@ def warm(tell: Callable[..., None]) -> None:
 
     from stylobate import DistinctElement2D, certainty, harmonic, preset
     from stylobate.cli.main import ask
-    from stylobate.motion import writing  # noqa: F401
 
-    from .film import film
+    from .curves import film
 
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         ask({"command": "run", "column": "paper-12-drums", "harmonic": "1Hz,0.05g,0.1s", "json": True})
@@ -171,7 +170,7 @@ def growing(job: str, state: str, tell: Callable[..., None]) -> Callable[[Callab
 
 def make_film(job: str, tell: Callable[..., None], response: Response) -> None:
     """Make the film of a run, in the folder of its job."""
-    from .film import write_film
+    from .curves import write_film
 
     try:
         write_film(response, Path(FILM))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import os
 import queue
 import secrets
+import shlex
 import shutil
 import signal
 import subprocess
@@ -14,15 +16,130 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import asdict, dataclass, fields
 from itertools import count
 from pathlib import Path
 from typing import Any
 
+from stylobate.atomic import LIST, replacing
 from stylobate.cli.main import words_of
 from stylobate.errors import InputError
 
-from .job import CANCELLED, DONE, FAILED, REFUSED, RUNNING, WAITING, Job
+from .forms import in_page_words
 from .records import private, private_file
+
+# A job of the page: what was asked, its command lines, and what has become of it; kept in a folder of its own.
+
+#: States of a job: it waits, is computed, has ended well, was refused as bad input, failed, or was stopped.
+WAITING, RUNNING, DONE, REFUSED, FAILED, CANCELLED = "waiting", "running", "done", "refused", "failed", "cancelled"
+
+#: The file that keeps a job; those from which the page draws its film, and its points as they come.
+JOB, FILM, GROWING = "job.json", "film.json", "growing.json"
+
+
+@dataclass
+class Job:
+    """Facts of a job.
+
+    Parameters
+    ----------
+    id : str
+    folder : Path
+    kind : str
+        ``run``, ``critical``, ``domain``, ``ida``, ``report``, or one of :data:`~stylobate_page.forms.FORMS`.
+    title : str
+        What it computes, in a line.
+    commands : list of list of str
+        Command lines that do it, without the program's name: for people.
+    asked : dict
+        What the page asked for, so that it can be asked again.
+    requests : list of dict
+        What commands are asked for it, one after the other, as :func:`stylobate.cli.main.ask` takes it; none in jobs of
+        earlier versions.
+    """
+
+    id: str
+    folder: Path
+    kind: str
+    title: str
+    commands: list[list[str]]
+    asked: dict[str, Any]
+    requests: list[dict[str, Any]] = dataclasses.field(default_factory=list)
+    state: str = WAITING
+    created: float = dataclasses.field(default_factory=time.time)
+    started: float | None = None
+    ended: float | None = None
+    done: float = 0.0
+    total: float = 0.0
+    what: str = ""
+    sentence: str = ""
+    field: str | None = None
+    warnings: list[str] = dataclasses.field(default_factory=list)
+    results: list[dict[str, Any]] = dataclasses.field(default_factory=list)
+    version: int = 0
+    filmed: bool = False
+    grown: int = 0
+    _files: list[str] | None = dataclasses.field(default=None, init=False, repr=False, compare=False)
+
+    @property
+    def open(self) -> bool:
+        """Whether it waits or is computed."""
+        return self.state in (WAITING, RUNNING)
+
+    def files(self) -> list[str]:
+        """Files that can be taken away: what stood, what was asked and what has come of it; not what is kept half-way."""
+        if self._files is not None:
+            return self._files
+        found = [path for path in self.folder.rglob("*") if path.is_file() and not path.is_symlink()]
+        names = [one.relative_to(self.folder).as_posix() for one in found if one.name[0] != "." and one.name != LIST]
+        self._files = sorted(name for name in names if name not in (JOB, FILM, GROWING) and ".sqlite" not in name)
+        return self._files
+
+    def changed(self) -> None:
+        """Look at its files anew when they are asked for next."""
+        self._files = None
+
+    def to_dict(self, whole: bool = True) -> dict[str, Any]:
+        """For the page; less what was asked and what came of it, unless all of it is wanted."""
+        left_out = ("folder", "_files", "requests", *(() if whole else ("asked", "results")))
+        plain = {field.name: getattr(self, field.name) for field in fields(self) if field.name not in left_out}
+        plain |= {"results": in_page_words(plain["results"])} if whole else {}
+        plain["commands"] = [as_typed(command) for command in self.commands]
+        plain["files"] = [] if self.open else self.files()
+        plain["film"] = (self.filmed or not self.open) and (self.folder / FILM).is_file()
+        return plain
+
+    def lines(self) -> bytes:
+        """Its command lines as a text file."""
+        return "".join(f"{as_typed(command)}\n" for command in self.commands).encode("utf-8", "backslashreplace")
+
+    def save(self) -> None:
+        """Keep it in its folder."""
+        plain = asdict(self) | {"folder": None}
+        plain.pop("_files")
+        with replacing(self.folder / JOB) as partial:
+            partial.write_text(json.dumps(plain), encoding="utf-8")
+
+    @classmethod
+    def load(cls, folder: Path) -> Job | None:
+        """The job that a folder keeps; None where it keeps none."""
+        try:
+            job = cls(**json.loads((folder / JOB).read_text(encoding="utf-8")) | {"folder": folder})
+            job.created = float(job.created)
+        except (OSError, ValueError, TypeError):
+            return None
+        if job.open:
+            job.state, job.sentence = (
+                CANCELLED,
+                "The page was ended meanwhile; what is finished is kept: go on with it.",
+            )
+        return job
+
+
+def as_typed(command: Sequence[str]) -> str:
+    """A command line as a person types it."""
+    return shlex.join(("stylobate", *command))
+
 
 #: Most jobs that wait, and that are kept.
 WAIT, KEEP = 50, 300
@@ -104,7 +221,7 @@ class Workshop:
         Parameters
         ----------
         kind, title, requests, asked
-            As for :class:`stylobate_page.job.Job`.
+            As for :class:`stylobate_page.workshop.Job`.
         prepare : callable
             Writes what the requests need into the job's folder.
 
@@ -265,7 +382,10 @@ class Workshop:
         """The process that does jobs; where it has ended, the one that waits to take over, or a new one."""
         if self._process is None or self._process.over:
             if self._process is not None:
-                self._leave(self._process)
+                # Let a process end by itself, and go on meanwhile.
+                leaving = threading.Thread(target=self._process.put_away, name="leaving", daemon=True)
+                leaving.start()
+                self._leaving = [one for one in self._leaving if one.is_alive()] + [leaving]
             spare, self._spare = self._spare, None
             if spare is not None and spare.over:
                 spare.put_away()
@@ -278,12 +398,6 @@ class Workshop:
         """Have a second process at hand, for a short job that comes while a long one is computed: libraries take seconds."""
         if self._spare is None and not self._closing and not process.over:
             self._spare = self._new()
-
-    def _leave(self, process: Process) -> None:
-        """Let a process end by itself, and go on meanwhile."""
-        leaving = threading.Thread(target=process.put_away, name="leaving", daemon=True)
-        leaving.start()
-        self._leaving = [one for one in self._leaving if one.is_alive()] + [leaving]
 
     def _new(self) -> Process:
         return Process(self.worker, self._log, self._news)

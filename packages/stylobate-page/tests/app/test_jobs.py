@@ -133,7 +133,7 @@ def test_jobs_are_there_after_a_restart(tmp_path, asked):
 
 def test_the_end_of_a_job_is_the_last_word(tmp_path, asked, monkeypatch):
     """A job that ends while its beginning is still being written is kept as ended."""
-    from stylobate_page.job import Job
+    from stylobate_page.workshop import Job
 
     with served(tmp_path) as page:
         written = Job.save

@@ -11,7 +11,7 @@ import pytest
 
 from stylobate.cli.main import call
 from stylobate.errors import InputError
-from stylobate_page.records import held
+from stylobate_page.records import locked_folder
 
 
 def test_the_address_comes_first_and_the_end_is_clean(tmp_path):
@@ -65,24 +65,24 @@ def test_a_folder_is_of_one_page_at_a_time(tmp_path, capsys, monkeypatch):
     """A second one would end the jobs of the first; what this one keeps, nobody else on the machine can read."""
     monkeypatch.setattr("uvicorn.Server.run", lambda *_: pytest.fail("it was served"))
     kept = tmp_path / "kept"
-    with held(kept):
+    with locked_folder(kept):
         assert kept.stat().st_mode & 0o777 == 0o700
         assert call(["serve", "--port", "0", "--no-browser", "--out", str(kept)]) == 2
         said = capsys.readouterr().err
         assert said.startswith(f"stylobate: {kept} is not free: a page is served from it already; ")
         assert said.count("\n") == 1
-    with held(kept):  # it is free again
+    with locked_folder(kept):  # it is free again
         pass
 
 
 def test_parts_of_a_folder_are_made_private_or_refused(tmp_path):
     for name in ("jobs", "records"):
         (tmp_path / name).mkdir(mode=0o755)
-    with held(tmp_path):
+    with locked_folder(tmp_path):
         assert {(tmp_path / name).stat().st_mode & 0o777 for name in ("jobs", "records")} == {0o700}
     (tmp_path / "jobs").rmdir()
     (tmp_path / "jobs").symlink_to(tmp_path / "records")
-    with pytest.raises(InputError, match="is a link"), held(tmp_path):
+    with pytest.raises(InputError, match="is a link"), locked_folder(tmp_path):
         pass
 
 

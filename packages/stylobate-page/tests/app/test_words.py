@@ -17,7 +17,7 @@ from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning, check_range
 from stylobate_page import worker
 from stylobate_page.forms import LABELS, doubted, in_page_words, warned
-from stylobate_page.job import Job
+from stylobate_page.workshop import Job
 
 STATIC = Path(stylobate_page.__file__).parent / "static"
 OPTION = re.compile(r"(?<![\w-])--[a-z]")

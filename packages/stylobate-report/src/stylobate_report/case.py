@@ -22,8 +22,7 @@ from stylobate.version import __version__
 from . import page
 from .language import Language, language_of, numbered, speaking
 from .others import sections_of
-from .page import Own
-from .pdf import print_pdf
+from .page import Own, print_pdf
 from .project import Project, front_sections
 from .record import NOTE, SOURCES, files_section
 from .runs import run_sections, several_sections

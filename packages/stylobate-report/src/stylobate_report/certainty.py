@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from stylobate.messages import digits, joined, say
-from stylobate.percent import percent, percents
+from stylobate.messages import digits, joined, percent, percents, say
 from stylobate.response.measures import JOINT, SPREAD
 from stylobate.verdicts.population import OVER_ALL, only_as_seen, set_against
 

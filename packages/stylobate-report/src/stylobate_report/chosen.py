@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 
-from stylobate.messages import digits, joined, say
-from stylobate.percent import percent
+from stylobate.messages import digits, joined, percent, say
 from stylobate.results import Numbers
 
 from . import numbers as n

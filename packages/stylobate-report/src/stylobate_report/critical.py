@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from stylobate.messages import digits, joined, say
-from stylobate.percent import percents
+from stylobate.messages import digits, joined, percents, say
 from stylobate.results import Numbers
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.critical import as_recorded
@@ -32,7 +31,7 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     records = s.get("records") or []
     pairs = [
         (say("runs"), n.plain(s["runs"])),
-        (joined(" / ", map(say, v.MADE)), joined(" / ", (n.plain(s.get(one)) for one in v.MADE))),
+        (joined(" / ", map(say, v.COMPUTED)), joined(" / ", (n.plain(s.get(one)) for one in v.COMPUTED))),
     ]
     if (own := s.get("as_recorded")) is not None:
         pairs.append((say("the record as it is"), as_recorded(own)))
@@ -77,7 +76,7 @@ def _twins(s: dict[str, Any]) -> list[Item]:
         if shown.get(name := f"critical_{share}_g") is not None
     ]
     limits = zip(s["collapse_interval_low"], s["collapse_interval_high"])
-    counts = zip(*(s[f"twins_{one}"] for one in v.MADE))
+    counts = zip(*(s[f"twins_{one}"] for one in v.COMPUTED))
     rows = [
         [digits(a, ".4g"), n.plain(factor), *map(str, verdicts), _share(*verdicts[:3]), percents(*interval)]
         for a, factor, verdicts, interval in zip(s["amplitudes_g"], scale, counts, limits)
@@ -85,7 +84,7 @@ def _twins(s: dict[str, Any]) -> list[Item]:
     header = [
         say("amplitude [g]"),
         say("factor of the record"),
-        *map(say, v.MADE),
+        *map(say, v.COMPUTED),
         say("share that collapses"),
         say("95 % interval of it"),
     ]

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from stylobate.messages import joined, say
-from stylobate.motion.intensity_specs import parse_measure
+from stylobate.motion.intensity import parse_measure
 from stylobate.probability.design import (
     OPEN,
     WHICH_LEVEL,

@@ -20,7 +20,7 @@ from typing import Any
 from stylobate.atomic import replacing
 from stylobate.errors import InputError
 from stylobate.messages import Message, filled, say
-from stylobate.reading import read_bytes, shown
+from stylobate.text_tables import printable, read_bytes
 
 from .numbers import SPANNING
 from .page import Code, Facts, Item, Note, Own, Picture, Points, Section
@@ -201,7 +201,7 @@ def language_of(name: str, own: Iterable[str] = ()) -> Language:
     head = dict(line.partition(": ")[::2] for line in found.pop("", "").splitlines())
     if not head.get("Language"):
         raise InputError(
-            f"{shown(name)} states no Language in its head; add it there, such as Language: de.", "language"
+            f"{printable(name)} states no Language in its head; add it there, such as Language: de.", "language"
         )
     return Language(head["Language"], found, own, head.get(DECIMAL, "."), head.get(GROUPS, ","))
 
@@ -232,14 +232,14 @@ def catalogue_of(path: Path) -> dict[str, str]:
             try:
                 parts[key] += ast.literal_eval(line[start.end() :] if start else line)
             except (KeyError, SyntaxError, TypeError, ValueError):
-                raise InputError(f"{shown(path)} is no catalogue: {line[:60]!r} is not understood.") from None
+                raise InputError(f"{printable(path)} is no catalogue: {line[:60]!r} is not understood.") from None
         english, said = parts["msgid"], parts["msgstr"]
         if not said.strip() or re.search(r"^#,.*\bfuzzy\b", entry, re.MULTILINE):
             continue
         if set(FIELD.findall(said)) != set(FIELD.findall(english)) and english:
             raise InputError(
-                f"{shown(path)}: the translation of {english!r} must hold {', '.join(FIELD.findall(english)) or 'no field'} "
-                "in braces, as the message does."
+                f"{printable(path)}: the translation of {english!r} must hold "
+                f"{', '.join(FIELD.findall(english)) or 'no field'} in braces, as the message does."
             )
         found[english] = said
     return found

@@ -14,8 +14,8 @@ from stylobate.column.toml import Table, read_table
 from stylobate.errors import InputError
 from stylobate.messages import joined, say
 from stylobate.probability.design import OPEN
-from stylobate.reading import shown
 from stylobate.results import Result, RunResult, SeveralRuns
+from stylobate.text_tables import printable
 from stylobate.version import __version__
 
 from .design import SHOWN, design_of, governing_rows
@@ -56,7 +56,7 @@ def read_project(path: str | Path) -> Project:
     project = read_table(path, Project)
     for key, value in project:
         if any(not text.strip() for text in ([value] if isinstance(value, str) else value or [])):
-            raise InputError(f"{shown(path)}: {key} is empty; write it, or leave an optional key out.")
+            raise InputError(f"{printable(path)}: {key} is empty; write it, or leave an optional key out.")
     if project.language.endswith(".po"):
         project = project.model_copy(update={"language": str(Path(path).parent / project.language)})
     language_of(project.language)

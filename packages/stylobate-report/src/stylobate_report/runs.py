@@ -11,9 +11,8 @@ import numpy as np
 from stylobate import plots
 from stylobate.bibliography import cite_run
 from stylobate.constants import g
-from stylobate.messages import digits, joined, say
+from stylobate.messages import digits, joined, percent, say
 from stylobate.outcome import Outcome
-from stylobate.percent import percent
 from stylobate.response import Response
 from stylobate.response.words import doubt_of, each_doubt, opening_words, to_decide
 from stylobate.results import RunResult, SeveralRuns
@@ -47,12 +46,7 @@ UPLIFT = say(
 
 
 def run_sections(run: RunResult) -> list[Section]:
-    """All sections of one run.
-
-    Parameters
-    ----------
-    run : RunResult
-    """
+    """All sections of one run."""
     r, summary = run.response, run.summary
     column = r.structure.stack
     asked = run.asked.motions[0] if run.asked is not None and run.asked.motions else None

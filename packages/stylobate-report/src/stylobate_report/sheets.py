@@ -14,16 +14,16 @@ from stylobate.errors import InputError, check_choice, check_whole
 from stylobate.plots.drawing import (
     LINE,
     PLAN,
-    SEEN,
+    VIEWS,
     JointPlan,
-    Seen,
+    StructureViews,
     draw_plan,
     joint_plans,
     lines_under,
     plan_axes,
     plan_reach,
 )
-from stylobate.plots.solids import ALONG_X, ALONG_Y, View
+from stylobate.plots.scene import ALONG_X, ALONG_Y, View
 from stylobate.plots.style import BLACK, GREY, styled
 from stylobate.version import __version__
 
@@ -86,10 +86,10 @@ def sheets_to_scale(
     if scale is not None:
         check_whole("scale", scale, 1, SCALES[-1])
     name = title or structure.name
-    seen = Seen.of(structure)
+    seen = StructureViews.of(structure)
     size, scale, places = _fitting(seen, paper, scale)
     figures = [_sheet(size, name, scale, paper)]
-    for view, words in SEEN:
+    for view, words in VIEWS:
         axes = _axes(figures[0], size, places[view], words)
         seen.draw(axes, seen.sheet(axes, view, scale * 1e-3 * INCH / POINTS), view)
     plans = joint_plans(structure)
@@ -102,7 +102,7 @@ def sheets_to_scale(
     return tuple(figures)
 
 
-def _fitting(seen: Seen, paper: str, scale: int | None) -> tuple[tuple[float, float], int, dict[View, Place]]:
+def _fitting(seen: StructureViews, paper: str, scale: int | None) -> tuple[tuple[float, float], int, dict[View, Place]]:
     """Sheet [mm], scale and places of elevations and plan on it; the largest scale, upright rather than across."""
     short, long = PAPERS[paper]
     sheets = ((short, long), (long, short))
@@ -123,10 +123,10 @@ def _fitting(seen: Seen, paper: str, scale: int | None) -> tuple[tuple[float, fl
     )
 
 
-def _places(seen: Seen, sheet: tuple[float, float], scale: int) -> dict[View, Place] | None:
+def _places(seen: StructureViews, sheet: tuple[float, float], scale: int) -> dict[View, Place] | None:
     """Elevations beside one another on one ground and the plan under the first or beside them; None without room."""
     sizes = {}
-    for view, _ in SEEN:
+    for view, _ in VIEWS:
         low, high = seen.box(view)
         room = {side: points * INCH / POINTS for side, points in seen.margins(view).items()}
         wide, high_ = (1000.0 / scale * (high - low)).tolist()

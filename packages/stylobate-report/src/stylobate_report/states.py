@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from stylobate.messages import digits, joined, say
-from stylobate.motion.intensity_specs import parse_measure
-from stylobate.percent import percents
+from stylobate.messages import digits, joined, percents, say
+from stylobate.motion.intensity import parse_measure
 from stylobate.probability.evidence import evidence
 from stylobate.probability.fragility import FEWEST
 from stylobate.probability.states import NOT_TOLD, STRONGER, WEAKER

@@ -12,8 +12,7 @@ from stylobate.column import Column
 from stylobate.errors import StylobateError
 from stylobate.messages import digits, joined, say
 from stylobate.results import Numbers, Result, RunResult
-from stylobate.statics.limit import limit_analysis, towards
-from stylobate.statics.limit_assemblies import listed, weakest_direction
+from stylobate.statics.limit import limit_analysis, listed, towards, weakest_direction
 from stylobate.statics.pushover import pushover
 
 from . import numbers as n

@@ -10,14 +10,15 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.atomic import OwnFiles
 from stylobate.campaign.ledger import APPLICATION
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.motion import write_csv
-from stylobate.own_files import OwnFiles
 from stylobate.plots import style
 from stylobate.results import Kind, read_results
-from stylobate_report import pdf, pictures
+from stylobate_report import page as pdf
+from stylobate_report import pictures
 from stylobate_report.case import write_report
 from stylobate_report.language import LANGUAGES, Language, catalogue_of, file_of
 from stylobate_report.project import Project

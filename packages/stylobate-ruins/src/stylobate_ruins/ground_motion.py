@@ -7,9 +7,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import log_ndtr, ndtr
 
 from stylobate.constants import g
-from stylobate.errors import InputError, check_choice, check_range
+from stylobate.errors import InputError, check_choice, check_range, within
+from stylobate.motion.motion import Motion
 
 #: Styles of faulting.
 MECHANISMS = ("normal", "reverse", "strike-slip")
@@ -303,3 +305,227 @@ def _disc(centre: np.ndarray, radius: float) -> np.ndarray:
     far = radius * np.sqrt((np.arange(RINGS) + 0.5) / RINGS)
     turned = 2.0 * np.pi * (np.arange(RAYS) + 0.5 * (np.arange(RINGS)[:, None] % 2)) / RAYS
     return centre + np.stack((far[:, None] * np.cos(turned), far[:, None] * np.sin(turned)), axis=2).reshape(-1, 2)
+
+
+# Pulses in two horizontal directions: the ground's velocity goes round an ellipse under a bell that rises and falls.
+
+#: Samples in a period; the acceleration is linear between them.
+IN_A_PERIOD = 100
+
+
+def elliptical_pulse(
+    period: float,
+    velocity: float,
+    *,
+    azimuth: float = 0.0,
+    ellipticity: float = 0.0,
+    cycles: float = 2.0,
+    phase: float = 90.0,
+) -> Motion:
+    """The near-fault pulse of Mavroeidis and Papageorgiou along one axis, a quarter of a cycle late across it.
+
+    Parameters
+    ----------
+    period : float
+        T, of the carrier [s].
+    velocity : float
+        Largest length of the ground's velocity vector [m/s].
+    azimuth : float
+        α: direction of the strong axis, from x towards y [degrees].
+    ellipticity : float
+        e: peak velocity across the strong axis over that along it [-]; 0 for straight shaking.
+    cycles : float
+        γ: length of the pulse in periods, above 1 [-].
+    phase : float
+        ν: of the carrier in the middle of the pulse [degrees].
+
+    Returns
+    -------
+    Motion
+        Samples of a pulse of 1 m/s, scaled by ``velocity``.
+
+    Raises
+    ------
+    InputError
+        A number outside its range.
+
+    Notes
+    -----
+    With τ the time from the middle, along and across the strong axis,
+
+        v = (A/2) [1 + cos(2πτ/(γT))] (cos(2πτ/T + ν), e sin(2πτ/T + ν))
+
+    for |τ| ≤ γT/2 and zero elsewhere. To turn by 180° is to add 180° to the phase: where every phase is as likely, the
+    strong axis has no sense, and azimuths that differ by 180° are the same.
+
+    References
+    ----------
+    Mavroeidis and Papageorgiou (2003).
+    """
+    length = check_range("period", period, 1e-3, 1e3, unit="s")
+    peak = check_range("velocity", velocity, 0.0, 1e3, unit="m/s")
+    alpha = np.radians(check_range("azimuth", azimuth, -360.0, 360.0, unit="degrees"))
+    aside = check_range("ellipticity", ellipticity, 0.0, 1.0)
+    gamma = check_range("cycles", cycles, 1.0, 20.0, open_low=True)
+    nu = np.radians(check_range("phase", phase, -360.0, 360.0, unit="degrees"))
+    steps = int(np.ceil(gamma * IN_A_PERIOD))
+    time = np.linspace(-0.5 * gamma, 0.5 * gamma, steps + 1)  # in periods
+    bell, slope = 1.0 + np.cos(2.0 * np.pi * time / gamma), -np.sin(2.0 * np.pi * time / gamma) / gamma
+    angle = 2.0 * np.pi * time + nu
+    carrier, rate = np.stack((np.cos(angle), aside * np.sin(angle))), np.stack((-np.sin(angle), aside * np.cos(angle)))
+    unit = float(np.hypot(*(bell * carrier)).max())  # of the velocity, times 2/A
+    flat = 2.0 * np.pi / length * (slope * carrier + bell * rate) / unit  # dv/dt of a pulse of 1 m/s
+    x = np.cos(alpha) * flat[0] - np.sin(alpha) * flat[1]
+    y = np.sin(alpha) * flat[0] + np.cos(alpha) * flat[1]
+    facts = {"pulse_length": gamma * length, "references": ("mavroeidis2003",)}
+    name = f"pulse {length:.3g} s, {peak:.3g} m/s, towards {azimuth:.3g}°"
+    return Motion(gamma * length / steps, x, y, factor=peak, name=name, metadata=facts)
+
+
+# Earthquakes that shake several places at once: rates of what they reach there, one by one and together.
+
+#: Events whose medians differ at no place by more than this count as one [-], in the logarithm.
+CELL = 0.1
+
+#: Share of the rate whose events are taken for ones that reach one state at most [-].
+NEGLIGIBLE_SHARE = 2e-3
+
+
+@dataclass(frozen=True, eq=False)
+class SharedEvents:
+    """Events as places feel them: ln im = μ + τη + φε, η one number for an event, ε alike at places that are near.
+
+    Parameters
+    ----------
+    rate : array, shape (e,)
+        [1/y]
+    log_median : array, shape (e, s)
+        μ at each place.
+    between, within : float
+        τ, φ.
+    root : array, shape (s, s)
+        Of the covariance of τη + φε from place to place: it is ``root @ root.T``.
+    """
+
+    rate: np.ndarray
+    log_median: np.ndarray
+    between: float
+    within: float
+    root: np.ndarray
+
+    @property
+    def spread(self) -> float:
+        """Standard deviation of ln im at one place."""
+        return float(np.hypot(self.between, self.within))
+
+    @classmethod
+    def of(
+        cls, sources: Sequence[Source], model: GroundMotionModel, measure: str,
+        places: Sequence[tuple[float, float]], vs30: Sequence[float], names: Sequence[str],
+    ) -> SharedEvents:  # fmt: skip
+        """Events of sources at places.
+
+        Parameters
+        ----------
+        sources : sequence of Source
+        model : GroundMotionModel
+        measure : str
+            ``pga`` or ``pgv``.
+        places : sequence of (float, float)
+            Longitude and latitude [degrees].
+        vs30 : sequence of float
+            [m/s]
+        names : sequence of str
+            Of the places.
+
+        Raises
+        ------
+        InputError
+            The model does not hold for a magnitude, or as far as a place lies from a source.
+        """
+        middle = (float(np.mean([one[0] for one in places])), float(np.mean([one[1] for one in places])))
+        flat = plane(places, middle)
+        rates, medians = [], []
+        for source in sources:
+            events = events_of(source, middle)
+            rates.append(events.rate)
+            felt = []
+            for place, soil, name in zip(flat, vs30, names, strict=True):
+                with within(f"source {source.name!r} at {name!r}"):
+                    far = events.distance(place)
+                    felt.append(model.log_median(measure, events.magnitude, far, soil, source.mechanism))
+            medians.append(np.stack(felt, axis=1))
+        rate, median = _gathered(np.concatenate(rates), np.concatenate(medians))
+        apart = np.linalg.norm(flat[:, None] - flat[None], axis=2)
+        between, inside = model.spread(measure)
+        values, vectors = np.linalg.eigh(between**2 + inside**2 * alike(measure, apart))
+        return cls(rate, median, between, inside, vectors * np.sqrt(np.maximum(values, 0.0)))
+
+    def curve(self, im: np.ndarray) -> np.ndarray:
+        """How often a year intensities are exceeded at each place, shape (s, k)."""
+        z = (self.log_median[:, :, None] - np.log(im)) / self.spread
+        return np.tensordot(self.rate, ndtr(z), axes=1)
+
+    def each(self, place: np.ndarray, log_median: np.ndarray, beta: np.ndarray) -> np.ndarray:
+        """Rate of each state by itself, in closed form, shape (n, k).
+
+        Parameters
+        ----------
+        place : array of int, shape (n,)
+        log_median, beta : array, shape (n, k)
+            ln θ and β of the states.
+        """
+        wide = np.sqrt(beta**2 + self.spread**2)
+        return np.array(
+            [
+                self.rate @ ndtr((self.log_median[:, at, None] - theta) / one)
+                for at, theta, one in zip(place, log_median, wide, strict=True)
+            ]
+        )
+
+    def together(
+        self, sets: np.ndarray, structures: np.ndarray, place: np.ndarray, log_median: np.ndarray, beta: np.ndarray,
+        each: np.ndarray, normal: np.ndarray,
+    ) -> np.ndarray:  # fmt: skip
+        """Rate of events that reach any state of each set, shape (m,).
+
+        Σ_e ν_e E[1 − Π_structures (1 − max P(state | im))], the mean over drawn η and ε; what one event reaches twice is
+        drawn, what it reaches by itself is exact, and Eq. (G9) bounds it.
+
+        Parameters
+        ----------
+        sets : array of bool, shape (m, n)
+        structures, place : array of int, shape (n,)
+        log_median, beta, each : array, shape (n,)
+            Of the states; ``each`` as :meth:`each` gives it.
+        normal : array, shape (q, s)
+            Independent standard normal numbers.
+        """
+        # Events that make all but :data:`LEFT_OUT` of what is reached: of the others nothing is reached twice.
+        z = (self.log_median[:, place] - log_median) / np.hypot(beta, self.spread)
+        part = (self.rate[:, None] * ndtr(z)).sum(axis=1)
+        order = np.argsort(part)
+        matter = order[np.cumsum(part[order]) > NEGLIGIBLE_SHARE * part.sum()]
+        shaken = self.log_median[matter, None, :] + normal @ self.root.T  # (e, q, s)
+        missed = log_ndtr((log_median - shaken[..., place]) / beta).reshape(-1, len(place))
+        survived = np.zeros((len(missed), len(sets)))
+        for one in np.unique(structures):
+            mine = np.flatnonzero(structures == one)
+            if len(mine) == 1:
+                survived += missed[:, mine] * sets[:, mine].T
+            else:
+                survived += np.where(sets[None][:, :, mine], missed[:, None, mine], 0.0).min(axis=2)
+        reached = -np.expm1(missed) @ sets.T  # the sum of what each reaches, for every set
+        twice = (-np.expm1(survived) - reached).reshape(-1, len(normal), len(sets)).mean(axis=1)
+        found = sets @ each + self.rate[matter] @ twice
+        least = np.where(sets, each, 0.0).max(axis=1)
+        return np.clip(found, least, np.maximum(sets @ each, least))
+
+
+def _gathered(rate: np.ndarray, median: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Events that shake all places nearly alike, as one with their mean."""
+    _, cell = np.unique(np.round(median / CELL), axis=0, return_inverse=True)
+    cell = cell.ravel()
+    total = np.bincount(cell, rate)
+    mean = np.stack([np.bincount(cell, rate * one) / total for one in median.T], axis=1)
+    return total, mean

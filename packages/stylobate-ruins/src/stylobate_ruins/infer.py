@@ -14,10 +14,10 @@ import numpy as np
 from stylobate.campaign.campaign import RUNS, Campaign
 from stylobate.errors import InputError, check_kind
 from stylobate.messages import joined, say
-from stylobate.notebook import Shown
+from stylobate.notebook import NotebookSummary
 
 from . import abc
-from .answers import CALLED, FEWEST, TOLD, Answers, Posterior, listed, words_of
+from .answers import FEWEST, LABELS, UNITS, Answers, Posterior, listed, words_of
 from .outlasting import Outlasting, hazard_of, outlasting
 from .ruin import Fact, Ruin
 from .ruin_check import Checked, checks_of
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Inference(Shown):
+class Inference(NotebookSummary):
     """The answer: what shaking it was, as far as shapes tell.
 
     Parameters
@@ -124,8 +124,8 @@ class Inference(Shown):
             said.append(words.of(pgv=words_of("pgv_m_s", pgv)))
         told = [name for name, one in self.posterior.items() if one.informative and name != "pgv_m_s"]
         word = say("{name:capital} {value}.")
-        said += [word.of(name=say(CALLED[name]), value=words_of(name, self.posterior[name])) for name in told]
-        untold = [CALLED[name] for name, one in self.posterior.items() if not one.informative]
+        said += [word.of(name=say(LABELS[name]), value=words_of(name, self.posterior[name])) for name in told]
+        untold = [LABELS[name] for name, one in self.posterior.items() if not one.informative]
         if untold:
             said.append(say("The shapes do not tell {names}: what they leave is the prior.", names=listed(untold)))
         factor, at_least = self.bayes_factor
@@ -155,7 +155,7 @@ class Inference(Shown):
         import pandas
 
         return pandas.DataFrame(
-            [{"parameter": CALLED[name], "unit": TOLD[name], **one.summary()} for name, one in self.posterior.items()]
+            [{"parameter": LABELS[name], "unit": UNITS[name], **one.summary()} for name, one in self.posterior.items()]
         )
 
     @property
@@ -211,10 +211,6 @@ def infer(
         Folder that keeps the table (``simulations.npz``) and the finished runs: the next question to the same table takes
         seconds, and more ``simulations`` add to it.
     campaign, **settings : Campaign, optional
-
-    Returns
-    -------
-    Inference
 
     Raises
     ------

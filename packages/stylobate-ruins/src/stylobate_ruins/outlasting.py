@@ -22,10 +22,10 @@ from stylobate.errors import InputError
 from stylobate.probability.risk import Hazard, read_hazard
 
 from . import abc
-from .outlasted import Outlasted
+from .answers import VECTORS, plan
 from .ruin import Fact
 from .simulations import FELL, STANDS, Simulations
-from .traces import VECTORS, plan
+from .survival import Outlasted
 
 #: Parameter that the intensity of a hazard curve is, by its unit, and what such a curve is of.
 MEASURES = {"m/s": ("pgv_m_s", "PGV"), "g": ("pga_g", "PGA")}

@@ -19,7 +19,7 @@ from stylobate.constants import g
 from stylobate.errors import InputError, as_typed, check_all, check_choice, check_range, check_whole
 from stylobate.motion import Motion, integrate
 
-from .elliptical import elliptical_pulse
+from .ground_motion import elliptical_pulse
 
 #: Quantities of a synthetic motion: least and most that is allowed, and the unit.
 RANGES = {

@@ -20,8 +20,8 @@ from stylobate.errors import (
 )
 from stylobate.models.base import Model
 
-from .outlasted import Outlasted
 from .prior import MOST, Prior
+from .survival import Outlasted
 
 #: What may have become of a column; of the last two nothing follows for this earthquake.
 STATES = ("stands", "fell", "fell before", "unknown")

@@ -10,8 +10,8 @@ import numpy as np
 from stylobate.messages import say
 
 from . import abc
+from .answers import EVENTS, LEAST_OFFSET, LEAST_TWIST, LENGTHS
 from .ruin import Fact
-from .traces import EVENTS, LEAST_OFFSET, LEAST_TWIST, LENGTHS
 
 if TYPE_CHECKING:
     from .answers import Answers

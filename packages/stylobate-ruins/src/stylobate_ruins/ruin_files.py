@@ -8,8 +8,8 @@ from typing import Any
 
 from stylobate.campaign.study_files import ColumnScatterTable, listed
 from stylobate.column.assembly_files import load_structure
+from stylobate.column.catalogue import PRESETS
 from stylobate.column.joint import LAWS
-from stylobate.column.presets import PRESETS
 from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.column.structure import Structure
 from stylobate.column.toml import Table, read_table
@@ -19,11 +19,11 @@ from stylobate.models.registry import make_model
 from stylobate.motion import Motion
 from stylobate.motion.request import MotionRequest
 from stylobate.motion.specs import parse_acceleration, parse_angle, parse_time, parse_velocity
-from stylobate.reading import shown
+from stylobate.text_tables import printable
 
-from .outlasted import Outlasted
 from .prior import LOSSES, Prior
 from .ruin import DRAWN_OF_MODEL, USUAL_COUNT, Observed, Ruin, refuse_drawn
+from .survival import Outlasted
 
 #: Columns that are as surveyed: of a ``[prior.scatter]`` that names nothing.
 AS_SURVEYED = Scatter(**dict.fromkeys(LARGEST, 0.0))
@@ -98,7 +98,7 @@ def read_ruin(path: str | Path) -> Ruin:
         The file cannot be read, or describes no ruin; the message names the place and the remedy.
     """
     table, folder = read_table(path, RuinFile), Path(path).parent
-    with within(shown(path)):
+    with within(printable(path)):
         structures = [load_structure(name if name in PRESETS else folder / name) for name in table.columns]
         observed = []
         for number, one in enumerate(table.observed or [], 1):

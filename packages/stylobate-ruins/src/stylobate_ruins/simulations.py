@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from stylobate.atomic import digest as digest_of_file
 from stylobate.atomic import replacing
 from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.digests import LENGTH, Digests, Hasher, laws
@@ -21,8 +22,7 @@ from stylobate.column.structure import Structure
 from stylobate.errors import InputError
 from stylobate.models.base import Case, Cases, Model
 from stylobate.models.drums.stepped import LossyDrums
-from stylobate.models.shared.quiet import QUIET
-from stylobate.own_files import digest as digest_of_file
+from stylobate.models.shared.ground import QUIET
 from stylobate.response.rows import Rows
 from stylobate.version import __version__
 
@@ -47,7 +47,7 @@ TOGETHER = 200
 
 
 @dataclass(frozen=True, eq=False)
-class Left:
+class FinalState:
     """What is left of one structure by every draw.
 
     Parameters
@@ -76,7 +76,7 @@ class Left:
     moved: np.ndarray
 
     @classmethod
-    def of(cls, structure: Structure, rows: Sequence[dict[str, Any]]) -> Left:
+    def of(cls, structure: Structure, rows: Sequence[dict[str, Any]]) -> FinalState:
         """From rows of runs (``Measures.row()``)."""
         joints, bodies = joints_of(structure), bodies_of(structure) if structure.stack is None else []
         fallen, moved = np.zeros((len(rows), len(bodies)), dtype=bool), np.full((len(rows), len(bodies), 2), np.nan)
@@ -118,7 +118,7 @@ class Simulations:
 
     prior: Prior
     parameters: dict[str, np.ndarray]
-    left: tuple[Left, ...]
+    left: tuple[FinalState, ...]
     seed: int = 0
 
     def __len__(self) -> int:
@@ -131,7 +131,7 @@ class Simulations:
 
     def some(self, which: np.ndarray) -> Simulations:
         """Some of the draws."""
-        left = [Left(one.name, *(getattr(one, name)[which] for name in FIELDS)) for one in self.left]
+        left = [FinalState(one.name, *(getattr(one, name)[which] for name in FIELDS)) for one in self.left]
         return replace(
             self, parameters={name: values[which] for name, values in self.parameters.items()}, left=tuple(left)
         )
@@ -250,7 +250,7 @@ class _Table:
         n, left = len(self.structures), []
         for i, structure in enumerate(self.structures):
             own = [rows[k * n + i] or {} for k in range(len(self.draws))]
-            left.append(Left.of(structure, own))
+            left.append(FinalState.of(structure, own))
         return Simulations(self.draws.prior, self.draws.parameters, tuple(left), self.draws.seed)
 
     @property
@@ -289,7 +289,7 @@ class _Table:
                 if str(found["digest"]) != self.digest:
                     return None
                 names = [structure.name for structure in self.structures]
-                left = [Left(name, *(found[f"{i} {field}"] for field in FIELDS)) for i, name in enumerate(names)]
+                left = [FinalState(name, *(found[f"{i} {field}"] for field in FIELDS)) for i, name in enumerate(names)]
                 start = "parameter "
                 parameters = {name[len(start) :]: found[name] for name in found.files if name.startswith(start)}
         except InputError:

@@ -15,12 +15,12 @@ import numpy as np
 from scipy.special import ndtri
 
 from stylobate.errors import InputError, check_kind, within
-from stylobate.notebook import Shown
-from stylobate.percent import percent
+from stylobate.messages import percent
+from stylobate.notebook import NotebookSummary
 from stylobate.probability.risk import Hazard, doubts, rates
 
+from .ground_motion import SharedEvents
 from .monuments import Branch, Sites
-from .shared_events import SharedEvents
 from .survival import Pattern, together
 
 #: Draws of ages, and of fragilities with each, where events are known by hazard curves and where they are drawn.
@@ -43,7 +43,7 @@ WAYS = ("as weighed", "each its own", "all shared")
 
 
 @dataclass(frozen=True, eq=False)
-class Weighing(Shown):
+class Weighing(NotebookSummary):
     """Weights of branches before and after what is seen.
 
     Parameters
@@ -230,14 +230,6 @@ def bits(after: np.ndarray, before: np.ndarray) -> float:
 
 def weigh(sites: Sites) -> Weighing:
     """Weigh hazards by what is seen of monuments.
-
-    Parameters
-    ----------
-    sites : Sites
-
-    Returns
-    -------
-    Weighing
 
     Raises
     ------

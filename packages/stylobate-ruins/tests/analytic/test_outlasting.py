@@ -8,7 +8,7 @@ from stylobate.probability.risk import Hazard
 from stylobate_ruins.answers import Answers
 from stylobate_ruins.outlasting import hazard_of, outlasting, rates_of
 from stylobate_ruins.ruin import Fact
-from stylobate_ruins.simulations import FELL, STANDS, Left, Simulations
+from stylobate_ruins.simulations import FELL, STANDS, FinalState, Simulations
 
 #: Draws; PGV that fells the rock [m/s]; age [y].
 DRAWS, FELLS, AGE = 20_000, 0.5, 1500.0
@@ -31,7 +31,7 @@ def rock(slip=0.0) -> Simulations:
     unknown = {"law": np.zeros(DRAWS), "stiffness_damping_s": np.full(DRAWS, 1e-4)}
     verdict = np.where(pgv > FELLS, FELL, STANDS).astype(np.int8)
     moved = np.stack((slip * pgv, 0.0 * pgv), axis=-1)[:, None, :]
-    left = Left("rock", verdict, np.full(DRAWS, np.nan), moved, np.zeros((DRAWS, 1)), *NO_BODIES)
+    left = FinalState("rock", verdict, np.full(DRAWS, np.nan), moved, np.zeros((DRAWS, 1)), *NO_BODIES)
     return Simulations(PRIOR, {"pgv_m_s": pgv, **rest, **unknown}, (left,))
 
 

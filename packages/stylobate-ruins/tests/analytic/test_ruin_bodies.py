@@ -6,7 +6,7 @@ import pytest
 import stylobate as st
 from stylobate.campaign.campaign import Campaign
 from stylobate_ruins.answers import Answers
-from stylobate_ruins.simulations import FELL, STANDS, Left, Simulations, simulations_of
+from stylobate_ruins.simulations import FELL, STANDS, FinalState, Simulations, simulations_of
 
 #: A slender pillar, and a stout block far beside it.
 PAIR = st.SpatialAssembly(
@@ -33,7 +33,7 @@ def made(count: int = 2000) -> Simulations:
     moved = np.zeros((count, 2, 2))
     moved[:, 1, 0] = 0.1 * np.maximum(pgv - 0.2, 0.0)
     verdict = np.where(fallen.any(axis=1), FELL, STANDS).astype(np.int8)
-    left = Left("pair", verdict, np.where(fallen[:, 0], 90.0, np.nan), moved, np.zeros((count, 2)), fallen, moved)
+    left = FinalState("pair", verdict, np.where(fallen[:, 0], 90.0, np.nan), moved, np.zeros((count, 2)), fallen, moved)
     return Simulations(PRIOR, parameters, (left,))
 
 

@@ -10,9 +10,8 @@ from scipy.stats import multivariate_normal, norm
 import stylobate as st
 from stylobate.errors import InputError
 from stylobate.probability.risk import Hazard
-from stylobate_ruins.ground_motion import CORRELATED, MODELS, Source, alike, events_of, rupture_length
+from stylobate_ruins.ground_motion import CORRELATED, MODELS, SharedEvents, Source, alike, events_of, rupture_length
 from stylobate_ruins.monuments import Branch, Capacity, Monument, Site, Sites
-from stylobate_ruins.shared_events import SharedEvents
 from stylobate_ruins.survival import Pattern, stands, together
 from stylobate_ruins.weighing import WAYS, weigh
 

@@ -5,7 +5,7 @@ import pytest
 
 import stylobate as st
 from stylobate.column.joint import Losses
-from stylobate_ruins.elliptical import elliptical_pulse
+from stylobate_ruins.ground_motion import elliptical_pulse
 from stylobate_ruins.prior import peaks
 
 PRIOR = st.Prior(pgv=(0.1, 1.5), period=(0.3, 1.6))

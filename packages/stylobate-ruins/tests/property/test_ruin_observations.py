@@ -9,7 +9,7 @@ import stylobate as st
 from stylobate_ruins.answers import Answers
 from stylobate_ruins.infer import Inference
 from stylobate_ruins.ruin import Fact
-from stylobate_ruins.simulations import FELL, STANDS, Left, Simulations
+from stylobate_ruins.simulations import FELL, STANDS, FinalState, Simulations
 
 #: Draws; of which joint 1 slips with the shaking, and joints 2 to 4 without regard to it.
 DRAWS = 1500
@@ -37,7 +37,9 @@ def made(seed: int = 1) -> Simulations:
         slip[:, 0] = (0.05 * size**3)[:, None] * stream.standard_normal((DRAWS, 2))
         verdict = np.where(size > 1.0, FELL, STANDS).astype(np.int8)
         towards = np.where(size > 1.0, 360.0 * stream.random(DRAWS), np.nan)
-        left.append(Left(name, verdict, towards, slip, twist, np.zeros((DRAWS, 0), bool), np.zeros((DRAWS, 0, 2))))
+        left.append(
+            FinalState(name, verdict, towards, slip, twist, np.zeros((DRAWS, 0), bool), np.zeros((DRAWS, 0, 2)))
+        )
     return Simulations(PRIOR, {"pgv_m_s": pgv, "period_s": period, **rest}, tuple(left))
 
 

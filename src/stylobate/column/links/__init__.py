@@ -36,8 +36,8 @@ def link_from_dict(fields: Mapping[str, Any]) -> Link:
     kind = str(values.pop("kind", ""))
     if "between" in values:
         place = {name: values.pop(name) for name in ("between", "at", "to", "name") if name in values}
-        return _made(kind, KINDS)(**place, numbers=Numbers(**values))
-    made = _made(kind, COLUMN_KINDS)
+        return _link_kind(kind, KINDS)(**place, numbers=Numbers(**values))
+    made = _link_kind(kind, COLUMN_KINDS)
     values = {name: value for name, value in values.items() if value is not None}
     known = {field.name for field in dataclasses.fields(made)} - {"between", "numbers", "made"}
     _refuse_unknown(kind, values, known)
@@ -73,7 +73,7 @@ def block_link(
     InputError
         The message names the value and what is allowed.
     """
-    made = _made(kind, KINDS)
+    made = _link_kind(kind, KINDS)
     _refuse_unknown(kind, what, made.known())
     if to is not None and made.lies == "joint":
         raise InputError(f"a {kind} has one place, at; leave to out, or make it a clamp or a tie.", "to")
@@ -82,7 +82,7 @@ def block_link(
     return made(**place, **values).in_numbers()
 
 
-def _made(kind: str, kinds: Mapping[str, type[Link]]) -> Any:
+def _link_kind(kind: str, kinds: Mapping[str, type[Link]]) -> Any:
     if kind in KINDS and kind not in kinds:
         raise InputError(
             f"kind of a link is {kind!r}, which holds blocks side by side: give it in an assembly; a column takes "

@@ -92,7 +92,7 @@ class Pin(Link):
             "shear_stiffness": stiffness,
             "shear_capacity": capacity,
             "clearance": self.clearance or 0.0,
-            "ultimate_slip": given(self.ultimate_slip, lost),
+            "ultimate_slip": value_or(self.ultimate_slip, lost),
             "failure": failure,
             "reach": ROUNDED * d if d is not None else capacity / stiffness if limited else 0.0,
             "governs": governs,
@@ -118,7 +118,7 @@ class Pin(Link):
                 capacity, governs = limits[least], least
                 failure = failure or ("crushing" if least.startswith("crushing") else "ductile")
         assert stiffness is not None
-        return stiffness, given(capacity, math.inf), failure or "ductile", governs
+        return stiffness, value_or(capacity, math.inf), failure or "ductile", governs
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,7 +161,7 @@ class Dowel(Pin):
 
     def held(self, site: Site) -> Numbers:
         """By Hetényi's beam in either drum, and the weakest of Johansen's modes."""
-        return Numbers(**self.across(self.embedment), **self.stone(), lift=given(self.embedment, math.inf))
+        return Numbers(**self.across(self.embedment), **self.stone(), lift=value_or(self.embedment, math.inf))
 
 
 def shear_stiffness(material: str, diameter: float, embedment: float, stone_modulus: float) -> float:
@@ -204,7 +204,7 @@ def shear_limits(material: str, diameter: float, embedment: float, stone_strengt
     }
 
 
-def given(value: float | None, other: float) -> float:
+def value_or(value: float | None, other: float) -> float:
     """A value, or what stands in for one that is left out."""
     return other if value is None else value
 
@@ -261,7 +261,7 @@ class Bar(Dowel):
         """As a dowel, and against opening by even bond over its embedment in both drums."""
         across, axial = self.across(self.embedment), self._anchored()
         governs = f"{across.pop('governs')}; {axial.pop('governs')}"
-        return Numbers(**across, **axial, **self.stone(), lift=given(self.embedment, math.inf), governs=governs)
+        return Numbers(**across, **axial, **self.stone(), lift=value_or(self.embedment, math.inf), governs=governs)
 
     def _anchored(self) -> dict[str, Any]:
         stiffness, capacity, ultimate = self.axial_stiffness, self.axial_capacity, self.ultimate_elongation
@@ -276,16 +276,16 @@ class Bar(Dowel):
             if capacity is None:
                 limits = {
                     "yield of the bar": made.tensile_strength * area,
-                    "bond to the stone": math.pi * d * length * given(self.bond, BOND),
+                    "bond to the stone": math.pi * d * length * value_or(self.bond, BOND),
                 }
                 governs = min(limits, key=lambda name: limits[name])
                 capacity = limits[governs]
-            ultimate = given(ultimate, made.ultimate_strain * length)
+            ultimate = value_or(ultimate, made.ultimate_strain * length)
         assert stiffness is not None
         return {
             "axial_stiffness": stiffness,
-            "axial_capacity": given(capacity, math.inf),
-            "ultimate_elongation": given(ultimate, math.inf),
+            "axial_capacity": value_or(capacity, math.inf),
+            "ultimate_elongation": value_or(ultimate, math.inf),
             "pretension": self.pretension,
             "governs": governs,
         }
@@ -368,14 +368,14 @@ class Clamp(Pin):
                 capacity, governs = limits[least], least
                 failure = failure or ("crushing" if least.startswith("legs: crushing") else "ductile")
             lost = made.ultimate_strain * length if least == "yield of the bar" else made.ultimate_slip * d
-            ultimate = given(ultimate, lost)
+            ultimate = value_or(ultimate, lost)
         assert stiffness is not None
         return Numbers(
             **across,
-            lift=given(self.embedment, math.inf),
+            lift=value_or(self.embedment, math.inf),
             axial_stiffness=stiffness,
-            axial_capacity=given(capacity, math.inf),
-            ultimate_elongation=given(ultimate, math.inf),
+            axial_capacity=value_or(capacity, math.inf),
+            ultimate_elongation=value_or(ultimate, math.inf),
             axial_failure=failure or "ductile",
             governs=f"across: {in_groove}; along: {governs}",
         )
@@ -490,16 +490,16 @@ class Tie(Line):
             made, d = MATERIALS[self.material], self.diameter
             assert d is not None
             area = math.pi * d * d / 4.0
-            stiffness = given(stiffness, made.modulus * area / site.length)
+            stiffness = value_or(stiffness, made.modulus * area / site.length)
             if capacity is None:
                 capacity, governs = made.tensile_strength * area, "yield of the bar"
-            ultimate = given(ultimate, made.ultimate_strain * site.length)
+            ultimate = value_or(ultimate, made.ultimate_strain * site.length)
         assert stiffness is not None
         return Numbers(
             diameter=self.diameter or 0.0,
             axial_stiffness=stiffness,
-            axial_capacity=given(capacity, math.inf),
-            ultimate_elongation=given(ultimate, math.inf),
+            axial_capacity=value_or(capacity, math.inf),
+            ultimate_elongation=value_or(ultimate, math.inf),
             pretension=self.pretension,
             governs=governs,
         )
@@ -575,8 +575,8 @@ class Layer(Link):
             friction_coefficient=self.friction_coefficient,
             shear_stiffness=self.shear_stiffness,
             damping=self.damping,
-            shear_capacity=given(self.shear_capacity, math.inf),
-            ultimate_slip=given(self.ultimate_slip, math.inf),
+            shear_capacity=value_or(self.shear_capacity, math.inf),
+            ultimate_slip=value_or(self.ultimate_slip, math.inf),
             governs="as given",
         )
 

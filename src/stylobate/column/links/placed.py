@@ -1,21 +1,26 @@
-"""Links where they are, in numbers: what kernels, statics and pictures read, their pull, and the stone around them."""
+"""Links where they are: places in columns and assemblies, whether they can be there, and what is read of them in numbers."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from ...errors import InputError, within
+from ...errors import InputError, suggest, within
 from ...messages import joined, say
-from ..turning import UPRIGHT, Quaternion, matrix_of
+from ..block import Block, FaceJoint
+from ..drum import Drum
+from ..joint import Joint
+from ..shapes import UPRIGHT, Quaternion, matrix_of
+from ..stack import Stack
 from . import COLUMN_KINDS
 from .anchorage import StoneAround, in_stone
-from .link import Lies, Link, Mark, Numbers
+from .kinds import Line
+from .link import LEAST_LENGTH, Lies, Link, Mark, Numbers, Site, in_space, point
 
 Point = tuple[float, float, float]
 Result = TypeVar("Result")
@@ -285,7 +290,7 @@ def pull_on_part(
 
 #: What follows where the stone gives way first: of capacities that are computed, and of those that are given.
 BREAKS = say("Computed is that the stone breaks there, and the link then holds nothing.")
-GIVEN = say("That capacity is given, and taken as it is: it has to be known of the link in this stone.")
+CAPACITY_STATED = say("That capacity is given, and taken as it is: it has to be known of the link in this stone.")
 
 
 #: What limit analysis does not see of it.
@@ -308,7 +313,7 @@ def stone_words(links: Sequence[PlacedLink]) -> str:
         if bears < holds
     ]
     told = []
-    for given, words in ((False, BREAKS), (True, GIVEN)):
+    for given, words in ((False, BREAKS), (True, CAPACITY_STATED)):
         weak = [way for way in ways if way[-1] == given]
         if weak:
             _, link, how, bears, holds, stone, _ = min(weak, key=lambda way: way[0])
@@ -349,3 +354,498 @@ def stone_that_breaks(links: Sequence[PlacedLink]) -> str:
         return ""
     said = say("The stone gives way before {number} of {all} links do: their capacity here is that of the stone.")
     return said.of(number=len(weak), all=len(anchors))
+
+
+# Links of a column at their places, and whether they can be there: joints, sections, lengths of drums, clear ways.
+
+#: Points along a tie at which it is looked at whether it passes through stone.
+LOOKS_IN_COLUMN = 400
+
+
+def place_in_column(stack: Stack, links: Sequence[Link], name: str) -> tuple[PlacedLink, ...]:
+    """All links of a column of this name in numbers, in their order.
+
+    Raises
+    ------
+    InputError
+        A link that cannot be: one sentence that names it, the value and what is allowed.
+    """
+
+    def place(link: Link) -> PlacedLink:
+        if link.between is not None:
+            raise InputError(f"a {link.kind} of a column has no between; give its joint or drums by number.", "between")
+        if link.lies == "side":
+            raise InputError(f"a {link.kind} holds blocks side by side, of which a column has none; give a bar.")
+        return _line(link, stack) if isinstance(link, Line) else _in_joint(link, stack)
+
+    return place_all(links, name, place)
+
+
+def _in_joint(link: Any, stack: Stack) -> PlacedLink:
+    """Place of a link in a joint: in the section, from the drum below to the drum above."""
+    if link.joint > stack.n:
+        raise InputError(
+            f"there is no joint {link.joint} for a {link.kind}; the joints are 1 (with the base) to {stack.n}.", "joint"
+        )
+    upper = link.joint - 1
+    numbers = link.held(Site(math.nan, float(stack.joint_areas[upper]), stack.joint_edge(upper)))
+    faces = [(stack.drums[upper], "bottom", link.joint)]
+    faces += [(stack.drums[upper - 1], "top", upper)] if upper else []
+    pin, edge = link.mark != "sheet", math.inf
+    for drum, side, number in faces:
+        inside = _inside(drum, side, link.at)
+        where = f"a {link.kind} at {_place(link.at)} in joint {link.joint}"
+        if inside < 0.0:
+            raise InputError(
+                f"{where} is outside the section, by {-inside:.3g} m on drum {number}; move it inward.", "at"
+            )
+        edge = min(edge, inside)
+        inside -= 0.5 * numbers.diameter
+        if pin and inside < RIM:
+            raise InputError(
+                f"{where} leaves {1000.0 * inside:.3g} mm of stone to the rim of drum {number}; at least "
+                f"{1000.0 * RIM:g} mm must be left: move it inward or make it thinner.",
+                "at",
+            )
+    for drum, _, number in faces:
+        if numbers.lift < math.inf and numbers.lift > drum.height:
+            raise InputError(
+                f"a {link.kind} is embedded by {numbers.lift:g} m, and drum {number} is {drum.height:g} m high; make "
+                "it shorter.",
+                "embedment",
+            )
+    link.check_joint(stack.joints[upper])
+    place = (*link.at, float(stack.joint_heights[upper]))
+    half = numbers.lift if math.isfinite(numbers.lift) else STROKE * float(stack.heights[upper])
+    called = link.name or say("{kind} in joint {joint}", kind=say(link.kind), joint=link.joint)
+    numbers = replace(numbers, edge=edge if pin else math.inf)
+    return _placed(link, numbers, called, stack, (upper, upper + 1), (place, place), joint=link.joint, stroke=half)
+
+
+def _line(link: Line, stack: Stack) -> PlacedLink:
+    """Straight links between a drum, or the base, and a drum above it."""
+    upper = stack.n if link.to_drum is None else link.to_drum
+    if upper > stack.n or link.from_drum >= upper:
+        raise InputError(
+            f"a {link.kind} goes from drum {link.from_drum} to drum {upper}; the drums are 1 to {stack.n}.", "to_drum"
+        )
+    bodies = link.from_drum, upper
+    levels = [_level(stack, *end) for end in zip(bodies, link.holds_at, (link.from_height, link.to_height))]
+    low, high = ((*place, level) for place, level in zip(link.in_plan, levels, strict=True))
+    for drum, end, name in ((link.from_drum, low, "from_height"), (upper, high, "to_height")):
+        bottom = float(stack.joint_heights[drum - 1]) if drum else -math.inf
+        top = bottom + float(stack.heights[drum - 1]) if drum else 0.0
+        if not bottom - 1e-9 <= end[2] <= top + 1e-9:
+            allowed = f"{bottom:g} to {top:g} m" if drum else "up to 0 m"
+            raise InputError(
+                f"{name} of a {link.kind} is {end[2]:g} m; allowed on drum {drum} is {allowed} above the base.", name
+            )
+    length = math.dist(low, high)
+    if length < 1e-3:
+        raise InputError(f"a {link.kind} has no length: both its ends are at {_place(low)}; move one of them.", "to")
+    numbers = link.held(Site(length))
+    if link.through_stone:
+        _check_hole(link, stack, low, high, numbers.diameter)
+    else:
+        _check_way(link, stack, low, high)
+    ends = (
+        say("{kind} from the base to drum {upper}")
+        if link.from_drum == 0
+        else say("{kind} from drum {lower} to drum {upper}")
+    )
+    called = link.name or ends.of(kind=say(link.kind), lower=link.from_drum, upper=upper)
+    return _placed(link, numbers, called, stack, bodies, (low, high))
+
+
+def _placed(
+    link: Link, numbers: Any, called: str, stack: Stack, bodies: tuple[int, int], ends: tuple[Point, Point], **more: Any
+) -> PlacedLink:
+    origins = tuple((0.0, 0.0, float(stack.centroid_heights[body - 1]) if body else 0.0) for body in bodies)
+    return placed(
+        numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark,
+        lower=bodies[0], upper=bodies[1], low=ends[0], high=ends[1], origins=(origins[0], origins[1]), **more,
+    )  # fmt: skip
+
+
+def _level(stack: Stack, drum: int, share: float, given: float | None) -> float:
+    """Height of the end of a line on a drum, 0 being the base [m]."""
+    if given is not None:
+        return given
+    return 0.0 if drum == 0 else float(stack.joint_heights[drum - 1] + share * stack.heights[drum - 1])
+
+
+def _check_way(link: Link, stack: Stack, low: Point, high: Point) -> None:
+    """Refuse a line that passes through stone."""
+    for share in np.linspace(0.0, 1.0, LOOKS_IN_COLUMN + 1):
+        x, y, z = (a + share * (b - a) for a, b in zip(low, high, strict=True))
+        number = int(np.searchsorted(stack.joint_heights, z, side="right"))
+        deep = -z if z < 0.0 else -1.0 if z > stack.height else _inside_at(stack, max(number, 1), (x, y), z)
+        if deep > GROOVE:
+            stone = "the base" if z < 0.0 else f"drum {number}"
+            raise InputError(
+                f"a {link.kind} passes through stone: {1000.0 * deep:.3g} mm inside {stone}, {z:.3g} m above the base; move "
+                "it outward, or make it a core.",
+                "at",
+            )
+
+
+def _check_hole(link: Line, stack: Stack, low: Point, high: Point, diameter: float) -> None:
+    """Refuse a line in a hole that leaves too little stone."""
+    for number in range(link.from_drum or 1, (stack.n if link.to_drum is None else link.to_drum) + 1):
+        for z in (stack.joint_heights[number - 1], stack.joint_heights[number - 1] + stack.heights[number - 1]):
+            share = min(max((float(z) - low[2]) / (high[2] - low[2]), 0.0), 1.0) if high[2] != low[2] else 0.0
+            place = tuple(a + share * (b - a) for a, b in zip(low[:2], high[:2], strict=True))
+            inside = _inside_at(stack, number, place, float(z)) - 0.5 * diameter
+            if inside < RIM:
+                raise InputError(
+                    f"a {link.kind} leaves {1000.0 * inside:.3g} mm of stone to the rim of drum {number}; at least "
+                    f"{1000.0 * RIM:g} mm must be left: move it inward or make it thinner.",
+                    "at",
+                )
+
+
+def _inside(drum: Drum, side: str, place: tuple[float, ...]) -> float:
+    """Depth of a place within a face [m]; negative outside."""
+    width, depth = (drum.bottom_width, drum.depth) if side == "bottom" else (drum.top_width, drum.upper_depth)
+    return _within(drum, width, depth, place)
+
+
+def _inside_at(stack: Stack, number: int, place: tuple[float, ...], z: float) -> float:
+    drum = stack.drums[number - 1]
+    share = (z - float(stack.joint_heights[number - 1])) / drum.height
+    width = drum.bottom_width + (drum.top_width - drum.bottom_width) * share
+    return _within(drum, width, drum.depth_at(share * drum.height), place)
+
+
+def _within(drum: Drum, width: float, depth: float, place: tuple[float, ...]) -> float:
+    if drum.circular:
+        return 0.5 * width - math.hypot(*place[:2])
+    return min(0.5 * width - abs(place[0]), 0.5 * depth - abs(place[1]))
+
+
+def _place(place: tuple[float, ...]) -> str:
+    return f"[{', '.join(f'{one:g}' for one in place)}] m"
+
+
+def ends_on_bodies(
+    link: PlacedLink, lower: tuple[float, float], upper: tuple[float, float], foot: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray, tuple[float, float]]:
+    """Places of a link on its two bodies in the axes of their faces [m], shape (3,), and in which direction it slips.
+
+    Parameters
+    ----------
+    link : PlacedLink
+    lower, upper : tuple of float
+        Directions of the upper faces of the two bodies, as cosine and sine.
+    foot : tuple of float
+        Middle of the lower face of the upper body from its centroid, along the face and normal to it [m].
+    """
+    low, high = link.arms
+    if link.straight:
+        return _turned(low, *lower), _turned(high, *upper), lower
+    return _turned(low, *lower), np.array([link.high[0] + foot[0], link.high[1], foot[1]]), lower
+
+
+def _turned(place: np.ndarray, c: float, s: float) -> np.ndarray:
+    """A place [m], shape (3,), turned in the plane by an angle of this cosine and sine."""
+    return np.array([c * place[0] - s * place[2], place[1], s * place[0] + c * place[2]])
+
+
+# Links of an assembly at their places, and whether they can be there: ends in bodies, joints, clear ways, legs.
+
+#: Largest distance of the end of a tie from its body, on a bracket; and of a given place from its joint [m].
+BRACKET, BESIDE = 1.0, 1e-3
+
+#: Points along a straight link at which it is looked at whether it passes through stone.
+LOOKS_IN_ASSEMBLY = 200
+
+#: Axes of a link: two across it, and its own.
+Frame = tuple[Point, Point, Point]
+
+
+class JointPlace(NamedTuple):
+    """A place in the joint of two bodies by number: in space [m], with the axes of the joint, and its law.
+
+    It is ``deep`` within the joint (negative outside), ``edge`` from the nearest edge of the faces, also those across a
+    plane; and the bodies are as ``tall`` there, the lower and the upper one [m].
+    """
+
+    lower: int
+    upper: int
+    place: Point
+    frame: Frame
+    deep: float
+    edge: float
+    tall: tuple[float, float]
+    law: Joint
+
+
+class Scene:
+    """Blocks of an assembly in the plane and the joints between them, among which links find their places."""
+
+    def __init__(self, bodies: Sequence[Block], joints: Sequence[FaceJoint]) -> None:
+        self.bodies, self.joints = bodies, joints
+
+    def place(self, link: Link) -> PlacedLink:
+        """A link with its place.
+
+        Raises
+        ------
+        InputError
+            A link that cannot be: the value, what is allowed, and a remedy.
+        """
+        lower, upper = bodies_named(link, self.bodies)
+        frame: Frame = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+        edge = math.inf
+        if link.lies == "joint":
+            found = self._in_joint(link, lower, upper)
+            lower, upper, low, frame, edge = found.lower, found.upper, found.place, found.frame, found.edge
+            high = low
+        else:
+            low, high = self._ends(link, lower, upper)
+        if link.lies == "side":
+            frame = self.clamp_frame(link, low, high)
+            self._check_legs(link, (lower, low), (upper, high))
+        origins, turns = zip(self.pose(lower), self.pose(upper), strict=True)
+        where = {"origins": origins, "turns": turns, "frame": frame, "stroke": STROKE * self.reach(upper, frame[2])}
+        return _placed_between(link, lower, upper, low, high, edge, **where)
+
+    def _ends(self, link: Link, lower: int, upper: int) -> tuple[Point, Point]:
+        """Ends of a clamp, tie or core in space as drawn [m]."""
+        low, high = (in_space(end) for end in link.ends)
+        far = BRACKET if link.lies == "line" else 0.0
+        for body, end, name in ((lower, low, "at"), (upper, high, "to")):
+            outside = -float(self.depth(body, np.array([end]), whole=False)[0])
+            if outside > far + 1e-6 * min(self.bodies[body].size, 1.0):
+                within = f"within {far:g} m of it" if far else "in it"
+                raise InputError(
+                    f"{name} of a {link.kind} is {self.shown(end)}, {outside:.3g} m outside block "
+                    f"{self.bodies[body].name!r}; its end must be {within}.",
+                    name,
+                )
+        if not getattr(link, "through_stone", False):
+            self._check_way(link, lower, upper, low, high)
+        return low, high
+
+    def _check_way(self, link: Link, lower: int, upper: int, low: Point, high: Point) -> None:
+        """Refuse a line through stone; a clamp lies in its two bodies."""
+        points = np.linspace(low, high, LOOKS_IN_ASSEMBLY + 1)
+        first, last = points.min(axis=0), points.max(axis=0)
+        for i, body in enumerate(self.bodies):
+            if (link.lies == "side" and i in (lower, upper)) or not self.near(i, first, last):
+                continue
+            deep = self.depth(i, points, whole=True)
+            worst = int(deep.argmax())
+            if deep[worst] > GROOVE:
+                remedy = (
+                    f"a {link.kind} lies in two blocks only"
+                    if link.lies == "side"
+                    else "move it beyond the face (at = [x, y, z]), or make it a core"
+                )
+                raise InputError(
+                    f"a {link.kind} passes through stone: {1000.0 * deep[worst]:.3g} mm inside block {body.name!r} at "
+                    f"{self.shown(points[worst])}; {remedy}."
+                )
+
+    def _in_joint(self, link: Any, one: int, other: int) -> JointPlace:
+        """Place of a dowel, bar, layer or pad, with the edge that it brings along or has there."""
+        found, numbers = self.joint_place(link, one, other), link.numbers
+        where = f"a {link.kind} at {self.shown(found.place)}"
+        if found.deep < 0.0:
+            raise InputError(f"{where} is outside the section, by {-found.deep:.3g} m; move it inward.", "at")
+        left = found.edge - 0.5 * numbers.diameter
+        looked_at = numbers.edge < math.inf  # in the column that brings it along
+        if numbers.diameter and not looked_at:
+            if left < RIM:
+                raise InputError(
+                    f"{where} leaves {1000.0 * left:.3g} mm of stone to the rim; at least {1000.0 * RIM:g} mm must be left: "
+                    "move it inward or make it thinner.",
+                    "at",
+                )
+            for body, tall in zip((found.lower, found.upper), found.tall, strict=True):
+                if not self.bodies[body].fixed and tall < numbers.lift < math.inf:
+                    raise InputError(
+                        f"a {link.kind} is embedded by {numbers.lift:g} m, and block {self.bodies[body].name!r} is "
+                        f"{tall:.4g} m high there; make it shorter.",
+                        "embedment",
+                    )
+        link.check_joint(found.law)
+        return found._replace(edge=numbers.edge) if looked_at else found
+
+    def _check_legs(self, link: Any, *ends: tuple[int, Point]) -> None:
+        """Refuse legs that are longer than the stone that they are in is thick."""
+        legs = link.numbers.lift
+        for body, end in ends:
+            if self.bodies[body].fixed or not math.isfinite(legs):
+                continue
+            thick = self.thickness(body, end)
+            if thick < legs:
+                raise InputError(
+                    f"legs of a {link.kind} are {legs:g} m long, and block {self.bodies[body].name!r} is {thick:.4g} m "
+                    "thick; make them shorter.",
+                    "legs",
+                )
+
+    # -- in the plane; in space otherwise ---------------------------------------------------------------------------------
+
+    def shown(self, place: Any) -> str:
+        """A place in messages."""
+        return point(place)
+
+    def depth(self, body: int, points: np.ndarray, *, whole: bool) -> np.ndarray:
+        """Depth of points in a body, in the plane alone unless ``whole`` [m], shape (m, 3) to (m,); negative outside."""
+        block = self.bodies[body]
+        found = np.array([_depth(block, (x, z)) for x, _, z in points.tolist()])
+        return np.minimum(found, 0.5 * block.depth - np.abs(points[:, 1])) if whole and not block.fixed else found
+
+    def near(self, body: int, low: np.ndarray, high: np.ndarray) -> bool:
+        """Whether a body may reach into a box [m]."""
+        return True
+
+    def joint_place(self, link: Any, one: int, other: int) -> JointPlace:
+        """Where in the joint of two bodies a link is: in its middle where no place is given."""
+        joint = next((j for j in self.joints if {j.lower, j.upper} == {one, other}), None)
+        if joint is None:
+            raise no_joint(link)
+        faces, sides = [], (joint.lower, joint.upper)
+        for body, k in zip(sides, (joint.lower_face, joint.upper_face), strict=True):
+            corners = self.bodies[body].corners
+            faces.append(np.array([corners[k], corners[(k + 1) % len(corners)]]))
+        right, left = faces[0]  # the lower body's face runs against the direction of the joint
+        t = (right - left) / math.hypot(*(right - left))
+        spans = [np.sort((face - left) @ t) for face in faces]
+        low, high = max(span[0] for span in spans), min(span[1] for span in spans)
+        s, y = 0.5 * (low + high), 0.0
+        if link.at is not None:
+            x, y, z = in_space(link.at)
+            way = np.array([x, z]) - left
+            s, off = float(way @ t), float(t[0] * way[1] - t[1] * way[0])
+            if abs(off) > BESIDE:
+                raise beside_joint(link, self.shown((x, y, z)), abs(off))
+        deep = min(s - low, high - s)
+        aside = min(0.5 * self.bodies[body].depth - abs(y) for body in sides if not self.bodies[body].fixed)
+        tall = [float(np.ptp(self.bodies[body].corners @ np.array([-t[1], t[0]]))) for body in sides]
+        x, z = (float(one) for one in left + s * t)
+        frame = _frame(float(t[0]), float(t[1]))
+        return JointPlace(*sides, (x, y, z), frame, deep, min(deep, aside), (tall[0], tall[1]), joint.law)
+
+    def clamp_frame(self, link: Link, low: Point, high: Point) -> Frame:
+        """Axes of a clamp between its ends: to the right of the way between them, across the plane, and along it."""
+        x, z = high[0] - low[0], high[2] - low[2]
+        length = math.hypot(x, z)
+        if length < LEAST_LENGTH:
+            raise InputError(
+                f"a {link.kind} has no length: both its ends are at {self.shown(low)}; move one of them.", "to"
+            )
+        return _frame(z / length, -x / length)
+
+    def thickness(self, body: int, place: Point) -> float:
+        """Thickness of the stone of a body in which a leg at a place is [m]."""
+        return self.bodies[body].thickness
+
+    def pose(self, body: int) -> tuple[Point, Quaternion]:
+        """Where a body is, and its axes."""
+        x, z = self.bodies[body].origin
+        return (x, 0.0, z), UPRIGHT
+
+    def reach(self, body: int, way: Point) -> float:
+        """How high a body is along a direction [m], for the mark of a link that is embedded in it."""
+        return self.bodies[body].thickness
+
+
+def _frame(c: float, s: float) -> Frame:
+    """Axes in the plane, the first of this cosine and sine."""
+    return (c, 0.0, s), (0.0, 1.0, 0.0), (-s, 0.0, c)
+
+
+def no_joint(link: Any) -> InputError:
+    """The refusal of a link in a joint that is not there."""
+    return InputError(
+        f"{link.between[0]!r} and {link.between[1]!r} have no joint for a {link.kind}; name two blocks whose faces touch, "
+        "or make it a clamp or a tie.",
+        "between",
+    )
+
+
+def beside_joint(link: Any, place: str, off: float) -> InputError:
+    """The refusal of a link at a place that is so far from its joint [m]."""
+    return InputError(
+        f"a {link.kind} at {place} is {off:.3g} m from the joint of {link.between[0]!r} and {link.between[1]!r}; give a "
+        "place in it, or leave at out for its middle.",
+        "at",
+    )
+
+
+def place_between(scene: Scene, links: Sequence[Link], name: str) -> tuple[PlacedLink, ...]:
+    """All links between bodies of an assembly of this name, each already in numbers, in their order.
+
+    Raises
+    ------
+    InputError
+        A link that cannot be: one sentence that names it, the value and what is allowed.
+    """
+    return place_all(links, name, scene.place)
+
+
+def in_numbers(links: Sequence[Link], name: str) -> tuple[Link, ...]:
+    """Links of an assembly of this name with what they hold in place of material and size; errors as of their kinds."""
+    return tuple(for_each(links, name, Link.in_numbers))
+
+
+def bodies_named(link: Link, bodies: Sequence[Any]) -> tuple[int, int]:
+    """Numbers of the two bodies that a link names.
+
+    Raises
+    ------
+    InputError
+        A name that does not exist, one body twice, or two that are fixed.
+    """
+    assert link.between is not None
+    names = [body.name for body in bodies]
+    missing = next((one for one in link.between if one not in names), None)
+    if missing is not None:
+        raise InputError(
+            f"a {link.kind} names block {missing!r}, which does not exist; {suggest(missing, names)}correct its name.",
+            "between",
+        )
+    one, other = (names.index(name) for name in link.between)
+    if one == other:
+        raise InputError(f"a {link.kind} is between {link.between[0]!r} and itself; name two blocks.", "between")
+    if bodies[one].fixed and bodies[other].fixed:
+        raise InputError(
+            f"a {link.kind} is between two bodies that both move with the ground; name one that can move.", "between"
+        )
+    return one, other
+
+
+def _placed_between(
+    link: Link, lower: int, upper: int, low: Point, high: Point, edge: float = math.inf, **where: Any
+) -> PlacedLink:
+    """A link of two bodies by number, between its ends as drawn [m]; so far from the nearest edge of its joint, where it
+    brings no distance along [m]; ``where`` has the other fields of its place."""
+    assert link.between is not None
+    assert link.numbers is not None
+    numbers = replace(link.numbers, edge=min(link.numbers.edge, edge))
+    if link.lies == "side":  # it does not leave its groove by opening; its legs are longer than that
+        numbers = replace(numbers, lift=math.inf)
+    if math.isfinite(numbers.lift):
+        where["stroke"] = numbers.lift
+    between = say("{kind} between {l.between[0]} and {l.between[1]}", kind=say(link.kind), l=link)
+    called = link.name or between
+    return placed(
+        numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark, lower=lower, upper=upper,
+        low=low, high=high, **where,
+    )  # fmt: skip
+
+
+def _depth(block: Block, place: tuple[float, float]) -> float:
+    """Depth of a place in a block [m]; negative outside, as far as its nearest side's line or corner is."""
+    corners = block.corners
+    side = np.roll(corners, -1, axis=0) - corners
+    length = np.hypot(side[:, 0], side[:, 1])
+    way = np.array(place) - corners
+    inward = (side[:, 0] * way[:, 1] - side[:, 1] * way[:, 0]) / length
+    if inward.min() >= 0.0:
+        return float(inward.min())
+    share = np.clip((way * side).sum(axis=1) / length**2, 0.0, 1.0)
+    return -float(np.hypot(*(way - share[:, None] * side).T).min())

@@ -15,11 +15,10 @@ from ...errors import InputError, check_kind, check_range
 from ..assembly import Assembly, check_fields
 from ..block import FAR_AWAY, Block, ground_block, length_of
 from ..column import GRAVITIES, Column
-from ..joint import Joint, given
+from ..joint import Joint, stated_fields
 from ..links import link_from_dict
-from ..links.in_assembly import in_numbers, place_between
 from ..links.link import Link
-from ..links.placed import PlacedLink
+from ..links.placed import PlacedLink, in_numbers, place_between
 from ..structure import Bed, Body, Structure
 from .links import SpaceScene
 from .placing import drums_in_space
@@ -332,11 +331,11 @@ class SpatialAssembly(Structure):
         more = {"links": [link.to_dict() for link in self.links] or None, "north": self.north}
         return {
             "stones": [stone.to_dict() for stone in self.stones],
-            "joint": given(self.joint),
+            "joint": stated_fields(self.joint),
             "name": self.name,
             "gravity": self.gravity,
             "ground": self.ground,
-            "overrides": [[one, other, given(law)] for one, other, law in self.overrides],
+            "overrides": [[one, other, stated_fields(law)] for one, other, law in self.overrides],
             "settle": self.settle,
         } | {key: value for key, value in more.items() if value is not None}
 

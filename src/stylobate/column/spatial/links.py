@@ -10,10 +10,9 @@ import numpy as np
 
 from ...errors import InputError
 from ..found_geometry import inside
-from ..links.in_assembly import BESIDE, Frame, JointPlace, Scene, beside_joint, no_joint
 from ..links.link import Link
-from ..links.placed import PlacedLink, Point
-from ..turning import UPRIGHT, Quaternion
+from ..links.placed import BESIDE, Frame, JointPlace, PlacedLink, Point, Scene, beside_joint, no_joint
+from ..shapes import UPRIGHT, Quaternion
 from .touching import Solid, SpaceJoint
 
 

@@ -18,11 +18,9 @@ from ..found_geometry import SpaceGeometry, space_geometry
 from ..joint import Joint
 from ..links.link import Link
 from ..links.placed import PlacedLink, Point
-from ..shapes import Placed
+from ..shapes import UPRIGHT, Placed, Quaternion, about, matrix_of, product, quaternion_of
 from ..standing import links_of_column, standing_column
-from ..turning import UPRIGHT, Quaternion, about, matrix_of, product, quaternion_of
-from .mesh import read_mesh
-from .stone import Stone, box_shape, centre_of, drum_shape, hull_shape, triple, unit_quaternion
+from .stone import Stone, box_shape, centre_of, drum_shape, hull_shape, read_mesh, triple, unit_quaternion
 from .tables import PartTable, SpaceBeamTable, SpaceBlockTable, SpaceColumnsTable
 from .touching import TOUCHING, Solid, separation
 

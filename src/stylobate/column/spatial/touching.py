@@ -11,8 +11,7 @@ import numpy as np
 
 from ..found_geometry import Edges
 from ..joint import Joint
-from ..shapes import Chipped, CircularFrustum, Placed, cut
-from ..turning import matrix_of
+from ..shapes import Chipped, CircularFrustum, Placed, cut, matrix_of
 
 #: Faces touch when they are this close, as a share of the smaller body's size, and parallel to this angle [rad].
 TOUCHING, PARALLEL = 1e-5, 1e-4

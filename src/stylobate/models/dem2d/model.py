@@ -24,9 +24,8 @@ from ..plane.columns import PlaneStack
 from ..plane.loose import LooseInPlane
 from ..plane.packing import Types, found_start, joint_fields, lane_fields, pack_column, point_law
 from ..shared import stable_step as shared
-from ..shared.opening import Opening, opening
 from ..shared.stable_step import LOCAL_DAMPING, settled
-from ..shared.toes import point_toes
+from ..shared.toes import Opening, opening, point_toes
 
 MAX_POINTS = 32
 

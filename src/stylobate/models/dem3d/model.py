@@ -21,9 +21,8 @@ from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
 from ..drums.records import Packed, Topology, damping_rows, joint_stiffnesses
 from ..drums.stepped import LaneEngine, LossyDrums, StackEngine, with_provenance
 from ..engine import engine_for
-from ..shared.opening import Opening, opening
 from ..shared.stable_step import check_step_resolves, stable_step
-from ..shared.toes import bed_toes, point_toes, rim_toes
+from ..shared.toes import Opening, bed_toes, opening, point_toes, rim_toes
 from ..space.lanes import BodiesInSpace
 from .block import SpaceBlock, Stack
 from .packing import (

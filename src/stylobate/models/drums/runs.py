@@ -21,8 +21,8 @@ from ...response.measures import CPU, SpaceMeasures
 from ...response.poses import quaternions
 from ...response.residuals import Residuals
 from ..base import Case, RunOptions
-from ..shared import ledger, quiet
-from ..shared.ground import ground_histories
+from ..shared import ledger
+from ..shared.ground import AT_REST, Spans, ground_histories
 from ..shared.lanes import NOT_COMPUTED, longest_piece
 from ..shared.stable_step import whole_steps
 from ..start import check_takes_pose
@@ -178,7 +178,7 @@ class LaneRuns:
         self.ended: dict[int, Measures] = {}  # of lanes whose runs have ended
         self.started: Started | None = None
         self.starter: LaneRuns | None = None  # a block of few lanes, in which runs begin at less cost than in this one
-        self.spans = quiet.Spans(self.lanes, options, self.chunk)
+        self.spans = Spans(self.lanes, options, self.chunk)
         self.chunks_per_call = 1
         self.piece = longest_piece(cost, self.chunk)
 
@@ -390,7 +390,7 @@ class LaneRuns:
         free = 0.0  # what pretension has given away is not missing from the motion
         if self.tied:
             free = set_free(self.column(lane), self.link["ft"][:, lane], float(self.pressed[lane]))
-        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * self.packed[lane].barrier
+        return float(change[1] + change[2] + change[3]) + free < AT_REST * self.packed[lane].barrier
 
     # -- what it tells -------------------------------------------------------------------------------------------
 

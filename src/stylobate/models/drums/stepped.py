@@ -18,10 +18,10 @@ from ...outcome import Outcome
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..engine import Engine, engine_for
+from ..shared.ground import expected_length
 from ..shared.lanes import LaneBlock, Riders, run_alike
-from ..shared.opening import Opening
-from ..shared.quiet import expected_length
 from ..shared.stable_step import check_sinking, check_step_resolves, chosen_step, whole_steps
+from ..shared.toes import Opening
 from .impact import damping_of_stone
 from .records import Topology
 from .runs import histories

@@ -18,7 +18,7 @@ from ..base import Case, RunOptions
 from ..rocking.block import lightest_weight, off_the_ground
 from ..shared import ledger
 from ..shared.lanes import longest_piece
-from .state import PackedBeam, faces, given, histories_of, measures_of, tridiagonal
+from .state import PackedBeam, energy_at_loss, faces, histories_of, measures_of, tridiagonal
 
 #: Wanted time between two looks at a run [s], and calls of the kernel per run.
 LOOK = 0.01
@@ -189,7 +189,7 @@ class BeamLanes:
             {
                 "theta": theta, "omega": omega, "slip": slip,
                 "energy": float(energies.sum()), "start": float(np.sum(self.start[lane])), "work": largest,
-                "given": given(row, largest, after),
+                "given": energy_at_loss(row, largest, after),
                 "unaccounted": ledger.unaccounted(row), "released": ledger.released(row),
                 "lost": int(watch["which"]), "side": int(watch["side"]),
                 "time": time, "end": self.time(lane),

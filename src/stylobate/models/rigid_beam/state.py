@@ -550,7 +550,7 @@ def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, energy) ->
     )
 
 
-def given(row: np.ndarray, largest: float, after: bool) -> float:
+def energy_at_loss(row: np.ndarray, largest: float, after: bool) -> float:
     """Most energy that a column can have had from the input when it was lost [J].
 
     ``row``: the ledger at the end; ``largest`` input work; ``after``: it was lost after the

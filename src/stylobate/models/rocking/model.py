@@ -25,13 +25,13 @@ class Rocking(Engine):
 
     def expected_step(self, motion: Motion) -> tuple[float, float]:
         """Longest step of the adaptive solver, which is the dearer one, and its cost [s]."""
-        from .single import longest_step
+        from .block import longest_step
 
         return longest_step(self.model.block(self.structure).p, motion), 3e-4
 
     def run(self, motion: Motion, options: RunOptions) -> Response:
         """One run by an adaptive solver with impacts as events."""
-        from .single import run_single
+        from .block import run_single
 
         model = self.model
         histories, measures = run_single(model.block(self.structure), motion, options, model.initial_rotation)

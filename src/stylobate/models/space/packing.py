@@ -9,10 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...column.links.placed import PlacedLink
-from ...column.shapes import CircularFrustum, Mesh, Placed, cut
+from ...column.shapes import CircularFrustum, Mesh, Placed, cut, matrix_of
 from ...column.spatial.touching import SpaceJoint
 from ...column.structure import Structure
-from ...column.turning import matrix_of
 from ...kernels.shared.link_records import NUMBERS, OWN, SHARED
 from ...kernels.space.records import BLOCK, DRUM, FACETS, GROUND, LESS, MOST_FACES, MOST_VERTICES, types
 from ..drums.links import LinkStiffness, law_fields, link_matrices

@@ -154,8 +154,8 @@ SERIES = 5
 #: What a table of columns can be converted to, for messages.
 EXAMPLE = "time_s,ax_g"
 
-_STATED = re.compile(r"(?P<axis>-|\w+)\s*(?:\[\s*(?P<unit>[^\]]*?)\s*\])?")
-_OWN = re.compile(r"time_(?P<time>s|ms)|a(?P<axis>[xyz])(?:_(?P<unit>\S+))?")
+_STATED_COLUMN = re.compile(r"(?P<axis>-|\w+)\s*(?:\[\s*(?P<unit>[^\]]*?)\s*\])?")
+_OWN_COLUMN = re.compile(r"time_(?P<time>s|ms)|a(?P<axis>[xyz])(?:_(?P<unit>\S+))?")
 #: A step that was done to a record, as this package writes it.
 _DONE = re.compile(r"#\s*processing (?P<number>\d{1,9})\s*:\s*(?P<step>.*\S)")
 _FACTS = ("station", "network", "event", "event_id", "start_time", "terms")
@@ -186,7 +186,7 @@ def parse_columns(text: str) -> tuple[Column, ...]:
     """
     found = []
     for part in text.split(","):
-        one = _STATED.fullmatch(part.strip())
+        one = _STATED_COLUMN.fullmatch(part.strip())
         if one is None or one["axis"] not in ("t", "x", "y", "z", "-"):
             raise InputError(
                 f"`columns` {text!r}: {part.strip()!r} is not understood; allowed are t, x, y and z with a unit, and - for "
@@ -284,7 +284,7 @@ def _header(lines: list[str], file: str) -> list[Column] | None:
     """Columns of the line that names them as this package does; behind it stand comments at most."""
     for number, line in reversed(list(enumerate(lines, 1))):
         cells = [cell.strip('"') for cell in re.split(r"\s*[,;\t]\s*|\s+", line.lower().strip("#% \t,;"))]
-        found = [_OWN.fullmatch(cell) for cell in cells]
+        found = [_OWN_COLUMN.fullmatch(cell) for cell in cells]
         if all(found):
             columns = [
                 Column("t", one["time"]) if one["time"] else Column(one["axis"], one["unit"]) for one in found if one

@@ -13,7 +13,6 @@ from ...errors import InputError
 #: A sign directly after a digit or a point begins a new number: Fortran fields may leave no blank between numbers.
 _GLUED = re.compile(r"(?<=[0-9.])(?=[+-])")
 _STRANGE = re.compile(r"[^0-9\s.eEdD+\-]")
-_FORTRAN = re.compile(r"\(\s*(?:\d*[pP]\s*,?\s*)?(\d*)\s*[feigFEIG](\d+)(?:\.\d+)?(?:[eE]\d+)?\s*\)")
 
 #: A number as headers write it, with the exponents of Fortran too.
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][+-]?[0-9]+)?"
@@ -23,13 +22,6 @@ _FIRST = re.compile(rf"(?<![\w.]){NUMBER}(?=(?:s|sec|hz)\b|(?!\w|\.[0-9]))", re.
 
 #: Lines that are turned into numbers at once.
 PIECE = 5000
-
-
-def fortran_width(text: str) -> int | None:
-    """Width of a field in a Fortran format such as ``(8f10.6)`` found in ``text``, or None."""
-    found = _FORTRAN.search(text)
-    width = int(found.group(2)) if found else 0
-    return width if 1 <= width <= 40 else None
 
 
 def number_in(text: str) -> float | None:

@@ -12,12 +12,10 @@ import numpy as np
 
 from ...constants import g
 from ...errors import InputError, OutOfRangeWarning, warn
-from ...messages import joined, say
-from ...percent import percent
-from ..drift import as_asked, best_of, cures_of
+from ...messages import joined, percent, say
+from ..conditioning import as_asked, best_of, cures_of
 from ..events import moment_of
 from ..motion import MAX_SAMPLES, STRONGEST, Motion, integrate
-from .numbers import NUMBER, number_in
 
 #: Steps of accelerographs [s]: 5000 to 5 samples per second.
 SHORTEST_STEP, LONGEST_STEP = 2e-4, 0.2
@@ -25,23 +23,7 @@ SHORTEST_STEP, LONGEST_STEP = 2e-4, 0.2
 #: A step of film this many times the steps of its neighbours, so many on either side, may be a lost line.
 GAP, NEIGHBOURS = 2.8, 3
 
-#: Share of a stated peak by which the samples may depart from it: one g is 980 to 981 gal, and peaks are rounded.
-PEAK_SHARE = 2e-3
-
-#: Beyond this share, the peak and the samples are not of the same record.
-WRONG_SHARE = 0.02
-
 CUT = "the file is damaged or cut, fetch it again"
-
-
-def check_step(dt: float | None, file: str, line: int) -> float:
-    """A step that an accelerograph may have had, or a refusal."""
-    if dt is None or not SHORTEST_STEP <= dt <= LONGEST_STEP:
-        raise InputError(
-            f"{file}, line {line}: the header states a step of {'no' if dt is None else f'{dt:g}'} s; records have "
-            f"{SHORTEST_STEP:g} to {LONGEST_STEP:g} s: fetch the file again, or convert it to columns."
-        )
-    return dt
 
 
 def check_sampling(dt: float, what: str) -> float:
@@ -110,79 +92,6 @@ def check_same_step(first: float, second: float, file: str, line: int) -> None:
         )
 
 
-def check_length(count: int, dt: float, stated: str | float | None, file: str, line: int) -> None:
-    """A stated length of the record is that of the samples, to the digit in which it is given.
-
-    Networks count from the first to the last sample, or one step more.
-    """
-    if stated is None:
-        return
-    length, half = printed(stated)
-    slack = 0.51 * dt + half
-    if length > 0.0 and not (count - 1) * dt - slack <= length <= count * dt + slack:
-        raise InputError(
-            f"{file}, line {line}: {count} samples of {dt:g} s last {count * dt:g} s, the header states {length:g} s; "
-            f"{CUT}."
-        )
-
-
-def check_peak(
-    values: np.ndarray,
-    stated: str | float | None,
-    size: float,
-    file: str,
-    line: int,
-    *,
-    wrong: float = WRONG_SHARE,
-    what: str = "peak",
-) -> None:
-    """The largest sample is the peak that the header states.
-
-    Parameters
-    ----------
-    values : array
-        As read, in SI.
-    stated : str or float or None
-        The peak as printed, of either sign.
-    size : float
-        Its unit in SI.
-    wrong : float
-        Share of the peak beyond which the file is refused; a smaller departure is warned about.
-    """
-    if stated is None:
-        return
-    peak, half = printed(stated)
-    peak, half = abs(peak) * size, half * size
-    if peak == 0.0:
-        return
-    found = float(np.abs(values).max())
-    apart = abs(found - peak) - 1.01 * half - 1e-6 * peak
-    text = f"{file}, line {line}: the header states a {what} of {peak / size:g}, the samples hold {found / size:.6g}"
-    if apart > wrong * peak:
-        raise InputError(f"{text}; {CUT}.")
-    if apart > PEAK_SHARE * peak:
-        warn(f"{text}: the header may be of another processing.")
-
-
-def check_peak_time(values: np.ndarray, dt: float, stated: str | float | None, file: str, line: int) -> None:
-    """The peak stands where the header states it, or at a sample as large; else a warning."""
-    if stated is None:
-        return
-    time, half = printed(stated)
-    if time <= 0.0:
-        return
-    first = max(0, round((time - half) / dt) - 1)
-    last = round((time + half) / dt) + 1
-    near = np.abs(values[first : last + 1])
-    if near.size == 0 or near.max() < 0.98 * np.abs(values).max():
-        at = int(np.abs(values).argmax()) * dt
-        warn(
-            f"{file}, line {line}: the header states its peak at {time:g} s, the samples have it at {at:g} s; check "
-            "the step and whether samples are missing.",
-            OutOfRangeWarning,
-        )
-
-
 def check_whole(lines: Sequence[str], ends_with_newline: bool, file: str) -> None:
     """The last number of a text was not cut: its digits are those of the numbers before it."""
     if ends_with_newline or not lines:
@@ -196,34 +105,6 @@ def check_whole(lines: Sequence[str], ends_with_newline: bool, file: str) -> Non
             f"{file}, line {len(lines)}: the last number, {tokens[-1]!r}, has other digits than those before it and no "
             f"line end follows; {CUT}."
         )
-
-
-def check_ended(ended: bool, file: str, line: int, mark: str) -> None:
-    """The mark that closes a channel is there."""
-    if not ended:
-        raise InputError(f"{file}, line {line}: the samples end without the mark {mark!r} that closes them; {CUT}.")
-
-
-def warn_of_missing(found: int, stated: int | None, file: str) -> None:
-    """Fewer components than the header speaks of: the file may have been cut between two of them."""
-    if stated is not None and found < stated:
-        warn(
-            f"{file}: the header speaks of {stated} components, the file holds {found}; check that it is whole.",
-            OutOfRangeWarning,
-        )
-
-
-def printed(stated: str | float) -> tuple[float, float]:
-    """A number as printed, and half a unit of its last digit."""
-    if isinstance(stated, (float, int)):
-        return float(stated), 0.0
-    value = number_in(stated)
-    if value is None:
-        return 0.0, 0.0
-    text = stated.strip().rstrip(".").lower().replace("d", "e")
-    digits, _, power = text.partition("e")
-    decimals = len(digits.partition(".")[2])
-    return value, 0.5 * 10.0 ** (int(power or 0) - decimals) if re.fullmatch(NUMBER, stated.strip()) else 0.0
 
 
 def _decimals(token: str) -> tuple[int, int] | None:
@@ -593,8 +474,6 @@ SMALLEST_PEAK = 1e-3
 LARGEST_VELOCITY = 10.0
 
 
-#: A label within a line: a bearing in one to three words, or a word.
-LABEL = r"(?:[NS]\s*\d[\d.]*\s*[EW]\b|\S+)"
 _ANGLE = r"(?P<angle>\d{1,3}(?:\.\d*)?)\s*(?:°|DEG\.?)?"
 #: ``N10.5E`` anywhere; ``N345`` and ``90 DEG`` at the beginning of a label.
 _BEARING = re.compile(rf"\b(?P<pole>[NS])\s*{_ANGLE}\s*(?P<side>[EW])\b")
@@ -651,17 +530,6 @@ def direction(label: str) -> tuple[float | None, bool, float]:
     if upright := [word for word in words if len(word) > 1 and word in _UPRIGHT | _UP | _DOWN]:  # Roof UP
         return None, True, -minus if upright[-1] in _DOWN else minus
     return None, False, 1.0
-
-
-def oriented(component: Component) -> Component:
-    """Fill in azimuth and vertical from the label, and turn a downward component upward."""
-    azimuth, vertical, sign = direction(component.label)
-    component.vertical = vertical
-    component.azimuth = azimuth if component.azimuth is None and not vertical else component.azimuth
-    if sign < 0.0:
-        component.values = -component.values
-        component.processing.append(say("sign turned: the file counts downward as positive, here upward is"))
-    return component
 
 
 def assemble(
@@ -779,19 +647,13 @@ def _choose(components: list[Component], wanted: str, name: str) -> Component:
     )
 
 
-def _doubt(text: str) -> None:
-    warn(text)
-
-
 def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None:
     peaks = {axis: float(np.abs(array).max(initial=0.0)) / g for axis, array in values.items()}
     for axis, peak in peaks.items():
         if peak > STRONGEST:
-            _doubt(
-                f"{name}: the peak of component {axis} is {peak:.3g} g, more than was ever recorded; check the unit."
-            )
+            warn(f"{name}: the peak of component {axis} is {peak:.3g} g, more than was ever recorded; check the unit.")
     if 0.0 < max(peaks.values()) < SMALLEST_PEAK:
-        _doubt(
+        warn(
             say(
                 "{name}: the peak is {max:.3g} g, which shakes no column; check the unit, and whether these are "
                 "accelerations.",
@@ -804,7 +666,7 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
         if fastest > LARGEST_VELOCITY and peaks[axis] <= STRONGEST:
             cure = best_of(cures_of(array, step, LARGEST_VELOCITY))
             drift = "" if cure is None else f", or take off the drift of the baseline ({as_asked(cure)})"
-            _doubt(
+            warn(
                 f"{name}: component {axis} reaches a velocity of {fastest:.3g} m/s, more than was ever recorded; check the "
                 f"unit and the step{drift}."
             )
@@ -815,7 +677,7 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
         peak = float(np.abs(array).max(initial=0.0))
         mean = float(array.mean()) if array.size else 0.0
         if peak > 0.0 and abs(mean) > OFFSET_SHARE * peak:
-            _doubt(
+            warn(
                 say(
                     "{name}: the mean of component {axis} is {mean:.3g} g, {share} of its peak, as when an "
                     "instrument's offset was left in; take it off ({step}) unless it is meant.",
@@ -826,28 +688,3 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
                     step="`condition='demean'`",
                 )
             )
-
-
-def check_direction(component: Component, stated: float, file: str, line: int) -> None:
-    """An azimuth in the numbers of a header is that of the label; codes beyond 360 are none."""
-    if component.azimuth is None or not 0.0 < stated <= 360.0:
-        return
-    apart = abs((component.azimuth - stated + 180.0) % 360.0 - 180.0)
-    if apart > 1.0:
-        raise InputError(
-            f"{file}, line {line}: the text states the direction {component.label!r}, the numbers {stated:g}°; "
-            "the file is damaged, fetch it again."
-        )
-
-
-def check_count(count: float | None, file: str, line: int, what: str = "samples") -> int:
-    """A number of samples as a header states it, refused when it is impossible."""
-    if count is None or not math.isfinite(count) or count != int(count) or not 2 <= count <= MAX_SAMPLES:
-        raise InputError(
-            f"{file}, line {line}: the header promises {count if count is None else f'{count:g}'} {what}; "
-            f"allowed is a whole number from 2 to {MAX_SAMPLES}, so fetch the file again."
-        )
-    return int(count)
-
-
-__all__ = ["LABEL", "Component", "assemble", "check_count", "direction", "oriented", "resampled"]

@@ -13,9 +13,9 @@ from pathlib import Path
 from ...added import RECORDS, entries, missing
 from ...errors import InputError, check_all, check_kind, warn
 from ...messages import say
-from ...reading import shown
+from ...text_tables import printable
+from ..events import recorded_again
 from ..motion import Motion
-from ..recordings import recorded_again
 from . import columns as columns_of_text
 from .record import OWN_FACTS, Component, UnstatedError, assemble, check_whole
 from .source import PREFIX, Source
@@ -241,7 +241,7 @@ def _networks() -> str:
 MAX_FILES = 10_000
 
 #: Most records that a warning names.
-TOLD = 3
+MOST_NAMED = 3
 
 
 @dataclass(frozen=True)
@@ -289,10 +289,6 @@ def read_suite(
     component : str or int, optional
         The one component of each file that is to be the horizontal input, as for :func:`read_motion`.
 
-    Returns
-    -------
-    Suite
-
     Raises
     ------
     InputError
@@ -320,10 +316,10 @@ def read_suite(
         try:
             motion = _read(path, unit, dt, columns, component)
         except InputError as error:
-            refused[shown(path.name)] = str(error)
+            refused[printable(path.name)] = str(error)
             continue
         if motion.digest in names:
-            refused[shown(path.name)] = say(
+            refused[printable(path.name)] = say(
                 "it holds the motion of {names!r} once more; a record counts once", names=names[motion.digest]
             )
         elif motion.name in names.values():
@@ -334,14 +330,14 @@ def read_suite(
     if not motions:
         first = next(iter(refused.items()), ("", "it is empty"))
         where = [folder] if folder is not None else [*paths[:3], *["other files"] * (len(paths) > 3)]
-        given = " and ".join(map(shown, where))
+        given = " and ".join(map(printable, where))
         raise InputError(
             f"{given} {'hold' if len(where) > 1 else 'holds'} no record that can be used; the first reason: {first[1]}"
         )
     again = recorded_again(motions)
     if again:
         pairs = [f"{motions[one].name!r} of {motions[other].name!r}" for one, other in again.items()]
-        named = ", ".join(pairs[:TOLD]) + (", …" if len(pairs) > TOLD else "")
+        named = ", ".join(pairs[:MOST_NAMED]) + (", …" if len(pairs) > MOST_NAMED else "")
         words = say(
             "{count} of {all} records are recordings of others once more, scaled, turned, filtered or "
             "written otherwise ({names}): a selection for a target takes each recording once; elsewhere they "

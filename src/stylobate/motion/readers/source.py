@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from ...errors import InputError, suggest
-from ...reading import read_bytes, shown
+from ...text_tables import printable, read_bytes
 from ..motion import MAX_SAMPLES
 
 if TYPE_CHECKING:
@@ -152,16 +152,16 @@ class Source:
         place = Path(path)
         data = read_bytes(place, MAX_BYTES, "cut the record")
         if not data.strip(b"\x00 \t\r\n\x1a"):
-            raise InputError(f"{shown(place.name)} is empty; give a file that holds a record.")
+            raise InputError(f"{printable(place.name)} is empty; give a file that holds a record.")
         for magic, name in _PACKED.items():
             if data.startswith(magic):
-                raise InputError(f"{shown(place.name)} is compressed ({name}); unpack it and give the file inside.")
+                raise InputError(f"{printable(place.name)} is compressed ({name}); unpack it and give the file inside.")
         return cls(place, data)
 
     @property
     def name(self) -> str:
         """File name without its folder, as it can be shown."""
-        return shown(self.path.name)
+        return printable(self.path.name)
 
     @cached_property
     def is_text(self) -> bool:

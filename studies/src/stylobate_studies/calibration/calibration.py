@@ -11,15 +11,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stylobate.column import Column
+from stylobate.column.files import write_losses
 from stylobate.column.joint import Losses
-from stylobate.column.loss_files import write_losses
 from stylobate.column.scatter import LARGEST
 from stylobate.errors import InputError
+from stylobate.messages import percent
 from stylobate.models.drums.impact import Free, one_body, released
 from stylobate.models.drums.stepped import LossyDrums
 from stylobate.models.start import Start
-from stylobate.notebook import Shown
-from stylobate.percent import percent
+from stylobate.notebook import NotebookSummary
 
 from .free_history import FreeHistory
 from .loss_likelihood import Posterior
@@ -62,7 +62,7 @@ class Loss(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Calibration(Shown):
+class Calibration(NotebookSummary):
     """Losses of a column from its free motion.
 
     Parameters

@@ -11,7 +11,7 @@ from stylobate.cli import options as o
 def bench(
     full: bool = o.option(None, "Also time the domains of 768 cells, and Dask workers.", False),
     *,
-    execution: Annotated[o.Execution, o.But("dask", "mix_devices")],
+    execution: Annotated[o.Execution, o.Without("dask", "mix_devices")],
 ) -> None:
     """Speed on this machine, beside the same step in native code."""
     from stylobate.cli import console

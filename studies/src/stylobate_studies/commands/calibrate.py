@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from stylobate.cli import options as o
-from stylobate.percent import whole
+from stylobate.messages import whole_percent
 
 if TYPE_CHECKING:
     from ..calibration.calibration import Calibration
@@ -25,7 +25,7 @@ def calibrate(
     height: str | None = o.option("H", "Height at which a displacement is measured [m]; the top by default."),
     noise: str | None = o.option("SD", "Noise of the values, in their unit; estimated by default."),
     confidence: str = o.option("SHARE", "Of intervals.", "0.9"),
-    modelling: Annotated[o.Modelling, o.But("losses", "project")],
+    modelling: Annotated[o.Modelling, o.Without("losses", "project")],
     pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
     execution: o.Plain,
 ) -> None:
@@ -78,6 +78,8 @@ def facts(found: Calibration) -> dict[str, str]:
             f"{one.value:.3f} ({one.low:.3f} to {one.high:.3f}) by successive extremes alone; {rigid:.3f} of a rigid block"
         )
     told["decrements"] = f"{summary['decrements']}, which differ from computed ones by {summary['discrepancy']:.1%}"
-    told["scatter"] = "--scatter " + ",".join(f"{name}={whole(size)}%" for name, size in found.scatter().items())
+    told["scatter"] = "--scatter " + ",".join(
+        f"{name}={whole_percent(size)}%" for name, size in found.scatter().items()
+    )
     told["joint"] = f"normal_stiffness {summary['normal_stiffness']:.3g} N/m³, to which stiffness_damping belongs"
     return told

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from stylobate.cli import options as o
 from stylobate.errors import InputError
-from stylobate.percent import percent
+from stylobate.messages import percent
 
 if TYPE_CHECKING:
     from ..paper.cases import Grids

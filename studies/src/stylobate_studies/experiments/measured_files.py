@@ -24,8 +24,8 @@ from stylobate.errors import InputError, check_choice, check_range, within
 from stylobate.models.base import Model
 from stylobate.motion import Motion
 from stylobate.motion.request import MotionRequest
-from stylobate.reading import SETTINGS, read_bytes, shown
 from stylobate.response.measures import blank_row
+from stylobate.text_tables import SETTINGS, printable, read_bytes
 
 #: The file that makes a folder one of tests.
 FILE = "experiment.toml"
@@ -145,7 +145,7 @@ def read_measured(folder: Path) -> Measured:
     """
     path = folder / FILE
     file = read_table(path, ExperimentFile)
-    with within(shown(path)):
+    with within(printable(path)):
         name = file.name or folder.resolve().name
         if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_-]*", name):
             raise InputError(f"name is {name!r}; allowed are letters, digits, - and _, as files are called after it.")
@@ -194,7 +194,7 @@ def csv_rows(path: Path) -> list[dict[str, str]]:
     try:
         return list(csv.DictReader(read_bytes(path, LARGEST).decode("utf-8-sig").splitlines()))
     except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f"{shown(path)} cannot be read as a table ({error}).") from None
+        raise InputError(f"{printable(path)} cannot be read as a table ({error}).") from None
 
 
 def _read_tests(folder: Path, found: Measured) -> None:
@@ -272,10 +272,10 @@ def _history(path: Path) -> dict[str, np.ndarray]:
     try:
         columns = {name: np.array([float(row[name]) for row in rows]) for name in (rows[0] if rows else ()) if name}
     except (TypeError, ValueError):
-        raise InputError(f"{shown(path)} holds what is no number") from None
+        raise InputError(f"{printable(path)} holds what is no number") from None
     time = columns.get("time_s", np.zeros(0))
     if len(time) < 2 or not (np.diff(time) > 0.0).all() or not all(np.isfinite(one).all() for one in columns.values()):
-        raise InputError(f"{shown(path)} has no time_s that grows, or numbers that are not finite")
+        raise InputError(f"{printable(path)} has no time_s that grows, or numbers that are not finite")
     return columns
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.probability.fragility import FEWEST
 from stylobate.probability.studies import StudyResult
 from stylobate.verdicts import verdict as v

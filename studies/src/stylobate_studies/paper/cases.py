@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stylobate.column import Column, preset
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.column.scatter import WITHIN, Scatter
 from stylobate.constants import g
 from stylobate.models.base import Model
@@ -17,7 +17,7 @@ from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_block.model import RigidBlock
-from stylobate.motion.scatter import MotionScatter
+from stylobate.motion.pulses import MotionScatter
 
 #: The thirty harmonic cases. The paper prints the ranges, 0.66 to 4 Hz and 0.1 g to 0.5 g; the values are chosen here.
 FREQUENCIES = np.array([0.66, 1.0, 1.5, 2.0, 3.0, 4.0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.constants import g
 
 from .cases import BEAM, BLOCKS, DEM, MONOLITH, SHORT

@@ -9,9 +9,9 @@ import numpy as np
 
 from stylobate.campaign.campaign import Progress
 from stylobate.column import Column
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.constants import g
-from stylobate.percent import percent
+from stylobate.messages import percent
 from stylobate.verdicts.domain import CollapseProbability
 
 from .cases import ACROSS, DEM, DURATION, PLANE, POPULATIONS, SHORT, SPACE, paper_column

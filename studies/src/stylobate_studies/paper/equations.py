@@ -8,7 +8,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from stylobate.column import Column, preset
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.constants import g
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.base import Model

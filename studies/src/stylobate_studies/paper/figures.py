@@ -21,7 +21,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
     import numpy as np
 
     from stylobate import plots
-    from stylobate.column.presets import PAPER
+    from stylobate.column.catalogue import PAPER
     from stylobate.constants import g
     from stylobate_report.page import Picture
 

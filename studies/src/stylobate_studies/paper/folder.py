@@ -10,13 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from stylobate.atomic import replacing, set_aside
+from stylobate.atomic import LIST, OwnFiles, guard_of, replacing, set_aside
 from stylobate.campaign.ledger import refuse_former
 from stylobate.column import preset
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.errors import DamagedFileWarning, InputError
 from stylobate.kernels.sources import source_digest
-from stylobate.own_files import LIST, OwnFiles, guard_of
 from stylobate.version import __version__
 
 from . import cases as c

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from stylobate.column import preset
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.constants import g
+from stylobate.messages import percent
 from stylobate.motion import harmonic
-from stylobate.percent import percent
 from stylobate.simulate import simulate
 
 from .cases import BEAM, BLOCKS, DEM, MODELS, SHORT

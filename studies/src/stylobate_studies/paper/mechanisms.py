@@ -12,7 +12,7 @@ from stylobate.atomic import replacing
 from stylobate.campaign.campaign import Progress
 from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.column import preset
-from stylobate.percent import percent
+from stylobate.messages import percent
 from stylobate.response.mechanism import AS_ONE
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.domain import Domain, collapse_domain

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from stylobate.column import preset
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.constants import g
 from stylobate.verdicts import verdict as v
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from stylobate.campaign.campaign import Progress
 from stylobate.campaign.cases import Study
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.errors import LeftOutWarning
 from stylobate.motion import Motion
 from stylobate.probability.studies import StudyResult, run_study

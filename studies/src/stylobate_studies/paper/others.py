@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 
 from . import cases as c
 from .literature import NUMBER, SHAKING, population_name

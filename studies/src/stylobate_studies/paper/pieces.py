@@ -25,7 +25,7 @@ from stylobate.column import Column, preset
 from stylobate.constants import g
 from stylobate.models.base import Case, Model
 from stylobate.motion import harmonic
-from stylobate.motion.scatter import MotionScatter
+from stylobate.motion.pulses import MotionScatter
 from stylobate.simulate import run_options, simulate, simulate_many
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.domain import (

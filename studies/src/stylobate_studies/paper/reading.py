@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from stylobate.constants import g
-from stylobate.percent import percent
+from stylobate.messages import percent
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.domain import Domain
 

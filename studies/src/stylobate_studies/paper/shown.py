@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stylobate.column import preset
-from stylobate.column.presets import PAPER_BLOCK_MODULUS
+from stylobate.column.catalogue import PAPER_BLOCK_MODULUS
 from stylobate.constants import g
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.verdicts import verdict as v
 from stylobate.verdicts.domain import SAFE, UNSAFE, CollapseProbability, Domain
 

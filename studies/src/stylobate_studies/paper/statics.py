@@ -8,11 +8,10 @@ import numpy as np
 
 from stylobate.column import Column, preset
 from stylobate.column.assembly import Assembly, Block
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.statics.limit import limit_analysis
-from stylobate.statics.limit_assemblies import limit_directions
+from stylobate.statics.limit import limit_analysis, limit_directions
 from stylobate.statics.pushover import pushover
 
 from .cases import DRUMS, MONOLITH, SHORT, paper_column

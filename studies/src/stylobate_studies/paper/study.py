@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from stylobate.atomic import own_files
 from stylobate.campaign.campaign import Progress
 from stylobate.column import preset
-from stylobate.column.presets import PAPER
+from stylobate.column.catalogue import PAPER
 from stylobate.constants import g
 from stylobate.models.base import Model
 from stylobate.motion import Motion, harmonic
-from stylobate.own_files import own_files
 from stylobate.probability.studies import StudyResult
 from stylobate.simulate import thread_count
 from stylobate.statics.pushover import PushoverResult, pushover

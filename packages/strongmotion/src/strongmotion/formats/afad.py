@@ -6,10 +6,11 @@ import re
 
 from stylobate.errors import InputError
 from stylobate.motion.readers.numbers import NUMBER, read_numbers
-from stylobate.motion.readers.record import Component, check_count, check_peak, check_step, oriented
+from stylobate.motion.readers.record import Component
 from stylobate.motion.readers.source import Source
 
-from .keyed import is_numeric, keyed, number_of
+from .stated import check_count, check_peak, check_step, oriented
+from .volume1 import is_numeric, keyed, number_of
 
 #: Labels of the format, by the words of its heading.
 _LABELS = {

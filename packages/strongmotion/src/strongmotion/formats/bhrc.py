@@ -6,18 +6,10 @@ import re
 
 from stylobate.errors import InputError
 from stylobate.motion.readers.numbers import number_in, read_numbers
-from stylobate.motion.readers.record import (
-    CUT,
-    Component,
-    check_ended,
-    check_length,
-    check_step,
-    oriented,
-    printed,
-    warn_of_missing,
-)
+from stylobate.motion.readers.record import CUT, Component
 from stylobate.motion.readers.source import Source
 
+from .stated import check_ended, check_length, check_step, oriented, printed, warn_of_missing
 from .volume1 import channel_end, channels, header_ends, length, points, unit
 
 TEXT_LINES, HEADER_LINES = 13, 27

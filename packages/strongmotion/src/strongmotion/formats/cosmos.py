@@ -13,10 +13,12 @@ import numpy as np
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.messages import say
-from stylobate.motion.readers.numbers import NUMBER, fortran_width, read_numbers
-from stylobate.motion.readers.record import (
-    CUT,
-    Component,
+from stylobate.motion.readers.numbers import NUMBER, read_numbers
+from stylobate.motion.readers.record import CUT, Component, direction
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import acceleration_unit
+
+from .stated import (
     check_count,
     check_direction,
     check_ended,
@@ -24,12 +26,9 @@ from stylobate.motion.readers.record import (
     check_peak,
     check_peak_time,
     check_step,
-    direction,
+    fortran_width,
     oriented,
 )
-from stylobate.motion.readers.source import Source
-from stylobate.motion.specs import acceleration_unit
-
 from .volume1 import channels
 
 _HEADER = re.compile(

@@ -9,23 +9,23 @@ from __future__ import annotations
 import re
 
 from stylobate.errors import InputError
-from stylobate.motion.readers.numbers import NUMBER, fortran_width, read_numbers
-from stylobate.motion.readers.record import (
-    Component,
+from stylobate.motion.readers.numbers import NUMBER, read_numbers
+from stylobate.motion.readers.record import Component, check_same_step
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import acceleration_unit
+
+from .stated import (
     check_count,
     check_direction,
     check_ended,
     check_length,
     check_peak,
     check_peak_time,
-    check_same_step,
     check_step,
+    fortran_width,
     oriented,
     warn_of_missing,
 )
-from stylobate.motion.readers.source import Source
-from stylobate.motion.specs import acceleration_unit
-
 from .volume1 import pairs
 
 _BLOCK = re.compile(

@@ -12,20 +12,12 @@ import numpy as np
 
 from stylobate.errors import InputError
 from stylobate.motion.readers.numbers import number_in, read_numbers
-from stylobate.motion.readers.record import (
-    CUT,
-    Component,
-    check_count,
-    check_length,
-    check_peak,
-    check_peak_time,
-    check_step,
-    oriented,
-)
+from stylobate.motion.readers.record import CUT, Component
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 
-from .keyed import is_numeric, number_after
+from .stated import check_count, check_length, check_peak, check_peak_time, check_step, oriented
+from .volume1 import is_numeric, number_after
 
 #: Beginnings of the keys, after ``_`` has become a blank.
 _KEYS = {

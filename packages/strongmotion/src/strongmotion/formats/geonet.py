@@ -8,22 +8,21 @@ import numpy as np
 
 from stylobate.errors import InputError
 from stylobate.motion.readers.numbers import NUMBER, read_numbers
-from stylobate.motion.readers.record import (
-    CUT,
+from stylobate.motion.readers.record import CUT, Component, check_same_step
+from stylobate.motion.readers.source import Source
+from stylobate.motion.specs import acceleration_unit
+
+from .stated import (
     LABEL,
-    Component,
     check_count,
     check_direction,
     check_length,
     check_peak,
     check_peak_time,
-    check_same_step,
     check_step,
     oriented,
     warn_of_missing,
 )
-from stylobate.motion.readers.source import Source
-from stylobate.motion.specs import acceleration_unit
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 16, 4, 6
 _UNIT = re.compile(r"units\s+of\s+(?P<size>[\d.]+)\s*(?P<unit>[a-z][a-z/0-9]*)", re.IGNORECASE)

@@ -8,8 +8,10 @@ from datetime import datetime, timedelta
 from stylobate.errors import InputError
 from stylobate.messages import say
 from stylobate.motion.readers.numbers import read_numbers
-from stylobate.motion.readers.record import CUT, Component, check_count, check_peak, check_step, oriented
+from stylobate.motion.readers.record import CUT, Component
 from stylobate.motion.readers.source import Source
+
+from .stated import check_count, check_peak, check_step, oriented
 
 _KEYS = (
     "origin time",

@@ -232,15 +232,15 @@ def _channel(trace: Any, descriptions: Sequence[Source], file: str) -> tuple[Any
         )
     first, name = found[0]
     for other, where in found[1:]:
-        if _told(other) != _told(first):
+        if _conversion_words(other) != _conversion_words(first):
             raise InputError(
-                f"{file}: channel {trace.id} is described as {_told(first)} in {name} and as {_told(other)} in {where}, at "
-                "one time; keep the description that is right."
+                f"{file}: channel {trace.id} is described as {_conversion_words(first)} in {name} and as "
+                f"{_conversion_words(other)} in {where}, at one time; keep the description that is right."
             )
     return first, name
 
 
-def _told(channel: Any) -> str:
+def _conversion_words(channel: Any) -> str:
     """What turns the counts of a channel into a motion, in words."""
     sensitivity = channel.response.instrument_sensitivity if channel.response else None
     size = "no sensitivity"

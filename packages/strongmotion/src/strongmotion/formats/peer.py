@@ -6,11 +6,12 @@ import re
 
 from stylobate.errors import InputError
 from stylobate.motion.readers.numbers import NUMBER, number_in, read_numbers
-from stylobate.motion.readers.record import Component, check_count, check_length, check_step, oriented
+from stylobate.motion.readers.record import Component
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 
-from .keyed import is_numeric
+from .stated import check_count, check_length, check_step, oriented
+from .volume1 import is_numeric
 
 _UNIT = re.compile(
     r"accel\w*\s+time\s+(?:series|history)\s+in\s+units\s+of\s+(?P<unit>[a-z][a-z/0-9^]*)", re.IGNORECASE

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 
-from stylobate.motion.readers.record import LABEL, Component, check_ended, oriented, warn_of_missing
+from stylobate.motion.readers.record import Component
 from stylobate.motion.readers.source import Source
 
+from .stated import LABEL, check_ended, oriented, warn_of_missing
 from .volume1 import channel_end, channels, check_stated_peak, header_ends, length, pairs, points, unit
 
 TEXT_LINES, HEADER_LINES = 13, 27

@@ -9,21 +9,11 @@ import numpy as np
 from stylobate.errors import InputError, warn
 from stylobate.messages import say
 from stylobate.motion.readers.numbers import count_numbers, read_numbers
-from stylobate.motion.readers.record import (
-    CUT,
-    LABEL,
-    Component,
-    check_count,
-    check_peak,
-    check_peak_time,
-    check_step,
-    direction,
-    oriented,
-    rising_pairs,
-)
+from stylobate.motion.readers.record import CUT, Component, direction, rising_pairs
 from stylobate.motion.readers.source import Source
 
-from .keyed import is_numeric
+from .stated import LABEL, check_count, check_peak, check_peak_time, check_step, oriented
+from .volume1 import is_numeric
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 11, 6, 10
 _FIRST = re.compile(r"^\s*(?P<volume>\d)\s+(?P<what>.*\S)\s*$")

@@ -9,19 +9,12 @@ import numpy as np
 from stylobate.errors import InputError
 from stylobate.messages import say
 from stylobate.motion.readers.numbers import NUMBER, read_numbers
-from stylobate.motion.readers.record import (
-    Component,
-    check_length,
-    check_peak,
-    check_same_step,
-    check_step,
-    oriented,
-    step_of,
-)
+from stylobate.motion.readers.record import Component, check_same_step, step_of
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 
-from .keyed import is_numeric, keyed, number_of
+from .stated import check_length, check_peak, check_step, oriented
+from .volume1 import is_numeric, keyed, number_of
 
 _COLUMN = re.compile(r"(?P<label>[UNE])\((?P<sign>[+-])\)")
 _MOST = re.compile(rf"(?P<high>{NUMBER})\s*~\s*(?P<low>{NUMBER})")

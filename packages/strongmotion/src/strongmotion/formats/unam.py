@@ -6,20 +6,12 @@ import re
 
 from stylobate.errors import InputError, within
 from stylobate.motion.readers.numbers import read_numbers
-from stylobate.motion.readers.record import (
-    CUT,
-    Component,
-    check_count,
-    check_length,
-    check_peak,
-    check_step,
-    direction,
-    oriented,
-)
+from stylobate.motion.readers.record import CUT, Component, direction
 from stylobate.motion.readers.source import Source
 from stylobate.motion.specs import acceleration_unit
 
-from .keyed import is_numeric, keyed
+from .stated import check_count, check_length, check_peak, check_step, oriented
+from .volume1 import is_numeric, keyed
 
 
 def recognises(source: Source) -> bool:

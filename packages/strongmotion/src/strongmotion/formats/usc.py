@@ -7,9 +7,10 @@ import re
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.motion.readers.numbers import read_numbers
-from stylobate.motion.readers.record import Component, check_count, check_ended, oriented
+from stylobate.motion.readers.record import Component
 from stylobate.motion.readers.source import Source
 
+from .stated import check_count, check_ended, oriented
 from .volume1 import channel_end, channels, pairs, unit
 
 TEXT_LINES = 13

@@ -9,18 +9,58 @@ from typing import TypeVar
 import numpy as np
 
 from stylobate.errors import InputError, within
-from stylobate.motion.readers.numbers import NUMBER, read_numbers
-from stylobate.motion.readers.record import (
-    CUT,
-    Component,
-    check_count,
-    check_peak,
-    check_peak_time,
-    printed,
-    rising_pairs,
-    step_of,
-)
+from stylobate.motion.readers.numbers import NUMBER, number_in, read_numbers
+from stylobate.motion.readers.record import CUT, Component, rising_pairs, step_of
 from stylobate.motion.specs import acceleration_unit
+
+from .stated import check_count, check_peak, check_peak_time, printed
+
+# Headers of lines ``KEY: value`` or ``KEY   value``, as several networks write them.
+
+_NUMERIC = re.compile(r"\s*[+-]?([0-9]|\.[0-9])[0-9\s.eEdD+-]*")
+
+
+def is_numeric(line: str) -> bool:
+    """Whether a line holds numbers and nothing else."""
+    return _NUMERIC.fullmatch(line) is not None
+
+
+def keyed(lines: Sequence[str]) -> dict[str, tuple[str, int]]:
+    """Value and line (from 1) by key in lower case, for lines ``KEY: value``; the first of equal keys counts."""
+    found: dict[str, tuple[str, int]] = {}
+    for number, line in enumerate(lines, 1):
+        key, colon, value = line.partition(":")
+        if colon and key.strip():
+            found.setdefault(" ".join(key.lower().split()), (value.strip(), number))
+    return found
+
+
+def number_of(header: dict[str, tuple[str, int]], key: str, file: str) -> tuple[float, int]:
+    """The first number of a value, and its line.
+
+    Raises
+    ------
+    InputError
+        The key is missing, or holds no number.
+    """
+    value, line = next((entry for name, entry in header.items() if name.startswith(key)), ("", 0))
+    return number_after(value, line, key.upper(), file), line
+
+
+def number_after(value: str, line: int, key: str, file: str) -> float:
+    """The number that a value begins with.
+
+    Raises
+    ------
+    InputError
+        It begins with none.
+    """
+    number = number_in(value)
+    if number is None:
+        where = f"line {line}" if line else "header"
+        raise InputError(f"{file}, {where}: expected a number after {key!r}, found {value!r}; fetch it again.")
+    return number
+
 
 Channel = TypeVar("Channel")
 

@@ -7,7 +7,7 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
-from stylobate.cli.groups import option
+from stylobate.cli.options import option
 from stylobate.errors import InputError
 
 #: The process that does the jobs of the page.

@@ -18,7 +18,7 @@ def draw(
     paper: str | None = o.option("A4|A3|…", "Drawn to scale on sheets of this paper, A4 to A0; for .pdf."),
     scale: str | None = o.option("1:N", "Scale of the elevations on --paper; the largest usual one by default."),
     *,
-    execution: Annotated[o.Execution, o.But(*o.CAMPAIGNS, "out")],
+    execution: Annotated[o.Execution, o.Without(*o.CAMPAIGNS, "out")],
 ) -> None:
     """Elevations from two sides, the plan, and the plan of every joint.
 

@@ -22,7 +22,7 @@ def report(
         flag="--translation-template",
     ),
     *,
-    execution: Annotated[o.Execution, o.But(*o.CAMPAIGNS, "out")],
+    execution: Annotated[o.Execution, o.Without(*o.CAMPAIGNS, "out")],
 ) -> None:
     """A report of any results: one page that prints on A4, for an engineer who signs it.
 
@@ -35,7 +35,7 @@ def report(
 
     from ..case import write_report
     from ..language import write_template
-    from ..pdf import is_root, needs_browser
+    from ..page import is_root, needs_browser
     from ..project import read_project
 
     if template is not None:

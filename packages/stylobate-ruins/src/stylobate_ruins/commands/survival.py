@@ -57,7 +57,7 @@ def survival(
         if files.wanted:
             import pandas
 
-            from ..pictures.survival import draw_survival
+            from ..pictures.inference import draw_survival
 
             files.table(pandas.DataFrame(result["hazards"]), "survival.csv")
             files.picture(draw_survival(found), "survival")
@@ -79,11 +79,11 @@ def survival(
 
 def _several(source: Path, age: str | None, hazard: list[Path] | None, execution: o.Plain) -> None:
     """Weigh the branches of a file of sites."""
+    from stylobate.atomic import digest
     from stylobate.cli import console
     from stylobate.errors import InputError
-    from stylobate.own_files import digest
 
-    from ..site_files import read_sites
+    from ..monuments import read_sites
     from ..weighing import weigh
 
     if age is not None or hazard:
@@ -94,7 +94,7 @@ def _several(source: Path, age: str | None, hazard: list[Path] | None, execution
         if files.wanted:
             import pandas
 
-            from ..pictures.weighing import draw_weighing
+            from ..pictures.inference import draw_weighing
 
             rows = [{key: value for key, value in one.items() if key != "annual_rates"} for one in result["hazards"]]
             files.table(pandas.DataFrame(rows), "survival.csv")

@@ -1,7 +1,8 @@
-"""What shaking it was: posteriors, what each observation tells, and the ruin beside draws that match it."""
+"""Pictures of inference: posteriors, what each observation tells, survival of what stands, hazards weighed by monuments."""
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,19 +10,24 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Circle
 
-from stylobate.messages import say
-from stylobate.plots.style import BLACK, BLUE, GREY, RED, SAND, WIDTH, in_lines, page, styled
+from stylobate.messages import percents, say
+from stylobate.motion.intensity import parse_measure
+from stylobate.plots.fragility import NARROW
+from stylobate.plots.style import BLACK, BLUE, GREY, RED, SAND, WIDTH, in_lines, page, panel, styled
+from stylobate.probability.risk import years
 
 from .. import abc
-from ..answers import CALLED, TOLD
+from ..answers import LABELS, UNITS
 from ..infer import Inference
 from ..ruin import joints_of
 from ..simulations import FELL
+from ..survival import Survival
+from ..weighing import FRACTILES, WAYS, Weighing
 
 if TYPE_CHECKING:
     from stylobate.column.structure import Structure
 
-    from ..simulations import Left
+    from ..simulations import FinalState
 
 #: Bars of a marginal.
 BARS = 24
@@ -34,15 +40,10 @@ MATCHES, TIMES = 10, 5.0
 def draw_posterior(
     inference: Inference, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """PGV, PGA, period and azimuth after what is seen, the prior grey behind; the line is the median, the band holds 90 %.
-
-    Parameters
-    ----------
-    inference : Inference
-    """
+    """PGV, PGA, period and azimuth after what is seen, the prior grey behind; the line is the median, the band 90 %."""
     figure = page(figure, (WIDTH, 4.4))
     answers, taken = inference.answers, inference.taken
-    for number, (axes, name) in enumerate(zip(figure.subplots(2, 2).flat, TOLD, strict=True)):
+    for number, (axes, name) in enumerate(zip(figure.subplots(2, 2).flat, UNITS, strict=True)):
         one, prior = inference.posterior[name], answers.table.parameters[name]
         if name == "azimuth_deg":
             turn, middle = answers.table.prior.turn, 0.5 * (one.low + one.high)
@@ -61,11 +62,11 @@ def draw_posterior(
         axes.set_xlim(bins[0], bins[-1])
         axes.set_yticks([])
         axes.spines["left"].set_visible(False)
-        axes.set_xlabel(f"{CALLED[name]} [{TOLD[name]}]" + (", from x towards y" if name == "azimuth_deg" else ""))
+        axes.set_xlabel(f"{LABELS[name]} [{UNITS[name]}]" + (", from x towards y" if name == "azimuth_deg" else ""))
         axes.set_title("" if one.informative else "the shapes do not tell", fontsize=8.5, color=GREY)
         if number == 0:
             axes.legend(loc="best", fontsize=7.5)
-    figure.suptitle(in_lines(title or _said(inference)), x=0.02, ha="left", fontsize=10.0)
+    figure.suptitle(in_lines(title or _title(inference)), x=0.02, ha="left", fontsize=10.0)
     return figure
 
 
@@ -73,12 +74,7 @@ def draw_posterior(
 def draw_observations(
     inference: Inference, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
-    """What is left of the prior's spread of ln PGV with each observation alone, and without it; odd ones in red.
-
-    Parameters
-    ----------
-    inference : Inference
-    """
+    """What is left of the prior's spread of ln PGV with each observation alone, and without it; odd ones in red."""
     rows, odd = inference.told, [one.odd for one in inference.checks]
     figure = page(figure, (WIDTH, 1.3 + 0.24 * len(rows)))
     axes = figure.subplots()
@@ -112,10 +108,6 @@ def draw_matches(inference: Inference, title: str | None = None, *, figure: Figu
     """The ruin in plan beside the draws that are nearest to it, and the nearest of those that differ in a state.
 
     Offsets of drums are drawn five times as long as they are; an arrow is a fall.
-
-    Parameters
-    ----------
-    inference : Inference
     """
     answers, ruin = inference.answers, inference.ruin
     table, taken = answers.table, inference.taken
@@ -149,7 +141,13 @@ def draw_matches(inference: Inference, title: str | None = None, *, figure: Figu
 
 
 def _column(
-    axes: Axes, inference: Inference, i: int, at: tuple[float, float], width: float, left: Left | None, k: int | None
+    axes: Axes,
+    inference: Inference,
+    i: int,
+    at: tuple[float, float],
+    width: float,
+    left: FinalState | None,
+    k: int | None,
 ) -> None:
     """One structure in plan: as it is seen, or as a draw leaves it."""
     facts = [fact for fact in inference.answers.facts if fact.structure == i]
@@ -204,7 +202,7 @@ def _width(structure: Structure) -> float:
     return float(max(column.joint_widths)) if column is not None else 1.0
 
 
-def _said(inference: Inference) -> str:
+def _title(inference: Inference) -> str:
     one = inference.posterior["pgv_m_s"]
     if not one.informative:
         return "What shaking was it? These shapes do not tell the PGV"
@@ -220,3 +218,96 @@ def _plain_ticks(axes: Axes, low: float, high: float) -> None:
     some = [one for one in ticks if low <= one <= high]
     axes.set_xticks(some, [f"{one:g}" for one in some])
     axes.set_xticks([], minor=True)
+
+
+# Survival: what the age of a column that still stands says about hazard curves.
+
+
+@styled
+def draw_survival(result: Survival, title: str | None = None, *, ax: Axes | None = None) -> Figure:
+    """Probability that the column would still stand, by hazard curve, with the interval of its fragility."""
+    figure, axes = panel(ax, (NARROW[0], 1.2 + 0.62 * len(result.risks)))
+    low, high = result.interval
+    at = np.arange(len(result.risks))
+    axes.barh(at, result.probability, height=0.36, color=BLUE, alpha=0.6)
+    axes.hlines(at, low, high, color=BLACK, linewidth=1.4)
+    weight = result.likelihood / result.likelihood.sum()
+    for k, risk in enumerate(result.risks):
+        text = f"{risk.hazard.name}: {result.probability[k]:.2g}, weight {weight[k]:.2f}"
+        axes.annotate(text, (0.0, k), xytext=(2, 15), textcoords="offset points", va="center", fontsize=8)
+    axes.set_yticks([])
+    axes.spines["left"].set_color(GREY)
+    axes.set(xlim=(0.0, 1.02), ylim=(len(at) - 0.6, -0.8))
+    axes.set_xlabel("probability that it would still stand [-]")
+    axes.grid(True, axis="x")
+    axes.set_title(
+        title
+        or say("{years} without {result.risks[0].fragility.evidence.state}", years=years(result.age), result=result),
+        fontsize=9,
+    )
+    return figure
+
+
+# Hazard weighed by monuments: branches and hazard curves before and after, and which monument tells what.
+
+#: Most branches and sites that are drawn.
+BRANCHES, SITES = 12, 6
+
+
+@styled
+def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
+    """Weights of branches, bits of monuments, and hazard curves of sites; grey before, blue after what is seen.
+
+    The mark across a weight reaches from events that each site has for its own to events that shake all.
+    """
+    sites = list(result.im)[:SITES]
+    order = np.argsort(-np.maximum(result.prior, result.weight), kind="stable")[:BRANCHES]
+    rows, across = math.ceil(len(sites) / 2), min(len(sites), 2)
+    top = 0.9 + 0.3 * max(len(order), len(result.told))
+    figure = page(figure, (WIDTH, 0.7 + top + 2.3 * rows))
+    upper, lower = np.ravel(np.asarray(figure.subfigures(2, 1, height_ratios=(top, 2.3 * rows))))
+    left, right = upper.subplots(1, 2)
+    at = np.arange(len(order))
+    left.barh(at - 0.19, result.prior[order], 0.36, color="#dddddd", label="before")
+    left.barh(at + 0.19, result.weight[order], 0.36, color=BLUE, alpha=0.75, label="after")
+    ends = np.array([result.posterior(result.likelihood[one])[order] for one in WAYS])
+    left.hlines(at + 0.19, ends.min(axis=0), ends.max(axis=0), color=BLACK, linewidth=1.2)
+    left.set_yticks(at, [result.asked.branches[k].name for k in order])
+    left.invert_yaxis()
+    left.set_xlabel("weight of the branch [-]")
+    left.legend(fontsize=7.5)
+    if len(order) < len(result.weight):
+        left.set_title(
+            say("the first {order} of {weight} branches", order=len(order), weight=len(result.weight)),
+            fontsize=8.0,
+            color=GREY,
+        )
+    told = result.told
+    at = np.arange(len(told))
+    right.barh(at, [one["bits_alone"] for one in told], 0.5, color="#dddddd", label="by itself")
+    right.plot(
+        [one["bits_beside_others"] for one in told], at, "o", color=BLUE, markersize=4.5, label="beside the others"
+    )
+    right.set_yticks(at, [one["monument"] for one in told])
+    right.invert_yaxis()
+    right.set_xlim(0.0, None)
+    right.set_xlabel("tells of the branches [bits]")
+    right.legend(fontsize=7.5)
+    measure = parse_measure(result.asked.monuments[0].capacity.measure).words
+    for number, (axes, site) in enumerate(zip(lower.subplots(rows, across, squeeze=False).flat, sites)):
+        im = result.im[site]
+        for weight, color, called in ((result.prior, GREY, "before"), (result.weight, BLUE, "after")):
+            low, _, high = result.fractiles(site, weight)
+            label = f"{called}, {percents(FRACTILES[0], FRACTILES[-1])} of branches"
+            axes.fill_between(im, low, high, color=color, alpha=0.18, linewidth=0.0, label=label)
+            axes.plot(im, result.mean(site, weight), color=color, linewidth=1.5)
+        axes.set(xscale="log", yscale="log", xlabel=measure, title=site)
+        if number % across == 0:
+            axes.set_ylabel("annual rate of exceedance [1/y]")
+        if number == 0:
+            axes.legend(fontsize=7.0, loc="lower left")
+        axes.grid(True)
+    figure.suptitle(
+        in_lines(title or result.sentence.partition(";")[0].partition(". E")[0]), x=0.02, ha="left", fontsize=10.0
+    )
+    return figure

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
 from stylobate.constants import g
-from stylobate.percent import percents
+from stylobate.messages import percents
 from stylobate.plots.domain import draw_boundary, draw_cells, draw_static_line
 from stylobate.plots.style import BLACK, WIDTH, page, styled
 from stylobate.verdicts import verdict as v

@@ -8,7 +8,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from stylobate.percent import percent
+from stylobate.messages import percent
 from stylobate.plots.domain import draw_band, draw_shares
 from stylobate.plots.style import WIDTH, styled
 from stylobate.verdicts.domain import CollapseProbability
