@@ -24,7 +24,7 @@ from ..errors import check_all, check_choice, check_kind
 from ..messages import digits
 
 P = ParamSpec("P")
-FigureOrFigures = TypeVar("Drawn", Figure, tuple[Figure, ...])
+FigureOrFigures = TypeVar("FigureOrFigures", Figure, tuple[Figure, ...])
 
 #: Width of a picture across the text of a page [inch].
 WIDTH = 7.0

@@ -560,7 +560,7 @@ def load(path: str | Path) -> Recorded:
             warnings.simplefilter("ignore", OutOfRangeWarning)  # they were given when the column was made
             return _from_dataset(data)
     except InputError as error:
-        error.place(f"{store.shown(path)} does not hold what can be used")
+        error.place(f"{store.printable(path)} does not hold what can be used")
         raise
     except Exception as error:
         raise store.unreadable(path, error) from None
