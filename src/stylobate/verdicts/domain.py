@@ -539,7 +539,9 @@ class CollapseProbability(NotebookSummary):
         try:
             provenance = json.loads(str(data["provenance"].values))
             if "imperfection" in provenance:
-                raise InputError(f"{store.printable(path)} was written by an earlier version; run it again with this one.")
+                raise InputError(
+                    f"{store.printable(path)} was written by an earlier version; run it again with this one."
+                )
             return cls(
                 column_from_dict(json.loads(str(data["column"].values))),
                 str(data.attrs["model"]),
