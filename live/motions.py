@@ -12,8 +12,8 @@ SINE, PULSE = 10.0, 12.0
 EARTHQUAKES = {
     "el-centro-1940": "El Centro, California, 1940",
     "san-francisco-1989": "Loma Prieta in San Francisco, 1989",
-    "ridgecrest-2019": "Ridgecrest, California, 2019",
     "hanmer-springs-2016": "Kaikōura in Hanmer Springs, New Zealand, 2016",
+    "ridgecrest-2019": "Ridgecrest, California, 2019",
 }
 
 #: How much of an earthquake is taken: from where a twentieth of its energy has come to where a twentieth is left.

@@ -146,10 +146,11 @@ function motionOf(data, request) {
     unit = data.earthquakes.find((item) => item.name === request.name);
     ({ count, sample } = unit);
   } else {
+    // in the order in which the package divides, to the last bit
     const shape = data.shapes[request.kind], steps = Math.round(shape.length * request.frequency * shape.cycle);
     unit = { x: shape.samples, repeats: shape.repeats };
     count = steps + 1;
-    sample = shape.length / steps;
+    sample = shape.repeats ? shape.length / steps : 1 / request.frequency / shape.cycle;
   }
   const times = level / (unit.peak ?? 1);
   const x = scaled(unit.x, count, times, unit.repeats), z = unit.z ? scaled(unit.z, count, times) : null;

@@ -24,7 +24,7 @@ async function start() {
     state[name].postMessage({ module, data });
   }
   state.filmer.onmessage = ({ data: message }) => message.id === state.id && (message.kind === "failed" ? failed(message) : filmed(message));
-  state.mapper.onmessage = ({ data: message }) => message.id === state.mapId && mapped(message);
+  state.mapper.onmessage = ({ data: message }) => message.id === state.mapId && (message.kind === "failed" ? mapFailed(message) : mapped(message));
   state.map.describe = sayCell;
   form();
   state.opening = true;
@@ -70,6 +70,7 @@ function form() {
   $("choose").addEventListener("submit", (event) => {
     event.preventDefault();
     shake();
+    showStage();
   });
   $("play").addEventListener("click", () => play(!state.playing));
   $("time").addEventListener("input", () => {
@@ -117,7 +118,7 @@ function shake() {
   $("frequency-row").hidden = motion.kind === "earthquake";
   $("earthquake-row").hidden = motion.kind !== "earthquake";
   $("frequency-text").textContent = motion.frequency ? pace(motion) : "";
-  $("amplitude-text").textContent = `${motion.amplitude.toFixed(2)} g`;
+  $("amplitude-text").textContent = strength(motion);
   for (const name of ["frequency", "amplitude"]) $(name).setAttribute("aria-valuetext", $(`${name}-text`).textContent);
   $("command").textContent = command(what);
   $("copy").textContent = "Copy";
@@ -137,6 +138,14 @@ function shake() {
     beginMap(what);
   }
   markMap(motion);
+}
+
+// What is chosen may be far below the film, on a phone.
+const showStage = () => $("stage-frame").scrollIntoView({ block: "nearest" });
+
+function strength({ amplitude, name }) {
+  const record = state.data.earthquakes.find((item) => item.name === name);
+  return `${amplitude.toFixed(2)} g${record ? ` (recorded: ${(record.peak / state.data.g).toFixed(2)} g)` : ""}`;
 }
 
 function pace({ kind, frequency }) {
@@ -192,7 +201,7 @@ function say() {
   const sentence = own && state.data.outcomes[own.outcome][column.drums === 1 ? 1 : 0];
   const standing = { 0: "No joint opened.", 1: "It rocked, and nothing is shifted.", 2: column.drums === 1 ? "It is shifted for good." : "Some of its drums are shifted for good." };
   let first;
-  if (!own) first = performance.now() - film.began > 400 ? "Shaking …" : "";
+  if (!own) first = "Shaking …";
   else if (own.outcome === FELL) first = `<b class="fell">${column.subject} falls after ${own.time.toFixed(1)} seconds.</b>`;
   else if (own.outcome === 4) first = `<b>${sentence}</b>`;
   else first = `<b class="stood">${column.subject} stands.</b> ${standing[own.outcome]}`;
@@ -257,19 +266,20 @@ function beginMap({ motion }) {
     labels = { ticks: across.map((item, i) => (i % 3 === 0 || i === MAP_COLUMNS - 1 ? `${+item.toFixed(item < 1 ? 2 : 1)}` : "")), title: "how fast: times a second (Hz)" };
   }
   map.begin(across, up, labels);
+  state.mapKind = motion.kind;
   // from coarse to fine, so that the picture is there before all of it is
   const order = (k, bits) => [...Array(bits).keys()].reduce((sum, bit) => sum + (((k >> bit) & 1) << (bits - 1 - bit)), 0);
   const cells = [];
   for (let j = 0; j < up.length; j++) for (let i = 0; i < across.length; i++) cells.push({ i, j });
   cells.sort((a, b) => order(a.i, 4) + order(a.j, 4) - order(b.i, 4) - order(b.j, 4) || order(a.i, 4) - order(b.i, 4));
-  state.mapCells = cells.map(({ i, j }) => ({ i, j, ...cellMotion(motion.kind, i, j) }));
+  state.mapCells = cells.map(({ i, j }) => ({ i, j, ...cellMotion(i, j) }));
   state.mapBegun = false;
   state.mapper.postMessage({ id: ++state.mapId });
   $("map-text").textContent = "";
 }
 
-function cellMotion(kind, i, j) {
-  const { map } = state, amplitude = map.up[j];
+function cellMotion(i, j) {
+  const { map, mapKind: kind } = state, amplitude = map.up[j];
   return kind === "earthquake" ? { kind, amplitude, name: map.across[i] } : { kind, amplitude, frequency: map.across[i] };
 }
 
@@ -285,9 +295,25 @@ function mapped(message) {
     const { i, j } = state.mapCells[message.cell];
     map.set(i, j, message.outcome);
   }
-  const known = map.cells.filter((item) => item !== null).length, fell = map.cells.filter((item) => item === FELL).length;
-  $("map-text").textContent = known < map.cells.length ? `${known} of ${map.cells.length} computed …` : `${fell} of ${known} bring it down. Choose a square to see it happen.`;
-  $("map").dataset.over = known === map.cells.length;
+  const { length } = map.cells, known = map.cells.filter((item) => item !== null).length;
+  $("map-text").textContent = known < length ? `${known} of ${length} computed …` : summary();
+  $("map").dataset.over = known === length;
+}
+
+function mapFailed({ reason }) {
+  $("map-text").textContent = `The computation could not go on (${reason}).`;
+}
+
+// Cells are stored row by row, the weakest first, and in each the slowest first.
+function summary() {
+  const { map } = state, fell = map.cells.filter((item) => item === FELL).length, weakest = map.cells.indexOf(FELL);
+  if (!fell) return "None of these brings it down.";
+  return `${fell} of ${map.cells.length} bring it down; the weakest: ${cellName(weakest % map.across.length, Math.floor(weakest / map.across.length))}. Choose a square to see it happen.`;
+}
+
+function cellName(i, j) {
+  const motion = cellMotion(i, j);
+  return `${motion.amplitude} g, ${motion.name ? state.data.earthquakes[i].title : pace(motion)}`;
 }
 
 function markMap(motion) {
@@ -298,14 +324,15 @@ function markMap(motion) {
 }
 
 function sayCell(i, j) {
-  const { map } = state, outcome = map.of(i, j), what = typeof map.across[i] === "string" ? map.across[i] : `${map.across[i]} Hz`;
-  $("map-text").textContent = `${what}, ${map.up[j]} g: ${outcome === null ? "not yet computed" : outcome === FELL ? "falls" : outcome === 4 ? "no verdict" : "stands"}`;
+  const outcome = state.map.of(i, j);
+  $("map-text").textContent = `${cellName(i, j)}: ${outcome === null ? "not yet computed" : outcome === FELL ? "falls" : outcome === 4 ? "no verdict" : "stands"}`;
 }
 
 function chooseCell(i, j) {
-  const { map } = state;
-  $("amplitude").value = map.up[j];
-  if (typeof map.across[i] === "string") $("earthquake").value = map.across[i];
-  else $("frequency").value = placeOf(map.across[i]);
+  const { amplitude, name, frequency } = cellMotion(i, j);
+  $("amplitude").value = amplitude;
+  if (name) $("earthquake").value = name;
+  else $("frequency").value = placeOf(frequency);
   shake();
+  showStage();
 }

@@ -52,7 +52,7 @@ class Verdicts {
 
   box(ratio) {
     const w = this.canvas.clientWidth * ratio, h = this.canvas.clientHeight * ratio;
-    const left = 40 * ratio, bottom = h - 34 * ratio, top = 6 * ratio;
+    const left = 62 * ratio, bottom = h - 34 * ratio, top = 6 * ratio;
     return { left, bottom, wide: (w - left - 4 * ratio) / Math.max(1, this.across.length), high: (bottom - top) / Math.max(1, this.up.length), w, h };
   }
 
@@ -79,6 +79,11 @@ class Verdicts {
     const { ticks, title } = this.labels;
     ticks.forEach((text, i) => text && pen.fillText(text, box.left + (i + 0.5) * box.wide, box.bottom + 4 * ratio));
     pen.fillText(title, box.left + (this.across.length * box.wide) / 2, box.bottom + 19 * ratio);
+    pen.save();
+    pen.translate(2 * ratio, box.bottom - (this.up.length * box.high) / 2);
+    pen.rotate(-Math.PI / 2);
+    pen.fillText("how strong", 0, 0);
+    pen.restore();
     if (this.mark) {
       pen.strokeStyle = "#26221c";
       pen.lineWidth = 2 * ratio;

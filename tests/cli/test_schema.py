@@ -125,13 +125,17 @@ def test_a_mistyped_key_does_not_validate(kind):
     ("kind", "changes"),
     [
         ("column", {"north": "12"}),
+        ("column", {"section": "round"}),
+        ("column", {"link": [{"kind": "dowl", "joint": 1}]}),
+        ("assembly", {"link": [{"kind": "dowl", "between": ["a", "b"]}]}),
+        ("ruin", {"observed": [{"column": "trajan", "state": "fallen"}]}),
         ("column", {"drum": {"height": 1.0}}),
         ("study", {"motions": {"files": "one"}}),
         ("ruin", {"prior": {}, "simulations": 1.5}),
         ("project", {"site": 3}),
     ],
 )
-def test_a_value_of_another_type_does_not_validate(kind, changes):
+def test_a_value_of_another_type_or_an_unknown_word_does_not_validate(kind, changes):
     assert faults(kind, WHOLE[kind] | changes) != []
 
 

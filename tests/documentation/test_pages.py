@@ -171,3 +171,15 @@ def test_every_public_name_is_in_the_python_reference():
     found = {path.name: text for path, text in extension("api_pages").texts(Path())}
     assert all(f"st.{name}" in found["public.txt"] for name in stylobate.__all__)
     assert "automodule:: strongmotion.formats.peer" in found["strongmotion.md"]
+
+
+def test_quick_tests_are_of_every_room():
+    """But for the fuzzing, which tries hundreds, and the column in the browser, which is compiled first."""
+    files = {*DOCS.parent.glob("tests/*/test_*.py"), *DOCS.parent.glob("packages/*/tests/*/test_*.py")}
+    quick = {DOCS.parent / line for line in (DOCS.parent / "tests" / "quick.txt").read_text().splitlines()}
+    room = {file: file.relative_to(DOCS.parent).parts[:2] for file in files}
+    assert quick <= files
+    assert {room[file] for file in files - quick} - {room[file] for file in quick} == {
+        ("tests", "fuzz"),
+        ("tests", "live"),
+    }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_choice, check_kind, check_range, warn, within
@@ -14,7 +14,7 @@ from .joint import FRICTION, Joint, stated_fields
 from .links.tables import LinkTable, links_of
 from .materials import JOINT_VALUES, Material, material
 from .plausible import found_doubts, law_doubts
-from .toml import Table, checked, parse_toml
+from .toml import Table, checked, parse_toml, words
 
 
 class JointTable(Table):
@@ -93,7 +93,7 @@ class ColumnTable(Table):
     """A column file."""
 
     name: str | None = None
-    section: str = "rectangular"
+    section: Annotated[str, words(SECTIONS)] = "rectangular"
     depth: float | None = None
     density: float | None = None
     material: str | None = None

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError, WithJsonSchema
 
 from ..errors import InputError, suggest
 from ..text_tables import SETTINGS, printable, read_bytes
@@ -25,6 +25,11 @@ class Table(BaseModel):
 
     #: What the path of a field calls it, where that is not its key; empty where the path goes without it.
     called: ClassVar[str | None] = None
+
+
+def words(known: Iterable[str]) -> WithJsonSchema:
+    """What a schema says of a key that takes one of a few words; they are checked where a value is made of it."""
+    return WithJsonSchema({"enum": list(known)})
 
 
 T = TypeVar("T", bound=Table)

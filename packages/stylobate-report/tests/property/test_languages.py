@@ -2,6 +2,7 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -26,18 +27,19 @@ from stylobate_report.page import Own
 REPORT = Path(spoken.__file__).parent
 
 
+@cache
 def _messages():
     """Templates of this package and of the core, words of tables and prose of models."""
-    core = Path(__import__("stylobate").__file__).parent
+    core, result = Path(__import__("stylobate").__file__).parent, []
     for path in (*REPORT.rglob("*.py"), *core.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "say":
                 text = node.args[0]
                 if isinstance(text, ast.Constant) and has_words(text.value):
-                    yield text.value
-    yield from WORDS.split("|")
+                    result.append(text.value)
     for model in map(model_class, MODELS):
-        yield from (model.title, *model.assumptions, *model.limits)
+        result += (model.title, *model.assumptions, *model.limits)
+    return [*result, *WORDS.split("|")]
 
 
 @pytest.mark.parametrize("tag", LANGUAGES)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from stylobate.campaign.study_files import ColumnScatterTable, listed
 from stylobate.column.assembly_files import load_structure
@@ -12,7 +12,7 @@ from stylobate.column.catalogue import PRESETS
 from stylobate.column.joint import LAWS
 from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.column.structure import Structure
-from stylobate.column.toml import Table, read_table
+from stylobate.column.toml import Table, read_table, words
 from stylobate.constants import g
 from stylobate.errors import InputError, as_typed, within
 from stylobate.models.registry import make_model
@@ -22,7 +22,7 @@ from stylobate.motion.specs import parse_acceleration, parse_angle, parse_time, 
 from stylobate.text_tables import printable
 
 from .prior import LOSSES, Prior
-from .ruin import DRAWN_OF_MODEL, USUAL_COUNT, Observed, Ruin, refuse_drawn
+from .ruin import DRAWN_OF_MODEL, STATES, USUAL_COUNT, Observed, Ruin, refuse_drawn
 from .survival import Outlasted
 
 #: Columns that are as surveyed: of a ``[prior.scatter]`` that names nothing.
@@ -33,7 +33,7 @@ class ObservedTable(Table):
     """``[[observed]]``: what is seen of one column."""
 
     column: str
-    state: str = "unknown"
+    state: Annotated[str, words(STATES)] = "unknown"
     fell_towards: Any = None
     towards_sd: Any = None
     offsets: list[list[int | float]] | None = None

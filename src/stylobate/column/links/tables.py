@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 from pydantic import create_model
 
 from ...errors import InputError, within
-from ..toml import Table
+from ..toml import Table, words
 from . import COLUMN_KINDS, KINDS, block_link, link_from_dict
 from .link import Link
 
@@ -31,7 +31,7 @@ else:
 class LinkTable(LinkNumbers):
     """``[[link]]`` of a column: one, or one alike in several joints; lengths in m, forces in N, stiffness in N/m."""
 
-    kind: str
+    kind: Annotated[str, words(COLUMN_KINDS)]
     name: str | None = None
     joint: int | str | list[int] | None = None
     joints: str | list[int] | None = None
@@ -46,7 +46,7 @@ class LinkTable(LinkNumbers):
 class BlockLinkTable(BlockLinkNumbers):
     """``[[link]]`` of an assembly: what links two bodies by name; ``at`` and ``to`` are its ends, x, z or x, y, z [m]."""
 
-    kind: str
+    kind: Annotated[str, words(KINDS)]
     between: list[str]
     name: str = ""
     at: list[float] | None = None
