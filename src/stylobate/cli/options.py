@@ -359,7 +359,7 @@ class Following(Group):
     """How long each run goes on."""
 
     tail: float = option("TIME", "Go on for this long after the motion, such as 5s.", "0s", read=time)
-    whole_number: bool = option(None, "Step all of a record, its quiet before, between and after shocks too.", False)
+    whole: bool = option(None, "Step all of a record, its quiet before, between and after shocks too.", False)
 
     @property
     def fields(self) -> dict[str, Any]:
