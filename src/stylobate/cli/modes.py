@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
+from ..messages import joined
 from . import options as o
 
 if TYPE_CHECKING:
@@ -74,6 +75,7 @@ def modes(
         if frequencies is not None:
             joints = joints_from_frequencies(stone, frequencies, how, under, draws=DRAWS if draws is None else draws)
             summary["inferred"] = joints.summary()
+            summary["sentence"] = joined(" ", [found.sentence, joints.sentence])
         if files.wanted:
             from .. import plots
 
@@ -86,9 +88,8 @@ def modes(
             files.summary(summary, "modes.json")
     if execution.emits(summary):
         return
-    console.say(
-        found.sentence, _facts(found, number, drops, left) | ({} if joints is None else _inferred(joints)), files
-    )
+    facts = _facts(found, number, drops, left) | ({} if joints is None else _inferred(joints))
+    console.say(summary["sentence"], facts, files)
 
 
 def _table(drops: list[dict[str, Any]]) -> Any:
@@ -125,8 +126,8 @@ def _facts(found: Modes, number: int, drops: list[dict[str, Any]], left: float) 
     if found.structure.stack is not None:
         solid = found.solid_modulus / 1e9
         facts["bends as solid stone of"] = f"{solid.min():.3g} to {solid.max():.3g} GPa"
-    for doubt in found.doubts:
-        facts["mind"] = doubt
+    if found.doubt:
+        facts["mind"] = found.doubt
     notes = found.standing.left_out
     if notes:
         more = f"; and {len(notes) - 3} more, in the JSON" if len(notes) > 3 else ""
@@ -142,7 +143,7 @@ def _facts(found: Modes, number: int, drops: list[dict[str, Any]], left: float) 
 
 def _inferred(joints: MeasuredJoints) -> dict[str, str]:
     """What measured frequencies tell, for people."""
-    facts = {"measured": joints.sentence}
+    facts = {}
     for name, words in (("joint_bending_stiffness", "k_b/J_A"), ("joint_shear_stiffness", "k_s")):
         sides = joints.bounded_by[name]
         told = [f"{side} side by {which}" for side, which in sides.items() if which is not None]

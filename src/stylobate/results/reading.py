@@ -37,6 +37,7 @@ class Kind(Enum):
     PROBABILITY = "probability"
     PUSHOVER = "pushover"
     LIMIT = "limit"
+    MODES = "modes"
     COMPARE = "compare"
     STATES = "states"
     SUITE = "suite"
@@ -219,6 +220,7 @@ FILES = {
     Kind.DOMAIN: Files(("cells", "collapsed")),
     Kind.PROBABILITY: Files(("cells", "replicates")),
     Kind.LIMIT: Files(("collapse_multiplier_g", "active_joints"), further=("directions",)),
+    Kind.MODES: Files(("modes", "solid_modulus_pa", "sentence"), ("drops",), ("column.toml", "scatter.toml")),
     Kind.PUSHOVER: Files(("collapse_multiplier_g", "peaked", "curve")),
     Kind.STATES: Files(
         ("state", "states", "differences", "links", "records", "doubt"), ("states", "design"), ("links.csv", "design")
@@ -386,6 +388,7 @@ _READERS: dict[str, Callable[[Path], Result]] = {
     "domain.nc": _read_grid(Kind.DOMAIN, Domain.load),
     "probability.nc": _read_grid(Kind.PROBABILITY, CollapseProbability.load),
     "limit.json": _read_numbers(Kind.LIMIT),
+    "modes.json": _read_numbers(Kind.MODES),
     "pushover.json": _read_numbers(Kind.PUSHOVER),
     "comparison.csv": _read_comparison,
     **{f"{kind.value}.json": _read_numbers(kind) for kind in (Kind.STATES, Kind.SUITE, Kind.IDA)},

@@ -15,6 +15,7 @@ from ..column.shapes import cut
 from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError
+from ..messages import say
 from ..models.dem2d.model import DistinctElement2D
 from ..models.dem3d.model import DistinctElement3D
 from ..models.dem3d.packing import face_corners
@@ -123,7 +124,7 @@ def _joint_of_column(column: Column, at: SpaceGeometry, j: int, law: str, kn: fl
 
     friction = column.friction[j] * load.normal + column.joint_laws[j].cohesion * area
     return ClosedJoint(
-        name=f"joint {j + 1}",
+        name=say("joint {number}", number=j + 1),
         lower=j,
         upper=j + 1,
         frame=frame,
@@ -291,7 +292,9 @@ def _in_plane(structure: Structure, model: DistinctElement2D) -> Vibrating:
         second = math.nan if column is None else float(column.joint_second_moments[j])
         joints.append(
             ClosedJoint(
-                name=f"joint {j + 1}" if column is not None else _between(structure, pair.lower, pair.upper),
+                name=_between(structure, pair.lower, pair.upper)
+                if column is None
+                else say("joint {number}", number=j + 1),
                 lower=pair.lower,
                 upper=pair.upper,
                 frame=frame,
@@ -383,7 +386,7 @@ def _loaded_column(column: Column, standing: Vibrating, down: np.ndarray) -> Vib
 
 def _between(structure: Structure, lower: int, upper: int) -> str:
     """The joint of two bodies in words."""
-    return f"{structure.bodies[lower].name} and {structure.bodies[upper].name}"
+    return say("{lower} – {upper}", lower=structure.bodies[lower].name, upper=structure.bodies[upper].name)
 
 
 def _assembly_in_space(structure: Structure) -> Vibrating:
@@ -463,10 +466,10 @@ def _at_rest(structure: Structure, standing: Vibrating, down: np.ndarray, each: 
     shape = q.reshape(-1, 6)
     for joint, touch, depth in zip(standing.joints, pressing, depths, strict=True):
         if not touch.any():
-            notes.append(f"the joint of {joint.name} is not pressed at rest and counts as open")
+            notes.append(say("the joint {joint} is not pressed at rest and counts as open", joint=joint.name))
             continue
         if not touch.all():
-            notes.append(f"the joint of {joint.name} is pressed on a part of its edge alone at rest")
+            notes.append(say("the joint {joint} is pressed on a part of its edge alone at rest", joint=joint.name))
         part = _part(joint, touch)
         force = joint.springs * np.maximum(depth, 0.0)
         normal = float(force.sum())
@@ -477,9 +480,8 @@ def _at_rest(structure: Structure, standing: Vibrating, down: np.ndarray, each: 
         closed = closure[closure > 0.0]
         law = joint.friction * normal
         if float(np.hypot(*shear)) > law:
-            notes.append(
-                f"the joint of {joint.name} would slide at rest if its stones were as stiff as its springs alone"
-            )
+            words = say("the joint {joint} would slide at rest if its stones were as stiff as its springs alone")
+            notes.append(words.of(joint=joint.name))
         joints.append(
             replace(
                 part,
@@ -621,9 +623,11 @@ def _springs(
             ways.append(axis)
             stiffness.append(link.axial_stiffness)
         if link.shear_stiffness and not link.straight and link.clearance:
-            left_out.append(f"{link.name}: its clearance of {1000.0 * link.clearance:g} mm lets small slips pass")
+            words = say("{link}: its clearance of {gap:g} mm lets small slips pass")
+            left_out.append(words.of(link=link.name, gap=1000.0 * link.clearance))
         if link.axial_stiffness and not (link.pretension or both):
-            left_out.append(f"{link.name}: without pretension it does not pull while its joints are closed")
+            words = say("{link}: without pretension it does not pull while its joints are closed")
+            left_out.append(words.of(link=link.name))
         if ways:
             ends = (places[0], places[1]) if link.straight else (0.5 * (places[0] + places[1]),) * 2
             found.append(

@@ -14,6 +14,7 @@ import numpy as np
 from ..column.column import Column
 from ..column.files import tables_of
 from ..errors import InputError, check_kind, check_range, check_whole
+from ..messages import joined, say
 from ..notebook import NotebookSummary
 from .closed_joints import vibrating
 from .modes import ACROSS, ALONG, AROUND, UPWARD, _coupled
@@ -93,7 +94,7 @@ class Measured:
     @property
     def name(self) -> str:
         """Such as ``bending 2``."""
-        return f"{self.kind} {self.number}"
+        return say("{kind} {number}", kind=say(self.kind), number=self.number)
 
 
 def parse_measured(text: str) -> tuple[Measured, ...]:
@@ -254,11 +255,11 @@ def parse_ground(text: str) -> Ground | None:
     """
     if text.strip() == "rigid":
         return None
-    units = {"vs": "m/s", "half_width": "m", "density": "kg/m3", "poisson": ""}
+    examples = {"vs": "300m/s", "half_width": "4m", "density": "1900kg/m3", "poisson": "0.35"}
     values: dict[str, tuple[float, ...]] = {}
     for part in text.split(","):
         name, sign, value = (one.strip() for one in part.partition("="))
-        if not sign or name not in units:
+        if not sign or name not in examples:
             raise InputError(
                 f"ground is {text!r}; allowed is rigid, or vs=300m/s,half_width=4m, with density and poisson "
                 f"where they are known.",
@@ -266,13 +267,11 @@ def parse_ground(text: str) -> Ground | None:
             )
         match = re.fullmatch(r"([\d.eE+-]+)(?::([\d.eE+-]+))?\s*([^\d\s].*)?", value)
         unit = "" if match is None else (match[3] or "").strip().replace("³", "3")
-        if match is None or unit != units[name]:
-            wanted = (
-                f"with its unit, such as {name}=300{units[name]}"
-                if units[name]
-                else f"as a number, such as {name}=0.35"
+        if match is None or unit != examples[name].lstrip("0123456789."):
+            raise InputError(
+                f"{name} of the ground is {value!r}; write it with its unit, if it has one, as {name}={examples[name]}.",
+                "ground",
             )
-            raise InputError(f"{name} of the ground is {value!r}; write it {wanted}.", "ground")
         try:
             values[name] = tuple(float(one) for one in (match[1], match[2] or match[1]))
         except ValueError:
@@ -448,17 +447,20 @@ class MeasuredJoints(NotebookSummary):
         found = []
         for words, interval in (("k_b/J_A", self.bending), ("k_s", self.shear)):
             if interval.low is None and interval.high is None:
-                found.append(f"{words} stays open on both sides: these frequencies do not tell of it")
+                found.append(say("{name} stays open on both sides: these frequencies do not tell of it", name=words))
             elif interval.high is None:
-                found.append(f"{words} has no upper bound: rigid joints would give these frequencies too")
+                found.append(
+                    say("{name} has no upper bound: rigid joints would give these frequencies too", name=words)
+                )
             elif interval.low is None:
-                found.append(f"{words} has no lower bound within {SOFTEST:g} N/m³")
+                found.append(say("{name} has no lower bound within {least:g} N/m³", name=words, least=SOFTEST))
         return found
 
     @property
     def sentence(self) -> str:
         """The intervals in words."""
-        return f"k_b/J_A is {_words(self.bending)}, k_s {_words(self.shear)} (95 %)."
+        words = say("k_b/J_A is {bending}, k_s {shear} (95 %).")
+        return words.of(bending=_words(self.bending), shear=_words(self.shear))
 
     def summary(self) -> dict[str, Any]:
         """``inferred`` in the JSON object of ``stylobate modes``."""
@@ -489,11 +491,10 @@ class MeasuredJoints(NotebookSummary):
 
 def _words(interval: Interval) -> str:
     if interval.median is not None:
-        return f"{interval.low:.3g} to {interval.high:.3g} N/m³, median {interval.median:.3g}"
-    ends = [
-        f"{word} {end:.3g} N/m³" for word, end in (("above", interval.low), ("below", interval.high)) if end is not None
-    ]
-    return " and ".join(ends) or "open"
+        return say("{one.low:.3g} to {one.high:.3g} N/m³, median {one.median:.3g}", one=interval)
+    above, below = say("above {end:.3g} N/m³"), say("below {end:.3g} N/m³")
+    ends = [words.of(end=end) for words, end in ((above, interval.low), (below, interval.high)) if end is not None]
+    return joined(" ", ends) or say("open on both sides")
 
 
 class _Table(NamedTuple):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -12,12 +13,16 @@ import numpy as np
 from ..column.materials import STIFFEST_STONE
 from ..column.structure import Structure
 from ..errors import InputError, check_range, check_whole
+from ..messages import joined, say
 from ..notebook import NotebookSummary
 from .closed_joints import vibrating
 from .small_vibrations import Vibrating
 
 #: Coordinates of a body that take part in bending in the plane of x and z, across it, in axial motion and in torsion.
 ALONG, ACROSS, UPWARD, AROUND = (0, 4), (1, 3), (2,), (5,)
+
+#: Kinds of modes.
+KINDS = ("bending", "torsion", "axial")
 
 #: Two groups of coordinates are apart where the stiffness that couples them is below this share of their own [-].
 APART = 1e-9
@@ -76,7 +81,7 @@ class Mode:
     def limited_by(self) -> str:
         """Which joint that is, and what it does."""
         size, joint, how = self._limit
-        return "" if math.isinf(size) else f"{self.standing.joints[joint].name} {how}"
+        return "" if math.isinf(size) else say("{joint} {mode}", joint=self.standing.joints[joint].name, mode=say(how))
 
     def row(self, joints: tuple[str, ...]) -> dict[str, Any]:
         """Its entry in the JSON object of ``stylobate modes``."""
@@ -149,17 +154,18 @@ class Modes(NotebookSummary):
         return np.zeros(0) if stack is None else self.joint_bending_stiffness * stack.heights
 
     @property
-    def doubts(self) -> list[str]:
-        """What no stone is, in sentences."""
+    def doubt(self) -> str:
+        """What no stone is, in a sentence; empty where stone can be so."""
         most = float(self.solid_modulus.max(initial=0.0))
         if most <= STIFFEST_STONE:
-            return []
-        joint = int(self.solid_modulus.argmax())
-        return [
-            f"{self.joints[joint]} and the drum on it bend as solid stone of {most / 1e9:.3g} GPa, stiffer than "
-            f"any stone: the "
-            f"drum alone is softer; a normal_stiffness up to {STIFFEST_STONE / most:.2g} of it is what stone allows"
-        ]
+            return ""
+        return say(
+            "{joint:capital} and the drum on it bend as solid stone of {modulus:.3g} GPa, stiffer than any stone: the drum "
+            "alone is softer; a normal_stiffness up to {share:.2g} of it is what stone allows.",
+            joint=self.joints[int(self.solid_modulus.argmax())],
+            modulus=most / 1e9,
+            share=STIFFEST_STONE / most,
+        )
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -169,17 +175,15 @@ class Modes(NotebookSummary):
     @property
     def sentence(self) -> str:
         """The lowest frequency of each kind, in words."""
-        found = []
-        for kind in ("bending", "torsion", "axial"):
-            first = next(iter(self.of(kind)), None)
-            if first is not None:
-                found.append(f"{kind} {first.frequency:.4g} Hz")
-        return f"The lowest natural frequencies of {self.structure.name!r} on closed joints: {', '.join(found)}."
+        first = [own[0] for kind in KINDS if (own := self.of(kind))]
+        found = (say("{kind} {value:.4g} Hz", kind=say(one.kind), value=one.frequency) for one in first)
+        words = say("The lowest natural frequencies of “{name}” on closed joints: ", name=self.structure.name)
+        return joined("", [words, joined(", ", found), "."])
 
     def summary(self, number: int | None = None) -> dict[str, Any]:
         """The JSON object of ``stylobate modes``, with so many of each kind."""
         rows = []
-        for kind in ("bending", "torsion", "axial"):
+        for kind in KINDS:
             rows += [mode.row(self.joints) for mode in self.of(kind)[:number]]
         return {
             "name": self.structure.name,
@@ -189,7 +193,8 @@ class Modes(NotebookSummary):
             "joint_normal_stiffness": _plain(self.joint_normal_stiffness),
             "joint_shear_stiffness": _plain(self.joint_shear_stiffness),
             "solid_modulus_pa": _plain(self.solid_modulus),
-            "doubts": self.doubts,
+            "doubt": self.doubt,
+            "sentence": self.sentence,
             "left_out": list(self.standing.left_out),
         }
 
@@ -316,7 +321,7 @@ def _undirected(mode: Mode) -> Mode:
 def _numbered(found: list[Mode], *, pairs: bool = False) -> list[Mode]:
     """Modes with their numbers, each kind by rising frequency; bending in pairs of both planes where a column is round."""
     out = []
-    for kind in ("bending", "torsion", "axial"):
+    for kind in KINDS:
         own = sorted((mode for mode in found if mode.kind == kind), key=lambda mode: mode.frequency)
         two = pairs and kind == "bending"
         out += [replace(mode, number=(i // 2 if two else i) + 1) for i, mode in enumerate(own)]
@@ -358,21 +363,24 @@ def frequency_drops(found: Modes, left: float = 0.5, number: int = 3) -> list[di
                 f"larger share.",
                 "left",
             ) from error
-        drops = []
-        for kind in ("bending", "torsion", "axial"):
-            before = found.of(kind)[:number]
-            after = [mode for mode in changed if mode.kind == kind]
-            drops += [
-                {
-                    "kind": kind,
-                    "number": one.number,
-                    "azimuth_deg": one.azimuth,
-                    "drop": other.frequency / one.frequency - 1.0,
-                }
-                for one, other in zip(before, after, strict=False)
-            ]
+        drop = {one: other.frequency / one.frequency - 1.0 for one, other in _followed(found, changed)}
+        listed = [one for kind in KINDS for one in found.of(kind)[:number]]
+        drops = [
+            {"kind": one.kind, "number": one.number, "azimuth_deg": one.azimuth, "drop": drop[one]} for one in listed
+        ]
         rows.append({"joint": joint.name, "drops": drops})
     return rows
+
+
+def _followed(found: Modes, changed: Sequence[Mode]) -> Iterator[tuple[Mode, Mode]]:
+    """Each mode and that of the changed joints which moves alike: order and kind may change where motions are coupled."""
+    from scipy.optimize import linear_sum_assignment
+
+    old, new = (np.array([mode.shape.ravel() for mode in modes]) for modes in (found.modes, changed))
+    mass = found.standing.mass_matrix
+    new /= np.sqrt(np.einsum("mi,ij,mj->m", new, mass, new))[:, None]
+    alike = np.abs(old @ mass @ new.T) / np.sqrt(np.einsum("mi,ij,mj->m", old, mass, old))[:, None]
+    yield from ((found.modes[i], changed[j]) for i, j in zip(*linear_sum_assignment(-alike), strict=True))
 
 
 def _modes_of(found: Modes, standing: Vibrating) -> list[Mode]:

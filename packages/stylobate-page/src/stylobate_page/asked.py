@@ -75,7 +75,9 @@ class JobAsked(Table):
     them again.
     """
 
-    kind: Literal["run", "critical", "domain", "ida", "directions", "compare", "sequence", "risk", "survival", "infer"]
+    kind: Literal[
+        "run", "critical", "domain", "ida", "directions", "compare", "sequence", "risk", "survival", "infer", "modes"
+    ]
     options: dict[str, str] = Field(default_factory=dict)
     source: str | None = None
     table: str | None = None

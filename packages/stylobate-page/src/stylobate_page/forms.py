@@ -213,6 +213,35 @@ FORMS = {
             "observations": "Which observation tells what",
         },
     ),
+    "modes": Form(
+        "modes",
+        "Natural frequencies",
+        "Small vibrations on closed joints: which joint each mode bends, and up to which motion of the top it holds. "
+        "Measured frequencies of a column tell how stiff its joints are.",
+        ("column", "model"),
+        (
+            Box("model", "Model", "dem3d", choices=("dem2d", "dem3d")),
+            Box("number", "Of each kind", "3"),
+            Box("measured", "Measured", hint="such as 1.27Hz±3%,6.5Hz±6%"),
+            Box("ground", "On which ground", hint="rigid, or vs=200:400m/s,half_width=4m"),
+        ),
+        facts={
+            "joint_bending_stiffness": "k_b/J_A [N/m³]",
+            "joint_shear_stiffness": "k_s [N/m³]",
+        },
+        rows="modes",
+        columns={
+            "kind": "",
+            "number": "",
+            "azimuth_deg": "towards [°]",
+            "frequency_hz": "frequency [Hz]",
+            "bent_joint": "bends most",
+            "holds_to_m": "holds to [m]",
+            "holds_to_rad": "holds to [rad]",
+            "limited_by": "where",
+        },
+        pictures={"modes": "Shapes of the lowest modes"},
+    ),
 }  # fmt: skip
 
 

@@ -103,6 +103,11 @@ HAZARDS = {"site A.csv": HAZARD}
             {"table": RUNS, "hazards": {"../../a.csv": "", ".b": ""}, "options": {"age": "2400"}},
             "survival opened-table.csv --hazard=hazards/_.._a.csv --hazard=hazards/b --age=2400y --state=collapse",
         ),
+        (
+            "modes",
+            {"options": {"measured": "12Hz±3%", "ground": "rigid", "model": "dem2d"}},
+            "modes column.toml --model=dem2d --set=points=2 --number=3 '--measured=12Hz±3%' --ground=rigid",
+        ),
     ],
 )
 def test_an_analysis_is_a_command_line(fresh, asked, kind, more, line):
@@ -160,6 +165,7 @@ def test_every_field_and_answer_of_a_form_is_one_of_its_command(tmp_path, capsys
         "risk": ["runs.csv", "--hazard=hazard.csv", "--im=pgv", "--state=collapse"],
         "survival": ["runs.csv", "--hazard=hazard.csv", "--im=pgv", "--state=collapse", "--age=2400y"],
         "infer": ["ruin.toml"],
+        "modes": [*column, "--model=dem2d", "--number=2", "--measured=4Hz±3%", "--ground=rigid"],
     }
     for kind, form in FORMS.items():
         assert call([form.command, "--help-all"]) == 0

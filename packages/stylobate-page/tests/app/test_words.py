@@ -184,6 +184,12 @@ ODD = {
         *({"options": one} for one in ({"im": "x"}, {"im": "pga"}, {"state": "x"}, {"state": "top:0.35d"}, {})),
     ],
     "survival": [{"options": {"im": "pgv", "age": one}} for one in ("x", "-1", "0", "1e9", "")],
+    "modes": [
+        *({"options": {"number": one}} for one in ("x", "0", "")),
+        *({"options": {"measured": one, "ground": "rigid"}} for one in ("x", "12Hz", "12s±3%", "1e9Hz±3%", "900Hz±3%")),
+        *({"options": {"measured": "12Hz±3%", "ground": one}} for one in ("", "x", "vs=200", "vs=1m/s,half_width=4m")),
+        {"options": {"ground": "rigid"}},
+    ],
 }  # fmt: skip
 
 

@@ -40,6 +40,7 @@ TITLES = {
     "probability": say("probability of collapse"),
     "pushover": say("pushover"),
     "limit": say("limit analysis"),
+    "modes": say("natural frequencies"),
     "compare": say("models compared"),
     "states": say("states compared"),
     "suite": say("suite of records"),

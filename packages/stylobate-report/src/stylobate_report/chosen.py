@@ -1,8 +1,9 @@
-"""What goes before runs, in a report: records chosen for a target spectrum, and losses from a measured history."""
+"""What goes before runs, in a report: records chosen for a spectrum, losses of a history, frequencies and joints."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from stylobate.messages import digits, joined, percent, say
 from stylobate.results import Numbers
@@ -84,3 +85,51 @@ def calibration_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         say("Losses are those of this column on this joint and at these tilts; elsewhere they are an assumption.")
     )
     return (s["sentence"], "" if s["reached"] else " bad"), items
+
+
+def modes_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    """Natural frequencies, what the loss of each joint takes off them, and the joints that measured ones tell of."""
+    s, inferred = result.summary, result.summary.get("inferred") or {}
+    keys = ["kind", "number", "azimuth_deg", "frequency_hz", "bent_joint", "holds_to_m", "holds_to_rad", "limited_by"]
+    caption = say(
+        "Each mode with the joint that it bends most; it holds up to a motion of the top at which a joint gives."
+    )
+    items: list[Item] = [table(s["modes"], keys, caption)]
+    names = ("joint_bending_stiffness", "joint_normal_stiffness", "joint_shear_stiffness")
+    symbols = dict(zip(names, ("k_b/J_A [N/m³]", "k_n [N/m³]", "k_s [N/m³]"), strict=True))
+    pairs = [(symbols[name], _ends(s[name])) for name in names]
+    pairs.append((say("Young's modulus of a solid column that bends alike [Pa]"), _ends(s["solid_modulus_pa"])))
+    items += [Facts([pair for pair in pairs if pair[1] != n.NONE])]
+    items += kept(result.pictures, "modes", say("Shapes of the lowest modes."))
+    if inferred:
+        rows = [
+            {"frequency": symbols[name], **inferred[name], **_sides(inferred["bounded_by"].get(name))} for name in names
+        ]
+        body = [[n.plain(value) for value in row.values()] for row in rows]
+        header = ["", *map(say, ("median", "low", "high")), say("low side by"), say("high side by")]
+        items.append(Rows(header, body, say("Joints by the measured frequencies, intervals of 95 %."), numbers=True))
+        best = [
+            one | {"best_hz": inferred["best_hz"][f"{one['kind']} {one['number']}"]} for one in inferred["measured"]
+        ]
+        keys = ["kind", "number", "frequency_hz", "standard_deviation_hz", "best_hz"]
+        items.append(table(best, keys, say("What was measured, and the frequencies of the best stiffnesses.")))
+    if s["drops"]:
+        header = [say("{kind} {number}", kind=say(one["kind"]), number=one["number"]) for one in s["drops"][0]["drops"]]
+        body = [[row["joint"], *(digits(100.0 * one["drop"], ".2g") for one in row["drops"])] for row in s["drops"]]
+        words = say("Change of each frequency [%] where {share} of the stiffness of one joint remains.")
+        items.append(Rows([say("joint"), *header], body, words.of(share=percent(s["left"])), numbers=True))
+    notes = [*inferred.get("open", ()), *s["left_out"]]
+    items += [Note(notes, "fair")] if notes else []
+    return (s["sentence"], ""), items
+
+
+def _ends(value: Any) -> str:
+    """A number, or from which to which they are."""
+    return (
+        say("{low:.4g} to {high:.4g}", low=min(value), high=max(value)) if isinstance(value, list) else n.plain(value)
+    )
+
+
+def _sides(bounded: dict[str, Any] | None) -> dict[str, Any]:
+    """Which measurement bounds either side."""
+    return {f"{side} side": (bounded or {}).get(side) for side in ("low", "high")}

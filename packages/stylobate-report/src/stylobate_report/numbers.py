@@ -40,7 +40,7 @@ def angle(value: float | None) -> str:
 
 
 #: Units that names of keys end in.
-UNITS = {"_m_s": "m/s", "_m": "m", "_s": "s", "_g": "g", "_y": "years", "_rad": "rad", "_deg": "°"}
+UNITS = {"_m_s": "m/s", "_m": "m", "_s": "s", "_g": "g", "_y": "years", "_rad": "rad", "_deg": "°", "_hz": "Hz"}
 
 
 def named(key: str) -> str:
@@ -104,5 +104,6 @@ WORDS = (
     "interval low|interval high|monument|seen|years|condition|signs|azimuths|vertical|horizontal|"
     "limit analysis g|pattern|direction|collapse|share low|share high|use|use high|difference low|"
     "difference high|alike|candidate|bits alone|bits beside others|sigma ln edp|reversed|amplitudes|"
-    "frequencies|duration"
+    "frequencies|duration|bending|across|torsion|axial|opens|slides|twists|number|frequency|standard deviation|"
+    "bent joint|holds to|limited by|best"
 )

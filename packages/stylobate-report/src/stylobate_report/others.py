@@ -26,7 +26,7 @@ from stylobate.verdicts.verdict import open_runs
 
 from . import numbers as n
 from .certainty import OF_TWINS
-from .chosen import calibration_result, records_result
+from .chosen import calibration_result, modes_result, records_result
 from .critical import critical_result
 from .design import design_items, design_of
 from .inference import inference_result
@@ -149,6 +149,11 @@ def _scope(kind: Kind) -> str:
         )
     if kind is Kind.RECORDS:
         return say("This says how the records follow the target. It says nothing about any column under them.")
+    if kind is Kind.MODES:
+        return say(
+            "Frequencies are of small motions on closed joints. They say how stiff joints are, nothing of how the column "
+            "rocks or falls."
+        )
     return say(
         "This holds for the columns, motions and models named below; what they leave out stands under them. It "
         "is no check against a code."
@@ -327,6 +332,7 @@ def _shares_of_study(study: StudyResult) -> Rows:
 _TELL: dict[Kind, Callable[[Any], tuple[tuple[str, str], list[Item]]]] = {
     Kind.PUSHOVER: pushover_result,
     Kind.LIMIT: limit_result,
+    Kind.MODES: modes_result,
     Kind.CRITICAL: critical_result,
     Kind.DOMAIN: _grid,
     Kind.PROBABILITY: _grid,

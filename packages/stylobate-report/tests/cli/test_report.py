@@ -99,6 +99,7 @@ def place(tmp_path_factory):
         ("probability", "domain", *block, *cells, "--replicates", "2"),
         ("statics", "pushover", stone),
         ("statics", "limit", stone),
+        ("modes", "modes", stone, "--measured", "17Hz±3%,torsion 30Hz±6%", "--ground", "rigid"),
         ("compare", "compare", place / "block.toml", "--models", "housner,dem2d", *SINE),
         (
             "states",
