@@ -140,19 +140,19 @@ def friction(core, fresh, face, n, slip, spin, dt, limits):  # Eq. (E6)
     away = along(away, -dot(away, n), n)
     far = k / EXTENT * math.sqrt(dot(away, away) * compact)
     opened = max(k_core - k, far + 0.5 * (k_core - k), 0.0)
-    gone = opened >= k_core  # the fresh layer becomes core
+    gone = opened >= k_core  # all that touches becomes core, with the share of both layers that still touches
     core_stays = k if gone else k_core - opened
     closed_since = max(k - core_stays, 0.0)
     floor = max(closed_since, NO_LAYER * k, NOTHING)
-    per_core, per_far, per_closed, per_fresh, per_j = inverses(
-        max(k_core, NOTHING), max(far, NOTHING), floor, max(k_fresh, NOTHING), max(j_fresh, NOTHING)
+    per_core, per_far, per_closed, per_k, per_j = inverses(
+        max(k_core, NOTHING), max(far, NOTHING), floor, max(k_core + k_fresh, NOTHING), max(j_core + j_fresh, NOTHING)
     )
-    keep = 0.0 if gone else 1.0 - opened * per_core
+    keep = min(k * per_k, 1.0) if gone else 1.0 - opened * per_core
+    keep_torsion = min(j * per_j, 1.0) if gone else keep
     away = scaled(0.0 if gone else 1.0 - min(0.5 * opened * per_far, 1.0), away)
     lever = core_stays * per_closed  # of the fresh layer's centroid from C, over that of the core, the other way
-    joins, joins_torsion = (min(k * per_fresh, 1.0), min(j * per_j, 1.0)) if gone else (0.0, 0.0)
-    core_force = along(scaled(keep, core_force), joins, fresh_force)
-    core_torsion = keep * core_torsion + joins_torsion * fresh_torsion
+    core_force = along(scaled(keep, core_force), keep if gone else 0.0, fresh_force)
+    core_torsion = keep_torsion * (core_torsion + (fresh_torsion if gone else 0.0))
     j_core = j if gone else keep * j_core
     # what the layers resist by where they are, beside their own torsion
     apart = k * lever * dot(away, away)
