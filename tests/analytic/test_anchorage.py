@@ -5,7 +5,7 @@ import math
 import pytest
 
 import stylobate as st
-from stylobate.cli.columns import _held, _link
+from stylobate.cli.columns import _link, _resistance_words
 from stylobate.column.links.placed import stone_words
 
 GIVEN = {"diameter": 0.02, "embedment": 0.1, "edge": 0.1, "stone_strength": 25e6, "yield_strength": 4e8}
@@ -96,7 +96,7 @@ def test_the_stone_that_gives_way_before_a_dowel_is_told():
     assert "The stone around 2 of 2" not in told
     assert "bears more than they hold" in stone_words([second])
     assert not stone_words([])
-    held = [_held(_link(link)) for link in (first, second, third)]
+    held = [_resistance_words(_link(link)) for link in (first, second, third)]
     assert held[0] == f"holds {first.stone.shear / 1e3:.4g} kN in shear; edge of the stone (EN 1992-4, 7.2.2.5)"
     assert f"where the bar holds {first.alone.shear_capacity / 1e3:.4g} kN" in told
     assert held[1].startswith(f"holds {second.shear_capacity / 1e3:.4g} kN in shear;")
