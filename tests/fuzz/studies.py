@@ -1,4 +1,4 @@
-"""A study of five thousand runs, killed at random times with its Dask workers: in the end its table is that of no kill.
+"""A study of two thousand runs, killed at random times with its Dask workers: in the end its table is that of no kill.
 
 A try kills twice, the program or one of its workers (the program goes on with others), then lets the study end. At most a
 second of finished runs may be lost at each kill, nothing that is in the ledger is run again, the table must be the same to
@@ -24,7 +24,7 @@ from stylobate.probability.studies import StudyResult
 from .kills import end, kill, lost, start
 from .target import Fault, Target, Tried
 
-CASES = 5040
+CASES = 2000
 STUDY = """
 column = "column.toml"
 model = "dem2d"
@@ -32,7 +32,7 @@ model = "dem2d"
 files = ["wave.csv"]
 [scale]
 im = "pga"
-levels = "0.05g:1.5g:252"
+levels = "0.05g:1.5g:100"
 [scatter]
 realisations = 20
 friction = 0.1
