@@ -47,6 +47,9 @@ STRAIGHT = 0.05
 #: What is nearer than this is where it was told [m]; decimals of corners in files; share of a volume that is told.
 ROUNDING, DIGITS, TOLD = 1e-6, 10, 1e-4
 
+#: Share of a drum's radius from which on what a mesh lacks of it is priced.
+PRICED = 0.01
+
 
 def near(distance: float) -> str:
     """A distance between what was told and what stands for it, in words [m]."""
@@ -72,7 +75,10 @@ class Fitted(NamedTuple):
             drum = "" if one.drum is None else f" (no round drum within {near(one.drum.residual)})"
             return f"block of {len(one.corners)} corners, within {far}{drum}{off}"
         flat = f", {near(one.flat)} more between corners" if one.flat > ROUNDING else ""
-        return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {far}{flat}{off}"
+        lost, radius = one.residual + one.flat, 0.5 * min(one.bottom, one.top)
+        price = f": if an edge lacks that much, limit analysis tells up to {100.0 * lost / radius:.2g} % too much"
+        taken = f"{far}{flat}{off}{price if one.residual > PRICED * radius else ''}"
+        return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {taken}"
 
 
 def fit_all(

@@ -194,7 +194,7 @@ def _header(name: str) -> str:
 def survey_tables(
     path: Path, stone: str | None = None, stated: str | None = None, north: float | None = None
 ) -> tuple[dict[str, Any], list[str]]:
-    """Content of a column file of a survey, and what the surveyor has to say of drums, "drum 3: …".
+    """Content of a column file of a survey, and what is said of it: its section if not stated, and of drums, "drum 3: …".
 
     Separated by commas, semicolons or tabs; decimal commas are read where commas do not separate. Of a workbook the one
     sheet that holds something, with the values that its formulas had when it was saved. The first row names the columns;
@@ -261,7 +261,8 @@ def survey_tables(
         raise InputError(
             f"{doubts[0]} Lengths in {name} are in m unless the name of their column ends in _cm or _mm, such as height_cm."
         )
-    notes = [f"drum {i}: {note}" for i, row in enumerate(rows, 1) if (note := _note(row, known))]
+    notes = [] if "section" in facts else ["taken as round: no line `# section: rectangular` says otherwise"]
+    notes += [f"drum {i}: {note}" for i, row in enumerate(rows, 1) if (note := _note(row, known))]
     return _tables(facts, read, stone, name), notes
 
 
@@ -400,10 +401,8 @@ def _proposed(head: list[str], rows: list[list[str]], decimal: str) -> str | Non
     wanted += ["height", "bottom_width", "top_width"]
     own = []
     for cell in head:
-        try:
-            own.append(_column(cell, "")[0])
-        except InputError:
-            own.append("")
+        text = _text(cell)
+        own.append(max((one for one in NAMES if re.match(rf"{one}(?![a-z]|_a)", text)), key=len, default=""))
     wanted = [one for one in wanted if one not in own]
     found = []
     for k, (cell, key) in enumerate(zip(head, own)):
@@ -421,11 +420,14 @@ def _is_number(cell: str, decimal: str) -> bool:
         return False
 
 
+def _text(cell: str) -> str:
+    """A name of a column in small letters, its words and its unit with _ between them."""
+    return "_".join(re.sub(r"[\[\]()]", " ", cell.lower()).split())
+
+
 def _column(cell: str, name: str) -> tuple[str, float]:
     """What a column holds, and how many of its unit are one of the SI."""
-    text = "_".join(
-        cell.strip().lower().replace("[", " ").replace("]", " ").replace("(", " ").replace(")", " ").split()
-    )
+    text = _text(cell)
     if text in NAMES:
         return text, 1.0
     stem, _, unit = text.rpartition("_")

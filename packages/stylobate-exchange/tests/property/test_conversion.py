@@ -548,3 +548,17 @@ def test_links_are_not_lost_in_a_survey():
     linked = column.replace(links=(Dowel(joint=2, shear_stiffness=1e8, shear_capacity=1e4),))
     with pytest.raises(st.InputError, match="has 1 link, and a survey holds drums and joints only"):
         survey_text(linked)
+
+
+def test_a_proposal_names_every_column_that_it_can(tmp_path):
+    """Units behind names of ours (kg/m3, °) left their columns out; what is typed as proposed is read."""
+    path = tmp_path / "a.csv"
+    head = "No;H (cm);D inf (cm);D sup (cm);density (kg/m3);friction angle (°);remarks"
+    path.write_text(f"{head}\n1;80;100;98;2700;35;whole\n", encoding="utf-8")
+    with pytest.raises(st.InputError, match="state what each column") as refused:
+        survey_tables(path, "marble")
+    proposal = re.findall(r"`columns='(.*?)'`", str(refused.value))[0]
+    assert proposal == "drum, height [cm], bottom_width [cm], top_width [cm], density, friction_angle, -"
+    tables, said = survey_tables(path, "marble", proposal)
+    assert tables["drum"] == [{"height": 0.8, "bottom_width": 1.0, "top_width": 0.98, "density": 2700.0}]
+    assert said == ["taken as round: no line `# section: rectangular` says otherwise"]

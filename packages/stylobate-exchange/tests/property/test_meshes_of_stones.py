@@ -79,6 +79,10 @@ def test_a_chip_in_two_rings_of_corners_stays(damage, sides, tmp_path):
     (limit,) = limit_directions(structure, [0.0]).limits
     assert limit.multiplier == pytest.approx((x.max() - centroid) / 2.0, rel=1e-6)
     assert "(no round drum within" in words[0]
+    drum, _, words = read_model(path, Reading("marble", tolerance=0.06))
+    price = float(re.search(r"limit analysis tells up to ([\d.]+) % too much", words[0])[1])
+    (told,) = limit_directions(drum, [0.0]).limits
+    assert told.multiplier > limit.multiplier > (1.0 - 0.01 * price - 0.001) * told.multiplier
 
 
 @pytest.mark.parametrize("sides", [12, 16, 24, 64])
