@@ -11,7 +11,7 @@ import stat
 from dataclasses import dataclass
 from pathlib import Path
 
-from .errors import InputError
+from .errors import InputError, suggest
 
 # Files of other people: kind and size are looked at before anything is read, and names are made fit to be shown.
 
@@ -73,8 +73,11 @@ def printable(path: str | Path) -> str:
 def _unreadable(path: str | Path, error: OSError | ValueError) -> InputError:
     if isinstance(error, FileNotFoundError):
         slashed = str(path).replace("\\", "/")
-        remedy = f"; write {slashed}" if slashed != str(path) and Path(slashed).exists() else ""
-        return InputError(f"there is no file {printable(path)}{remedy}.")
+        if slashed != str(path) and Path(slashed).exists():
+            return InputError(f"there is no file {printable(path)}; write {slashed}.")
+        folder = Path(path).parent
+        near = suggest(Path(path).name, (one.name for one in folder.iterdir())) if folder.is_dir() else ""
+        return InputError(f"there is no file {printable(path)}; {near}check its name and folder.")
     reason = getattr(error, "strerror", None) or str(error)
     return InputError(f"{printable(path)} cannot be read: {reason}; check the path.")
 

@@ -119,6 +119,9 @@ def test_commands_say_it_in_one_sentence(tmp_path, capsys):
     told = capsys.readouterr().out
     assert "half of the records bring collapse at pgv between 0.4 and 0.6 m/s" in told
     assert "not seen in these runs (95 %: up to 0." in told
+    (alone := tmp_path / "alone.csv").write_text("record,pgv_m_s,collapsed\n" + rows)
+    assert call(["fragility", str(alone)]) == 0  # its one intensity is called after its measure
+    assert capsys.readouterr().out.replace("alone:", "runs:") == told
     path.write_text(path.read_text().replace("0.4", "0,4"))
     assert call(["fragility", str(path), "--im", "pgv"]) == 2
     told = capsys.readouterr()

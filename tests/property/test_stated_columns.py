@@ -102,7 +102,10 @@ def test_columns_that_are_not_understood_are_refused_before_a_file_is_opened(col
         ("time ax foo", 2, "t [s], x [g], y [g]"),
         ("*** Begin data ***", 1, "t [s], x [g]"),
         ("# title: Athens 1999", 1, "t [s], x [g]"),
-        ("time_s,ax_g\ns,m/s2", 1, "t [s], x [g]"),
+        ("time_s,ax_g\ns,m/s2", 1, "t [s], x [m/s2]"),
+        ("Time, Acc X, Acc Y, Acc Z", 3, "t [s], x [g], y [g], z [g]"),
+        ("t;acc_x_m/s2;acc_y_m/s2;acc_z_m/s2", 3, "t [s], x [m/s2], y [m/s2], z [m/s2]"),
+        ("Time (s) Acceleration (m/s2)", 1, "t [s], x [m/s2]"),
         ("idő függőleges", 1, "t [s], x [g]"),
         ("", 2, "t [s], x [g], y [g]"),
     ],
@@ -115,6 +118,14 @@ def test_any_other_header_is_refused_with_its_line_and_a_proposal_that_reads(abo
         assert f"line {above.count(chr(10)) + 1}: {above.splitlines()[-1]!r} is not a header" in str(error.value)
     assert proposed(error.value) == proposal
     assert read_motion(path, columns=proposal).dt == STEP
+
+
+def test_a_row_that_holds_no_number_is_no_title(tmp_path):
+    """With its columns stated a first row with nan was passed over, and the record began a sample later."""
+    (path := tmp_path / "a.csv").write_text("time_s,ax_g\n0,nan\n0.01,0.1\n0.02,0.1\n")
+    for columns in (None, "t [s], x [g]"):
+        with pytest.raises(InputError, match="'0,nan' holds no number"):
+            read_motion(path, columns=columns)
 
 
 def test_a_series_written_on_from_line_to_line(tmp_path):

@@ -68,12 +68,12 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
     try:
         found = tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
-        raise InputError(f"{name} is not a text file in UTF-8; give a TOML file.") from None
+        raise InputError(f"{name} is not a text file in UTF-8; give a TOML file, saved in UTF-8.") from None
     except tomllib.TOMLDecodeError as error:
         text = data.decode("utf-8-sig")
-        other = (
-            "" if Path(path).suffix.lower() == ".toml" else "; a TOML file of settings is expected here, not a record"
-        )
+        plain = "; a line is a key, =, and a number, a text in quotes, true, false or a list of such"
+        expected = "; a TOML file of settings is expected here, not a record"
+        other = plain if Path(path).suffix.lower() == ".toml" else expected
         other = _meant(text, str(error)) or other
         raise InputError(f"{name} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}{other}.") from None
     except RecursionError:
@@ -122,8 +122,9 @@ def _meant(text: str, error: str) -> str:
     for pattern, put, why in _MISTAKES:
         before, mended = mended, re.sub(pattern, put, mended)
         if mended != before and any(map(_is_toml, (mended, f"x = [{mended}]"))):
-            value = mended.partition("=")[2].partition(" #")[0].strip()
-            return f"; {why}: write {value.rstrip(',') or mended.strip()}"
+            key, _, value = mended.partition(" #")[0].partition("=")
+            value = value if line.partition("=")[0] == key else mended
+            return f"; {why}: write {value.strip().rstrip(',') or mended.strip()}"
     number = re.search(r"=\s*[+-]?[\d.]+(?:[eE][+-]?\d+)?\s*(?:[^\W\d]|[°%])", mended)
     return "; units are not written: give the number alone, in SI units, angles in degrees" if number else ""
 
@@ -217,8 +218,9 @@ def _sentence(item: Any, schema: type[Table], others: list[Any]) -> tuple[str, s
         return f"{position}{key!r}{place} is {value!r}: {item['msg'].lower()}.", place
     if isinstance(value, dict) and expected == "a list":
         expected = f"a list: write [[{key}]], with two brackets"
-    if expected == "a number" and isinstance(value, str) and value.replace(",", "", 1).lstrip("+-").isdecimal():
-        expected += f", with a point: {value.replace(',', '.')}"
+    if expected == "a number" and isinstance(value, str):
+        point = f", with a point: {value.replace(',', '.')}"
+        expected += point if value.replace(",", "", 1).lstrip("+-").isdecimal() else " in SI units, without quotes"
     return f"{position}{key!r}{place} is {_short(value)}; it must be {expected}.", place
 
 

@@ -432,6 +432,8 @@ def evidence(
     check_kind("measure", measure, (str, IntensityMeasure), optional=True)
     check_kind("state", state, (str, LimitState), allowed="a limit state, such as 'collapse'")
     measure = parse_measure(measure) if isinstance(measure, str) else measure
+    if measure is None and "im" not in table and len(known := _measures(table)) == 1:
+        measure = known[0]
     state = parse_state(state) if isinstance(state, str) else state
     key = "im" if measure is None else next(
         (one for one in (measure.key, *ALSO.get(measure.key, ())) if one in table), "im"
@@ -506,6 +508,11 @@ def _rivals(table: pandas.DataFrame, measure: IntensityMeasure) -> list[str]:
     return [name for name in names if name in UNNAMED or name == stem or name.startswith(f"{stem}_")]
 
 
+def _measures(table: pandas.DataFrame) -> list[IntensityMeasure]:
+    """The measures after which columns of a table are called."""
+    return [one for one in map(measure_of_column, map(str, table.columns)) if one is not None]
+
+
 def _remedy(table: pandas.DataFrame, measure: IntensityMeasure | None) -> str:
     """Remedies where a table has not the intensity that is asked for."""
     unnamed = [str(column) for column in table.columns if column in UNNAMED]
@@ -513,9 +520,7 @@ def _remedy(table: pandas.DataFrame, measure: IntensityMeasure | None) -> str:
         alike = measure is not None and ENDS[measure.unit] == unnamed[0].removeprefix("im")
         key = measure.key if measure is not None and alike else UNNAMED[unnamed[0]]
         return f". Which intensity {unnamed[0]} is, is not said: call the column after it, such as {key}"
-    if measure is None and (
-        known := [one for one in map(measure_of_column, map(str, table.columns)) if one is not None]
-    ):
+    if measure is None and (known := _measures(table)):
         return f"; choose one with `im`, such as `im={known[0].name!r}`"
     return ""
 

@@ -34,6 +34,9 @@ _NUMERIC = re.compile(r"[\s.eEdD+\-,;]*\d[\s\d.eEdD+\-,;]*")
 _END = re.compile(r"\W*(?:end|eof)\b[^\d]*", re.IGNORECASE)
 
 
+#: A row of numbers of which one is none.
+_NO_NUMBER = re.compile(r"[\s\d.eE+\-,;]*\d[\s,;]+[+-]?(?:nan|inf)\b.*", re.IGNORECASE)
+
 _DECIMAL = re.compile(r"[+-]?\d*,\d+")
 
 
@@ -237,6 +240,10 @@ def read(source: Source, unit: str | None, dt: float | None, columns: str | None
     first = first_row(lines)
     assert first is not None
     titles = [line.strip() for line in lines[:first] if line.strip()]
+    if titles and _NO_NUMBER.fullmatch(titles[-1]):
+        raise InputError(
+            f"{file}: {titles[-1][:60]!r} holds no number in one of its columns; mend or remove that line."
+        )
     header = _header(lines[:first], file)
     stated = None if columns is None else list(parse_columns(columns))
     table = read_table(lines, first, file, alone=len(stated or header or ()) == 1)
@@ -315,9 +322,10 @@ def _bare(above: list[str], below: list[str], table: np.ndarray, unit: str | Non
     )  # fmt: skip
     proposal = propose(line, table, unit)
     step = "" if proposal.startswith("t") else ", and `dt`, the time from sample to sample"
+    none = "" if unit or _unit_in(line.lower()) else ", of which it states none"
     raise UnstatedError(
         f"{what}; state what each column holds, which may be `columns='{proposal}'`{step}: check what is x, y and z "
-        "(upward), and the units.",
+        f"(upward), and the units{none}.",
         field="columns",
     )
 
@@ -337,17 +345,18 @@ def propose(line: str, table: np.ndarray, unit: str | None) -> str:
     text = line.lower().strip("#%!*/' \t")
     ways = (re.split(r"[,;\t|]", text), re.split(r"\s{2,}", text), text.split())
     cells = next((way for way in ways if len(way) == count), [""] * count)
-    unit = next((known for cell in cells if (known := _unit_in(cell))), unit or "g")
+    unit = next((known for cell in (*cells, text) if (known := _unit_in(cell))), unit or "g")
     rises = count > 1 and bool((np.diff(table[:, 0]) > 0.0).all())
     if count >= SERIES and not rises and not any(cells):
         return f"x [{unit}]"
+    upward = re.compile(r"up|ver|ud|u-d|(?:\b|_)a?z(?![a-z])|_v(?![a-z])|^z|^v\b")
     free, found = ["x", "y"], []
     for i, cell in enumerate(cells):
         if i == 0 and rises:
             found.append(f"t [{'ms' if float(np.median(np.diff(table[:, 0]))) > LONGEST_STEP else 's'}]")
         elif re.search(r"vel|dis|^[vdu](?![pd])|[\[(_]\s*[cm]?m(?:/s(?:ec)?)?\s*[\])]?$", cell) and not _unit_in(cell):
             found.append("-")
-        elif re.search(r"up|ver|ud|u-d|[az]_?z\b|^z|^v\b", cell) and not any(one[0] == "z" for one in found):
+        elif upward.search(cell) and not any(one[0] == "z" for one in found):
             found.append(f"z [{_unit_in(cell) or unit}]")
         else:
             found.append(f"{free.pop(0)} [{_unit_in(cell) or unit}]" if free else "-")
@@ -357,10 +366,10 @@ def propose(line: str, table: np.ndarray, unit: str | None) -> str:
 
 
 def _unit_in(cell: str) -> str | None:
-    """A unit of acceleration behind a name: in brackets, or behind a stroke."""
-    for found in re.finditer(r"[\[(_/]\s*([^\])]+)", cell):
+    """A unit of acceleration that a cell is, or holds behind a name: in brackets, or behind a stroke."""
+    for found in (cell.strip(), *re.findall(r"[\[(_/]\s*([^][(),;\t|_]+)", cell)):
         try:
-            return acceleration_unit(found[1])[0]
+            return acceleration_unit(found)[0]
         except InputError:
             continue
     return None
