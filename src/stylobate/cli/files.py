@@ -118,7 +118,7 @@ class Files(list[Path]):
         found = Asked.of(console.COMMAND, **what)
         if self.before is not None and not self.replaces and not found.holds(self.before):
             self.replaces = True
-            console.warn(_replaced(self.folder, self.before, " of what its files held then"))
+            console.note(_replaced(self.folder, self.before, " of what its files held then"))
         others = others_in(self.folder, self.command)
         if others and not any(Path(one["path"]).resolve() == self.folder.resolve() for one in found.sources):
             console.note(
@@ -154,13 +154,13 @@ def files(out: Path | None, command: str, *writes: str) -> Iterator[Files]:
         elif others := others_in(folder, command):
             names = [name for name in console.file_names(writes) if (folder / name).exists()]
             if names:
-                console.warn(
-                    f"{folder} holds the result of {' and '.join(others)}, and its {', '.join(names)} may be replaced; "
-                    "give another `out` to keep both."
+                console.note(
+                    f"warning: {folder} holds the result of {' and '.join(others)}, and its {', '.join(names)} may be "
+                    "replaced; give another `out` to keep both."
                 )
         found = Files(command, folder, before)
         if before is not None and found.replaces:
-            console.warn(_replaced(folder, before))
+            console.note(_replaced(folder, before))
         yield found
         if found.replaces:  # what the other question had and this one has not would be taken for a part of its result
             own = OwnFiles(folder)
@@ -185,8 +185,8 @@ def _replaced(folder: Path, before: Asked, held: str = "") -> str:
     """What is said where the result of another question is replaced."""
     line = shlex.join(("stylobate", *before.command))
     return (
-        f"{folder} held the result of another question, asked on {before.day}{held}: '{line}'. The new result replaces "
-        "it; give another `out` to keep both (finished runs in the folder serve either)."
+        f"warning: {folder} held the result of another question, asked on {before.day}{held}: '{line}'. The new result "
+        "replaces it; give another `out` to keep both (finished runs in the folder serve either)."
     )
 
 
