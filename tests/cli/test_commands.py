@@ -224,7 +224,7 @@ def test_a_model_is_compared_with_itself_under_other_options(command, tmp_path):
     )
     shaking = ["--harmonic", "1Hz,0.25g,2s", "--across", "1Hz,0.1g,90deg"]
     result = command("compare", tmp_path / "round.toml", "--models", ",".join(models), *shaking, "--json", "--out",
-                     tmp_path / "out", warned="dem2d leaves out what shakes a round column across")  # fmt: skip
+                     tmp_path / "out", warned="Round columns, computed in the plane")  # fmt: skip
     assert result["models"] == models
     plane, twin, free = result["runs"]
     assert "peak_top_y_m" not in plane

@@ -129,7 +129,7 @@ def test_a_verdict_on_undamped_wobble_is_doubted(parameters, tilt, doubted):
     assert bool(doubt_of(cast(Any, run))) is doubted
 
 
-DOUBT = "Round columns, computed in a plane: in space they can fall under much weaker motions, under one component too;"
+DOUBT = "Round columns, computed in the plane: in space they can fall under much weaker motions, those of several drums"
 
 
 @pytest.fixture

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, as_typed, check_all, check_kind, check_name, check_range, warn
+from ..messages import say
 from .block import (
     FAR_AWAY,
     TOUCHING,
@@ -149,7 +150,7 @@ class Assembly(Structure):
         touched = self._contacts[1]
         for i, block in enumerate(self.bodies):
             if not block.fixed and i not in touched:
-                warn(f"block {block.name!r} touches nothing: it will fall.")
+                warn(say("block {block.name!r} touches nothing: it will fall.", block=block))
         self.placed_links  # noqa: B018  refuses links that cannot be
 
     @cached_property

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import InputError, check_name, check_range, warn
+from ..messages import say
 from .drum import DENSITIES, LENGTHS
 from .joint import Joint
 from .shapes import Outlined, Placed, Prism
@@ -85,7 +86,7 @@ class Block(Outlined):
             raise InputError(f"{who} has no area; give vertices that do not lie on one line.")
         if area < 0.0:
             corners, area = corners[::-1], -area
-            warn(f"the vertices of {who} run clockwise; they are turned round.")
+            warn(say("the vertices of {who} run clockwise; they are turned round.", who=who))
         corners = _without_flat(corners)
         sides = np.roll(corners, -1, axis=0) - corners
         after = np.roll(sides, -1, axis=0)

@@ -15,6 +15,7 @@ import numpy as np
 from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_all, check_kind, check_name, check_range, check_whole, no_field, warn
+from ..messages import say
 from .as_found import AS_BUILT, AsFound
 from .block import FAR_AWAY, ground_block
 from .drum import Drum
@@ -108,7 +109,8 @@ class Column(DrumStack):
     @property
     def doubts(self) -> list[str]:
         """Doubts about shapes, and about sizes and densities that look like a slip of units, in sentences."""
-        return shape_doubts(self, self.name) + [f"{self.name!r}: {doubt}" for doubt in size_doubts(self)]
+        sizes = (say("{self.name!r}: {doubt}", self=self, doubt=doubt) for doubt in size_doubts(self))
+        return [*shape_doubts(self, self.name), *sizes]
 
     def _warn_of_doubts(self) -> None:
         for doubt in self.doubts:

@@ -9,6 +9,7 @@ from typing import Any
 
 from ..constants import DEGREE
 from ..errors import InputError, as_typed, check_choice, check_range, no_field, warn
+from ..messages import say
 from .drum import LENGTHS
 
 #: A friction angle below this looks like a coefficient [degrees]; without friction both are 0.
@@ -76,7 +77,10 @@ class Joint:
             angle = math.atan(mu) / DEGREE
         angle = check_range("friction_angle", angle, 0.0, 90.0, unit="degrees", open_high=True, of="a joint")
         if mu is None and 0.0 < angle < SLIPPERIEST:
-            warn(f"friction_angle is {angle:g} degrees, and a coefficient is friction_coefficient: is the unit right?")
+            words = say(
+                "friction_angle is {angle:g} degrees, and a coefficient is friction_coefficient: is the unit right?"
+            )
+            warn(words.of(angle=angle))
         if mu is None:
             mu = math.tan(angle * DEGREE)
         elif not math.isclose(angle, math.atan(mu) / DEGREE, rel_tol=1e-12, abs_tol=1e-12):

@@ -43,23 +43,23 @@ class Range(NamedTuple):
 
 
 #: Columns and drums from models on a shaking table to half as large again as the largest that were ever put up.
-COLUMN = Range("columns have", 0.05, 60.0, "m")
-DRUM = Range("drums have", 0.005, 30.0, "m")
-WIDTH = Range("stones have", 0.005, 10.0, "m")
+COLUMN = Range(say("columns have"), 0.05, 60.0, "m")
+DRUM = Range(say("drums have"), 0.005, 30.0, "m")
+WIDTH = Range(say("stones have"), 0.005, 10.0, "m")
 #: The longest side of a stone of an assembly, which may be a whole column, and the shortest one of what may be a support.
-STONE = Range("stones have", 0.05, 60.0, "m")
-THINNEST = Range("stones have at their thinnest", 0.0, 10.0, "m")
+STONE = Range(say("stones have"), 0.05, 60.0, "m")
+THINNEST = Range(say("stones have at their thinnest"), 0.0, 10.0, "m")
 #: Height over width: half as much again as the most slender columns of stone that stand, and, where there are at least
 #: :data:`MANY` drums, as the tallest drums of such columns.
-SLENDER = Range("columns of stone have", 0.0, 15.0)
-TALL, MANY = Range("those of columns of many drums have", 0.0, 2.2), 5
-DENSITY = Range("stone has", 500.0, 5000.0, "kg/m³")
+SLENDER = Range(say("columns of stone have"), 0.0, 15.0)
+TALL, MANY = Range(say("those of columns of many drums have"), 0.0, 2.2), 5
+DENSITY = Range(say("stone has"), 500.0, 5000.0, "kg/m³")
 #: Of joints of stone, as measured; by so much dry ones close under the weight on them.
-STIFFNESS = Range("nobody has measured but", 1e7, 1e13, "N/m³")
-FRICTION = Range("nobody has measured but", 0.0, 2.0)
-CLOSURE = Range("dry joints of stone close by", 0.0, 0.5, "mm")
+STIFFNESS = Range(say("nobody has measured but"), 1e7, 1e13, "N/m³")
+FRICTION = Range(say("nobody has measured but"), 0.0, 2.0)
+CLOSURE = Range(say("dry joints of stone close by"), 0.0, 0.5, "mm")
 #: Share of the width of a joint beyond which a drum is hardly found off the one below: their centroids are near an edge.
-OFFSET = Range("drums are found with", 0.0, 0.3)
+OFFSET = Range(say("drums are found with"), 0.0, 0.3)
 
 
 def unit_doubts(column: Stack) -> list[str]:
@@ -85,9 +85,11 @@ def size_doubts(column: Stack) -> list[str]:
     )
     if not doubts:
         width = statistics.median(0.5 * sum(pair) for pair in widths)
-        doubts = SLENDER.doubts([("the height of the column over its width", column.height / width)])
+        doubts = SLENDER.doubts([(say("the height of the column over its width"), column.height / width)])
         if not doubts and column.n >= MANY:
-            doubts = TALL.doubts([("the height of drums over their width", statistics.median(column.heights) / width)])
+            doubts = TALL.doubts(
+                [(say("the height of drums over their width"), statistics.median(column.heights) / width)]
+            )
     return doubts + DENSITY.doubts((say("the density of drum {i}", i=i), one.density) for i, one in enumerate(drums, 1))
 
 
@@ -111,7 +113,7 @@ def length_doubts(
         for face, width in zip(("lower", "upper"), pair, strict=True)
     ]
     high = DRUM.doubts((say("the height of drum {i}", i=i), one) for i, one in enumerate(heights, 1))
-    high = high or COLUMN.doubts([("the height of the column", sum(heights))])
+    high = high or COLUMN.doubts([(say("the height of the column"), sum(heights))])
     deep = WIDTH.doubts((say("the depth of drum {i}", i=i), one) for i, one in enumerate(depths, 1))
     return high + WIDTH.doubts(faces) + deep
 
@@ -201,19 +203,23 @@ def shape_doubts(column: Stack, name: str) -> list[str]:
     drums = column.drums
     wide = [i for i, drum in enumerate(drums) if drum.top_width > drum.bottom_width * (1.0 + 1e-12)]
     swapped = [i for i in wide if column.n == 1 or _fits(column, i, swapped=True) < _fits(column, i) * (1.0 - 1e-9)]
-    end = "this is computed as given:"
     if swapped:
         which = joined(", ", (str(i + 1) for i in swapped[:5])) + (" …" if len(swapped) > 5 else "")
-        said = say("drum {which} of {name!r} widens upward (top_width > bottom_width)", which=which, name=name)
-        return [say("{said}; {end} swap the widths if it was not meant.", said=said, end=end)]
+        return [
+            say(
+                "drum {which} of {name!r} widens upward (top_width > bottom_width); this is computed as given: swap the "
+                "widths if it was not meant.",
+                which=which,
+                name=name,
+            )
+        ]
     narrowest = min(min(drum.bottom_width, drum.top_width) for drum in drums)
     if wide and wide[0] == 0 and drums[0].bottom_width <= narrowest * (1.0 + 1e-12):
         return [
             say(
-                "{name!r} widens upward from its base, where it is narrowest; {end} drums are given from the bottom "
-                "up, and bottom_width before top_width.",
+                "{name!r} widens upward from its base, where it is narrowest; this is computed as given: drums are given "
+                "from the bottom up, and bottom_width before top_width.",
                 name=name,
-                end=end,
             )
         ]
     return []

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..constants import DEGREE
 from ..errors import InputError, check_range, warn, within
+from ..messages import joined, say
 from .as_found import AS_BUILT, AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
@@ -50,9 +51,12 @@ def projected(column: Column, azimuth: float) -> Column:
         What lies across the plane and is lost.
     """
     found = project(column, azimuth)
-    lost = f"left out is what lies across it: {'; '.join(found.lost)}" if found.lost else "nothing of it lies across"
-    plane = f"the vertical plane of azimuth {azimuth:g}°, along which x of the motion acts"
-    warn(f"{column.name!r} is projected onto {plane}; {lost}.")
+    none, some = say("nothing of it lies across"), say("left out is what lies across it: {lost}")
+    lost = some.of(lost=joined("; ", found.lost)) if found.lost else none
+    words = say(
+        "{name!r} is projected onto the vertical plane of azimuth {azimuth:g}°, along which x of the motion acts; {lost}."
+    )
+    warn(words.of(name=column.name, azimuth=azimuth, lost=lost))
     return found.column
 
 

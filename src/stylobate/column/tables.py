@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_choice, check_kind, check_range, warn, within
+from ..messages import say
 from ..text_tables import printable
 from .as_found import AsFound, FoundDrum
 from .drum import DENSITIES, LENGTHS, SECTIONS, Drum
@@ -176,7 +177,7 @@ def describes_assembly(data: dict[str, Any]) -> bool:
 def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
     column = _as_built(kind, table, default_name)
     for doubt in law_doubts(column):
-        warn(f"{column.name!r}: {doubt}")
+        warn(say("{column.name!r}: {doubt}", column=column, doubt=doubt))
     changes: dict[str, Any] = {}
     if table.as_found is not None:
         some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())
@@ -187,7 +188,7 @@ def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
         return column
     changed = column.replace(**changes)
     for doubt in found_doubts(changed):
-        warn(f"{column.name!r}: {doubt}")
+        warn(say("{column.name!r}: {doubt}", column=column, doubt=doubt))
     return changed
 
 

@@ -11,7 +11,7 @@ from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, warn
 from ..messages import joined, say
 from ..motion import Motion, beyond_axes
 from ..response import Measures, Response
-from ..response.words import round_in_the_plane
+from ..response.words import ROUND_IN_THE_PLANE
 from .base import Case, Model, RunOptions, refuse_endless, refuse_long_histories
 
 if TYPE_CHECKING:
@@ -74,8 +74,7 @@ class Engine:
                 )
         left_out = beyond_axes(motion, axes)
         if "y" in left_out and structure.section == "circular":
-            left = say("{model} leaves out what shakes a round column across.", model=name)
-            warn(joined(" ", [left, round_in_the_plane(structure)]), PlaneOnlyWarning)
+            warn(ROUND_IN_THE_PLANE, PlaneOnlyWarning)
         for one in left_out.values():
             takes = say("left out of {motion!r}: {what}; {model} takes {axes}.")
             axes_ = joined(say(" and "), axes)

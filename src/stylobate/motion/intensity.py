@@ -48,13 +48,21 @@ def warn_of_drift(motion: Motion) -> None:
     for axis in motion.components if "file" in motion.metadata else ():
         if drift := displacement_drift(motion, axis):
             peak, cure = peak_ground_displacement(motion, axis), cure_of(motion)
-            remedy = "take no displacement from it, as no conditioning that is known here mends it"
+            remedy = say("take no displacement from it, as no conditioning that is known here mends it")
             if cure is not None:
-                remedy = f"correct it before a displacement is taken from it ({as_asked(cure)})"
+                words = say("correct it before a displacement is taken from it ({as_asked})")
+                remedy = words.of(as_asked=as_asked(cure))
             warn(
-                f"{motion.name}: the peak displacement of component {axis}, {peak:.3g} m, is what double integration "
-                f"leaves: {drift:.3g} m stand at the end, drift of the baseline unless the ground moved for good; "
-                f"{remedy}.",
+                say(
+                    "{motion.name}: the peak displacement of component {axis}, {peak:.3g} m, is what double integration "
+                    "leaves: {drift:.3g} m stand at the end, drift of the baseline unless the ground moved for good; "
+                    "{remedy}.",
+                    motion=motion,
+                    axis=axis,
+                    peak=peak,
+                    drift=drift,
+                    remedy=remedy,
+                ),
                 OutOfRangeWarning,
             )
 

@@ -143,9 +143,13 @@ class MotionRequest:
         opposite = self._two_apart(180.0)
         if self.signs == "both" and opposite is not None:
             warn(
-                f"the azimuths hold {opposite[0]:g}° and {opposite[1]:g}°, each of which is the other one reversed, and "
-                "both signs are asked for as well, so that directions are computed twice: a full circle holds both signs; "
-                "leave `signs='both'` out, or give half of the circle, such as 0:150:6.",
+                say(
+                    "the azimuths hold {one:g}° and {other:g}°, each of which is the other one reversed, and both signs are "
+                    "asked for as well, so that directions are computed twice: a full circle holds both signs; leave "
+                    "`signs='both'` out, or give half of the circle, such as 0:150:6.",
+                    one=opposite[0],
+                    other=opposite[1],
+                ),
                 OutOfRangeWarning,
             )
 

@@ -530,7 +530,7 @@ class Fragility(NotebookSummary):
         if self.outside:
             return say("{name}: {outside}.", outside=self.outside, **known)
         if self.bracket is None:
-            half = say("{name}: half of the {counted} bring {state} at {im} = {median:.3g}{unit}.")
+            half = say("{name}: by the fitted curve half of the {counted} bring {state} at {im} = {median:.3g}{unit}.")
             return half.of(median=self.median, **known)
         low, high = self.bracket
         stands = (e.codes == NOT_EXCEEDED) & (e.im > high * (1.0 + AT_END))

@@ -49,8 +49,8 @@ NO_MEASURE = ("as built", "as found")
 
 #: What stands before any advice on measures for round columns that were computed in a plane, however many the records.
 NO_MEASURE_YET = say(
-    ", and what helps here need not help there. No measure is to be adopted before a model in space (dem3d) has told "
-    "the same"
+    "What helps in the plane need not help in space: no measure is to be adopted before a model in space (dem3d) has "
+    "told the same."
 )
 
 
@@ -60,7 +60,8 @@ def doubt(labels: Sequence[str], columns: Sequence[Structure], model: Model) -> 
         return caveat(columns, model)
     if all(column.section != "circular" for column in columns):
         return ""
-    return ROUND_IN_THE_PLANE + NO_MEASURE_YET * any(label not in NO_MEASURE for label in labels) + "."
+    measures = any(label not in NO_MEASURE for label in labels)
+    return joined(" ", [ROUND_IN_THE_PLANE, NO_MEASURE_YET * measures])
 
 
 def reference(labels: Sequence[str], label: str) -> str:

@@ -214,17 +214,16 @@ UNDAMPED_WOBBLE = say(
     "time), before relying on it."
 )
 
-#: What stands before all that rests on round columns in a plane; of several drums they leave it by themselves.
-ROUND_IN_THE_PLANE = say("Round columns, computed in a plane: in space they can fall under much weaker motions")
+#: What stands before all that rests on round columns in the plane; of several drums they leave it by themselves.
+ROUND_IN_THE_PLANE = say(
+    "Round columns, computed in the plane: in space they can fall under much weaker motions, those of several drums "
+    "under one component too; compute them in space (dem3d) before relying on it."
+)
 
 
 def round_in_the_plane(structure: Structure) -> str:
     """What stands before a favourable verdict of a model in the plane on what stands; empty where nothing does."""
-    if structure.section != "circular":
-        return ""
-    several = structure.stack is not None and structure.stack.n > 1
-    too = say(", under one component too") * several
-    return joined("", [ROUND_IN_THE_PLANE, too, say("; compute them in space (dem3d) before relying on it.")])
+    return ROUND_IN_THE_PLANE if structure.section == "circular" else ""
 
 
 #: What stands beside whatever rests on assemblies in space whose bodies struck one another.

@@ -16,7 +16,7 @@ from ..column.assembly_files import FROM_DICT
 from ..column.structure import Structure
 from ..constants import g
 from ..errors import InputError
-from ..messages import MESSAGES, restored, say
+from ..messages import MESSAGES, joined, restored, say
 from ..models.base import Model
 from ..models.registry import MODELS, model_class
 from ..motion import Motion
@@ -304,11 +304,11 @@ class Source:
             (in_plane if model_class(model["name"]).is_plane(known) else in_space).append(known)
         pairs = [(kind, one) for structure in self.structures for kind, one in structure.items() if kind in FROM_DICT]
         if stones := [FROM_DICT[kind](one) for kind, one in pairs if "stones" in one]:
-            return " ".join(
-                dict.fromkeys(text for known in in_space or [{}] for text in cautions_in_space(stones, known))
+            return joined(
+                " ", dict.fromkeys(text for known in in_space or [{}] for text in cautions_in_space(stones, known))
             )
         if in_plane and any(drum.get("section") == "circular" for drum in drums):
-            return f"{ROUND_IN_THE_PLANE}."
+            return ROUND_IN_THE_PLANE
         return UNDAMPED_WOBBLE if drums and any(map(undamped, in_space)) else ""
 
     @property

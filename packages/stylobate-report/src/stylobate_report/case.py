@@ -113,9 +113,10 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
         for number, one in enumerate(found, start=1):
             _log.info("case %d of %d: %s, %s.", number, len(found), one.kind.value, one.folder)
             cases.append(_case(one, number, shown, found, language))
+    notes = _notes([case["notes"] for case in cases]) if project is not None or len(cases) > 1 else []
     front = []
     if project is not None:
-        front = [page.part(language.section(section)) for section in front_sections(project, found, cases)]
+        front = [page.part(language.section(section)) for section in front_sections(project, found, cases, notes)]
     cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
     end = [files_section(found), page.Section(SOURCES, [page.Points(list(map(page.Own, cited)))])]
     names = _heading(found, project)
@@ -125,7 +126,6 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
         "{kinds:capital}. Written on {day} by stylobate {version}.", kinds=kinds, day=Own(day), version=Own(__version__)
     )
     lead = [language.say(written)]
-    notes = _notes([case["notes"] for case in cases]) if len(cases) > 1 else []
     values = {
         "notes": page.kinds([language.item(one) for one in notes]),
         "version": __version__,

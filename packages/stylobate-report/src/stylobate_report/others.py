@@ -35,6 +35,7 @@ from .pictures import kept
 from .record import (
     asked_section,
     basis_section,
+    headline,
     known_model,
     model_section,
     record_section,
@@ -70,7 +71,7 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
         parts = _states(result, columns)
     else:
         verdict, body = _TELL[result.kind](result)
-        note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
+        note = Note([headline(result, verdict[0]), _scope(result.kind)], f"verdict{verdict[1]}")
         parts = [Section(say("Result"), [note, *warnings_of(result, _doubts(result))]), asked_section(result)]
         alone = (
             result.kind in FROM_RUNS and "monuments" not in result.summary
@@ -96,7 +97,7 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
     elif models:
         parts.append(model_section(models))
     parameters = asked.models[0]["parameters"] if asked is not None and len(asked.models) == 1 else {}
-    parts.append(record_section(result, parameters, versions_of(result)))
+    parts.append(record_section(parameters, versions_of(result)))
     keys = [key for name in models if (kind := known_model(name)) for key in kind.references]
     if isinstance(result, Grid) and result.data.provenance:
         parts.append(sources_section(cite_run(result.data.provenance)))
@@ -119,7 +120,7 @@ def _states(result: Result, columns: Sequence[Column]) -> list[Section]:
     """Advice and what it rests on; the first state in full, of the others what they differ by."""
     assert isinstance(result, Numbers)
     labels = [str(state["label"]) for state in result.summary["states"]]
-    lead = [*advice_notes(result), _scope(result.kind), *warnings_of(result)]
+    lead = [*advice_notes(result), _scope(result.kind), *warnings_of(result, _doubts(result))]
     parts = [Section(say("Result"), lead), Section(say("What was found"), states_items(result)), asked_section(result)]
     parts += [motions_section(result)] if result.asked is not None and result.asked.motions else []
     for number, (label, structure) in enumerate(zip(labels, result.structures)):
@@ -135,7 +136,8 @@ def _states(result: Result, columns: Sequence[Column]) -> list[Section]:
 def _doubts(result: Result) -> list[str]:
     """Doubts about a result: because of its model, or of the runs of others that it rests on."""
     if result.kind not in FROM_RUNS:
-        return [result.summary["doubt"]] if result.summary.get("doubt") else []
+        doubt = result.summary.get("doubt") or ""
+        return [one for one in getattr(doubt, "parts", ()) or (doubt,) if one.strip()]
     curves = result.summary.get("curves") or [result.summary]
     return list(dict.fromkeys(text for curve in curves for text in curve.get("warnings") or ()))
 

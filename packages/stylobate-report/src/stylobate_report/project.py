@@ -63,7 +63,9 @@ def read_project(path: str | Path) -> Project:
     return project
 
 
-def front_sections(project: Project, results: Sequence[Result], cases: Sequence[dict[str, Any]]) -> list[Section]:
+def front_sections(
+    project: Project, results: Sequence[Result], cases: Sequence[dict[str, Any]], notes: Sequence[Item]
+) -> list[Section]:
     """Sections of the first page.
 
     Parameters
@@ -72,6 +74,8 @@ def front_sections(project: Project, results: Sequence[Result], cases: Sequence[
     results : sequence of Result
     cases : sequence of dict
         The case of each result, whose ``verdict`` is its answer: it is repeated as it stands there.
+    notes : sequence of Item
+        What must be known before any of the answers is relied on.
     """
     apart = ("role", "place", "language")
     known = [(say(key), Own(value)) for key, value in project if isinstance(value, str) and key not in apart]
@@ -79,7 +83,7 @@ def front_sections(project: Project, results: Sequence[Result], cases: Sequence[
     said = list(map(Own, project.assumptions or ())) or [say("None are told in the project file.")]
     return [
         Section(say("Project"), [Facts(known)]),
-        Section(say("Answers"), [Rows([say("case"), say("result"), say("answer")], answers)]),
+        Section(say("Answers"), [*notes, Rows([say("case"), say("result"), say("answer")], answers)]),
         *_design_values(results),
         Section(
             say("Assumptions of this report"), [Points(said), say("What the models assume stands with each case.")]

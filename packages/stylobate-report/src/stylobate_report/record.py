@@ -10,7 +10,7 @@ from stylobate.errors import InputError
 from stylobate.messages import Message, joined, say
 from stylobate.models.base import Model
 from stylobate.models.registry import model_class
-from stylobate.results import Result, SeveralRuns
+from stylobate.results import Result, RunResult, SeveralRuns
 from stylobate.results.reading import FileFact
 from stylobate.version import __version__
 
@@ -49,7 +49,8 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
         items.append(
             say("The folder does not hold the command line: it was written by a version that did not keep it.")
         )
-    return Section(say("What was asked"), [*items, *([Facts(pairs)] if pairs else [])])
+    pairs.append((say("folder"), Own(result.folder)))
+    return Section(say("What was asked"), [*items, Facts(pairs)])
 
 
 def basis_section(result: Result) -> Section:
@@ -142,6 +143,24 @@ def known_model(name: str) -> type[Model] | None:
         return None
 
 
+def in_the_plane(result: Result) -> bool:
+    """Whether every model of a result computes the plane."""
+    if isinstance(result, SeveralRuns):
+        return all(map(in_the_plane, result.runs))
+    if isinstance(result, RunResult):
+        models = [(result.response.model, result.response.provenance.get("parameters"))]
+    else:
+        asked = result.asked.models if result.asked is not None else ()
+        models = [(str(one["name"]), one.get("parameters")) for one in asked]
+    known = [(known_model(name), parameters or {}) for name, parameters in models]
+    return bool(known) and all(kind is not None and kind.is_plane(parameters) for kind, parameters in known)
+
+
+def headline(result: Result, answer: str) -> str:
+    """An answer; that of the plane says so."""
+    return say("In the plane: {answer}", answer=answer) if in_the_plane(result) else answer
+
+
 def warnings_of(result: Result, more: Sequence[str] = ()) -> list[Item]:
     """A note with everything that the reader must know before relying on the result; none if there is nothing."""
     found = list(more)
@@ -155,10 +174,16 @@ def warnings_of(result: Result, more: Sequence[str] = ()) -> list[Item]:
         alone = say("Changed by somebody since stylobate wrote it: {names}.")
         words = alone if len(changed) == 1 else say("Changed by somebody since stylobate wrote them: {names}.")
         found.append(words.of(names=joined(", ", changed)))
-    return [Note([say(NOTE, text=text) for text in dict.fromkeys(found)], "fair")] if found else []
+    return noted(found)
 
 
-def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapping[str, Any]) -> Section:
+def noted(texts: Iterable[str]) -> list[Item]:
+    """A note with what the reader must know before relying on a result, each once; none if there is nothing."""
+    each = [say(NOTE, text=text) for text in dict.fromkeys(texts)]
+    return [Note(each, "fair")] if each else []
+
+
+def record_section(parameters: Mapping[str, Any], versions: Mapping[str, Any]) -> Section:
     """Parameters of the computation and versions."""
     items: list[Item] = []
     if parameters:
@@ -173,7 +198,7 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
         for key, value in versions.items()
         if value not in (None, "")
     }
-    items.append(Facts([*known.items(), (say("folder"), Own(result.folder))], say("Versions and inputs")))
+    items += [Facts([*known.items()], say("Versions and inputs"))] if known else []
     return Section(say("Parameters, versions and digests"), items)
 
 

@@ -112,7 +112,7 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     ]
     if known:
         median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
-        levels = joined(" to ", (digits(level, ".3g") for level in known["levels"]))
+        levels = between(*known["levels"], digits=3)
         counted = [*(["records"] * (_over(known) == "records")), "runs", "exceeded", "undecided", "failed"]
         limited = say("{value} ({limits}, 95 %)")
         pairs += [

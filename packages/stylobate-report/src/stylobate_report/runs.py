@@ -25,7 +25,17 @@ from . import numbers as n
 from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sentence
 from .page import Facts, Item, Note, Own, Rows, Section
 from .pictures import picture
-from .record import asked_section, model_section, record_section, sources_section, titled, versions_of, warnings_of
+from .record import (
+    asked_section,
+    headline,
+    model_section,
+    noted,
+    record_section,
+    sources_section,
+    titled,
+    versions_of,
+    warnings_of,
+)
 from .sequence import sequence_section
 from .shaking import motion_section
 from .statics import statics_section
@@ -60,7 +70,7 @@ def run_sections(run: RunResult) -> list[Section]:
     parts += [statics_section(column, run)] if column is not None else []
     parts.append(_energy(r))
     parts.append(model_section([r.model]))
-    parts.append(record_section(run, r.provenance.get("parameters", {}), _versions(run)))
+    parts.append(record_section(r.provenance.get("parameters", {}), _versions(run)))
     parts.append(sources_section(cite_run(r.provenance)))
     return parts
 
@@ -77,7 +87,7 @@ def verdict_look(response: Response, doubted: bool = False) -> str:
 
 def _verdict(run: RunResult) -> Note:
     r = run.response
-    texts = [joined(" ", [r.sentence, *_how_far(r)])]
+    texts = [headline(run, joined(" ", [r.sentence, *_how_far(r)]))]
     if r.structure.scattered:
         if r.outcome is not Outcome.FAILED:
             texts.append(certainty_sentence(run.summary))
@@ -89,7 +99,6 @@ def _verdict(run: RunResult) -> Note:
                 "collapse small differences decide."
             )
         )
-    texts += filter(None, [_doubt(run)])
     return Note(
         [*texts, _scope(run)],
         verdict_look(r, bool(beside_them(run.summary) or run.summary.get("law_changes_verdict"))),
@@ -115,7 +124,7 @@ def _how_far(r: Response) -> list[str]:
     )
     was = say("Its top moved by up to {far}, {share:.2f} of the width of the base, and was at the end {left} from where it "
               "stood.")  # fmt: skip
-    far, left = n.length(m.peak_top_displacement), n.length(m.residual_top_displacement)
+    far, left = n.length(m.peak_top_displacement), n.length(abs(m.residual_top_displacement))
     said = [(rests if r.decided else was).of(far=far, share=m.peak_top_displacement / width, left=left)]
     plain = len(r.structure.shapes) == 1 and not (r.structure.as_found or r.structure.links) and r.dims != "xyz"
     if plain and math.isfinite(m.peak_rotation):
@@ -134,7 +143,7 @@ def _scope(run: RunResult) -> str:
 
 
 def _doubts(run: RunResult) -> list[str]:
-    r, doubts = run.response, []
+    r, doubts = run.response, [*filter(None, [_doubt(run)])]
     if not r.decided and r.outcome is not Outcome.FAILED:
         known, waited = r.provenance, bool(r.provenance.get("until_decided"))
         cure = to_decide(r.structure, known.get("parameters", {}), float(known.get("tail_s", 0.0)), waited)
@@ -386,7 +395,8 @@ def several_sections(found: SeveralRuns) -> list[Section]:
     lead = Section(
         say("All runs"),
         [
-            Note([share.collapses, *doubts], "verdict bad" if share.exceeded else "verdict", first=1 + len(doubts)),
+            Note([headline(found, share.collapses)], "verdict bad" if share.exceeded else "verdict"),
+            *noted(doubts),
             Rows(
                 header,
                 body,

@@ -17,6 +17,7 @@ from . import numbers as n
 from .design import design_items, design_of
 from .page import Item, Note, Points, Rows
 from .pictures import kept
+from .record import headline
 from .tables import table
 
 #: Style of the notes on conclusions.
@@ -25,10 +26,10 @@ LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
 
 def advice_notes(result: Numbers) -> list[Item]:
     """The advice on every state, which is read before anything else."""
-    found = [(difference["advice"], LOOKS[difference["conclusion"]]) for difference in result.summary["differences"]]
-    if result.summary["doubt"]:
-        found.insert(0, (result.summary["doubt"], LOOKS[NOT_TOLD]))
-    return [Note([advice], f"verdict {look}".rstrip()) for advice, look in found]
+    return [
+        Note([headline(result, difference["advice"])], f"verdict {LOOKS[difference['conclusion']]}".rstrip())
+        for difference in result.summary["differences"]
+    ]
 
 
 def states_items(result: Numbers) -> list[Item]:

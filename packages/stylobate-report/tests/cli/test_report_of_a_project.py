@@ -51,6 +51,23 @@ def test_the_page_repeats_the_answers_as_they_stand_in_the_cases(statics, tmp_pa
     assert "<h1>Report: Temple, column 5</h1>" in out.read_text()  # its site, and no folder's name
 
 
+def test_an_answer_of_the_plane_says_so_below_its_caution(tmp_path):
+    """The caution stood on the third page, in three wordings, and an answer did not say what it was of."""
+    (tmp_path / "round.toml").write_text(
+        'name = "round"\nsection = "circular"\nmaterial = "marble"\n[[drum]]\nheight = 2.0\nbottom_width = 0.5\n'
+        "top_width = 0.5\n"
+    )
+    (tmp_path / "p.toml").write_text(GOOD)
+    shaking = ["--harmonic", "1Hz,0.1g,0.2s", "--across", "1Hz,0.1g,90deg", "--replicates", "0"]
+    run = ["run", str(tmp_path / "round.toml"), "--model", "housner", *shaking, "--out", str(tmp_path / "run")]
+    assert call(run) == 0
+    out = tmp_path / "r.html"
+    assert call(["report", str(tmp_path / "run"), "--project", str(tmp_path / "p.toml"), "--out", str(out)]) == 0
+    front = out.read_text(encoding="utf-8").split("Appendix: the results in full")[0]
+    assert front.count("Round columns, computed in the plane") == 1
+    assert front.index("Round columns") < front.index("In the plane: ") < front.index("Assumptions of this report")
+
+
 @pytest.mark.parametrize(
     ("text", "why"),
     [

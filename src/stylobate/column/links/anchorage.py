@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from ...errors import InputError, check_range
+from ...messages import say
 from .link import Numbers
 
 #: k of the cone (EN 1992-4, 7.2.1.4, post-installed) and of the edge (7.2.2.5), cracked and not; in N and mm.
@@ -130,8 +131,8 @@ class StoneAround(NamedTuple):
     @property
     def source(self) -> str:
         """What it rests on, in words."""
-        where = f"edge as built {self.edge:.3g} m, stone of {1e-6 * self.strength:g} MPa"
-        return f"EN 1992-4, carried over from concrete; {where}"
+        words = say("EN 1992-4, carried over from concrete; edge as built {edge:.3g} m, stone of {strength:g} MPa")
+        return words.of(edge=self.edge, strength=1e-6 * self.strength)
 
 
 def in_stone(alone: Numbers) -> tuple[Numbers, StoneAround | None]:

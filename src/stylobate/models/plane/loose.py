@@ -16,6 +16,7 @@ from ...errors import InputError, OutOfRangeWarning, warn
 from ...kernels.plane.records import BETA, LOCAL
 from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.shared.records import STATE
+from ...messages import say
 from ...motion import Motion
 from ...response import Measures, Response
 from ...response.assemblies import first_touch, have_fallen, lowest_standing, recorded_blocks
@@ -332,8 +333,14 @@ class Loose:
         thin = min((body.thickness, body.name) for body in self.structure.bodies if not body.fixed)
         if depth > DEEPEST * thin[0]:
             warn(
-                f"blocks of {self.structure.name!r} entered each other by {1000.0 * depth:.3g} mm, and {thin[1]!r} is "
-                f"{1000.0 * thin[0]:.3g} mm thick; its impacts mean little: raise normal_stiffness.",
+                say(
+                    "blocks of {name!r} entered each other by {depth:.3g} mm, and {thin!r} is {size:.3g} mm thick; its "
+                    "impacts mean little: raise normal_stiffness.",
+                    name=self.structure.name,
+                    depth=1000.0 * depth,
+                    thin=thin[1],
+                    size=1000.0 * thin[0],
+                ),
                 OutOfRangeWarning,
             )
         return depth

@@ -78,8 +78,12 @@ class Beam(Engine):
         opening = float(model.opening_rotations(seen).max())
         if model.moment_law != "housner" and opening > 0.1 * float(model.critical_angles(seen).min()):
             warn(
-                f"the joints of {column.name!r} open only at {opening:.3g} rad, more than a tenth of the critical angle: "
-                "the beam is for stiff joints; raise normal_stiffness."
+                say(
+                    "the joints of {column.name!r} open only at {opening:.3g} rad, more than a tenth of the critical angle: "
+                    "the beam is for stiff joints; raise normal_stiffness.",
+                    column=column,
+                    opening=opening,
+                )
             )
         warn_of_free_flight(column, motion)
 

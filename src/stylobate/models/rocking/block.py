@@ -212,9 +212,11 @@ def off_the_ground(motion: Motion, gravity: float, collapse_time: float) -> str:
     time = max(0.0, k - 1.0 + share) * motion.dt
     if 0.0 <= collapse_time <= time:
         return ""
-    return (
-        f"the vertical acceleration is {vertical.min() / gravity:.2f} g at its lowest and falls below −1 g at {time:.4g} s: "
-        "the column leaves the ground, which this model does not follow; dem2d does"
+    return say(
+        "the vertical acceleration is {lowest:.2f} g at its lowest and falls below −1 g at {time:.4g} s: the column leaves "
+        "the ground, which this model does not follow; dem2d does",
+        lowest=vertical.min() / gravity,
+        time=time,
     )
 
 
@@ -236,8 +238,12 @@ def warn_of_free_flight(column: Column, motion: Motion) -> None:
     vertical = motion.vertical
     if vertical is not None and float(vertical.min()) <= -column.gravity:
         warn(
-            f"the vertical acceleration of {motion.name!r} falls to {vertical.min() / column.gravity:.2f} g; below −1 g the "
-            "column would leave the ground, which this model does not follow: a run that gets there fails."
+            say(
+                "the vertical acceleration of {motion.name!r} falls to {lowest:.2f} g; below −1 g the column would leave "
+                "the ground, which this model does not follow: a run that gets there fails.",
+                motion=motion,
+                lowest=vertical.min() / column.gravity,
+            )
         )
 
 

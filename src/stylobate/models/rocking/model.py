@@ -73,11 +73,15 @@ class HousnerRocking(Rocking):
             )
         warn_sliding(column, block.alpha, model.name, say("dem2d has sliding"))
         if model.linear and block.alpha > SLENDER:
-            warn(f"the slenderness is {math.degrees(block.alpha):.1f}°; the linearised equation is for up to 20°.")
+            stocky = say("the slenderness is {alpha:.1f}°; the linearised equation is for up to 20°.")
+            warn(stocky.of(alpha=math.degrees(block.alpha)))
         if model.restitution is None and column.restitution < 0.0:
             warn(
-                f"Housner's restitution of this stocky block is {column.restitution:.2f}, below zero: "
-                "0 is used, and the block stops at its first impact."
+                say(
+                    "Housner's restitution of this stocky block is {column.restitution:.2f}, below zero: 0 is used, and the "
+                    "block stops at its first impact.",
+                    column=column,
+                )
             )
         warn_of_free_flight(column, motion)
 

@@ -11,6 +11,7 @@ import numpy as np
 from ...column import Column
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK
+from ...messages import say
 from ...motion import Motion
 
 #: Largest sinking of a column under its own weight, as a share of its height [-].
@@ -174,11 +175,10 @@ AS_DRAWN, AWAY = 0.1, 0.01
 def caution_of_settling(name: str, way: float, size: float) -> str | None:
     """Sentence about a structure that settles away from where it is drawn [m], by the size of its smallest stone [m]."""
     if math.isinf(way):
-        return f"{name!r} is not in equilibrium as drawn; it moves from the start."
+        return say("{name!r} is not in equilibrium as drawn; it moves from the start.", name=name)
     if way > AWAY * size:
-        return (
-            f"{name!r} sinks and sways by {1000.0 * way:.2g} mm under its own weight before it rests, and begins there."
-        )
+        words = say("{name!r} sinks and sways by {far:.2g} mm under its own weight before it rests, and begins there.")
+        return words.of(name=name, far=1000.0 * way)
     return None
 
 

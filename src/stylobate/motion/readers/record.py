@@ -66,7 +66,8 @@ def rising_pairs(numbers: np.ndarray, file: str, start: int, rows: int) -> tuple
 
     def where(at: int) -> str:
         line = start + (at + 1) // per_row + 1
-        return f"{file}, line {line}: the time goes from {time[at]:g} s to {time[at + 1]:g} s"
+        words = say("{file}, line {line}: the time goes from {before:g} s to {after:g} s")
+        return words.of(file=file, line=line, before=time[at], after=time[at + 1])
 
     if (steps < 0.0).any():
         raise InputError(f"{where(int((steps < 0.0).argmax()))}, where it may not fall; mend it.")
@@ -78,7 +79,11 @@ def rising_pairs(numbers: np.ndarray, file: str, start: int, rows: int) -> tuple
     bad = np.flatnonzero(steps > GAP * around)
     if bad.size:
         warn(
-            f"{where(int(bad[0]))}, {GAP:g} times the steps before and behind it and more; check that no line is missing.",
+            say(
+                "{where}, {times:g} times the steps before and behind it and more; check that no line is missing.",
+                where=where(int(bad[0])),
+                times=GAP,
+            ),
             OutOfRangeWarning,
         )
     return time, values
@@ -651,7 +656,10 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
     peaks = {axis: float(np.abs(array).max(initial=0.0)) / g for axis, array in values.items()}
     for axis, peak in peaks.items():
         if peak > STRONGEST:
-            warn(f"{name}: the peak of component {axis} is {peak:.3g} g, more than was ever recorded; check the unit.")
+            words = say(
+                "{name}: the peak of component {axis} is {peak:.3g} g, more than was ever recorded; check the unit."
+            )
+            warn(words.of(name=name, axis=axis, peak=peak))
     if 0.0 < max(peaks.values()) < SMALLEST_PEAK:
         warn(
             say(
@@ -665,11 +673,12 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
         fastest = float(np.abs(integrate(array, step)).max())
         if fastest > LARGEST_VELOCITY and peaks[axis] <= STRONGEST:
             cure = best_of(cures_of(array, step, LARGEST_VELOCITY))
-            drift = "" if cure is None else f", or take off the drift of the baseline ({as_asked(cure)})"
-            warn(
-                f"{name}: component {axis} reaches a velocity of {fastest:.3g} m/s, more than was ever recorded; check the "
-                f"unit and the step{drift}."
+            words = say(
+                "{name}: component {axis} reaches a velocity of {fastest:.3g} m/s, more than was ever recorded; check the "
+                "unit and the step{drift}."
             )
+            drift = "" if cure is None else say(", or take off the drift of the baseline ({cure})", cure=as_asked(cure))
+            warn(words.of(name=name, axis=axis, fastest=fastest, drift=drift))
 
 
 def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ...added import RECORDS, entries, missing
 from ...errors import InputError, check_all, check_kind, warn
-from ...messages import say
+from ...messages import joined, say
 from ...text_tables import printable
 from ..events import recorded_again
 from ..motion import Motion
@@ -336,8 +336,9 @@ def read_suite(
         )
     again = recorded_again(motions)
     if again:
-        pairs = [f"{motions[one].name!r} of {motions[other].name!r}" for one, other in again.items()]
-        named = ", ".join(pairs[:MOST_NAMED]) + (", …" if len(pairs) > MOST_NAMED else "")
+        pair = say("{one!r} of {other!r}")
+        pairs = [pair.of(one=motions[one].name, other=motions[other].name) for one, other in again.items()]
+        named = joined(", ", pairs[:MOST_NAMED]) + (", …" if len(pairs) > MOST_NAMED else "")
         words = say(
             "{count} of {all} records are recordings of others once more, scaled, turned, filtered or "
             "written otherwise ({names}): a selection for a target takes each recording once; elsewhere they "

@@ -137,7 +137,7 @@ def _check(component: Component, text: list[str], reals: np.ndarray, stage: str,
 def _check_counts(values: np.ndarray, reals: np.ndarray, dt: float, file: str, start: int) -> None:
     """Raw counts: the largest one (real 64), its time (65) and the mean that was taken off (66)."""
     if reals[63] not in (_UNKNOWN, 0.0):
-        check_peak(values, float(reals[63]), 1.0, file, start + 1, wrong=0.0, what="largest count")
+        check_peak(values, float(reals[63]), 1.0, file, start + 1, wrong=0.0, what=say("largest count"))
         check_peak_time(values, dt, float(reals[64]), file, start + 1)
     stated, mean = float(reals[65]), float(values.mean())
     if stated not in (_UNKNOWN, 0.0) and min(abs(mean + stated), abs(mean - stated)) > 1e-4:

@@ -36,7 +36,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
     found = _FIRST.match(lines[0])
     kind = "" if found is None else found["what"].upper()
     if kind == "UNKNOWN":  # as programs write it that convert accelerograms
-        warn(f"{file}, line 1: it does not say what the numbers are; they are read as accelerations in cm/s².")
+        unnamed = say("{file}, line 1: it does not say what the numbers are; they are read as accelerations in cm/s².")
+        warn(unnamed.of(file=file))
     elif "ACCELEROGRAM" not in kind:
         raise InputError(f"{file}, line 1: expected an accelerogram, found {lines[0].strip()!r}; give that file.")
     corrected = "UNCORRECTED" not in kind

@@ -71,7 +71,7 @@ def check_peak(
     line: int,
     *,
     wrong: float = WRONG_SHARE,
-    what: str = "peak",
+    what: str = say("peak"),
 ) -> None:
     """The largest sample is the peak that the header states.
 
@@ -94,11 +94,12 @@ def check_peak(
         return
     found = float(np.abs(values).max())
     apart = abs(found - peak) - 1.01 * half - 1e-6 * peak
-    text = f"{file}, line {line}: the header states a {what} of {peak / size:g}, the samples hold {found / size:.6g}"
+    words = say("{file}, line {line}: the header states a {what} of {peak:g}, the samples hold {found:.6g}")
+    text = words.of(file=file, line=line, what=what, peak=peak / size, found=found / size)
     if apart > wrong * peak:
         raise InputError(f"{text}; {CUT}.")
     if apart > PEAK_SHARE * peak:
-        warn(f"{text}: the header may be of another processing.")
+        warn(say("{text}: the header may be of another processing.", text=text))
 
 
 def check_peak_time(values: np.ndarray, dt: float, stated: str | float | None, file: str, line: int) -> None:
@@ -114,8 +115,14 @@ def check_peak_time(values: np.ndarray, dt: float, stated: str | float | None, f
     if near.size == 0 or near.max() < 0.98 * np.abs(values).max():
         at = int(np.abs(values).argmax()) * dt
         warn(
-            f"{file}, line {line}: the header states its peak at {time:g} s, the samples have it at {at:g} s; check "
-            "the step and whether samples are missing.",
+            say(
+                "{file}, line {line}: the header states its peak at {time:g} s, the samples have it at {at:g} s; check the "
+                "step and whether samples are missing.",
+                file=file,
+                line=line,
+                time=time,
+                at=at,
+            ),
             OutOfRangeWarning,
         )
 
@@ -142,7 +149,12 @@ def warn_of_missing(found: int, stated: int | None, file: str) -> None:
     """Fewer components than the header speaks of: the file may have been cut between two of them."""
     if stated is not None and found < stated:
         warn(
-            f"{file}: the header speaks of {stated} components, the file holds {found}; check that it is whole.",
+            say(
+                "{file}: the header speaks of {stated} components, the file holds {found}; check that it is whole.",
+                file=file,
+                stated=stated,
+                found=found,
+            ),
             OutOfRangeWarning,
         )
 
