@@ -498,7 +498,7 @@ def test_the_advice_on_a_slip_of_the_hand_works(tmp_path, line):
     (tmp_path / "a.toml").write_text(f'name = "a"\n{line}\n', encoding="utf-8")
     with pytest.raises(InputError, match=r": write .*\.$") as refused:
         parse_toml(tmp_path / "a.toml")
-    advice = str(refused.value).partition(": write ")[2].removesuffix(".")
+    advice = str(refused.value).partition(": write ")[2].removesuffix(".").removeprefix("height = ")
     (tmp_path / "a.toml").write_text(f'name = "a"\nheight = {advice}\n', encoding="utf-8")
     assert parse_toml(tmp_path / "a.toml") == {"name": "a", "height": MISTAKES[line]}
 
@@ -507,8 +507,8 @@ def test_no_value_is_advised_that_would_be_a_guess(tmp_path):
     """80 cm are not 80 m; a table that stands there twice may be two of a list, or one too many."""
     for text, said in {
         "height = 80 cm": "give the number alone, in SI units",
-        "height = 3/4": "column 11).",
-        "height = None": "column 10).",
+        "height = 3/4": "column 11); a line is a key, =, and a number",
+        "height = None": "column 10); a line is a key, =, and a number",
         "height = 1.0\nheight = 2.0": "leave one out",
         "[drum]\nheight = 1.0\n[drum]\nheight = 2.0": "write [[drum]] each time if there may be several, as of drums",
     }.items():

@@ -34,6 +34,9 @@ COMPAS = Path(__file__).parent / "compas"
 MARBLE = Reading("marble")
 ENDINGS = (".obj", ".ply", ".stl", ".glb", ".json")
 
+#: Note on a survey that states no section.
+ROUND = "taken as round: no line `# section: rectangular` says otherwise"
+
 
 def volumes(structure):
     return sorted(
@@ -318,7 +321,7 @@ def test_a_survey_in_a_workbook(beside, tmp_path):
     assert read_model(tmp_path / "a.csv", Reading())[0].to_dict() == column.to_dict()
     assert (column.name, [drum.height for drum in column.drums]) == ("north, 3", [0.8125, 0.79])
     assert column.as_found.of(2).offset == 0.0125
-    assert words[1:] == ["drum 1: cracked, at NE"]
+    assert words[1:] == [ROUND, "drum 1: cracked, at NE"]
 
 
 @pytest.mark.parametrize(
@@ -412,6 +415,7 @@ def test_no_drum_is_lost_in_a_note(tmp_path):
         column, _, words = read_model(path, MARBLE)
         assert (column.n, column.name, column.as_found.base_tilt) == (4, "north, 3", 1.5)
         assert words[1:] == [
+            ROUND,
             "drum 1: # replaced 1999",
             "drum 2: cracks: # photo 3 # name: Zeus",
             "drum 3: a b c",
@@ -475,9 +479,9 @@ def test_a_survey_whose_columns_are_stated(above, encoding, tmp_path):
     assert proposal == "drum, height [cm], bottom_width [cm], top_width [cm], -"
     column, _, words = read_model(path, Reading("marble", columns=proposal))
     assert [drum.height for drum in column.drums] == pytest.approx([0.812, 0.8])
-    assert words[1:] == []
+    assert words[1:] == [ROUND]
     noted = read_model(path, Reading("marble", columns=proposal.replace(", -", ", note")))
-    assert noted[2][1:] == ["drum 1: sì", "drum 2: no"]
+    assert noted[2][1:] == [ROUND, "drum 1: sì", "drum 2: no"]
     path.write_bytes((above + ITALIAN.partition("\n")[2]).encode(encoding))  # no names at all
     assert read_model(path, Reading("marble", columns=proposal))[0].digest == column.digest
 
@@ -508,7 +512,7 @@ def test_a_note_on_a_drum_is_the_surveyors(tmp_path):
     column, tables, words = read_model(tmp_path / "a.csv", Reading())
     assert column.n == 2
     assert "note" not in str(tables)
-    assert words[1:] == ["drum 1: cracked at NE"]
+    assert words[1:] == [ROUND, "drum 1: cracked at NE"]
     convert(str(tmp_path / "a.csv"), tmp_path / "b.toml", Reading())
     written = (tmp_path / "b.toml").read_text()
     assert "# drum 1: cracked at NE\n" in written
@@ -561,4 +565,4 @@ def test_a_proposal_names_every_column_that_it_can(tmp_path):
     assert proposal == "drum, height [cm], bottom_width [cm], top_width [cm], density, friction_angle, -"
     tables, said = survey_tables(path, "marble", proposal)
     assert tables["drum"] == [{"height": 0.8, "bottom_width": 1.0, "top_width": 0.98, "density": 2700.0}]
-    assert said == ["taken as round: no line `# section: rectangular` says otherwise"]
+    assert said == [ROUND]
