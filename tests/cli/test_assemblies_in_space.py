@@ -110,7 +110,7 @@ SHAKEN = ["--pulse", "ricker,1Hz,0.2g"]
 def test_it_is_shaken_by_dem3d(answered):
     """Which the screen of help names."""
     assert "in space dem3d" in answered("run", "--help")
-    run = ("run", STATUE, "--model", "dem3d", "--pulse", "ricker,2Hz,0.4g,1.5s", "--json")
+    run = ("run", STATUE, "--model", "dem3d", "--pulse", "ricker,2Hz,0.3g,1.5s", "--json")
     found = answered(*run)
     assert found["outcome"] == "rocked"
     both = answered(
