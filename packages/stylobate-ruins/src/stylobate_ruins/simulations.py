@@ -264,8 +264,10 @@ class _Table:
             "model": [self.model.name, self.model.parameters()],
             "options": [self.options.tail, self.options.quiet],
             "laws": [__version__, *laws()],
-            "made by": [digest_of_file(Path(__file__).with_name(name)) for name in ("simulations.py", "prior.py")],
-            "motions by": digest_of_file(Path(__file__).with_name("elliptical.py")),
+            "sources": [
+                digest_of_file(Path(__file__).with_name(f"{one}.py"))
+                for one in ("simulations", "prior", "ground_motion")
+            ],
         }
         return hashlib.sha256(json.dumps(said, sort_keys=True, default=str).encode()).hexdigest()
 
