@@ -132,7 +132,9 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
     i, j = outward(u, of(e.il)), outward(u, of(e.jl))
     z = cross(i, j)
     core = along(along(along(ml, e.at[0], i), e.at[1], j), e.at[2], z)
-    dn = normal_dashpot(pressing, 0.0, vn, restitution_share(now.dull, now.calm, vn))
+    # a dashpot under much weight on a light body: a step takes at most an eighth of its momentum
+    calm = max(now.calm, 8.0 * now.dull * pressing * now.last * (u.im[0] + v.im[0]))
+    dn = normal_dashpot(pressing, 0.0, vn, restitution_share(now.dull, calm, vn))
     past, past_spin = motion_then(e, u, v)
     limits = e.tan * (pressing + dn) + share * e.co * closed, LEVER * LEVER * spread
     f, twist, core = rub(
