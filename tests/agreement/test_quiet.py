@@ -11,7 +11,7 @@ from stylobate.constants import g
 from stylobate.errors import OutOfRangeWarning
 from stylobate.models.base import Case
 from stylobate.models.drums.runs import LaneRuns
-from stylobate.models.shared.ground import BEFORE, LOOK, QUIET, level, shaking, share_of
+from stylobate.models.shared.ground import LOOK, QUIET, QUIET_BEFORE, level, shaking, share_of
 from stylobate.motion import harmonic
 from stylobate.motion.motion import write_csv
 from stylobate.probability.suite import suite_table
@@ -62,7 +62,7 @@ def test_shocks_with_quiet_between_them(model):
     assert cut[1]["collapse_time_s"] == pytest.approx(whole[1]["collapse_time_s"], abs=0.1)
     assert cut[1]["collapse_time_s"] > 17.0
     for one, other in zip(whole, cut, strict=True):
-        assert other["stepped_from_s"] == pytest.approx(8.0 - BEFORE, abs=0.1)
+        assert other["stepped_from_s"] == pytest.approx(8.0 - QUIET_BEFORE, abs=0.1)
         assert other["steps"] * other["time_step_s"] == pytest.approx(other["stepped_s"], rel=1e-9)
         assert other["steps"] < (0.75 if one["outcome"] != "collapsed" else 0.95) * one["steps"]
 
