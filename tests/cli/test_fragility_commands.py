@@ -117,7 +117,6 @@ def test_bad_input_is_one_sentence(place, capsys):
         ("record,im_m_s,collapsed", ("--im", "cav"), "such as cav_m_s"),
         ("record,im_m_s,collapsed", ("--im", "pga"), "such as pgv_m_s"),
         ("record,im_g,collapsed", ("--im", "pga"), "such as pga_g"),
-        ("record,pgv_m_s,collapsed", (), "choose one with --im, such as --im pgv"),
         ("record,im,pgv,collapsed", ("--im", "pgv"), "which of them is pgv in m/s is not said; call that one pgv_m_s"),
         ("record,im,pgv_cm_s,collapsed", ("--im", "pgv"), "the columns im and pgv_cm_s"),
         ("record,im,im_m_s,collapsed", ("--im", "pgv"), "the columns im and im_m_s"),
