@@ -67,6 +67,8 @@ FREQUENCY_UNITS = {"hz": 1.0, "khz": 1e3}
 ANGLE_UNITS = {"deg": 1.0, "°": 1.0, "degrees": 1.0, "rad": 180.0 / math.pi}
 #: Units of velocity in m/s.
 VELOCITY_UNITS = {"m/s": 1.0, "cm/s": 0.01, "mm/s": 0.001}
+#: Units of pressure in Pa.
+PRESSURE_UNITS = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9, "n/m2": 1.0, "n/mm2": 1e6, "bar": 1e5}
 
 #: Pulses by the name they have on the command line.
 PULSES: dict[str, Callable[..., Motion]] = {
@@ -119,6 +121,12 @@ def parse_velocity(text: str) -> float:
 def parse_time(text: str, name: str | None = None) -> float:
     """A time such as ``5s`` or ``20ms`` in s; ``name`` of the parameter, for messages."""
     return _quantity(text, "time", "5s", name)
+
+
+def parse_pressure(text: str, name: str | None = None) -> float:
+    """A pressure or strength such as ``2MPa`` in Pa; a number alone is in Pa; ``name`` of the parameter, for errors."""
+    with within("", *([name] if name else [])):
+        return _in_units(text, "pressure", PRESSURE_UNITS, "Pa", "'2MPa' (Pa, kPa, MPa, GPa)")
 
 
 def parse_frequency(text: str, name: str | None = None) -> float:
