@@ -127,7 +127,7 @@ def test_an_assembly_in_space(tmp_path, capsys):
     assert call(["modes", str(file), "--json", "--number", "3", "--out", str(tmp_path / "out")]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [one["kind"] for one in found["modes"][:3]] == ["bending"] * 3
-    assert " and " in found["modes"][0]["bent_joint"]
+    assert " – " in found["modes"][0]["bent_joint"]
     assert found["joint_bending_stiffness"] is None
     assert (tmp_path / "out" / "modes.png").stat().st_size > 5000
     assert call(["modes", str(file), "--measured", "2Hz±2%", "--ground", "rigid"]) == 2
