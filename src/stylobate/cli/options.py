@@ -77,7 +77,7 @@ class Group:
 
 
 class Without:
-    """Fields of a group that are no options of a command: ``Annotated[Motions, But("scale", "pga")]``."""
+    """Fields of a group that are no options of a command: ``Annotated[Motions, Without("scale", "pga")]``."""
 
     def __init__(self, *names: str) -> None:
         self.names = names
@@ -172,18 +172,25 @@ class Command(TyperCommand):
 _ALL = "stylobate.help_all"
 
 
-def _quantity(kind: str) -> Callable[[str, str], float]:
-    """What reads a quantity as typed, with its unit, in SI; errors carry the name of its option."""
+def time(text: str, name: str) -> float:
+    """A time as typed, with its unit [s]."""
+    from ..motion.specs import parse_time
 
-    def read(text: str, name: str) -> float:
-        from ..motion import specs
-
-        return getattr(specs, f"parse_{kind}")(text, name)
-
-    return read
+    return parse_time(text, name)
 
 
-time, acceleration, pressure = map(_quantity, ("time", "acceleration", "pressure"))
+def acceleration(text: str, name: str) -> float:
+    """An acceleration as typed, with its unit [m/s²]."""
+    from ..motion.specs import parse_acceleration
+
+    return parse_acceleration(text, name)
+
+
+def pressure(text: str, name: str) -> float:
+    """A pressure or strength as typed, with its unit [Pa]."""
+    from ..motion.specs import parse_pressure
+
+    return parse_pressure(text, name)
 
 
 def number(text: str, name: str, example: str = "such as 0.5") -> float:

@@ -265,12 +265,12 @@ class Kind:
 
 
 def _rocking(key: str) -> Callable[[Motion, tuple[float, ...], tuple[float, float] | None], float]:
-    def of(motion: Motion, _: tuple[float, ...], column: tuple[float, float] | None) -> float:
+    def value_for(motion: Motion, _: tuple[float, ...], column: tuple[float, float] | None) -> float:
         assert column is not None
         value = rocking_measures(motion, *column)[key]
         return math.nan if value is None else float(value)
 
-    return of
+    return value_for
 
 
 def _average(motion: Motion, periods: tuple[float, ...], _: object) -> float:
@@ -303,7 +303,7 @@ TABLE_MEASURES = (
     *("pga", "pgv", "pgv_over_pga", "sa:0.5s", "sa:1s", "sa:2s", "avgsa", "cav", "arias", "d5_95"),
     *("pga_over_g_tan_alpha", "pgv_p_over_g_tan_alpha", "omega_g_over_p"),
 )
-TOLD_OF_TWO = ("pga@geomean", "pgv@geomean")
+TWO_COMPONENT_MEASURES = ("pga@geomean", "pgv@geomean")
 
 #: Ends of the columns of tables, by unit.
 ENDS = {"g": "_g", "m/s": "_m_s", "s": "_s", "-": ""}
@@ -480,7 +480,7 @@ def measure_of_column(name: str) -> IntensityMeasure | None:
 
 def measures_by_column(motion: Motion, columns: Sequence[tuple[float, float]]) -> list[dict[str, float]]:
     """The measures that tables hold, by their names there, for a motion and (tan α, p) of each column."""
-    names = TABLE_MEASURES if motion.y_samples is None else (*TABLE_MEASURES, *TOLD_OF_TWO)
+    names = TABLE_MEASURES if motion.y_samples is None else (*TABLE_MEASURES, *TWO_COMPONENT_MEASURES)
     measures = [parse_measure(name) for name in names]
     if motion.pga == 0.0:
         return [dict.fromkeys((measure.key for measure in measures), math.nan) for _ in columns]
@@ -495,7 +495,7 @@ def measures_by_column(motion: Motion, columns: Sequence[tuple[float, float]]) -
 
 def powers_by_column() -> dict[str, int]:
     """Powers of the factor of a motion with which these measures grow, by their columns."""
-    return {one.key: one.power for one in map(parse_measure, (*TABLE_MEASURES, *TOLD_OF_TWO))}
+    return {one.key: one.power for one in map(parse_measure, (*TABLE_MEASURES, *TWO_COMPONENT_MEASURES))}
 
 
 #: Units in which a level may be typed, by the unit of the measure.
@@ -538,8 +538,8 @@ def parse_levels(texts: str | Sequence[str], measure: IntensityMeasure) -> np.nd
         A level without the unit of the measure, or one that is not positive.
     """
 
-    def one(text: str) -> float:
+    def level(text: str) -> float:
         return parse_level(text, measure)
 
     parts = [texts] if isinstance(texts, str) else list(texts)
-    return np.unique(np.concatenate([_values("levels", text, one, "0.1m/s:1.0m/s:10") for text in parts]))
+    return np.unique(np.concatenate([_values("levels", text, level, "0.1m/s:1.0m/s:10") for text in parts]))
