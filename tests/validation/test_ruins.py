@@ -1,12 +1,12 @@
 """Posteriors of past shaking over ruins that were made, as they are kept (``make ruins``): calibrated, and wary of hands."""
 
 import pytest
-from validation.ruins.figures import KINDS, TOLD, stored
+from validation.ruins.figures import KINDS, UNITS, stored
 
 KEPT = stored()
 
 
-@pytest.mark.parametrize("name", TOLD)
+@pytest.mark.parametrize("name", UNITS)
 @pytest.mark.parametrize("which", ["calibration", "calibration_of_more"])
 def test_ranks_are_even_and_intervals_hold_what_they_say(which, name):
     # Intervals hold 50 and 90 % within 3 %, and three standard errors of so many ruins besides.
@@ -25,7 +25,7 @@ def test_intervals_hold_by_each_kind_of_observation(kind):
     # the draws, and hold less; axes that offsets tell lie either side of it, and hold more.
     told = KEPT["by_kind"][kind]
     assert told["ruins"] >= 200
-    for name in TOLD:
+    for name in UNITS:
         assert told[name] == pytest.approx(0.9, abs=0.03 + 3.0 * (0.09 / told["ruins"]) ** 0.5), name
 
 
@@ -41,7 +41,7 @@ def test_what_tells_nothing_leaves_what_else_is_told():
 def test_ruins_of_another_law_of_contact_are_held():
     # Asked for: a 90 % interval holds at least 80 % where the law of contact is the wrong one.
     for told in KEPT["other_law"].values():
-        assert all(told[name] >= 0.8 for name in TOLD)
+        assert all(told[name] >= 0.8 for name in UNITS)
 
 
 def test_what_hands_have_moved_stands_out():
