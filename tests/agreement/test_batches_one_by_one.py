@@ -66,10 +66,11 @@ def test_cases_are_asked_for_as_lanes_become_free():
     assert done == asked == 20_000
     assert most <= WINDOW + 2 * Block.lanes + 1
     # nothing but what waits to be handed over is ahead of the caller
+    before = threading.active_count()
     stream = run_lanes(Block, (number for number in iter(int, 1)), 1)  # without end
     assert next(stream)[0] >= 0
     stream.close()
-    assert threading.active_count() < 10
+    assert threading.active_count() <= before
 
 
 @pytest.mark.parametrize("threads", [1, 3])
