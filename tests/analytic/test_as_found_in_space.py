@@ -182,7 +182,7 @@ def test_out_of_equilibrium_and_out_of_the_plane_are_refused_in_one_sentence(tmp
 
 def barrier_of(column, turns=None):
     """The lowest barrier of a column as found [J], rigid and without walking; its drums turned so far [rad], shape (n,)."""
-    from stylobate.kernels.dem3d.standing_found import lowest_found
+    from stylobate.kernels.dem3d.standing import lowest_found
     from stylobate.models.dem3d.packing import found_numbers, numbers_for
 
     found, up, high = found_numbers(column)

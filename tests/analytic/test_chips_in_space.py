@@ -120,7 +120,7 @@ def test_the_ledger_of_a_chipped_column_closes():
 
 def test_what_stands_for_good_knows_the_smaller_support():
     """The barrier of a rigid chipped prism is that of its nearest edge, m g (√(H² + b²) − H)."""
-    from stylobate.kernels.dem3d.standing_found import lowest_found
+    from stylobate.kernels.dem3d.standing import lowest_found
     from stylobate.models.dem3d.packing import found_numbers, numbers_for
 
     column, height = prism(**CHIPS), 0.5 * HEIGHT

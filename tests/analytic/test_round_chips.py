@@ -8,7 +8,7 @@ from validation.space import cylinder, round_column
 
 import stylobate as st
 from stylobate.column.found_geometry import rotation
-from stylobate.kernels.dem3d.chipped import press_chord
+from stylobate.kernels.dem3d.rim import press_chord
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.engine import engine_for

@@ -81,22 +81,21 @@ def test_a_scene_stands_on_the_same_faces_however_it_is_turned(number):
 
 
 @pytest.mark.processor
-@pytest.mark.parametrize("number", [4, 17])
-def test_renumbered_stones_go_the_same_ways(number):
-    """An arch and a wall in the reverse order, after 0.2 s: to 1e-8 m, as sums in another order are rounded otherwise
-    by 1e-16 and impacts make it grow (1.4e-9 m, 28 November 2026); 6e-8 m and 0.14 mm where the number
-    of a body said which of two is the
-    lower one, and which of two edges that lie on one another counts."""
+@pytest.mark.parametrize(("number", "most"), [(0, 1e-10), (4, 1e-6), (17, 1e-10)])
+def test_turned_and_renumbered_stones_go_the_same_ways(number, most):
+    """A portal, an arch and a wall, after 0.2 s: sums in another order are rounded otherwise by 1e-16, and impacts make it
+    grow (9e-13, 2.4e-8 and 1.4e-12 m, 28 November 2026). 2e-6 and 2e-5 m where a run began with the layers of friction that
+    settling had left; 0.14 mm where the number of a body decided which of two is the lower one."""
     _, stones, motion = scene(number)
     short = slice(0, round(0.2 / motion.dt))
     motion = st.Motion(motion.dt, motion.acceleration[short], lateral=motion.lateral[short])
-    order = np.arange(len(stones))[::-1]
+    there, shaking = turned(stones, motion, 1.0, np.arange(len(stones))[::-1])
     one, other = (
-        st.simulate(st.SpatialAssembly(tuple(some), populations.LAWS[0], "s"), motion, st.DistinctElement3D(), tail=0.0)
-        for some in (stones, [stones[i] for i in order])
+        st.simulate(st.SpatialAssembly(tuple(some), populations.LAWS[0], "s"), shakes, st.DistinctElement3D(), tail=0.0)
+        for some, shakes in ((stones, motion), (there, shaking))
     )
     assert one.time[-1] == pytest.approx(0.2, abs=0.01)
-    assert populations.apart(one, other, 0.0)[1] < 1e-8
+    assert populations.apart(one, other, 1.0)[1] < most
 
 
 def test_stones_that_tumble_begin_apart():

@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from stylobate.kernels.dem3d import move
-from stylobate.kernels.dem3d.beds import disc_beds, ring_beds
-from stylobate.kernels.dem3d.corners import corner_joint
+from stylobate.kernels.dem3d.bed import disc_beds, ring_beds
+from stylobate.kernels.dem3d.corner import corner_joint
 from stylobate.kernels.dem3d.look import ground_at as ground_in_space
 from stylobate.kernels.dem3d.look import look_at_lane, lose
-from stylobate.kernels.dem3d.rims import chipped_rims, whole_rims
+from stylobate.kernels.dem3d.rim import chipped_rims, whole_rims
 from stylobate.kernels.dem3d.round_faces import on_face
 from stylobate.kernels.jit import law
 from stylobate.kernels.plane import look, motion, point_joint

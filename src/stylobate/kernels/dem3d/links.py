@@ -1,6 +1,6 @@
 """Links between bodies in space: the laws of links at places and along directions of the bodies, in one lane; their loops.
 
-Records and legend: ``shared/link_records.py``; the laws: ``shared/links.py``. Link m is contact ``joint.shape[0] + m``.
+Records and legend: ``shared/records.py``; the laws: ``shared/links.py``. Link m is contact ``joint.shape[0] + m``.
 """
 
 import math

@@ -29,13 +29,13 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
                tw             twist at the last look, full turns counted [rad]
                d[6]           dashpots: force and moment on the drum above, about the middle of the face below (damped only);
                               with corners the force of each of them, in the axes of the drum below
-               chip[6]        what the upper face lacks, with chips: see chipped.py
+               chip[6]        what the upper face lacks, with chips: see rim.py
                ring[3]        on an elastic bed: radii of the sunken middles of the upper and of the lower face [m], and the
                               limit of torsion over ρ μ N; of one row without sunken middles
-               w[22]          with corners: what they share within one evaluation, see corners.py
+               w[22]          with corners: what they share within one evaluation, see corner.py
     load[n]    f[3] up[3] lo[3]  force of contact n on its upper body [N], moments on both about their centroids [N m]
                               the last two rows: a sum of several, and nothing
-    link[m] bond[m]           see shared/link_records.py; of type ``none`` without links
+    link[m] bond[m]           see shared/records.py; of type ``none`` without links
     lane       dt             step [s];  g[3]  gravity, as an acceleration of the base: up is positive [m/s²]
                damp[3]        damped only, rows BETA, ALPHA, LOCAL: stiffness- and mass-proportional damping [s], [1/s];
                               Cundall's local damping [-]
@@ -73,8 +73,7 @@ from functools import partial
 import numpy as np
 
 from ..run_codes import LANES
-from ..shared.link_records import BOND_TYPE, NO_LINK, link_types
-from ..shared.records import PAIR_TYPE, SPAN_TYPE, TOUCH_TYPE
+from ..shared.records import BOND_TYPE, NO_LINK, PAIR_TYPE, SPAN_TYPE, TOUCH_TYPE, link_types
 
 #: Rows of ``damp``.
 BETA, ALPHA, LOCAL = range(3)

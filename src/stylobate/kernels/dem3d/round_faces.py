@@ -1,6 +1,6 @@
 """Joints of round faces: how two faces stand to each other, the pressure of a law there, friction, forces on both drums.
 
-A law of pressure, of faces that carry on their rims (``rims.py``) or on a bed (``beds.py``), is handed in. From the joint,
+A law of pressure, of faces that carry on their rims (``rim.py``) or on a bed (``bed.py``), is handed in. From the joint,
 the lane, both drums, and how the faces stand to each other it gives::
 
     pressing, spread      normal force [N], mean square distance of pressure from its middle [m²]

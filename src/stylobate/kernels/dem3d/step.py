@@ -25,12 +25,12 @@ from ..shared.records import (
     rows,
 )  # fmt: skip
 from . import vertices
-from .beds import disc_beds, ring_beds
-from .corners import on_corners
+from .bed import disc_beds, ring_beds
+from .corner import on_corners
 from .links import add_links, look_at_all, look_for_slack
 from .look import bases, check_finite, column_state, fill_ground, look_at_column
 from .move import gather_all, kinetic_and_gravitational, move_all, stored_in_faces
-from .rims import chipped_rims, whole_rims
+from .rim import chipped_rims, whole_rims
 from .round_faces import on_face
 
 #: The models read these here.

@@ -1,6 +1,6 @@
 """Links between bodies in the plane: the laws of links at places and along directions of the bodies.
 
-Records and legend: ``shared/link_records.py``; the laws: ``shared/links.py``. Link m is contact ``joints + m``.
+Records and legend: ``shared/records.py``; the laws: ``shared/links.py``. Link m is contact ``joints + m``.
 """
 
 import math

@@ -5,7 +5,7 @@ come loose. The innermost loops run over lanes, without a branch that depends on
 registers. Every array is one of records whose fields hold one value per lane: distances in memory are then known to the
 compiler. A lane whose run is over has ``dt = 0`` and stands still; it is taken out before the block goes on.
 
-Legend (contacts and lists of them: ``shared/records.py``; links: ``shared/link_records.py``; body 0 of a column is its base;
+Legend (contacts, lists of them and links: ``shared/records.py``; body 0 of a column is its base;
 positions at t_n, velocities at t_{n−1/2})::
 
     body[i]    x z th c s     centroid [m], rotation [rad], its cosine and sine
@@ -49,8 +49,7 @@ positions at t_n, velocities at t_{n−1/2})::
 
 import numpy as np
 
-from ..shared.link_records import BOND_TYPE, NO_LINK, link_types
-from ..shared.records import PAIR_TYPE, SPAN_TYPE, TOUCH_TYPE
+from ..shared.records import BOND_TYPE, NO_LINK, PAIR_TYPE, SPAN_TYPE, TOUCH_TYPE, link_types
 
 #: Rows of ``damp``.
 BETA, ALPHA, LOCAL = range(3)

@@ -12,8 +12,7 @@ Legend::
 """
 
 from ..jit import kernel, law
-from ..shared.contacts import list_contacts
-from ..shared.records import BODY, JOINT, LINK, LOAD, PAIR, SPAN, TOUCH
+from ..shared.records import BODY, JOINT, LINK, LOAD, PAIR, SPAN, TOUCH, list_contacts
 
 
 @law

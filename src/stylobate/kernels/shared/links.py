@@ -4,7 +4,7 @@ The same law in the plane and in space: of lengths and sizes, with directions le
 hold against slip of a joint at their place, bars also against its opening there, ties and cores along the line between two
 points. Whoever computes a force puts it on both bodies at the same place, so that momentum is kept.
 
-Records and legend: ``link_records.py``.
+Records and legend: ``records.py``.
 """
 
 from ..jit import apart, chosen, kernel, law, strict

@@ -1,7 +1,7 @@
 """Links between bodies in space of which any two may touch: the laws of links of columns between any two bodies, and clamps.
 
 Those laws (``dem3d/links.py``) see the lower drum of a joint with its third axis across the joint. A seat is that: the lower
-body in the axes of the link. Records and legend: ``shared/link_records.py``, and ``ties`` in ``records.py``.
+body in the axes of the link. Records and legend: ``shared/records.py``, and ``ties`` in ``records.py``.
 """
 
 from ..dem3d.links import across, against_opening, at_place, clear, ends, put, slowed, straight

@@ -59,7 +59,7 @@ Legend::
                deepest        largest mean depth of the bed so far [m]
                work shear visc  work of the input, of the friction springs on their surroundings reversed, of dampers [J]
                pairs touched status  pairs listed; first step with a foreign contact, −1; RUNNING or FAILED
-    ties         the links: arrays link, bond, seat and load of as many rows each; see ``shared/link_records.py``, and
+    ties         the links: arrays link, bond, seat and load of as many rows each; see ``shared/records.py``, and
     bond[m]    lower upper    its bodies;  i[3] j[3] k[3]  of what crosses a joint two directions along it and the one across
                               it, from the lower body to the upper one, in the axes of the lower body [-]
     seat[m]                   the lower body in these axes;  ht  0
@@ -69,7 +69,7 @@ Legend::
 
 import numpy as np
 
-from ..shared.link_records import BOND_TYPE, link_types
+from ..shared.records import BOND_TYPE, link_types
 
 #: Kinds of shapes.
 BLOCK, DRUM, GROUND = range(3)

@@ -115,7 +115,7 @@ class Stack:
         self, packed: Packed, structure: Column, energy: float, slip: np.ndarray, *of_lane: Any
     ) -> bool:
         """The same of a column that is not as built; ``of_lane`` are records of bodies, joints and lanes, and its lane."""
-        from ...kernels.dem3d.standing_found import stands_as_found
+        from ...kernels.dem3d.standing import stands_as_found
 
         drums = structure.as_found.drums
         if self.pivots and structure.section == "circular" and any(d.offset or d.tilt or d.chipped for d in drums):

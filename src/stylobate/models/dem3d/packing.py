@@ -701,9 +701,9 @@ class _Contact:
 
 @lru_cache(maxsize=4096)
 def found_numbers(column: Column) -> tuple[np.ndarray, np.ndarray, float]:
-    """Numbers of a column as found for the law, see ``kernels/dem3d/standing_found.py``: of its drums; the direction against
+    """Numbers of a column as found for the law, see ``kernels/dem3d/standing.py``: of its drums; the direction against
     gravity [-], and mass times height of all drums as they were found [kg m]."""
-    from ...kernels.dem3d.standing_found import FOUND_TYPE
+    from ...kernels.dem3d.standing import FOUND_TYPE
 
     at, up, drums = space_geometry(column), upward(column), column.drums
     one: Any = np.zeros(column.n, FOUND_TYPE)

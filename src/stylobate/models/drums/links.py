@@ -13,7 +13,7 @@ import numpy as np
 from ...column import Column
 from ...column.links.placed import PlacedLink
 from ...column.structure import Structure
-from ...kernels.shared.link_records import BOND_TYPE, NUMBERS, SHARED
+from ...kernels.shared.records import BOND_TYPE, NUMBERS, SHARED
 from ...response import Histories, LinkHistories, LinkMeasures
 from ..shared.stable_step import highest_frequency
 

@@ -237,7 +237,7 @@ class LaneRecords:
 
     def forget_pairs(self) -> None:
         """Let the bodies have the contacts of joints and links alone, whatever a search has found."""
-        from ...kernels.shared.contacts import list_contacts
+        from ...kernels.shared.records import list_contacts
 
         list_contacts(
             self.pair, self.contacts, len(self.load) - 1, self.span, self.touch

@@ -16,7 +16,7 @@ from ...column.links.placed import PlacedLink
 from ...column.structure import Structure
 from ...constants import DEGREE
 from ...errors import InputError
-from ...kernels.shared.link_records import NO_LINK, OWN, link_types
+from ...kernels.shared.records import NO_LINK, OWN, link_types
 from ..drums.links import LinkStiffness, acting, bonds, hold_of, law_fields, link_matrices
 from ..drums.records import UNSEEN, LaneRecords, Packed, Topology, contact_points
 from ..shared.stable_step import highest_frequency

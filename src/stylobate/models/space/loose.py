@@ -344,12 +344,19 @@ class Loose:
         arrays = (self.body, self.pair, self.joint, self.now, self.feed, *self.ties)
         drawn, poses = [one.copy() for one in arrays], self._poses
         self.body["local"], self.feed["last"] = LOCAL_DAMPING, 0
-        rests = settled(
-            self._relax, self.residual_acceleration, SETTLED, math.ceil(SETTLE_TIME / (CHUNK * self.dt)),
-            lost=lambda: self.failed or not self._way_from(poses) <= AS_DRAWN * self.least_width,
-        )  # fmt: skip
+
+        def rests() -> bool:
+            return settled(
+                self._relax, self.residual_acceleration, SETTLED, math.ceil(SETTLE_TIME / (CHUNK * self.dt)),
+                lost=lambda: self.failed or not self._way_from(poses) <= AS_DRAWN * self.least_width,
+            )  # fmt: skip
+
+        at_rest = rests()
+        if at_rest:
+            self._join_layers()
+            at_rest = rests()
         before = drawn[3]
-        if rests:
+        if at_rest:
             self.body["local"] = 0.0
             for name in ("work", "shear", "visc", "touched", "last", "earlier"):
                 self.now[name] = before[name]
@@ -360,7 +367,14 @@ class Loose:
             for array, old in zip(arrays, drawn, strict=True):
                 array[...] = old
         self.feed[...] = drawn[4]
-        return self._way_from(poses) if rests else math.inf
+        return self._way_from(poses) if at_rest else math.inf
+
+    def _join_layers(self) -> None:
+        """Let friction go on from one layer: which part of a face touched first while it settled is an accident."""
+        for memory in (self.joint, self.pair):
+            for core, fresh in (("s", "fs"), ("st", "ft"), ("kc", "kf"), ("jc", "jf")):
+                memory[fresh] += memory[core]
+                memory[core] = 0.0
 
     def _way_from(self, poses: np.ndarray) -> float:
         return float(np.abs(self._poses - poses)[self.free].max())

@@ -12,7 +12,7 @@ from ...column.links.placed import PlacedLink
 from ...column.shapes import CircularFrustum, Mesh, Placed, cut, matrix_of
 from ...column.spatial.touching import SpaceJoint
 from ...column.structure import Structure
-from ...kernels.shared.link_records import NUMBERS, OWN, SHARED
+from ...kernels.shared.records import NUMBERS, OWN, SHARED
 from ...kernels.space.records import BLOCK, DRUM, FACETS, GROUND, LESS, MOST_FACES, MOST_VERTICES, types
 from ..drums.links import LinkStiffness, law_fields, link_matrices
 from ..shared.stable_step import highest_frequency
