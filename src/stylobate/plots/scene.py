@@ -296,7 +296,7 @@ def painted(solids: list[Solid], view: View) -> tuple[list[np.ndarray], np.ndarr
 #: what flies off, or falls where there is no ground, is let go.
 DOWN = 0.75
 
-#: Radius of the ground that is shown in space, over that of what stands on it, and the farthest it goes beyond, over the size.
+#: Radius of the ground that is shown in space, over that of what stands on it; the farthest it goes beyond, over the size.
 PLATE, BEYOND = 2.6, 0.25
 
 

@@ -382,9 +382,9 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
         for option, value, read in (("unit", reading.unit, "m"), ("up", up, "z")):
             if value != read:
                 raise InputError(
-                    f"`{option}` is {value!r}; allowed for {printable(path)}, a data file of 3DEC, is {read!r}: its densities, "
-                    "stiffnesses and gravity are read in kg/m³, N/m³ and m/s², gravity along z. Write the file in these "
-                    "units, or its polyhedra as closed meshes, in OBJ for one.",
+                    f"`{option}` is {value!r}; allowed for {printable(path)}, a data file of 3DEC, is {read!r}: its "
+                    "densities, stiffnesses and gravity are read in kg/m³, N/m³ and m/s², gravity along z. Write the file "
+                    "in these units, or its polyhedra as closed meshes, in OBJ for one.",
                     option,
                 )
         parts, stated = read_three_dec(path)
