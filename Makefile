@@ -147,7 +147,7 @@ populations: install
 ruins: install
 	@PYTHONPATH=tests $(BIN)/python -m validation.ruins.figures demo/ruins
 
-docs: $(DOCS_STAMP)
+docs: live $(DOCS_STAMP)
 	@echo "Running the examples and the validation cases, then writing the pages (two minutes)"
 	@$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
 	@echo "The documentation is in"

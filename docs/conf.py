@@ -57,8 +57,7 @@ html_title = f"stylobate {release}"
 COMPUTED = BUILT / "computed" / "static"  # films, made where the measurements lie beside the project
 COMPUTED.mkdir(parents=True, exist_ok=True)
 html_static_path = ["_static", str(COMPUTED)]
-LIVE = HERE.parent / "build" / "live"  # the page of `make live`, where it was built
-html_extra_path = [str(LIVE)] if LIVE.exists() else []
+html_extra_path = [str(HERE.parent / "build" / "live")]  # the page of `make live`, which `make docs` makes first
 html_css_files = ["site.css"]
 html_show_sphinx = False
 html_copy_source = False

@@ -17,13 +17,6 @@ from sphinx.util import logging
 
 log = logging.getLogger(__name__)
 
-#: The link to the page of `make live`, where it was built before the documentation, and what stands there otherwise.
-LIVE = """```{raw} html
-<p><a href="column.html"><strong>Open the page: shake a column.</strong></a></p>
-```
-"""
-NOT_LIVE = "`make live` writes the page, and `make docs` after it puts it here.\n"
-
 
 def newest(*folders):
     """Time of the last change of any Python file below some folders."""
@@ -38,7 +31,6 @@ def compute(app):
     stored = other_codes_pages.texts(out) + space_pages.texts(out)
     for text in generated + command_pages.texts(out) + model_pages.texts(out) + stored:
         write(*text)
-    write(out / "live.md", LIVE if (docs.parent / "build" / "live" / "column.html").exists() else NOT_LIVE)
     stamp = out / "computed"
     if stamp.exists() and stamp.stat().st_mtime > newest(
         docs.parent / "src", docs.parent / "studies", docs.parent / "tests" / "validation", docs / "_ext"

@@ -217,8 +217,8 @@ class Trace {
         high = Math.max(high, motion.x[k]);
       }
       if (low > high) low = high = 0;
-      pen.lineTo(px, h / 2 - (0.42 * h * high) / most);
-      if (high - low > 0.04 * most) pen.lineTo(px, h / 2 - (0.42 * h * low) / most);
+      const rises = motion.x[from] < motion.x[Math.min(to, count) - 1];
+      for (const item of rises ? [low, high] : [high, low]) pen.lineTo(px, h / 2 - (0.42 * h * item) / most);
     }
     pen.stroke();
     pen.fillStyle = "#5d5547";

@@ -9,6 +9,7 @@ group                  an entry is
 ``stylobate.records``  formats of record files: a sequence of :class:`stylobate.motion.readers.Format`
 ``stylobate.devices``  what steps columns instead of threads of the processor: ``gpu`` is a function that returns a
                        :class:`stylobate.models.devices.Device`
+``stylobate.schemas``  tables that files follow, for ``stylobate schema``: by the kind of file, ``KIND`` or ``KIND.which``
 ====================== ==================================================================================================
 
 Anybody's package may have such entries. What the packages of this repository would add is listed here as well, so that
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint, EntryPoints
 
 COMMANDS, NAMES = "stylobate.commands", "stylobate.names"
-RECORDS, DEVICES = "stylobate.records", "stylobate.devices"
+RECORDS, DEVICES, SCHEMAS = "stylobate.records", "stylobate.devices", "stylobate.schemas"
 
 
 class Package(NamedTuple):
@@ -37,6 +38,7 @@ class Package(NamedTuple):
     names: tuple[str, ...] = ()
     devices: tuple[str, ...] = ()
     records: tuple[str, ...] = ()
+    schemas: tuple[str, ...] = ()
 
     @property
     def is_missing(self) -> str:
@@ -60,7 +62,11 @@ PACKAGES = (
     Package("stylobate-gpu", "packages/stylobate-gpu", devices=("gpu",)),
     Package("stylobate-page", "packages/stylobate-page", commands=("serve",)),
     Package(
-        "stylobate-report", "packages/stylobate-report", commands=("draw", "report"), names=("plots.sheets_to_scale",)
+        "stylobate-report",
+        "packages/stylobate-report",
+        commands=("draw", "report"),
+        names=("plots.sheets_to_scale",),
+        schemas=("project",),
     ),
     Package(
         "stylobate-ruins",
@@ -82,6 +88,7 @@ PACKAGES = (
             "survival",
             "weigh",
         ),
+        schemas=("ruin",),
     ),
 )
 
@@ -126,7 +133,7 @@ def missing(kind: str, name: str) -> str | None:
     Parameters
     ----------
     kind : str
-        ``commands``, ``names``, ``records`` or ``devices``.
+        ``commands``, ``names``, ``records``, ``devices`` or ``schemas``.
     name : str
     """
     return next((package.is_missing for package in PACKAGES if name in getattr(package, kind)), None)

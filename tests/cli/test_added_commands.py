@@ -54,6 +54,7 @@ def test_packages_of_this_checkout_add_what_the_core_says_of_them():
         assert set(points.get(added.NAMES, {})) == set(package.names)
         assert set(points.get(added.DEVICES, {})) == set(package.devices)
         assert set(points.get(added.RECORDS, {})) == set(package.records)
+        assert set(points.get(added.SCHEMAS, {})) == set(package.schemas)
         assert set(package.commands) <= set(commands().commands)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import stylobate as st
+from stylobate import added
 from stylobate.cli.main import call
 from stylobate.cli.schema import schemas
 from stylobate.column.catalogue import PRESETS
@@ -155,3 +156,15 @@ def test_the_command_writes_and_prints_them(tmp_path, capsys):
     assert set(json.loads(capsys.readouterr().out)["schemas"]) == set(WHOLE)
     assert call(["schema", "colum"]) == 2
     assert "did you mean column?" in capsys.readouterr().err
+
+
+def test_kinds_of_packages_that_are_not_installed_are_named(tmp_path, capsys, monkeypatch):
+    """The core's wheel alone reads column, assembly and study files; it says which packages read the others."""
+    own = [entry for entry in added.entry_points(added.SCHEMAS) if entry.value.startswith("stylobate.")]
+    monkeypatch.setattr(added, "entry_points", lambda group: own)
+    assert call(["schema", "--out", str(tmp_path / "schemas")]) == 0
+    printed = capsys.readouterr().out
+    for kind, package in (("project", "stylobate-report"), ("ruin", "stylobate-ruins")):
+        assert f"Not here: {kind} files are read by {package}, which is not installed here; " in printed
+        assert call(["schema", kind]) == 2
+        assert f"{kind} files are read by {package}, which is not installed here; " in capsys.readouterr().err

@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -265,6 +266,21 @@ def test_a_frame_holds_every_drum(shaken):
     (faces,) = [one for one in above.collections if hasattr(one, "get_facecolor")]
     assert len(faces.get_facecolor()) == len(painted(scene.solids(50), OBLIQUE)[0])
     assert [line.get_label() for line in below.lines[:2]] == ["x", "y"]
+
+
+def test_the_ground_in_a_picture_is_that_around_what_stands():
+    """A podium of 30 m by 16 m far from the origin, with columns of 8 m: the ground goes on by a quarter of the size."""
+    podium = np.stack(np.meshgrid((100.0, 130.0), (0.0, 16.0), (0.0, 4.0)), axis=-1).reshape(-1, 3)
+
+    class Temple(Scene):
+        size, level, base = 30.0, 0.0, np.eye(3)
+
+        def solids(self, index, factor=1.0):
+            return [SimpleNamespace(vertices=podium)]
+
+    plate = Temple(None).plate
+    np.testing.assert_allclose(plate.mean(axis=0), [115.0, 8.0, 0.0], atol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(plate - plate.mean(axis=0), axis=1), 17.0 + 7.5)
 
 
 def test_a_film_and_a_page(shaken, tmp_path):

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import json
-from importlib.metadata import entry_points
 from typing import Any
 
+from .. import added
 from ..errors import InputError, suggest
 from . import options as o
-
-#: Group of entry points: tables by the kind of file, ``KIND`` or ``KIND.which``; other packages add theirs.
-GROUP = "stylobate.schemas"
 
 
 def schema(
@@ -25,6 +22,8 @@ def schema(
     result = schemas()
     unknown = next((kind for kind in which or () if kind not in result), None)
     if unknown is not None:
+        if place := added.missing("schemas", unknown):
+            raise InputError(f"{unknown} files are read by {place}", "which")
         raise InputError(
             f"there is no kind of file {unknown!r}; {suggest(unknown, result)}kinds are {', '.join(result)}.", "which"
         )
@@ -40,6 +39,10 @@ def schema(
     if summary["files"]:
         print(*summary["files"], sep="\n")
         print("Name one in the first line of a TOML file, relative to it:  #:schema column.schema.json")
+        for package in added.PACKAGES:
+            for kind in () if which else package.schemas:
+                if kind not in result:
+                    print(f"Not here: {kind} files are read by {package.is_missing}")
     else:
         print(json.dumps(next(iter(chosen.values())) if len(chosen) == 1 else chosen, indent=2, ensure_ascii=False))
 
@@ -49,6 +52,6 @@ def schemas() -> dict[str, dict[str, Any]]:
     from ..column.toml import json_schema
 
     tables: dict[str, list[Any]] = {}
-    for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name):
+    for entry in sorted(added.entry_points(added.SCHEMAS), key=lambda entry: entry.name):
         tables.setdefault(entry.name.partition(".")[0], []).append(entry.load())
     return {kind: json_schema(those, f"stylobate {kind} file") for kind, those in tables.items()}

@@ -296,8 +296,8 @@ def painted(solids: list[Solid], view: View) -> tuple[list[np.ndarray], np.ndarr
 #: what flies off, or falls where there is no ground, is let go.
 DOWN = 0.75
 
-#: Radius of the ground that is shown in space, over that of what stands on it.
-PLATE = 2.6
+#: Radius of the ground that is shown in space, over that of what stands on it; the farthest it goes beyond, over the size.
+PLATE, BEYOND = 2.6, 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -448,10 +448,11 @@ class Scene:
         """A round piece of the ground around what stands, in space [m], shape (k, 3)."""
         stood = np.concatenate([solid.vertices for solid in self.solids(0)])
         low = stood[stood[:, 2] < stood[:, 2].min() + 0.05 * np.ptp(stood[:, 2])]
-        angle = np.arange(72) * (2.0 * np.pi / 72)
-        radius = PLATE * float(np.hypot(*low[:, :2].T).max())
-        flat = np.stack((radius * np.cos(angle), radius * np.sin(angle), np.full(72, self.level or 0.0)), axis=1)
-        return flat @ self.base.T
+        middle = 0.5 * (low.min(axis=0) + low.max(axis=0))[:2]
+        reach = float(np.hypot(*(low[:, :2] - middle).T).max())
+        radius, angle = min(PLATE * reach, reach + BEYOND * self.size), np.arange(72) * (2.0 * np.pi / 72)
+        ring = middle + radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
+        return np.column_stack((ring, np.full(72, self.level or 0.0))) @ self.base.T
 
     @property
     def directions(self) -> np.ndarray:

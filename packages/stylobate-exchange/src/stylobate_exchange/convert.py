@@ -378,9 +378,16 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
         return column, tables, [f"{column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high", *notes]
     stated: dict[str, Any] | None = None
     if path.suffix.lower() == ".dat":
-        name, up, factor = path.stem, reading.up or "z", unit_of(reading.unit, printable(path))
-        found, stated = read_three_dec(path)
-        parts = [(part.in_metres(factor, up), fixed, density) for part, fixed, density in found]
+        name, up = path.stem, reading.up or "z"
+        for option, value, read in (("unit", reading.unit, "m"), ("up", up, "z")):
+            if value != read:
+                raise InputError(
+                    f"`{option}` is {value!r}; allowed for {printable(path)}, a data file of 3DEC, is {read!r}: its "
+                    "densities, stiffnesses and gravity are read in kg/m³, N/m³ and m/s², gravity along z. Write the file "
+                    "in these units, or its polyhedra as closed meshes, in OBJ for one.",
+                    option,
+                )
+        parts, stated = read_three_dec(path)
     elif path.suffix.lower() == ".json":
         name, blocks = read_compas(path)
         up, factor = reading.up or "z", unit_of(reading.unit, printable(path))
@@ -389,7 +396,7 @@ def read_model(path: Path, reading: Reading) -> tuple[Structure, dict[str, Any],
         name, up = path.stem, reading.up or upward(path)
         parts = [(part, False, None) for part in read_stones(path, reading.unit, up)]
     structure, tables, words = stand_up(name, parts, reading, printable(path), path.parent, stated)
-    words.insert(-1, f"{up} is taken as upward" + ("" if reading.up else "; `up` says otherwise"))
+    words.insert(-1, f"{up} is taken as upward" + ("" if reading.up or stated is not None else "; `up` says otherwise"))
     return structure, tables, words
 
 

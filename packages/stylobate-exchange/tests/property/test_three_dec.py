@@ -72,6 +72,16 @@ def test_what_is_not_known_is_refused_by_its_line(old, new, says, tmp_path):
         read_model(tmp_path / "a.dat", Reading())
 
 
+@pytest.mark.parametrize("option", [{"unit": "mm"}, {"up": "y"}])
+def test_only_lengths_would_follow_another_unit(option, tmp_path):
+    """Densities, stiffnesses and gravity of a file are of its own unit of length, and of its own axes."""
+    (tmp_path / "a.dat").write_text(PAIR)
+    ((name, _),) = option.items()
+    with pytest.raises(st.InputError, match=f"`{name}` is .*; allowed for .*, a data file of 3DEC, is '[mz]': its"):
+        convert(str(tmp_path / "a.dat"), tmp_path / "a.toml", Reading(**option))
+    assert not (tmp_path / "a.toml").exists()
+
+
 def prism(x: float, low: float, high: float) -> str:
     """A command for a stone 0.8 m square, from x on, in region 3."""
     ring = [(x, 0.1), (x + 0.8, 0.1), (x + 0.8, 0.9), (x, 0.9)]
