@@ -1,4 +1,5 @@
-"""What a graphics card makes of many histories: the figures of ``docs/scale.md``, part after part, the most important first.
+"""What a graphics card makes of many histories: the figures of ``docs/how_to/scale.md``, part after part, the most
+important first.
 
 Usage: ``make bench-gpu ARGS="--out figures --seconds 900"`` on a machine with a card and nothing else computing on it. Every
 figure is written as soon as it is measured, into a file of its part, so that a stop loses nothing; names of parts make these

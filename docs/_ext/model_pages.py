@@ -47,7 +47,7 @@ def texts(out):
     for name in MODELS:
         one = model_class(name)
         first = inspect.getdoc(one).split("\n")[0]
-        parts.append(f"### `{name}`: {one.title}\n\n{first} [Theory](theory/{PAGES[name]}.md).\n")
+        parts.append(f"### `{name}`: {one.title}\n\n{first} [Theory](../theory/{PAGES[name]}.md).\n")
         for title, sentences in (("Assumptions", one.assumptions), ("Limits", one.limits)):
             items = "".join(f"- {OPTION.sub(lambda found: f'`{found[0]}`', sentence)}\n" for sentence in sentences)
             parts.append(f"*{title}*\n\n{items}")

@@ -51,7 +51,7 @@ def films(granite, rows, folder):
         verdicts = ["toppled" if row[key] else "stood" for key in ("observed", "computed")]
         lines += [
             f"<details><summary>Film: {name}, test {number}, computed ({verdicts[1]}; the stone {verdicts[0]})</summary>",
-            f'<iframe src="_static/films/{file}" loading="lazy" width="100%" height="660" '
+            f'<iframe src="../_static/films/{file}" loading="lazy" width="100%" height="660" '
             f'title="{name}, test {number}"></iframe></details>',
         ]
     return "\n".join([*lines, "```"])

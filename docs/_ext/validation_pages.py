@@ -44,4 +44,4 @@ def picture(draw, words, out):
     figure = draw()
     figure.savefig(out / f"{draw.__name__}.png", dpi=150, facecolor="white")
     plt.close("all")
-    return f"\n```{{figure}} _build/computed/{draw.__name__}.png\n:alt: {words}\n\n{words}\n```\n"
+    return f"\n```{{figure}} ../_build/computed/{draw.__name__}.png\n:alt: {words}\n\n{words}\n```\n"

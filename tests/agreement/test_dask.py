@@ -96,7 +96,7 @@ levels = ["0.3g", "0.5g", "0.9g"]
 
 
 def test_the_recipe_for_slurm_and_a_study_on_its_cluster(cluster, tmp_path, monkeypatch, capsys):
-    page = (Path(__file__).parents[2] / "docs" / "cluster.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "how_to" / "cluster.md").read_text(encoding="utf-8")
     script = page.split("```python\n")[1].split("```")[0]
     asked = {}
 

@@ -21,13 +21,13 @@ ROOT = Path(__file__).parents[2]
 
 #: Examples in the documentation by their page: the kind of file that they are of, or parts of.
 PAGES = {
-    "column_files": "column",
-    "getting_started": "column",
+    "reference/column_files": "column",
+    "start/getting_started": "column",
     "theory/links": "column",
-    "assembly_files": "assembly",
-    "studies": "study",
-    "back_analysis": "ruin",
-    "report": "project",
+    "reference/assembly_files": "assembly",
+    "how_to/studies": "study",
+    "how_to/back_analysis": "ruin",
+    "how_to/report": "project",
 }
 
 

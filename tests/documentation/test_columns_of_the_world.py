@@ -6,7 +6,7 @@ from pathlib import Path
 from stylobate.bibliography import bibliography
 from stylobate.column.catalogue import CATALOGUE
 
-PAGE = (Path(__file__).parents[2] / "docs" / "columns_of_the_world.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "reference" / "columns_of_the_world.md").read_text(encoding="utf-8")
 
 
 def test_the_page_has_every_figure_and_every_source():

@@ -44,7 +44,9 @@ def test_equations_have_numbers_of_their_own():
     assert len(set(found)) == len(found)
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if page.startswith("theory/") or page == "synthesis.md"])
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if page.startswith("theory/") or page == "how_to/synthesis.md"]
+)
 def test_every_displayed_equation_is_numbered(page):
     shown = re.findall(r"\$\$(.+?)\$\$", without_code(PAGES[page]), re.DOTALL)
     assert [formula for formula in shown if not TAG.search(formula)] == []
@@ -117,7 +119,7 @@ def test_links_lead_somewhere(page):
     path = DOCS / page
     text = without_code(path.read_text(encoding="utf-8"))
     for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", text):
-        if target.startswith("gallery/"):
+        if "gallery/" in target:
             assert (ROOT / "gallery").is_dir()
         else:
             assert (path.parent / target).exists(), target

@@ -70,7 +70,7 @@ def test_files_of_many_stones_are_written_by_their_script():
 
 
 def test_the_file_of_the_documentation(tmp_path):
-    page = (FOLDER.parents[1] / "docs" / "assembly_files.md").read_text(encoding="utf-8")
+    page = (FOLDER.parents[1] / "docs" / "reference" / "assembly_files.md").read_text(encoding="utf-8")
     (tmp_path / "portal.toml").write_text(re.search(r"```toml\n(.*?)```", page, re.DOTALL)[1])
     portal = read_assembly(tmp_path / "portal.toml")
     assert [block.name for block in portal.blocks] == ["left", "right", "architrave"]

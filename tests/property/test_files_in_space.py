@@ -292,7 +292,11 @@ def test_what_cannot_be_is_refused(read, text, says):
 
 def test_the_file_of_the_documentation_stands(tmp_path):
     root = Path(__file__).parents[2]
-    page = (root / "docs" / "assembly_files.md").read_text(encoding="utf-8").partition("## Assemblies in space")[2]
+    page = (
+        (root / "docs" / "reference" / "assembly_files.md")
+        .read_text(encoding="utf-8")
+        .partition("## Assemblies in space")[2]
+    )
     (tmp_path / "scene.toml").write_text(re.search(r"```toml\n(.*?)```", page, re.DOTALL)[1])
     (tmp_path / "column5.toml").write_text((root / "gallery" / "assemblies" / "column5.toml").read_text())
     found = st.read_assembly(tmp_path / "scene.toml")

@@ -24,7 +24,7 @@ from stylobate_studies.paper.sentences import FAILS, HOLDS, PARTLY, Statement, V
 from stylobate_studies.paper.statements import markdown_row, order
 from stylobate_studies.paper.statics import joint_law, static_statements, static_values
 
-TABLE = Path(__file__).parents[2] / "docs" / "paper_statements.md"
+TABLE = Path(__file__).parents[2] / "docs" / "evidence" / "paper_statements.md"
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_numbers_of_the_paper_that_need_no_time_history(static):
 def test_the_table_in_the_documentation_has_them_as_they_are_now(static):
     lines = TABLE.read_text(encoding="utf-8").splitlines()
     for row in static:
-        assert markdown_row(row) in lines, f"docs/paper_statements.md is out of date: {row.sentence}"
+        assert markdown_row(row) in lines, f"docs/evidence/paper_statements.md is out of date: {row.sentence}"
 
 
 def test_equations_are_what_the_models_carry_out():

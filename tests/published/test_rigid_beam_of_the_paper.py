@@ -1,4 +1,4 @@
-"""Statements of Baraldi, Sarhosis and Milani, section 3, about their rigid beam model; see docs/beam_variants.md.
+"""Statements of Baraldi, Sarhosis and Milani, section 3, about their rigid beam model; see docs/evidence/beam_variants.md.
 
 The paper prints neither ξ, K_M, damping nor the number of cycles. Here: two lines (ξ = 1), K_M = k_n J, ten seconds, and
 damping where it is named. Verdicts alternate near the boundary, so neighbourhoods are counted.

@@ -30,7 +30,9 @@ def reproduce(
     quick: bool = o.option(
         None, "Coarser grids, no records: one to two minutes on two cores, instead of thirty.", False
     ),
-    records: Path | None = o.option("DIR", "Folder with the nine records of docs/company.md; the samples without it."),
+    records: Path | None = o.option(
+        "DIR", "Folder with the nine records of docs/evidence/company.md; the samples without it."
+    ),
     *,
     execution: Folder,
 ) -> None:

@@ -66,7 +66,7 @@ def read(folder: Path) -> Found:
     if not places and not tested:
         raise InputError(
             f"{folder} holds no experiment: {FILE}, granite/specimens.json or cube/tosses.npz is expected there; see "
-            "docs/nature.md."
+            "docs/evidence/nature.md."
         )
     found = Found()
     if "granite" in places:
