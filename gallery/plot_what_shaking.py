@@ -37,7 +37,7 @@ print(found.sentence)
 # %%
 # What each observation tells: what is left of the spread of PGV with it alone, and without it.
 
-for one in found.told:
+for one in found.information:
     print(f"{one['observation']}: alone {one['spread_alone']:.2f}, without it {one['spread_without']:.2f}")
 
 # %%

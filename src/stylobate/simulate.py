@@ -103,7 +103,7 @@ def simulate(
             f"{len(options.twins)} twins are given; {model.name} carries up to {engine.twins}: use simulate_many."
         )
     check_cases([Case(column, motion)], model, options)
-    _tell_wait([Case(column, motion)], model, options)
+    _log_expected_time([Case(column, motion)], model, options)
     started = time.perf_counter()
     response = engine.run(model.taken(motion), options)
     wall = time.perf_counter() - started
@@ -170,7 +170,7 @@ def run_checked(
 ) -> Generator[tuple[int, Measures], None, None]:
     """Run cases that :func:`check_cases` has let pass; yields as :func:`run_cases` does."""
     count = thread_count(threads)
-    _tell_wait(cases, model, options, count)
+    _log_expected_time(cases, model, options, count)
     if len(cases):
         yield from engine_for(model, cases[0].column).run_many(cases, options, count)
 
@@ -280,8 +280,8 @@ def thread_count(threads: int | None) -> int:
     return int(check_range("`threads`", threads, 1, 1024, remedy="leave it out to use all cores"))
 
 
-#: Shortest wait that is told before it begins [s], and most cases of a batch from which it is guessed.
-TOLD_WAIT, ASKED = 10.0, 20
+#: Shortest wait that is logged before it begins [s], and most cases of a batch from which it is guessed.
+LONG_WAIT, PROBES = 10.0, 20
 
 
 def expected_wait(cases: Sequence[Case], model: Model, options: RunOptions, threads: int = 1) -> float:
@@ -296,15 +296,15 @@ def expected_wait(cases: Sequence[Case], model: Model, options: RunOptions, thre
     if not len(cases):
         return 0.0
     each = []
-    for number in np.unique(np.linspace(0, len(cases) - 1, ASKED).astype(int)).tolist():
+    for number in np.unique(np.linspace(0, len(cases) - 1, PROBES).astype(int)).tolist():
         column, motion = cases[number]
         each.append(engine_for(model, column).expected_time(motion, options, alone=len(cases) == 1))
     lanes = (1 + engine_for(model, cases[0].column).twins) * threads
     return float(np.mean(each)) * len(cases) / lanes + max(each) * (1.0 - 1.0 / lanes)
 
 
-def tell_wait(runs: str, wait: float, column: Structure) -> None:
-    """Tell the log before a long computation about how long it will take.
+def log_expected_time(runs: str, wait: float, column: Structure) -> None:
+    """Log before a long computation about how long it will take.
 
     Parameters
     ----------
@@ -315,17 +315,17 @@ def tell_wait(runs: str, wait: float, column: Structure) -> None:
     column : Structure
         What is shaken.
     """
-    if wait > TOLD_WAIT:
+    if wait > LONG_WAIT:
         falls = "" if column.moving_acceleration is not None else ", and longer once something falls"
         logging.getLogger("stylobate").info(
             "%s about %s where nothing else runs on this machine%s.", runs, duration(wait), falls
         )
 
 
-def _tell_wait(cases: Sequence[Case], model: Model, options: RunOptions, threads: int = 1) -> None:
+def _log_expected_time(cases: Sequence[Case], model: Model, options: RunOptions, threads: int = 1) -> None:
     if len(cases):
         runs = "this run takes" if len(cases) == 1 else f"{len(cases)} runs take"
-        tell_wait(runs, expected_wait(cases, model, options, threads), cases[0].column)
+        log_expected_time(runs, expected_wait(cases, model, options, threads), cases[0].column)
 
 
 def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) -> dict[str, Any]:

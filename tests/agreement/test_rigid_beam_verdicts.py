@@ -99,7 +99,6 @@ def test_displacements_count_from_the_start(model):
     # let go from a tilt to −x it comes to upright, 0.36 m on, and some way over to the other side
     assert np.abs(history).max() > ONE.height * start
     for found in (single.measures, batch):
-        # the single run of Housner's block is adaptive: its peak is the largest at the end of a step
         assert found.peak_top_displacement == pytest.approx(np.abs(history).max(), rel=1e-2)
         assert found.residual_top_displacement == pytest.approx(history[-1], rel=2e-2)
 

@@ -53,8 +53,8 @@ def test_damping_is_found_again_and_the_restitution_beside_it():
     column, true = block(), 5e-4
     history = let_go(column, st.DistinctElement2D(), st.Losses(true), st.Start(0.2))
     found = st.calibrate(history, column)
-    loss = found.told["stiffness_damping"]
-    assert loss.told
+    loss = found.intervals["stiffness_damping"]
+    assert loss.bounded
     assert loss.low < true < loss.high < 4.0 * loss.low
     assert found.restitution.low < found.restitution.value < found.restitution.high < 1.02 * found.restitution.low
     assert found.after.reached
@@ -65,7 +65,7 @@ def test_next_to_no_damping_has_no_lower_limit():
     """Undamped points lose as much by friction: all that is told is that β is small."""
     column = block()
     found = st.calibrate(let_go(column, st.DistinctElement2D(), st.Losses(1e-7), st.Start(0.15)), column)
-    assert found.told["stiffness_damping"].reaches == "least"
+    assert found.intervals["stiffness_damping"].reaches == "least"
     assert "no lower limit" in found.sentence
 
 
@@ -112,8 +112,8 @@ def test_losses_of_a_wobble_are_found_again():
     column, start = block(1e9, "circular"), st.Start(0.16, 0.3, (0.0, 0.0, 0.5))
     true = st.Losses(3e-4, 4e-3, "rim")
     found = st.calibrate(let_go(column, st.DistinctElement3D(), true, start, seconds=8.0), column)
-    for name, loss in found.told.items():
-        assert loss.low <= getattr(true, name) <= loss.high or not loss.told
+    for name, loss in found.intervals.items():
+        assert loss.low <= getattr(true, name) <= loss.high or not loss.bounded
     assert sum(found.laws.values()) == pytest.approx(1.0)
 
 

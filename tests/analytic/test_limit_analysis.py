@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from oracles.quadrilaterals import stack_of_quadrilaterals
 from validation.statics import inclined
 
 from stylobate.column import Column, Drum, Joint, preset
@@ -92,13 +93,13 @@ def test_a_load_pattern_moves_the_resultant():
 def test_quadrilaterals_equal_the_column_and_may_lean():
     column = preset("paper-12-drums")
     outlines = BlockStack.of_column(column).outlines
-    stack = BlockStack.of_quadrilaterals(outlines, column.joints[0], density=1600.0)
+    stack = stack_of_quadrilaterals(outlines, column.joints[0], density=1600.0)
     assert np.allclose(stack.inertia, column.inertias, rtol=1e-12)
     assert np.allclose(stack.centroid[:, 1], column.centroid_heights, rtol=1e-12)
     assert limit_analysis(stack).multiplier == pytest.approx(limit_analysis(column).multiplier, rel=1e-12)
     # A parallelogram: its centroid stands off the middle by half the lean.
     lean = np.array([[[-0.5, 0.0], [0.5, 0.0], [0.7, 4.0], [-0.3, 4.0]]])
-    found = limit_analysis(BlockStack.of_quadrilaterals(lean, JOINT, density=2000.0))
+    found = limit_analysis(stack_of_quadrilaterals(lean, JOINT, density=2000.0))
     assert found.multiplier == pytest.approx((0.5 - 0.1) / 2.0, rel=1e-9)
 
 
@@ -106,7 +107,7 @@ def test_the_forces_push_to_the_right_and_the_mirrored_stack_is_the_other_direct
     lean = np.array([[[-0.5, 0.0], [0.5, 0.0], [0.7, 4.0], [-0.3, 4.0]]])
     mirrored = lean[:, [1, 0, 3, 2]] * [-1.0, 1.0]
     for outlines, to_the_edge in ((lean, 0.4), (mirrored, 0.6)):
-        stack = BlockStack.of_quadrilaterals(outlines, JOINT, density=2000.0)
+        stack = stack_of_quadrilaterals(outlines, JOINT, density=2000.0)
         assert limit_analysis(stack).multiplier == pytest.approx(to_the_edge / 2.0, rel=1e-9)
         assert pushover(stack).collapse_multiplier == pytest.approx(to_the_edge / 2.0, rel=1e-3)
 

@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from oracles.quadrilaterals import stack_of_quadrilaterals
 from validation.statics import COLUMNS, MULTIPLIERS, tapered
 
 from stylobate.column import Column, Drum, Joint, preset
@@ -203,7 +204,7 @@ def test_the_tangent_is_the_derivative_of_the_forces(strength):
         [[-0.5, 0.0], [0.6, 0.1], [0.5, 1.2], [-0.3, 1.0]],
         [[-0.3, 1.0], [0.5, 1.2], [0.4, 2.0], [-0.3, 2.1]],
     ]
-    stack = BlockStack.of_quadrilaterals(outlines, Joint(1e5, 1e5, friction_angle=50.0), density=2000.0)
+    stack = stack_of_quadrilaterals(outlines, Joint(1e5, 1e5, friction_angle=50.0), density=2000.0)
     limits = crushing_forces(stack, strength)
     path = EquilibriumPath(stack, gravity_forces(stack), horizontal_forces(stack), limits, True)
     seen = set()

@@ -9,7 +9,7 @@ import pytest
 import stylobate as st
 from stylobate.probability.evidence import Evidence, evidence
 from stylobate.probability.fragility import FEWEST, fragility
-from stylobate.probability.states import NOT_TOLD, STRONGER, WEAKER, Difference, reference, with_undecided
+from stylobate.probability.states import INCONCLUSIVE, STRONGER, WEAKER, Difference, reference, with_undecided
 from stylobate.probability.suite import suite_table
 from stylobate.verdicts.directions import compass_of_shares
 from stylobate.verdicts.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, codes_of, median_words, shares
@@ -38,7 +38,7 @@ def test_runs_that_one_state_leaves_open_do_not_turn_the_comparison_round():
     assert (found.pairs, found.undecided, found.saved, found.harmed) == (14, 4, 0, 0)
     assert (found.share_best, found.share_worst) == (pytest.approx(-4 / 18), 0.0)
     assert found.share_low <= found.share_best
-    assert found.conclusion == NOT_TOLD
+    assert found.conclusion == INCONCLUSIVE
     assert "no ground to adopt it for safety" in found.advice
     assert "4 are undecided" in found.basis
     assert "18 pairs" in found.basis
@@ -110,12 +110,12 @@ KNOWN = Difference("dowels", "as built", 40, 3, 9, 0.15, 0.05, 0.25, 0.9, 0.8, 0
     [
         ({}, WEAKER),
         ({"share_low": -0.05}, WEAKER),  # the median alone is a sure sign of harm
-        ({"share_low": -0.05, "ratio_high": 1.1}, NOT_TOLD),
-        ({"share_low": -0.3, "share_high": -0.1}, NOT_TOLD),  # share and median contradict one another
+        ({"share_low": -0.05, "ratio_high": 1.1}, INCONCLUSIVE),
+        ({"share_low": -0.3, "share_high": -0.1}, INCONCLUSIVE),  # share and median contradict one another
         ({"share_low": -0.3, "share_high": -0.1, "ratio": 1.2, "ratio_low": 1.1, "ratio_high": 1.3}, STRONGER),
         ({"share_low": -0.3, "share_high": -0.1, **dict.fromkeys(("ratio", "ratio_low", "ratio_high"), math.nan)}, STRONGER),
-        ({"share_low": math.nan, "share_high": math.nan, "ratio_high": 1.1}, NOT_TOLD),
-        ({"records": FEWEST - 1}, NOT_TOLD),
+        ({"share_low": math.nan, "share_high": math.nan, "ratio_high": 1.1}, INCONCLUSIVE),
+        ({"records": FEWEST - 1}, INCONCLUSIVE),
     ],
 )  # fmt: skip
 def test_advice_reads_in_one_way(change, conclusion):
@@ -124,13 +124,13 @@ def test_advice_reads_in_one_way(change, conclusion):
     words = {
         STRONGER: "stronger than “as built” against collapse, under",
         WEAKER: "weaker than “as built” against collapse: do not adopt it for safety",
-        NOT_TOLD: "not shown to be stronger than “as built” against collapse, nor weaker: no ground to",
+        INCONCLUSIVE: "not shown to be stronger than “as built” against collapse, nor weaker: no ground to",
     }
     assert [each for each, said in words.items() if said in found.advice] == [conclusion]
     assert found.sentence.startswith(found.advice)
     as_found = dataclasses.replace(found, state="as found")
     assert "adopt" not in as_found.sentence  # it is no measure
-    assert ("not shown to be weaker or stronger" in as_found.advice) == (conclusion == NOT_TOLD)
+    assert ("not shown to be weaker or stronger" in as_found.advice) == (conclusion == INCONCLUSIVE)
 
 
 def test_a_measure_is_compared_with_the_column_as_it_stands_today():

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from stylobate.cli.main import ask, call, commands, words_of
+from stylobate.cli.main import call, commands, run_request, words_of
 from stylobate.cli.options import Execution, Following, Motions, Population
 
 COLUMN = """
@@ -138,7 +138,7 @@ def test_a_request_does_what_its_command_line_does(capsys, folder):
     words = ["run", column, "--model=dem2d", "--set=points=2", f"--motion={record}", "--replicates=0", "--whole"]
     assert words_of(request) == [*words, "--no-pictures", "--json"]
     found = []
-    for do in (lambda: ask(request), lambda: call(words_of(request))):
+    for do in (lambda: run_request(request), lambda: call(words_of(request))):
         assert do() == 0
         found.append(json.loads(capsys.readouterr().out) | {"wall_s": 0.0})
     assert found[0] == found[1]
@@ -150,5 +150,5 @@ def test_a_request_does_what_its_command_line_does(capsys, folder):
         plain = {"command": "run", "column": column, "motion": [record]}
         if "command" in wrong:
             plain.pop("motion")
-        assert ask(plain | wrong) == 2
+        assert run_request(plain | wrong) == 2
         assert why in capsys.readouterr().err

@@ -11,7 +11,7 @@ from stylobate.campaign.ledger import Holding
 from stylobate.cli.main import call
 from stylobate.models.drums.stepped import LaneEngine
 from stylobate.models.rocking.model import Rocking
-from stylobate.results.asked import Asked
+from stylobate.results.asked import CommandRequest
 
 HOUSNER = ["--model", "housner"]
 COLUMN = """name = "my"
@@ -280,6 +280,7 @@ def test_the_result_of_another_question_is_replaced_with_a_word(tmp_path, monkey
     assert [replaced in one for one in said] == [False, False, True, False, False, True]
     assert "1Hz,0.3g,1s" in said[2]
     assert "out holds the result of run too" in said[4]
-    assert not Asked.read(tmp_path / "out" / "asked-limit.json").warnings  # folders are no matter of a signed report
+    # folders are no matter of a signed report
+    assert not CommandRequest.read(tmp_path / "out" / "asked-limit.json").warnings
     assert not (tmp_path / "out" / "energy.png").exists()  # of the first question: the third has no pictures
     assert (tmp_path / "out" / "limit.png").exists()

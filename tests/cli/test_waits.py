@@ -74,7 +74,7 @@ def test_compiling_is_told_where_it_takes_long(told, monkeypatch):
 
 def test_nothing_is_told_where_nobody_listens(capsys, monkeypatch):
     monkeypatch.setattr(console, "FIRST_LINE", 0.0)
-    monkeypatch.setitem(run_cases.__globals__, "TOLD_WAIT", 0.0)
+    monkeypatch.setitem(run_cases.__globals__, "LONG_WAIT", 0.0)
     assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.1g,0.2s", "--replicates", "0", "--json"]) == 0
     assert capsys.readouterr().err == ""
 
@@ -99,7 +99,7 @@ def left_at(monkeypatch, finished, total):
     monkeypatch.setattr(console, "time", SimpleNamespace(monotonic=lambda: clock[0]))
     pace, found = console.Pace(), []
     for clock[0], done in finished:
-        found.append(pace.left(done, total))
+        found.append(pace.remaining(done, total))
     return found
 
 
@@ -140,7 +140,7 @@ def test_a_long_computation_is_told_before_it_begins(told, monkeypatch):
     motion = st.Motion(0.01, np.sin(np.arange(3001) / 10.0), metadata={"format": "made for this test"})
     model = st.DistinctElement2D()
     step, cost = engine_for(model, COLUMN).expected_step(motion)
-    monkeypatch.setitem(run_cases.__globals__, "TOLD_WAIT", 1.0)
+    monkeypatch.setitem(run_cases.__globals__, "LONG_WAIT", 1.0)
     # so many to a lane, and the longest besides, as some lane begins it last
     for runs, threads, blocks in ((1, 1, 1), (320, 2, 10 + 31 / 32), (320, 1, 20 + 15 / 16)):
         some = run_cases([Case(COLUMN, motion)] * runs, model, threads=threads)
@@ -152,7 +152,7 @@ def test_a_long_computation_is_told_before_it_begins(told, monkeypatch):
 
 
 def test_what_falls_takes_longer_than_told(told, monkeypatch):
-    monkeypatch.setitem(run_cases.__globals__, "TOLD_WAIT", 0.0)
+    monkeypatch.setitem(run_cases.__globals__, "LONG_WAIT", 0.0)
     block = st.Block([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)], density=2500.0, name="cube")
     cube = st.Assembly([block], st.Joint(1e8, 5e7, friction_angle=35.0), name="cube")
     st.simulate(cube, st.harmonic(1.0, 0.1, 0.1), DistinctElement2D())
@@ -162,7 +162,9 @@ def test_what_falls_takes_longer_than_told(told, monkeypatch):
 def test_the_wait_for_several_directions_is_that_for_all_of_them(told, tmp_path, monkeypatch):
     """Twelve directions, each with twenty columns like it of which fifteen ride along: the five others are a batch."""
     waits = []
-    monkeypatch.setitem(run_cases.__globals__, "tell_wait", lambda runs, wait, column: waits.append((runs, wait)))
+    monkeypatch.setitem(
+        run_cases.__globals__, "log_expected_time", lambda runs, wait, column: waits.append((runs, wait))
+    )
     monkeypatch.setattr("stylobate.cli.run.conclude", lambda *_: pytest.fail("told before anything is computed"))
     command = ["run", "paper-monolithic", "--harmonic", "1Hz,0.3g,1s", "--azimuths", "0:330:12", "--threads", "1"]
     command += ["--replicates", "20", "--scatter", "friction=10%"]

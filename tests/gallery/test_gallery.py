@@ -332,7 +332,7 @@ def test_what_shaking(run):
     found = run("what_shaking")["found"]
     assert set(found.draws["stout: state"]) == {"stands"}
     assert set(found.draws["slender: state"]) == {"fell"}
-    alone = {one["observation"]: one["spread_alone"] for one in found.told}
+    alone = {one["observation"]: one["spread_alone"] for one in found.information}
     assert found.posterior["pgv_m_s"].spread < alone["stout stands"] == max(alone.values())
     assert "peak ground velocity was" in run("what_shaking")["printed"]
 

@@ -13,11 +13,13 @@ from stylobate.models.base import RunOptions
 from stylobate.models.engine import engine_for
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_beam.state import PackedBeam, energy_at_loss, faces, histories_of, measures_of
-from stylobate.models.rocking.block import Ground, lightest_weight, off_the_ground
+from stylobate.models.rocking.block import lightest_weight, off_the_ground
 from stylobate.models.shared import ledger
 from stylobate.motion import Motion
 from stylobate.response import Response
 from stylobate.simulate import simulate
+
+from .adaptive_block import Ground
 
 #: Of the solver; the absolute one in radians, and in metres for slips.
 RELATIVE_TOLERANCE = 1e-7

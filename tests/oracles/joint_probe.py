@@ -217,7 +217,7 @@ def stones(kind: str) -> st.SpatialAssembly:
 
 def of_assembly(assembly: st.SpatialAssembly) -> Rig:
     """The last joint of an assembly in the engine that finds contacts: one lane."""
-    engine = assemblies.unsettled(assembly, engine_for(DistinctElement3D(), assembly).acting)
+    engine = assemblies.lane_as_drawn(assembly, engine_for(DistinctElement3D(), assembly).acting)
     engine.now["last"] = engine.now["dt"] = DT
     upper = len(engine.body) - 1
     middle = engine.joint["mu"][-1]

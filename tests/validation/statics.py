@@ -4,6 +4,7 @@ import math
 from functools import cache
 
 import numpy as np
+from oracles.quadrilaterals import stack_of_quadrilaterals
 
 from stylobate.column import Column, Joint, preset
 from stylobate.column.spatial.assembly import SpatialAssembly
@@ -107,7 +108,7 @@ def inclined() -> BlockStack:
         [[-2.0, 0.0], [2.0, 0.0], [2.0, 1.0 - drop], [-2.0, 1.0 + 3 * drop]],
         [[-1.0, 1.0 + 2 * drop], [1.0, 1.0], [1.0, 1.5], [-1.0, 1.5 + drop]],
     ]
-    return BlockStack.of_quadrilaterals(outlines, [JOINT, Joint(5e10, 2.5e10, friction_angle=15.0)], density=2000.0)
+    return stack_of_quadrilaterals(outlines, [JOINT, Joint(5e10, 2.5e10, friction_angle=15.0)], density=2000.0)
 
 
 def tangent(degrees: float) -> float:

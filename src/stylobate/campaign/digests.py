@@ -82,7 +82,7 @@ class Hasher:
         """
         key = samples_of(motion)
         if key not in self._samples:
-            self._samples[key] = motion, digest_of_samples(self.model.taken(motion))
+            self._samples[key] = motion, self.model.taken(motion).replace(factor=1.0).digest
         return f"{self._samples[key][1]} {quiet!r} {size!r}".encode()
 
     def of_product(self, what: Any, maker: str) -> str:
@@ -104,11 +104,6 @@ class Hasher:
             end = self.of_motion(motion, motion.factor, share)
             found[number] = np.frombuffer(self.ended(self.of_column(column), end), np.uint8)
         return found
-
-
-def digest_of_samples(motion: Motion) -> str:
-    """The digest of a motion without its factor."""
-    return motion.replace(factor=1.0).digest
 
 
 def samples_of(motion: Motion) -> tuple:

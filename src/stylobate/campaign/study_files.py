@@ -106,7 +106,10 @@ class RunsTable(Table):
         settings = {key: str(value) for key, value in (self.set or {}).items()}
         if settings and len(models) > 1:
             raise InputError("[set] is for one model, and several are named; give each a study of its own.")
-        return make_models([(model, settings) for model in models], _losses(self.losses, folder))
+        losses = self.losses  # a name, or a file from the folder of the study on
+        if losses is not None and (folder / losses).is_file():
+            losses = str(folder / losses)
+        return make_models([(model, settings) for model in models], losses)
 
     def made_campaign(self) -> Campaign:
         """Realisations, time after each motion and what of it is stepped."""
@@ -162,11 +165,6 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
 def structure_beside(folder: Path, name: str) -> Structure:
     """What a file beside another one, or a preset, of that name describes."""
     return load_structure(folder / name if (folder / name).is_file() else name)
-
-
-def _losses(losses: str | None, folder: Path) -> str | None:
-    """Losses of models: a name, or a file from the folder of the study on."""
-    return str(folder / losses) if losses is not None and (folder / losses).is_file() else losses
 
 
 def _motions(table: MotionsTable, folder: Path) -> tuple[Sequence[Motion], dict[str, str]]:

@@ -50,7 +50,13 @@ def columns(
         if files.wanted:
             files += [write_column(one, files / name) for one, name in zip(chosen, names)]
     listed = {"catalogue": [one.to_dict() for one in known]} if catalogue else {}
-    if execution.emits({"columns": [_facts_of(one) for one in chosen], **listed, "files": files.names}):
+    if execution.emits(
+        {
+            "columns": [properties(one) if one.stack is not None else parts_of(one) for one in chosen],
+            **listed,
+            "files": files.names,
+        }
+    ):
         return
     if catalogue:
         _print_catalogue(known)
@@ -97,10 +103,6 @@ def _sourced(known: KnownColumn) -> dict[str, str]:
         | figures
         | {f"source {n}": bibliography()[key].text for n, key in enumerate(known.sources, 1)}
     )
-
-
-def _facts_of(structure: Any) -> dict:
-    return properties(structure) if structure.stack is not None else parts_of(structure)
 
 
 def parts_of(structure: Structure) -> dict:

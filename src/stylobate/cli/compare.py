@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError
@@ -79,7 +78,7 @@ def compare(
                 domains = compare_domains(stone, chosen, *grid, labels=names, campaign=asked)
             if files.wanted:
                 _write_domains(domains, files)
-                files.asked(**what, duration_s=grid[2])
+                files.write_request(**what, duration_s=grid[2])
         table = domains.table
         result |= {"domains": [domain.summary() for domain in domains.domains], "differences": table.to_dict("records")}
     else:
@@ -92,9 +91,13 @@ def compare(
                 comparison = compare_models(stone, shaking, chosen, labels=names, files=places, campaign=asked)
             designed = design_values(comparison)
             if files.wanted:
-                _write_histories(comparison, files, places)
+                from .. import plots
+
+                files.table(comparison.table, "comparison.csv")
+                files += places
+                files.picture(plots.draw_comparison(comparison.responses, labels=comparison.labels), "comparison")
                 write_design(designed, files)
-                files.asked(**what, motions=[shaking])
+                files.write_request(**what, motions=[shaking])
         runs = [
             response.summary() | {"left_out": o.input_facts(one.taken(shaking))["left_out"]}
             for one, response in zip(chosen, comparison.responses, strict=True)
@@ -139,14 +142,6 @@ def _settings_of(name: str, names: list[str], settings: list[str] | None) -> lis
         if model == name:
             mine.append(setting)
     return mine
-
-
-def _write_histories(comparison: Any, files: Files, responses: list[Path]) -> None:
-    from .. import plots
-
-    files.table(comparison.table, "comparison.csv")
-    files += responses
-    files.picture(plots.draw_comparison(comparison.responses, labels=comparison.labels), "comparison")
 
 
 def _write_domains(comparison: Any, files: Files) -> None:

@@ -272,7 +272,7 @@ class Pace:
         self.began = self.last = self.base = time.monotonic()
         self.first = self.pause = 0.0
 
-    def left(self, done: float, total: float) -> str | None:
+    def remaining(self, done: float, total: float) -> str | None:
         """So many are done of so many: the time that the others take, for people; None where it is not known."""
         from ..models.base import duration
 
@@ -303,7 +303,7 @@ class Lines:
 
     def __call__(self, done: float, total: float) -> None:
         """So many are done, of so many."""
-        left, now = self.pace.left(done, total), time.monotonic()
+        left, now = self.pace.remaining(done, total), time.monotonic()
         if now - self.began < self.due or done <= max(self.told, 0.0) or done >= total:
             return
         self.due, self.told = 1.5 * (now - self.began), done
@@ -329,7 +329,7 @@ def progress(title: str) -> Iterator[Callable[[float, float], None]]:
         task, pace = bar.add_task(title, total=None, left=""), Pace()
 
         def update(done: float, total: float) -> None:
-            left = pace.left(done, total)
+            left = pace.remaining(done, total)
             bar.update(task, completed=done, total=total, left="" if left is None else f"about {left} to go")
 
         yield update

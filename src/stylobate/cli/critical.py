@@ -79,7 +79,7 @@ def critical(
         summary = result.summary() | ({"refused": suite.refused} if request.several else o.input_facts(taken[0]))
         if files.wanted:
             (write_suite if request.several else write)(result, summary, files)
-            files.asked(structures=[stone], models=[how], motions=taken, tail_s=campaign.tail)
+            files.write_request(structures=[stone], models=[how], motions=taken, tail_s=campaign.tail)
             summary["files"] = files.names
     if execution.emits(summary):
         return

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas
 
     from ..campaign.campaign import Campaign
-    from ..results.asked import Asked
+    from ..results.asked import CommandRequest
 
 #: Options that say where and how it is computed and told, and not what is asked; whether a value follows.
 ELSEWHERE = {
@@ -37,11 +37,11 @@ class Files(list[Path]):
         Its name.
     folder : path, optional
         None if no files are wanted.
-    before : Asked, optional
+    before : CommandRequest, optional
         What this command was asked when it last left a result in the folder, which the new one replaces.
     """
 
-    def __init__(self, command: str, folder: Path | None, before: Asked | None = None) -> None:
+    def __init__(self, command: str, folder: Path | None, before: CommandRequest | None = None) -> None:
         super().__init__()
         self.command, self.folder, self.before = command, folder, before
         self.replaces = before is not None and _question(before.command) != _question(console.COMMAND)
@@ -102,20 +102,20 @@ class Files(list[Path]):
 
         self += plots.save(figure, self / name)
 
-    def asked(self, **what: Any) -> None:
+    def write_request(self, **what: Any) -> None:
         """Write what the command was asked, with the command line and its warnings.
 
         Parameters
         ----------
         **what
-            ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.asked.Asked.of` takes them, or
+            ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.CommandRequest.of` takes them, or
             what :func:`stylobate.results.asked.kept_of` says of the runs that it rests on.
         """
-        from ..results.asked import Asked, asked_file, others_in
+        from ..results.asked import CommandRequest, asked_file, others_in
 
         assert self.folder is not None
         earlier = what.pop("earlier", ())
-        found = Asked.of(console.COMMAND, **what)
+        found = CommandRequest.of(console.COMMAND, **what)
         if self.before is not None and not self.replaces and not found.holds(self.before):
             self.replaces = True
             console.note(_replaced(self.folder, self.before, " of what its files held then"))
@@ -143,14 +143,14 @@ def files(out: Path | None, command: str, *writes: str) -> Iterator[Files]:
         return
     from ..atomic import OwnFiles
     from ..errors import InputError
-    from ..results.asked import Asked, asked_file, others_in
+    from ..results.asked import CommandRequest, asked_file, others_in
 
     with console.folder(out, *writes, asked_file(command)) as folder:
         assert folder is not None
         before = None
         if (folder / asked_file(command)).is_file():
             with suppress(InputError):  # damaged, or of a later version: it is replaced all the same
-                before = Asked.read(folder / asked_file(command))
+                before = CommandRequest.read(folder / asked_file(command))
         elif others := others_in(folder, command):
             names = [name for name in console.file_names(writes) if (folder / name).exists()]
             if names:
@@ -181,7 +181,7 @@ def _question(words: Sequence[str]) -> list[str]:
     return found
 
 
-def _replaced(folder: Path, before: Asked, held: str = "") -> str:
+def _replaced(folder: Path, before: CommandRequest, held: str = "") -> str:
     """What is said where the result of another question is replaced."""
     line = shlex.join(("stylobate", *before.command))
     return (

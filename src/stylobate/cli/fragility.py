@@ -93,7 +93,7 @@ def fragility(
             ]
             files.table(pandas.DataFrame(rows), "fragility.csv")
             files.picture(plots.draw_fragility(found), "fragility")
-            files.asked(**kept_of(used), state=asked.state, im=asked.im, method=method)
+            files.write_request(**kept_of(used), state=asked.state, im=asked.im, method=method)
             files.summary(result, "fragility.json")
     if execution.emits(result):
         return

@@ -75,7 +75,7 @@ def ida(
                 "models": [how],
                 "motions": [how.taken(motion) for motion in records.motions],
             }
-            files.asked(**what, runs=found.runs, im=measure.name, edp=edp, tail_s=campaign.tail)
+            files.write_request(**what, runs=found.runs, im=measure.name, edp=edp, tail_s=campaign.tail)
             files.summary(result, "ida.json")
     if execution.emits(result):
         return

@@ -69,7 +69,7 @@ def limit(
                 files.picture(plots.draw_mechanism(towards(stone, weakest), found), "limit")
             if all_round is not None:
                 files.picture(plots.draw_limit_directions(all_round, stone.name), "directions")
-            files.asked(structures=[stone], **({"flow": flow} if stone.stack is not None else {}), **loads)
+            files.write_request(structures=[stone], **({"flow": flow} if stone.stack is not None else {}), **loads)
             summary["files"] = files.names
     if execution.emits(summary):
         return

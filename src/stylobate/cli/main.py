@@ -73,7 +73,7 @@ def _passing_on() -> Iterator[None]:
         raise RuntimeError(f"a file ended too soon: {error}") from error
     except Exception as error:
         ours = isinstance(error, StylobateError) and not isinstance(error, InputError)
-        if signals.TOLD.is_set() and not ours:  # compiled code of others makes something else of an interrupt
+        if signals.STOP_SIGNALLED.is_set() and not ours:  # compiled code of others makes something else of an interrupt
             raise Interrupted(signals.sentence()) from None
         raise
 
@@ -105,7 +105,7 @@ def main() -> None:
         signals.mark_ended()
     except KeyboardInterrupt:  # before the command had begun, or when it had ended
         signals.end_now(code)
-    if signals.TOLD.is_set():
+    if signals.STOP_SIGNALLED.is_set():
         signals.end_now(code)  # at once: what others have under way is not waited for
     sys.exit(code)
 
@@ -142,7 +142,7 @@ def parameters(name: str) -> dict[str, Any]:
     return {one.opts[0].strip("-").replace("-", "_"): one for one in command.params}
 
 
-def ask(request: Mapping[str, Any]) -> int:
+def run_request(request: Mapping[str, Any]) -> int:
     """Do what a request asks, with no command line between, and return what :func:`call` does.
 
     Parameters

@@ -84,7 +84,7 @@ def modes(
             files.picture(plots.draw_modes(found, stone.name), "modes")
             if joints is not None:
                 _write_joints(files, joints)
-            files.asked(structures=[stone], models=[how], measured=measured, ground=ground)
+            files.write_request(structures=[stone], models=[how], measured=measured, ground=ground)
             files.summary(summary, "modes.json")
     if execution.emits(summary):
         return

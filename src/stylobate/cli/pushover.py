@@ -98,7 +98,7 @@ def pushover(
             files.append(path.save(files / "pushover.csv"))
             files.json(summary, "pushover.json")
             files.picture(figure, "pushover")
-            files.asked(structures=[stone], control=control, linear=linear, limit_analysis_g=limit, **loads)
+            files.write_request(structures=[stone], control=control, linear=linear, limit_analysis_g=limit, **loads)
             summary["files"] = files.names
     if execution.emits(summary):
         return

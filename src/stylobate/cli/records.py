@@ -91,7 +91,7 @@ def records(
             files.table(found.table.assign(file=[f"scaled/{name}" for name in names]), "records.csv")
             files.picture(plots.draw_record_selection(found), "records")
             chosen: dict[str, object] = {"target": target, "count": count, "periods_s": list(between)}
-            files.asked(motions=list(found.motions), factors=list(limits), **chosen)
+            files.write_request(motions=list(found.motions), factors=list(limits), **chosen)
             files.summary(summary, "records.json")
     if execution.emits(summary):
         return

@@ -40,7 +40,7 @@ def risk(
 
             files.table(pandas.DataFrame(result["deaggregation"]), "risk.csv")
             files.picture(plots.draw_risk(found), "risk")
-            files.asked(**kept_of(used), **hazards_of([hazard], site), state=asked.state, im=asked.im)
+            files.write_request(**kept_of(used), **hazards_of([hazard], site), state=asked.state, im=asked.im)
             files.summary(result, "risk.json")
     if execution.emits(result):
         return

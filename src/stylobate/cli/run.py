@@ -152,7 +152,7 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
     from ..campaign.digests import Digests, Hasher
     from ..campaign.runs import Request, Runs, Stopped
     from ..models.base import Case
-    from ..simulate import run_options, tell_wait
+    from ..simulate import log_expected_time, run_options
     from ..verdicts.population import wait_for
     from . import console
 
@@ -186,7 +186,7 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
         ledger = console.ledger(folder)
         twins = f", each with {campaign.replicates} like it," if campaign.replicates else ""
         wait = wait_for(stone.stack or stone, motions, model, campaign, options, asked.followed)
-        tell_wait(f"{len(motions)} runs{twins} take", wait, stone)
+        log_expected_time(f"{len(motions)} runs{twins} take", wait, stone)
         try:
             with closing(Runs(Campaign(ledger=ledger))) as runs:
                 for number, row in runs.products(request, make):
@@ -236,7 +236,7 @@ def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, dra
             files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
             if population is not None:
                 write_population(population, motion, model, response, files, drawn.median)
-            files.asked(structures=[asked.stone], models=[model], motions=[taken])
+            files.write_request(structures=[asked.stone], models=[model], motions=[taken])
             files.summary(summary, "run.json")
     if not quiet:
         describe(response, taken, files, population, laws)

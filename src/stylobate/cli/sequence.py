@@ -84,7 +84,7 @@ def sequence(
             if files.wanted:
                 files.table(told.table, "until_fall.csv")
                 taken = [how.taken(motion) for motion in kinds]
-                files.asked(structures=[stone], models=[how], motions=taken, rest_s=rest, most=until_fall)
+                files.write_request(structures=[stone], models=[how], motions=taken, rest_s=rest, most=until_fall)
                 files.summary(summary, "sequence.json")
         if not execution.emits(summary):
             describe_counts(told)
@@ -161,7 +161,7 @@ def _run(
                 files.picture(plots.draw_ends(found.response, found.events), "ends")
             if found.population is not None:
                 write_population(found.population, found.motion, how, found.response, files, False)
-            files.asked(structures=[stone], models=[how], motions=[taken])
+            files.write_request(structures=[stone], models=[how], motions=[taken])
             files.summary(summary, "run.json")
     if not execution.emits(summary):
         describe(found, taken)

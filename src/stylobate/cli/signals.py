@@ -32,7 +32,7 @@ STOPPING = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 KEPT: list[str] = []
 
 #: Whether this process has been told to stop: what goes wrong after that is no fault.
-TOLD = threading.Event()
+STOP_SIGNALLED = threading.Event()
 
 _ended = threading.Event()
 
@@ -87,18 +87,18 @@ def sentence() -> str:
 
 def _stop(number: int, frame: object) -> None:
     # Once, so that a second signal does not break the clean-up of the first; and not when there is nothing left to stop.
-    if _ended.is_set() or (TOLD.is_set() and not _thrown_away.is_set()):
+    if _ended.is_set() or (STOP_SIGNALLED.is_set() and not _thrown_away.is_set()):
         return
-    TOLD.set()
+    STOP_SIGNALLED.set()
     _thrown_away.clear()
     raise KeyboardInterrupt
 
 
 def _not_raised(what: sys.UnraisableHookArgs) -> None:
     """In place of ``sys.unraisablehook``: told of exceptions that Python throws away."""
-    if what.exc_type is KeyboardInterrupt and TOLD.is_set():
+    if what.exc_type is KeyboardInterrupt and STOP_SIGNALLED.is_set():
         _thrown_away.set()
-    elif not TOLD.is_set():
+    elif not STOP_SIGNALLED.is_set():
         sys.__unraisablehook__(what)
 
 

@@ -162,7 +162,7 @@ def states(
             what: dict[str, Any] = {"structures": list(columns.values()), "models": [how], "states": list(columns)}
             what |= {"motions": [how.taken(motion) for motion in suite.motions], "runs": found.table}
             what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": campaign.tail}
-            files.asked(**what, **_twins(columns, how, campaign) if population.replicates is not None else {})
+            files.write_request(**what, **_twins(columns, how, campaign) if population.replicates is not None else {})
             files.summary(summary, "states.json")
     if execution.emits(summary):
         return

@@ -42,7 +42,7 @@ def run(
         (model, *more), motions = study.models, study.motions
         what = {"structures": study.columns, "models": study.models, "runs": result.table}
         what |= {"motions": motions if more else [model.taken(motion) for motion in motions]}
-        files.asked(**what, tail_s=study.campaign.tail)
+        files.write_request(**what, tail_s=study.campaign.tail)
         summary = result.summary() | {"refused": refused}
         files.summary(summary, "study.json")
     if execution.emits(summary):

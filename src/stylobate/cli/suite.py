@@ -103,7 +103,7 @@ def suite(
             if swept and len(compass.bearings) > 1:
                 files.picture(plots.draw_directions(compass, f"{', '.join(names)}, {how.name}"), "directions")
             taken = [how.taken(motion) for motion in records.motions]
-            files.asked(structures=stones, models=[how], motions=taken, against=against, tail_s=campaign.tail)
+            files.write_request(structures=stones, models=[how], motions=taken, against=against, tail_s=campaign.tail)
             result["files"] = files.names
     if execution.emits(result):
         return

@@ -89,7 +89,7 @@ class Motion:
 
         put("dt", check_range("dt", dt, 0.0, 1e3, unit="s", open_low=True, remedy="state the step", of="a motion"))
         for key, value in {"factor": factor, "name": name, "metadata": metadata, "processing": processing}.items():
-            put(key, _TOLD[key](value))
+            put(key, _FACTS[key](value))
         length = None
         for label, key, first, second in (
             ("x", "samples", ax, acceleration),
@@ -200,11 +200,11 @@ class Motion:
 
         Where no samples change they are shared, and not checked again: a domain has one record at thousands of levels.
         """
-        if set(changes) <= _TOLD.keys():
+        if set(changes) <= _FACTS.keys():
             changed = object.__new__(Motion)
-            vars(changed).update({key: vars(self)[key] for key in (*_SAMPLED, *_TOLD)})
+            vars(changed).update({key: vars(self)[key] for key in (*_SAMPLED, *_FACTS)})
             vars(changed).update(_peaks=self._peaks, _plan_peak=self._plan_peak)
-            vars(changed).update({key: _TOLD[key](value) for key, value in changes.items()})
+            vars(changed).update({key: _FACTS[key](value) for key, value in changes.items()})
             return changed
         fields: dict = {
             "dt": self.dt,
@@ -288,9 +288,9 @@ class Motion:
         return f"{self.name}: {self.duration:g} s, dt {self.dt:g} s, PGA {peak / g:.3g} g{along}"
 
 
-#: What a motion holds of its samples; what it tells besides, and what becomes of a value that is given for it.
+#: What a motion holds of its samples; its other facts, and the check of a value given for each.
 _SAMPLED = ("dt", "samples", "y_samples", "z_samples")
-_TOLD: Mapping[str, Callable[[Any], Any]] = {
+_FACTS: Mapping[str, Callable[[Any], Any]] = {
     "factor": lambda value: check_range("factor", value, -1e9, 1e9, of="a motion"),
     "name": lambda value: value,
     "metadata": lambda value: MappingProxyType(dict(value or {})),

@@ -193,20 +193,22 @@ def stochastic_motion(
     ----------
     Boore (2003); window: Saragoni and Hart (1974).
     """
-    place = _region(region)
+    if not isinstance(region, Region):
+        check_choice("region", region, REGIONS)
+        region = REGIONS[region]
     check_range("magnitude", magnitude, 3.0, 8.0)
     check_range("distance", distance, 1e3, 500e3, unit="m")
     check_range("dt", dt, 1e-4, 0.05, unit="s")
     check_range("number of horizontal components", horizontal, 1, 2)
     check_range("seed", seed, 0, 2**63)
-    duration = 1.0 / corner_frequency(magnitude, place) + place.path_duration * distance
-    quiet = min(10.0, 2.0 / corner_frequency(magnitude, place) + 1.0)
+    duration = 1.0 / corner_frequency(magnitude, region) + region.path_duration * distance
+    quiet = min(10.0, 2.0 / corner_frequency(magnitude, region) + 1.0)
     window = _window(duration, dt)
     lead = math.ceil(quiet / dt)
     size = len(window) + 2 * lead
     if size > MAX_SAMPLES:
         raise InputError(f"a motion of {duration:g} s at {dt:g} s takes {size} samples; give a longer step.")
-    target = fourier_target(np.fft.rfftfreq(size, dt), magnitude, distance, place)
+    target = fourier_target(np.fft.rfftfreq(size, dt), magnitude, distance, region)
     random = np.random.default_rng(seed)
     parts = []
     for _ in range(int(horizontal)):
@@ -218,13 +220,13 @@ def stochastic_motion(
     return Motion(
         dt,
         *parts,
-        name=f"stochastic M{magnitude:g} at {distance / 1e3:g} km, {place.name}, seed {seed}",
+        name=f"stochastic M{magnitude:g} at {distance / 1e3:g} km, {region.name}, seed {seed}",
         metadata={
             "format": "stochastic point source",
             "stage": "simulated",
-            "region": place.name,
-            "reference": place.reference,
-            "references": ("boore2003", "brune1970", "saragoni1974", *place.sources),
+            "region": region.name,
+            "reference": region.reference,
+            "references": ("boore2003", "brune1970", "saragoni1974", *region.sources),
             "magnitude": magnitude,
             "distance_m": distance,
             "seed": seed,
@@ -302,10 +304,3 @@ def _window(duration: float, dt: float) -> np.ndarray:
     c = b / epsilon
     t = np.arange(0.0, 1.5 * 2.0 * duration, dt) / (2.0 * duration)
     return (math.e / epsilon) ** b * t**b * np.exp(-c * t)
-
-
-def _region(region: Region | str) -> Region:
-    if isinstance(region, Region):
-        return region
-    check_choice("region", region, REGIONS)
-    return REGIONS[region]

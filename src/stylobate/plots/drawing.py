@@ -371,11 +371,6 @@ def _proportions(solids: list[Solid]) -> tuple[float, float, list[float]]:
     return across, deep, [min(max(share * x + 1.0, least), most) for x, (most, least) in ((up, TALL), (deep, LOW))]
 
 
-def sheet_size(structure: Structure) -> tuple[float, float]:
-    """Width and height of :func:`draw_views` [inch]."""
-    return WIDTH, sum(_proportions(solids_of(structure)[0])[2])
-
-
 @dataclass(frozen=True, eq=False)
 class StructureViews:
     """A structure as elevations and plans show it.
@@ -751,7 +746,7 @@ def draw_sheet(structure: Structure, title: str | None = None, *, figure: Figure
     """
     plans = joint_plans(structure)
     shown = plans[:MOST]
-    wide, high = sheet_size(structure)
+    wide, high = WIDTH, sum(_proportions(solids_of(structure)[0])[2])
     beside, row = FEW if len(shown) <= 12 else MANY
     rows = -(-len(shown) // beside)
     row += LINE / 72.0 * max([0, *(lines_under(plan) - 2 for plan in shown)])

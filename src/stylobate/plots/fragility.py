@@ -20,7 +20,7 @@ from ..probability.evidence import Ida
 from ..probability.fragility import FEWEST, Fragility
 from ..probability.lognormal import curve
 from ..probability.risk import Risk, years
-from ..probability.states import NOT_TOLD, STRONGER, WEAKER, Difference, StateComparison
+from ..probability.states import INCONCLUSIVE, STRONGER, WEAKER, Difference, StateComparison
 from ..probability.suite import INTENSITIES
 from ..verdicts import verdict as v
 from ..verdicts.directions import peak_of
@@ -362,7 +362,7 @@ def _draw_difference(axes: Axes, difference: Difference, place: float) -> None:
     if difference.undecided:
         axes.plot(ends, [place, place], color=color, linewidth=4.0, alpha=0.5, solid_capstyle="butt")
     else:
-        hollow = "white" if difference.conclusion == NOT_TOLD else None
+        hollow = "white" if difference.conclusion == INCONCLUSIVE else None
         axes.plot(ends[:1], [place], color=color, marker="o", markersize=4.5, linestyle="none", markerfacecolor=hollow)
 
 

@@ -23,7 +23,7 @@ from ..messages import say
 from ..models.base import duration
 from ..response.links import AT_CAPACITY
 from ..response.response import Response
-from ..simulate import TOLD_WAIT
+from ..simulate import LONG_WAIT
 from ..verdicts import verdict as v
 from ..verdicts.compare import Comparison
 from ..verdicts.limit_states import shares
@@ -307,7 +307,7 @@ def _tell_instants(rows: list[dict[str, Any]], links: list[PlacedLink], again: C
     numbers, began = sorted({row["run"] for row in forces}), time.monotonic()
     governing: dict[int, Response] = {}
     for done, run in enumerate(numbers):
-        if done == 1 and (left := (time.monotonic() - began) * (len(numbers) - 1)) > TOLD_WAIT:
+        if done == 1 and (left := (time.monotonic() - began) * (len(numbers) - 1)) > LONG_WAIT:
             logging.getLogger("stylobate").info(
                 "%d more runs that govern design values are computed once more, to tell when: about %s to go.",
                 len(numbers) - 1,

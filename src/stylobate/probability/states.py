@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 #: Kinds of difference.
-STRONGER, WEAKER, NOT_TOLD = "stronger", "weaker", "not told"
+STRONGER, WEAKER, INCONCLUSIVE = "stronger", "weaker", "not told"
 
 #: Sentence where there is nothing to compare.
 NO_PAIR = say("no pair of runs could be computed")
@@ -142,12 +142,12 @@ class Difference:
         and median contradict one another, nothing is told.
         """
         if self.records < FEWEST:
-            return NOT_TOLD
+            return INCONCLUSIVE
         fewer, more = self.share_high < 0.0, self.share_low > 0.0
         higher, lower = self.ratio_low > 1.0, self.ratio_high < 1.0
         if more or lower:
-            return NOT_TOLD if fewer or higher else WEAKER
-        return STRONGER if fewer and not self.ratio < 1.0 else NOT_TOLD
+            return INCONCLUSIVE if fewer or higher else WEAKER
+        return STRONGER if fewer and not self.ratio < 1.0 else INCONCLUSIVE
 
     @property
     def sentence(self) -> str:

@@ -1,10 +1,10 @@
 """Folders of results: what a command left in one, read and typed, and what it was asked."""
 
-from .asked import Asked
+from .asked import CommandRequest
 from .reading import Comparison, Kind, Numbers, Result, RunResult, SeveralRuns, StudyFolder, read_folder, read_results
 
 __all__ = [
-    "Asked",
+    "CommandRequest",
     "Comparison",
     "Kind",
     "Numbers",

@@ -74,7 +74,7 @@ def others_in(folder: Path, command: str) -> list[str]:
 
 
 @dataclass(frozen=True)
-class Asked:
+class CommandRequest:
     """Request of a command.
 
     Parameters
@@ -123,7 +123,7 @@ class Asked:
         runs: pandas.DataFrame | None = None,
         warnings: Sequence[str] = (),
         **options: Any,
-    ) -> Asked:
+    ) -> CommandRequest:
         """Present request, with the objects that it is asked for, or what another command has kept of them.
 
         Motions are given as the models take them; ``runs`` is the table that tells by how much each was multiplied.
@@ -155,7 +155,7 @@ class Asked:
         return {"form": FORM} | asdict(self)
 
     @classmethod
-    def read(cls, path: Path) -> Asked:
+    def read(cls, path: Path) -> CommandRequest:
         """Read the file of a command.
 
         Raises
@@ -185,7 +185,7 @@ class Asked:
         except (TypeError, ValueError) as error:
             raise InputError(f"{printable(path)} is not what stylobate wrote ({error}); run again.") from None
 
-    def holds(self, other: Asked) -> bool:
+    def holds(self, other: CommandRequest) -> bool:
         """Whether all that stood and shook in another request is in this one as well."""
         mine = {one.get("digest") for one in (*self.structures, *self.motions)}
         return {one.get("digest") for one in (*other.structures, *other.motions)} <= mine
@@ -252,21 +252,21 @@ class Source:
     runs: pandas.DataFrame
 
     @cached_property
-    def kept(self) -> Asked | str:
+    def kept(self) -> CommandRequest | str:
         """Request of the command that wrote the table, or why that is not known."""
         command = COMMANDS.get(self.table.stem)
         file = self.table.parent / asked_file(command or "")
         if command is None or not file.is_file() or not OwnFiles(self.table.parent).lists(self.table):
             return say("{table.table.name} lies beside no results of stylobate.", table=self)
         try:
-            return Asked.read(file)
+            return CommandRequest.read(file)
         except InputError as error:
             return str(error)
 
     @property
-    def asked(self) -> Asked | None:
+    def asked(self) -> CommandRequest | None:
         """Request of the command that wrote the table; None where that is not known."""
-        return self.kept if isinstance(self.kept, Asked) else None
+        return self.kept if isinstance(self.kept, CommandRequest) else None
 
     def names(self, column: str) -> list[str]:
         """Different values of a column of the table; none where it has no such column."""
@@ -342,7 +342,7 @@ class Source:
 
 
 def kept_of(sources: Sequence[Source]) -> dict[str, Any]:
-    """Part of these runs that results resting on them keep, as arguments of :meth:`Asked.of`; each structure once."""
+    """Part of these runs that results resting on them keep, as :meth:`CommandRequest.of` takes it; each structure once."""
     found: dict[str, dict[str, Any]] = {"structures": {}, "models": {}, "motions": {}}
     warnings: dict[str, None] = {}
     for source in sources:

@@ -21,7 +21,7 @@ from ..probability.studies import StudyResult
 from ..response import Response, load_response
 from ..text_tables import check_file, printable
 from ..verdicts.domain import CollapseProbability, Domain
-from .asked import Asked, asked_file, read_json
+from .asked import CommandRequest, asked_file, read_json
 
 if TYPE_CHECKING:
     import pandas
@@ -79,7 +79,7 @@ class Result:
     ----------
     kind : Kind
     folder : Path
-    asked : Asked or None
+    asked : CommandRequest or None
         None in folders of versions that did not keep it.
     files : tuple of FileFact
         Those that belong to it.
@@ -89,7 +89,7 @@ class Result:
 
     kind: Kind
     folder: Path
-    asked: Asked | None
+    asked: CommandRequest | None
     files: tuple[FileFact, ...]
     summary: dict[str, Any]
 
@@ -418,7 +418,7 @@ def _common(place: Path, kind: Kind, command: str, names: Iterable[str], summary
     return {
         "kind": kind,
         "folder": place,
-        "asked": Asked.read(asked) if asked.is_file() else None,
+        "asked": CommandRequest.read(asked) if asked.is_file() else None,
         "files": _facts(place, dict.fromkeys(files)),
         "summary": summary,
     }

@@ -279,7 +279,10 @@ def sequence(
             f"sequences are for columns and assemblies, and {structure.name!r} is {structure.described}; simulate it "
             "under `motion.in_sequence(...)`."
         )
-    whole = in_sequence(_alike(check_all("motions", motions, Motion), model), rest, repeat)
+    motions = check_all("motions", motions, Motion)
+    if len({tuple(motion.components) for motion in motions}) > 1:
+        motions = [model.taken(motion) for motion in motions]
+    whole = in_sequence(motions, rest, repeat)
     options: dict[str, Any] = {"output_interval": output_interval, "until_end": until_end}
     options["quiet"] = campaign.quiet
     if not campaign.replicates:
@@ -287,12 +290,6 @@ def sequence(
         return SequenceResult(response, whole, None, time.perf_counter() - began)
     found = certainty(structure.stack or structure, whole, model, campaign=replace(campaign, whole=False), **options)
     return SequenceResult(found.response, whole, found.population, time.perf_counter() - began)
-
-
-def _alike(motions: Sequence[Motion], model: Model) -> Sequence[Motion]:
-    """Motions as they are, if all have the same components; else with those alone that the model takes."""
-    same = len({tuple(motion.components) for motion in motions}) <= 1
-    return motions if same else [model.taken(motion) for motion in motions]
 
 
 @dataclass(frozen=True, eq=False)

@@ -317,7 +317,7 @@ class _Family:
             at = np.concatenate((6 * joint.upper + np.arange(6), 6 * joint.lower + np.arange(6)))
             self.rest[np.ix_(at, at)] -= matrix
             unit = joint.bending / joint.second_moment
-            alone = standing.joint_matrix(_without_shear(joint))
+            alone = standing.joint_matrix(replace(joint, shear=0.0, torsion=0.0))
             if j == 0:
                 self.rows[:, at] = _relative(standing, joint)
                 found = np.linalg.lstsq(self.rows[:, at].T, matrix, rcond=None)[0]
@@ -369,10 +369,6 @@ class _Family:
             matrix = matrix + np.einsum("rp,kr,rq->kpq", rows, base[some], rows, optimize=True)
             out[some] = np.linalg.eigvalsh(matrix)[:, [number - 1 for number in numbers]]
         return out
-
-
-def _without_shear(joint: Any) -> Any:
-    return replace(joint, shear=0.0, torsion=0.0)
 
 
 def _relative(standing: Vibrating, joint: Any) -> np.ndarray:

@@ -256,7 +256,7 @@ def _of_column(standing: Vibrating, stack: Any, plane: bool) -> list[Mode]:
         math.isclose(one.frequency, other.frequency, rel_tol=ALIKE) for one, other in zip(along, across, strict=True)
     )
     if alike:
-        return [*_numbered([_undirected(mode) for mode in along]), *_numbered(others)]
+        return [*_numbered([replace(mode, azimuth=None) for mode in along]), *_numbered(others)]
     both = sorted([*_numbered(along), *_numbered(across)], key=lambda mode: mode.frequency)
     return [*both, *_numbered(others)]
 
@@ -312,10 +312,6 @@ def _mode(standing: Vibrating, frequency: float, shape: np.ndarray, plane: bool)
     if size < 1e-12 * float(np.abs(shape).max()):  # its top is a node
         size, sign = float(np.abs(shape).max()), 1.0
     return Mode(kind, 0, frequency, azimuth, sign / size * shape, standing)
-
-
-def _undirected(mode: Mode) -> Mode:
-    return replace(mode, azimuth=None)
 
 
 def _numbered(found: list[Mode], *, pairs: bool = False) -> list[Mode]:

@@ -32,7 +32,7 @@ from stylobate.errors import InputError, check_range, within
 from stylobate.text_tables import printable
 
 from .compas_files import LAYOUTS, Block, compas_json, read_compas
-from .fitting import ROUGH, SMOOTH, Closed, Frustum, Hull, brought_together, hull_of, within_tolerance
+from .fitting import ROUGH, SMOOTH, Closed, Frustum, Hull, brought_together, hull_of, in_use, within_tolerance
 from .mesh_writers import FIXED, STONE, TEXTS, Glb, Named
 from .recording import AROUND
 from .survey import WORKBOOKS, survey_tables, survey_text
@@ -45,7 +45,7 @@ STRAIGHT = 0.05
 
 
 #: What is nearer than this is where it was told [m]; decimals of corners in files; share of a volume that is told.
-ROUNDING, DIGITS, TOLD = 1e-6, 10, 1e-4
+ROUNDING, DIGITS, REPORTED_SHARE = 1e-6, 10, 1e-4
 
 #: Share of a drum's radius from which on what a mesh lacks of it is priced.
 PRICED = 0.01
@@ -69,7 +69,7 @@ class Fitted(NamedTuple):
         """What it became, and how far the mesh is from that."""
         one, far = self.shape, near(self.shape.residual)
         more = 1.0 / one.filled - 1.0
-        off = f"; its volume is {100.0 * more:+.2g} % off the mesh" if abs(more) > TOLD else ""
+        off = f"; its volume is {100.0 * more:+.2g} % off the mesh" if abs(more) > REPORTED_SHARE else ""
         off += ", whose mass it keeps" if off and self.density is not None and isinstance(one, Hull) else ""
         if isinstance(one, Hull):
             drum = "" if one.drum is None else f" (no round drum within {near(one.drum.residual)})"
@@ -97,7 +97,7 @@ def fit_all(
     for (part, fixed, density), hull in zip(parts, hulls, strict=True):
         shape = within_tolerance(hull, tolerance, f"part {part.name!r}")
         shape = hull._replace(drum=None) if ", part " in part.name else shape
-        if density is not None and isinstance(shape, Hull) and abs(shape.filled - 1.0) > TOLD:
+        if density is not None and isinstance(shape, Hull) and abs(shape.filled - 1.0) > REPORTED_SHARE:
             density = round(density * shape.filled, 3)
         found.append(Fitted(part.name, shape, fixed, density))
     return found
@@ -593,15 +593,8 @@ def surfaces_of(structure: Structure) -> list[tuple[str, Mesh, bool, float]]:
         parts = body.placed
         for number, part in enumerate(parts, 1):
             name = body.name if len(parts) == 1 else f"{body.name}, part {number}"
-            found.append((name, _clean(part.mesh(AROUND)), body.fixed, density))
+            found.append((name, in_use(part.mesh(AROUND)), body.fixed, density))
     return found
-
-
-def _clean(mesh: Mesh) -> Mesh:
-    """Only vertices that faces use."""
-    used = sorted({i for face in mesh.faces for i in face})
-    numbers = {old: new for new, old in enumerate(used)}
-    return Mesh(mesh.vertices[used], tuple(tuple(numbers[i] for i in face) for face in mesh.faces))
 
 
 def _lost(structure: Structure, suffix: str) -> list[str]:

@@ -97,10 +97,11 @@ class Hull(NamedTuple):
         return float(self.corners[:, 2].min())
 
 
-def solid_of(part: MeshPart) -> Mesh:
-    """The surface of a part, with the vertices that it uses."""
-    numbers = {int(old): new for new, old in enumerate(part.used)}
-    return Mesh(part.points[part.used], tuple(tuple(numbers[i] for i in face) for face in part.faces))
+def in_use(mesh: Mesh) -> Mesh:
+    """A surface with only the vertices that its faces use."""
+    used = sorted({i for face in mesh.faces for i in face})
+    numbers = {old: new for new, old in enumerate(used)}
+    return Mesh(mesh.vertices[used], tuple(tuple(numbers[i] for i in face) for face in mesh.faces))
 
 
 def hull_of(part: MeshPart, what: str, drums: bool) -> Hull:
@@ -111,7 +112,7 @@ def hull_of(part: MeshPart, what: str, drums: bool) -> Hull:
     InputError
         The part is no solid.
     """
-    mesh = solid_of(part)
+    mesh = in_use(Mesh(part.points, part.faces))
     volume = mesh_moments(mesh, 1.0).mass
     if not volume > LENGTHS[0] ** 3:
         inside = " its faces run clockwise: turn them round." if volume < 0.0 else " give a solid."

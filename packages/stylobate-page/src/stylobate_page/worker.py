@@ -55,7 +55,7 @@ def main() -> None:
     threading.Thread(target=listen, args=(jobs,), name="jobs", daemon=True).start()
     with suppress(KeyboardInterrupt):
         warm(tell)
-        while not signals.TOLD.is_set():
+        while not signals.STOP_SIGNALLED.is_set():
             job = jobs.get()
             console.LISTENER = listener(job["id"], tell)
             requests = json.loads((Path(job["folder"]) / JOB).read_text(encoding="utf-8"))["requests"]
@@ -103,12 +103,12 @@ def warm(tell: Callable[..., None]) -> None:
     import h5netcdf  # noqa: F401
 
     from stylobate import DistinctElement2D, certainty, harmonic, preset
-    from stylobate.cli.main import ask
+    from stylobate.cli.main import run_request
 
     from .curves import film
 
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        ask({"command": "run", "column": "paper-12-drums", "harmonic": "1Hz,0.05g,0.1s", "json": True})
+        run_request({"command": "run", "column": "paper-12-drums", "harmonic": "1Hz,0.05g,0.1s", "json": True})
         made = certainty(preset("paper-12-drums"), harmonic(1.0, 0.5, 0.1), DistinctElement2D())
         film(made.response)
         made.response.to_xarray()
@@ -119,7 +119,7 @@ def warm(tell: Callable[..., None]) -> None:
 def work(job: dict[str, Any], requests: Sequence[dict[str, Any]], tell: Callable[..., None]) -> None:
     """Do the requests of a job; the film of a run is told of as soon as there is one."""
     from stylobate.cli import console
-    from stylobate.cli.main import ask
+    from stylobate.cli.main import run_request
 
     tell(id=job["id"], begun=True)
     os.chdir(job["folder"])
@@ -128,7 +128,7 @@ def work(job: dict[str, Any], requests: Sequence[dict[str, Any]], tell: Callable
         said, complained = io.StringIO(), io.StringIO()
         console.VIEWER, console.WORDING = viewer(job["id"], request, state, tell), worded
         with redirect_stdout(said), redirect_stderr(complained):
-            code = ask(request | {"json": True})
+            code = run_request(request | {"json": True})
         console.VIEWER, console.WORDING = None, console.in_options
         lines = [line.removeprefix("stylobate: ") for line in complained.getvalue().splitlines()]
         tell(id=job["id"], number=number, code=code, said=said.getvalue(), complained=lines, field=console.FIELD)

@@ -22,7 +22,7 @@ from stylobate.version import __version__
 from . import page
 from .language import Language, language_of, numbered, speaking
 from .others import sections_of
-from .page import Own, print_pdf
+from .page import Exact, print_pdf
 from .project import Project, front_sections
 from .record import NOTE, SOURCES, files_section
 from .runs import run_sections, several_sections
@@ -123,7 +123,10 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
     kinds = joined(", ", dict.fromkeys(TITLES[one.kind.value] for one in found))
     day = date.today().isoformat()
     written = say(
-        "{kinds:capital}. Written on {day} by stylobate {version}.", kinds=kinds, day=Own(day), version=Own(__version__)
+        "{kinds:capital}. Written on {day} by stylobate {version}.",
+        kinds=kinds,
+        day=Exact(day),
+        version=Exact(__version__),
     )
     lead = [language.say(written)]
     values = {
@@ -142,7 +145,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
     }
     files = [
         page.write_html(
-            target, TEMPLATE, title=title or language.say(say("Report: {names}", names=Own(names))), **values
+            target, TEMPLATE, title=title or language.say(say("Report: {names}", names=Exact(names))), **values
         )
     ]
     if pdf:
@@ -172,7 +175,7 @@ def _spoken(language: Language) -> list[page.Item]:
         return []
     said = [language.say(SPOKEN_IN)]
     if language.english:
-        said.append(language.say(PARTS_IN_ENGLISH.of(sections=Own(", ".join(language.english)))))
+        said.append(language.say(PARTS_IN_ENGLISH.of(sections=Exact(", ".join(language.english)))))
     return [page.Note(said, "fair" if language.english else "")]
 
 

@@ -9,7 +9,7 @@ from stylobate.messages import digits, joined, percent, say
 from stylobate.results import Numbers
 
 from . import numbers as n
-from .page import Facts, Item, Note, Own, Rows
+from .page import Exact, Facts, Item, Note, Rows
 from .pictures import kept
 from .tables import table
 
@@ -31,7 +31,7 @@ def records_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         said = say("Displacements of these records drift after double integration; correct the baseline first:")
         items.append(Note([said, joined(", ", drifting)], "fair"))
     if s["refused"]:
-        body = [[Own(name), why] for name, why in s["refused"].items()]
+        body = [[Exact(name), why] for name, why in s["refused"].items()]
         items.append(
             Rows([say("record"), say("why it was not considered")], body, say("Records that were not considered."))
         )
@@ -47,7 +47,7 @@ def calibration_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     for name, unit in (("stiffness_damping", "s"), ("rolling_resistance", "–")):
         if one := s.get(name):
             numbers = (n.plain(one[key]) for key in ("value", "low", "high", "told"))
-            body.append([Own(f"{name} [{unit}]"), *numbers])
+            body.append([Exact(f"{name} [{unit}]"), *numbers])
     header = [say("loss"), say("value"), say("low"), say("high"), say("told by the history")]
     items: list[Item] = [
         Rows(
@@ -57,7 +57,7 @@ def calibration_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
             numbers=True,
         )
     ]
-    pairs = [(say("history"), Own(s["history"])), (say("first tilt"), n.angle(s["first_tilt_rad"]))]
+    pairs = [(say("history"), Exact(s["history"])), (say("first tilt"), n.angle(s["first_tilt_rad"]))]
     pairs.append((say("noise of the history"), say("{noise_rad:.2g}°", noise_rad=math.degrees(s["noise_rad"]))))
     pairs.append((say("decrements"), str(s["decrements"])))
     pairs.append(

@@ -23,7 +23,7 @@ from stylobate.messages import Message, filled, say
 from stylobate.text_tables import printable, read_bytes
 
 from .numbers import SPANNING
-from .page import Code, Facts, Item, Note, Own, Picture, Points, Section
+from .page import Code, Exact, Facts, Item, Note, Picture, Points, Section
 
 #: Languages whose catalogues come with the package; a report is written in English and needs none.
 LANGUAGES = ("it", "el")
@@ -89,7 +89,7 @@ class Language:
 
     def say(self, text: str) -> str:
         """A text in this language as far as it is known, with its numbers as readers write them."""
-        if not self.foreign or isinstance(text, Own):
+        if not self.foreign or isinstance(text, Exact):
             return text
         if not isinstance(text, Message):
             return self._name(text)

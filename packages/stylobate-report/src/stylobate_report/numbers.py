@@ -9,7 +9,7 @@ from typing import Any
 from stylobate.constants import g
 from stylobate.messages import Message, digits, joined, say
 
-from .page import Own
+from .page import Exact
 
 #: The name of a link that has none of the reader's.
 SPANNING = re.compile(r"(?P<kind>\w+) from (?:the base|drum (?P<lower>\d+)) to drum (?P<upper>\d+)")
@@ -64,11 +64,11 @@ def plain(value: Any) -> str:
         return (
             joined(", ", (say("{key}: {value}", key=say(key), value=plain(one)) for key, one in value.items())) or NONE
         )
-    if isinstance(value, (Message, Own)):
+    if isinstance(value, (Message, Exact)):
         return value
     if isinstance(value, str) and SPANNING.fullmatch(value):
         return value
-    return say(value) if isinstance(value, str) and re.fullmatch("[A-Za-z -]+", value) else Own(value)
+    return say(value) if isinstance(value, str) and re.fullmatch("[A-Za-z -]+", value) else Exact(value)
 
 
 def first_of(most: int, all_: int) -> str:

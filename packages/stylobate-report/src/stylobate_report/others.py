@@ -30,7 +30,7 @@ from .chosen import calibration_result, modes_result, records_result
 from .critical import critical_result
 from .design import design_items, design_of
 from .inference import inference_result
-from .page import Facts, Item, Note, Own, Rows, Section
+from .page import Exact, Facts, Item, Note, Rows, Section
 from .pictures import kept
 from .record import (
     asked_section,
@@ -263,7 +263,7 @@ def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
     if result.responses:
         for row in rows:
             open_ = "" if row["decided"] or row["outcome"] == "failed" else say(", undecided")
-            row["model"], row["outcome"] = Own(row["model"]), say(str(row["outcome"]).replace("_", " ")) + open_
+            row["model"], row["outcome"] = Exact(row["model"]), say(str(row["outcome"]).replace("_", " ")) + open_
         said = joined("; ", (say("{row[model]} {row[outcome]}", row=row) for row in rows))
         top = "peak_top_displacement_m" in result.table
         farthest = say("Displacement of the body that has moved farthest of each model under the same motion.")

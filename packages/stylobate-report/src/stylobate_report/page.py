@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 
-class Own(str):
+class Exact(str):
     """Words that are nobody's to translate: of the project file, names of files, what is cited."""
 
     __slots__ = ()

@@ -20,7 +20,7 @@ from stylobate.version import __version__
 
 from .design import SHOWN, design_of, governing_rows
 from .language import language_of
-from .page import Facts, Item, Own, Points, Rows, Section
+from .page import Exact, Facts, Item, Points, Rows, Section
 from .record import files_of, known_model, titled
 
 
@@ -78,9 +78,9 @@ def front_sections(
         What must be known before any of the answers is relied on.
     """
     apart = ("role", "place", "language")
-    known = [(say(key), Own(value)) for key, value in project if isinstance(value, str) and key not in apart]
-    answers = [[str(k), Own(case["title"]), Own(case["verdict"])] for k, case in enumerate(cases, start=1)]
-    said = list(map(Own, project.assumptions or ())) or [say("None are told in the project file.")]
+    known = [(say(key), Exact(value)) for key, value in project if isinstance(value, str) and key not in apart]
+    answers = [[str(k), Exact(case["title"]), Exact(case["verdict"])] for k, case in enumerate(cases, start=1)]
+    said = list(map(Exact, project.assumptions or ())) or [say("None are told in the project file.")]
     return [
         Section(say("Project"), [Facts(known)]),
         Section(say("Answers"), [*notes, Rows([say("case"), say("result"), say("answer")], answers)]),
@@ -137,5 +137,5 @@ def _sources(results: Sequence[Result]) -> list[Item]:
         (say("computed by stylobate"), joined(", ", computed) or say("not known")),
         (say("written by stylobate"), __version__),
     ]
-    pairs.append((say("SHA-256 of the list of files"), Own(hashlib.sha256(listed.encode()).hexdigest())))
+    pairs.append((say("SHA-256 of the list of files"), Exact(hashlib.sha256(listed.encode()).hexdigest())))
     return [Facts(pairs), say("The files with their digests, and what is cited, stand at the end of the appendix.")]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -15,7 +16,7 @@ from stylobate.results.reading import FileFact
 from stylobate.version import __version__
 
 from . import numbers as n
-from .page import Code, Facts, Item, Note, Own, Points, Rows, Section
+from .page import Code, Exact, Facts, Item, Note, Points, Rows, Section
 
 #: What the reader must know before relying on a result.
 NOTE = say("Note: {text}")
@@ -44,12 +45,12 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
         }
         pairs += [(n.named(key), n.plain(value)) for key, value in options.items()]
         if asked.day:
-            pairs.append((say("computed on"), Own(asked.day)))
+            pairs.append((say("computed on"), Exact(asked.day)))
     else:
         items.append(
             say("The folder does not hold the command line: it was written by a version that did not keep it.")
         )
-    pairs.append((say("folder"), Own(result.folder)))
+    pairs.append((say("folder"), Exact(result.folder)))
     return Section(say("What was asked"), [*items, Facts(pairs)])
 
 
@@ -80,26 +81,27 @@ def basis_section(result: Result) -> Section:
             (say("records"), joined(", ", records[:MOST_NAMES]) + (", …" if len(records) > MOST_NAMES else "")),
             (
                 say("SHA-256 of {file}", file=source["table"]),
-                Own(source["sha256"]) + state,
+                Exact(source["sha256"]) + state,
             ),
         ]
         if source["command"] is not None:
             pairs.append(
                 (
                     say("computed by"),
-                    Own(typed(source["command"])) + say("\non {source[day]}, version {source[version]}", source=source),
+                    Exact(typed(source["command"]))
+                    + say("\non {source[day]}, version {source[version]}", source=source),
                 )
             )
-        items.append(Facts(pairs, Own(source["path"])))
+        items.append(Facts(pairs, Exact(source["path"])))
         if source["command"] is None:
-            items.append(Note([NOT_TOLD.of(why=source["not_told"])], "fair"))
+            items.append(Note([UNKNOWN_REQUEST.of(why=source["not_told"])], "fair"))
         elif source["unchanged"] is False:
             items.append(Note([CHANGED.of(table=source["table"])], "fair"))
     return Section(title, items)
 
 
 #: Doubt about a table of runs beside which no file tells what the command was asked.
-NOT_TOLD = say(
+UNKNOWN_REQUEST = say(
     "Not known: {why} Which column stood, in which model with which parameters, and "
     "the motions with their digests and scale factors are not told; whoever signs this has to know them from elsewhere."
 )
@@ -116,7 +118,7 @@ MOST_NAMES = 40
 
 def typed(command: Sequence[str]) -> str:
     """A command line as it was typed."""
-    return " ".join(["stylobate", *map(_typed, command)])
+    return shlex.join(["stylobate", *command])
 
 
 def model_section(names: Iterable[str]) -> Section:
@@ -189,12 +191,14 @@ def record_section(parameters: Mapping[str, Any], versions: Mapping[str, Any]) -
     if parameters:
         items.append(
             Facts(
-                [(Own(key), Own(v) if isinstance(v, str) else n.plain(v)) for key, v in parameters.items()],
+                [(Exact(key), Exact(v) if isinstance(v, str) else n.plain(v)) for key, v in parameters.items()],
                 say("Parameters of the model by their names in the program, in SI units; –: not set."),
             )
         )
     known = {
-        Own(key) if key in ("stylobate", "Python") else say(key): value if isinstance(value, Message) else Own(value)
+        Exact(key) if key in ("stylobate", "Python") else say(key): value
+        if isinstance(value, Message)
+        else Exact(value)
         for key, value in versions.items()
         if value not in (None, "")
     }
@@ -205,10 +209,10 @@ def record_section(parameters: Mapping[str, Any], versions: Mapping[str, Any]) -
 def files_section(results: Sequence[Result]) -> Section:
     """Files of all results, by the number of the result, with their digests."""
     state = {True: say("as written"), False: say("changed since"), None: say("no list to check by")}
-    body = [[str(k), Own(file.name), Own(file.digest), state[file.unchanged]] for k, file in files_of(results)]
+    body = [[str(k), Exact(file.name), Exact(file.digest), state[file.unchanged]] for k, file in files_of(results)]
     return Section(
         say("Files this report rests on"),
-        [Rows([say("case"), say("file"), Own("SHA-256"), say("state")], body, numbers=True)],
+        [Rows([say("case"), say("file"), Exact("SHA-256"), say("state")], body, numbers=True)],
     )
 
 
@@ -225,9 +229,11 @@ def files_of(results: Sequence[Result]) -> list[tuple[int, FileFact]]:
 def sources_section(citation: Citation) -> Section:
     """Citations."""
     package, *_ = [line for line in citation.text.splitlines() if line.startswith("  ")]
-    items: list[Item] = [Points([Own(package.strip()), *(Own(reference.text) for reference in citation.references)])]
+    items: list[Item] = [
+        Points([Exact(package.strip()), *(Exact(reference.text) for reference in citation.references)])
+    ]
     if citation.motion:
-        items += [say("And the source of the ground motion:"), Points([Own(joined("; ", citation.motion.values()))])]
+        items += [say("And the source of the ground motion:"), Points([Exact(joined("; ", citation.motion.values()))])]
     return Section(SOURCES, items)
 
 
@@ -245,10 +251,3 @@ def titled(name: str) -> str:
     """A model by its title, its name behind."""
     kind = known_model(name)
     return name if kind is None else say("{model} ({name})", model=say(kind.title), name=name)
-
-
-def _typed(word: str) -> str:
-    """A word as a shell takes it."""
-    import shlex
-
-    return shlex.quote(word)

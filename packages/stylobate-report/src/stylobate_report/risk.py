@@ -13,7 +13,7 @@ from stylobate.verdicts.limit_states import median_words
 from stylobate.verdicts.verdict import open_runs
 
 from . import numbers as n
-from .page import Facts, Item, Note, Own
+from .page import Exact, Facts, Item, Note
 from .pictures import kept
 from .tables import table
 
@@ -22,9 +22,9 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """Median, interval and fit of fragility curves."""
     curves = result.summary.get("curves") or [result.summary]
     one = curves[0]
-    said = [_of_curve(each) for each in curves[:MOST_TOLD]]
-    if len(curves) > MOST_TOLD:
-        said.append(say("{most_told} more curves stand in the table.", most_told=len(curves) - MOST_TOLD))
+    said = [_of_curve(each) for each in curves[:MOST_LISTED]]
+    if len(curves) > MOST_LISTED:
+        said.append(say("{most_told} more curves stand in the table.", most_told=len(curves) - MOST_LISTED))
     for each in curves:
         each["records"] = None if each.get("records_are_one") else each["records"]
         each["known of the median"] = median_words(each) if each.get("outside") else None
@@ -72,7 +72,7 @@ def _of_curve(one: Mapping[str, Any]) -> str:
 
 
 #: Most curves whose medians are told in sentences.
-MOST_TOLD = 6
+MOST_LISTED = 6
 
 #: Limits of the intervals of a fragility.
 _HOLDS = say("The interval is over {what}: it does not hold what the model or the survey may be wrong about.")
@@ -103,7 +103,7 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
             say("annual rate [1/year]"),
             say("{annual_rate} ({low} to {high}, 95 %)", annual_rate=n.plain(s["annual_rate"]), low=low, high=high),
         ),
-        (say("hazard"), Own(s.get("hazard"))),
+        (say("hazard"), Exact(s.get("hazard"))),
         *([(say("statistic of the hazard"), say(s["hazard_statistic"]))] if s.get("hazard_statistic") else []),
         (
             say("intensity"),

@@ -23,7 +23,7 @@ from stylobate.verdicts.verdict import verdict
 
 from . import numbers as n
 from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sentence
-from .page import Facts, Item, Note, Own, Rows, Section
+from .page import Exact, Facts, Item, Note, Rows, Section
 from .pictures import picture
 from .record import (
     asked_section,
@@ -165,7 +165,7 @@ def _doubts(run: RunResult) -> list[str]:
 
 def _asked(r: Response) -> list[tuple[str, str]]:
     p = r.provenance
-    pairs = [(say("structure"), Own(r.structure.name)), (say("motion"), Own(p.get("motion", n.NONE)))]
+    pairs = [(say("structure"), Exact(r.structure.name)), (say("motion"), Exact(p.get("motion", n.NONE)))]
     pairs.append((say("model"), say("{r.model}, step {r.time_step:.3g} s, {r.steps} steps", r=r)))
     pairs.append((say("time computed"), say("{time:.2f} s from the start of the motion", time=float(r.time[-1]))))
     if opens := opening_words(p.get("opening")):
@@ -381,12 +381,12 @@ def several_sections(found: SeveralRuns) -> list[Section]:
         peak = n.NONE if run.motion is None else digits(run.motion.horizontal_peak[0] / g, ".3f")
         body.append(
             [
-                Own(r.provenance.get("motion", "")),
+                Exact(r.provenance.get("motion", "")),
                 peak,
                 _outcome(r),
                 chance_words(s) or n.NONE,
                 n.length(moved),
-                Own(run.folder.name),
+                Exact(run.folder.name),
             ]
         )
     looks = {say(name.replace("_", " ")): look for name, look in LOOKS.items()}
@@ -407,7 +407,7 @@ def several_sections(found: SeveralRuns) -> list[Section]:
             ),
         ],
     )
-    title = say("The run with the most harm: {motion}", motion=Own(runs[worst].response.provenance.get("motion", "")))
+    title = say("The run with the most harm: {motion}", motion=Exact(runs[worst].response.provenance.get("motion", "")))
     return [
         lead,
         Section(title, [say("Every other run has a folder of its own, which can be reported by itself.")]),

@@ -9,7 +9,7 @@ from stylobate.response.events import events_of
 from stylobate.results import Numbers, RunResult
 
 from . import numbers as n
-from .page import Item, Own, Rows, Section
+from .page import Exact, Item, Rows, Section
 from .pictures import picture
 from .tables import MOST, table
 
@@ -31,7 +31,7 @@ def sequence_section(run: RunResult) -> list[Section]:
         alone = one["alone"]
         cells = [
             str(one["earthquake"]),
-            Own(one["motion"]),
+            Exact(one["motion"]),
             say(one["outcome"].replace("_", " ")),
             n.angle(alone["peak_rotation_rad"]),
         ]

@@ -19,7 +19,7 @@ from stylobate.response import Response
 from stylobate.results import Result
 
 from . import numbers as n
-from .page import Facts, Item, Note, Own, Rows, Section
+from .page import Exact, Facts, Item, Note, Rows, Section
 from .pictures import picture
 
 #: Most motions of a table, and the digits of a digest in it.
@@ -63,11 +63,11 @@ def motion_section(
     else:
         return Section(say("The ground motion"), [say("It is not kept with these results.")])
     known = dict(asked or {})
-    facts = [(say("motion"), Own(known.get("name") or motion.name))]
+    facts = [(say("motion"), Exact(known.get("name") or motion.name))]
     facts.append((say("duration and time step"), say("{motion.duration:.2f} s, {motion.dt:.4g} s", motion=motion)))
     metadata = known.get("metadata") or {}
     facts += [
-        (say(key.replace("_", " ")), say(str(metadata[key])) if key == "stage" else Own(metadata[key]))
+        (say(key.replace("_", " ")), say(str(metadata[key])) if key == "stage" else Exact(metadata[key]))
         for key in SAID
         if metadata.get(key) not in (None, "", "None")
     ]
@@ -112,9 +112,9 @@ def motions_section(result: Result) -> Section:
     motions = result.asked.motions if result.asked is not None else ()
     body = [
         [
-            Own(motion.get("name")), axes_in_words(motion), _peaks(motion), n.plain(motion.get("factor")), _scales(motion),
+            Exact(motion.get("name")), axes_in_words(motion), _peaks(motion), n.plain(motion.get("factor")), _scales(motion),
             digits(float(motion["duration_s"]), ".2f"), digits(float(motion["dt_s"]), ".4g"),
-            Own(str(motion.get("digest", ""))[:DIGITS]),
+            Exact(str(motion.get("digest", ""))[:DIGITS]),
         ]
         for motion in motions[:MOST]
     ]  # fmt: skip
@@ -138,7 +138,7 @@ def motions_section(result: Result) -> Section:
         say("digest"),
     ]
     items: list[Item] = [Rows(header, body, caption, numbers=True)]
-    facts = [(Own(motion.get("name")), joined("\n", told)) for motion in motions[:MOST] if (told := _done(motion))]
+    facts = [(Exact(motion.get("name")), joined("\n", told)) for motion in motions[:MOST] if (told := _done(motion))]
     if facts:
         items.append(
             Facts(facts, say("Where they come from, what was done to them, and what the model leaves out of them."))
@@ -175,7 +175,7 @@ def _scales(motion: Mapping[str, Any]) -> str:
 def _done(motion: Mapping[str, Any]) -> list[str]:
     metadata = motion.get("metadata") or {}
     known = [
-        say(str(metadata[key])) if key == "stage" else Own(metadata[key])
+        say(str(metadata[key])) if key == "stage" else Exact(metadata[key])
         for key in SAID
         if metadata.get(key) not in (None, "", "None")
     ]

@@ -8,7 +8,7 @@ from stylobate.messages import digits, joined, percents, say
 from stylobate.motion.intensity import parse_measure
 from stylobate.probability.evidence import evidence
 from stylobate.probability.fragility import FEWEST
-from stylobate.probability.states import NOT_TOLD, STRONGER, WEAKER
+from stylobate.probability.states import INCONCLUSIVE, STRONGER, WEAKER
 from stylobate.response.links import YIELDS
 from stylobate.results import Numbers
 from stylobate.verdicts.limit_states import median_words, shares
@@ -21,7 +21,7 @@ from .record import headline
 from .tables import table
 
 #: Style of the notes on conclusions.
-LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
+LOOKS = {STRONGER: "", WEAKER: "bad", INCONCLUSIVE: "fair"}
 
 
 def advice_notes(result: Numbers) -> list[Item]:

@@ -16,7 +16,7 @@ from stylobate.statics.limit import limit_analysis, listed, towards, weakest_dir
 from stylobate.statics.pushover import pushover
 
 from . import numbers as n
-from .page import Facts, Item, Note, Own, Points, Rows, Section
+from .page import Exact, Facts, Item, Note, Points, Rows, Section
 from .pictures import kept
 from .structure import what_opens
 
@@ -234,7 +234,7 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items += kept(result.pictures, "limit", say("Mechanism: velocities drawn as displacements."))
     items += kept(result.pictures, "directions", say("The multiplier by the direction in which the forces push."))
     if held := [link for link in s.get("links", ()) if link.get("force_n")]:
-        body = [[Own(one[key]) if key == "link" else n.plain(one[key]) for key in _LINK] for one in held]
+        body = [[Exact(one[key]) if key == "link" else n.plain(one[key]) for key in _LINK] for one in held]
         items.append(
             Rows(
                 list(map(n.named, _LINK)),

@@ -21,7 +21,7 @@ from stylobate.plots import draw_elevation, draw_views
 from stylobate.plots.drawing import joint_plans
 
 from . import numbers as n
-from .page import Facts, Item, Own, Picture, Points, Rows, Section
+from .page import Exact, Facts, Item, Picture, Points, Rows, Section
 from .pictures import picture
 
 #: Most rows of a table of drums or blocks in a report; the column file holds them all.
@@ -194,7 +194,7 @@ def _links(column: Column) -> Rows:
         at = joined(" / ", (digits(one, "g") for one in values.pop("at", (0.0, 0.0))))
         kind, name = values.pop("kind"), values.pop("name", "")
         kind, rest = say(kind), joined(", ", starmap(_property, values.items()))
-        called = say("{name} ({kind})", name=Own(name), kind=kind) if name else kind
+        called = say("{name} ({kind})", name=Exact(name), kind=kind) if name else kind
         body.append([called, joined(", ", where) or n.NONE, at, rest or n.NONE])
     caption = say(
         "Links that strengthen the column; lengths in m, forces in N, stiffness in N/m. What is not given "
@@ -282,7 +282,7 @@ def _found_at(structure: Structure) -> list[list[str]]:
 
 
 #: Facts of a row on a link between blocks in cells of their own.
-_TOLD = ("kind", "between", "at", "to", "name")
+_IN_CELLS = ("kind", "between", "at", "to", "name")
 
 
 def _blocks(structure: Structure) -> list[Item]:
@@ -352,7 +352,7 @@ def _links_between_blocks(assembly: Structure) -> Rows:
     axes = {"x": 0, "z": 2} if assembly.space_joints is None else {"x": 0, "y": 1, "z": 2}
     for link, placed in zip(assembly.links, assembly.placed_links, strict=True):
         given = link.to_dict()
-        numbers = [_property(key, given[key]) for key in given if key not in _TOLD]
+        numbers = [_property(key, given[key]) for key in given if key not in _IN_CELLS]
         ends = [placed.low, placed.high] if placed.two_ended else [placed.low]
         at = joined(say(" to "), (joined(" / ", (digits(end[k], ".4g") for k in axes.values())) for end in ends))
         body.append([placed.name, joined(" – ", link.between or ()), at, joined(", ", numbers) or n.NONE])

@@ -9,7 +9,7 @@ from stylobate.messages import joined, say
 from stylobate.verdicts.limit_states import Share
 
 from . import numbers as n
-from .page import Own, Rows
+from .page import Exact, Rows
 
 #: Most rows of a table of a result; the CSV file in the folder holds them all.
 MOST = 40
@@ -48,15 +48,14 @@ NAMES = (
 )
 
 
-def _cell(key: str, value: Any) -> str:
-    return Own(value) if key in NAMES and isinstance(value, str) else n.plain(value)
-
-
 def table(rows: Sequence[Any], keys: Sequence[str], caption: str, mark: str | None = None) -> Rows:
     """Rows by the keys that any of them has; ``mark`` is the key of a verdict, by which cells are coloured."""
     there = [key for key in keys if any(row.get(key) not in (None, "") for row in rows)]
     caption = joined(" ", [caption, n.first_of(MOST, len(rows))])
-    body = [[_cell(key, row.get(key)) for key in there] for row in rows[:MOST]]
+    body = [
+        [Exact(row[key]) if key in NAMES and isinstance(row.get(key), str) else n.plain(row.get(key)) for key in there]
+        for row in rows[:MOST]
+    ]
     place = there.index(mark) if mark in there else None
     looks = {say("stands"): "good", say("collapsed"): "bad"}
     header = [n.named(key) for key in there]

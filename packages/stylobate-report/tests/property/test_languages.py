@@ -22,7 +22,7 @@ from stylobate_report.language import (
     write_template,
 )
 from stylobate_report.numbers import WORDS
-from stylobate_report.page import Own
+from stylobate_report.page import Exact
 
 REPORT = Path(spoken.__file__).parent
 
@@ -67,8 +67,8 @@ def test_formats_of_numbers_are_those_of_the_message(tag):
         (digits(0.45, ".2f"), "0,45"),
         (digits(1234567.8, ",.1f"), "1.234.567,8"),
         (digits(-2.5e-4, ".2e"), "-2,50e-04"),
-        (Own("1.500"), "1.500"),
-        (joined(" / ", [digits(1.5, "g"), Own("file 0.3.csv"), digits(2, "d")]), "1,5 / file 0.3.csv / 2"),
+        (Exact("1.500"), "1.500"),
+        (joined(" / ", [digits(1.5, "g"), Exact("file 0.3.csv"), digits(2, "d")]), "1,5 / file 0.3.csv / 2"),
         (say("{name}: {value:.1f} m", name="Record 0.3", value=1000.5), "Record 0.3: 1000,5 m"),
     ],
 )
@@ -82,7 +82,7 @@ def test_a_message_in_a_message_and_a_text_of_several_are_in_one_language():
     italian = language_of("it")
     inner = say("{low} to {high} %", low="30", high="99")
     assert italian.say(joined(" ", [say("The column collapsed."), inner])) == "La colonna è crollata. 30–99 %"
-    outer = say("{title:capital} ({name}) assumes:", title=say("rigid beam model"), name=Own("beam"))
+    outer = say("{title:capital} ({name}) assumes:", title=say("rigid beam model"), name=Exact("beam"))
     assert italian.say(outer).startswith("Modello di travi rigide (beam)")
     assert not italian.missing
 

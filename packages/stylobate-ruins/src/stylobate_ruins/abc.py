@@ -184,11 +184,6 @@ def vectors(angles: np.ndarray, turn: float) -> np.ndarray:
     return np.stack((np.cos(around), np.sin(around)), axis=-1)
 
 
-def angles_of(directions: np.ndarray, turn: float) -> np.ndarray:
-    """Directions of vectors, from 0 to ``turn`` [degrees]."""
-    return np.arctan2(directions[..., 1], directions[..., 0]) * turn / (2.0 * np.pi) % turn
-
-
 def apart(angles: np.ndarray | float, middle: float, turn: float) -> np.ndarray:
     """How far directions are from one of them, the shorter way round [degrees]."""
     return (np.asarray(angles) - middle + 0.5 * turn) % turn - 0.5 * turn
@@ -196,7 +191,8 @@ def apart(angles: np.ndarray | float, middle: float, turn: float) -> np.ndarray:
 
 def middle_direction(angles: np.ndarray, weights: np.ndarray, turn: float) -> float:
     """Direction of the mean vector (Mardia and Jupp 2000) [degrees]."""
-    return float(angles_of(np.average(vectors(angles, turn), axis=0, weights=weights), turn))
+    x, y = np.average(vectors(angles, turn), axis=0, weights=weights)
+    return float(np.arctan2(y, x) * turn / (2.0 * np.pi) % turn)
 
 
 def quantiles_around(

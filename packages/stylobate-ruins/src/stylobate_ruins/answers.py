@@ -52,7 +52,7 @@ def left_by(fact: Fact, table: Simulations) -> np.ndarray:
 
 def errors(fact: Fact, shape: tuple[int, ...], seed: int) -> np.ndarray:
     """Errors that make what draws leave as badly measured as the ruin was, the same in whatever order facts are named."""
-    stream = np.random.default_rng([seed, 1, fact.structure, list(_OF).index(fact.kind), fact.joint])
+    stream = np.random.default_rng([seed, 1, fact.structure, list(_FEATURES).index(fact.kind), fact.joint])
     return fact.sd * stream.standard_normal(shape)
 
 
@@ -81,7 +81,7 @@ def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool
     directions: list[np.ndarray] = []
     for structure in dict.fromkeys(fact.structure for fact in facts):
         own = [(fact, one) for fact, one in zip(facts, values, strict=True) if fact.structure == structure]
-        for kind, of in _OF.items():
+        for kind, of in _FEATURES.items():
             some = [(fact, one) for fact, one in own if fact.kind == kind]
             if some:
                 for all_of_them, one in zip((levels, each, directions), of(some), strict=True):
@@ -90,7 +90,7 @@ def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool
     return np.column_stack(columns) if columns else np.zeros((len(values[0]) if values else 0, 0))
 
 
-_Told = tuple[list[np.ndarray], list[np.ndarray], list[np.ndarray]]
+_Features = tuple[list[np.ndarray], list[np.ndarray], list[np.ndarray]]
 
 
 def _bumps(levels: Sequence[np.ndarray]) -> list[np.ndarray]:
@@ -108,7 +108,7 @@ def _bumps(levels: Sequence[np.ndarray]) -> list[np.ndarray]:
     return list(np.exp(-np.maximum(squares, 0.0) / width).T) if width > 1e-12 else []
 
 
-def _of_offsets(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
+def _of_offsets(some: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
     x, y = np.stack([one.T / max(fact.sd, LEAST_OFFSET) for fact, one in some], axis=-1)  # each over its own error
     square = x * x + y * y
     length = np.sqrt(square)
@@ -125,7 +125,7 @@ def _of_offsets(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
     return overall, list(np.arcsinh(length).T), [*directions, *axes.T]
 
 
-def _of_sizes(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
+def _of_sizes(some: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
     """Of numbers without a direction: twists, the largest offset."""
     least = [LEAST_OFFSET if fact.kind in LENGTHS else LEAST_TWIST for fact, _ in some]
     scale = np.array([max(fact.sd, one) for (fact, _), one in zip(some, least, strict=True)])
@@ -133,13 +133,13 @@ def _of_sizes(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
     return [sizes.max(axis=1)], list(sizes.T) if len(some) > 1 else [], []
 
 
-def _of_falls(some: Sequence[tuple[Fact, np.ndarray]]) -> _Told:
+def _of_falls(some: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
     ((_, angle),) = some
     return [], [], [*vectors(angle[:, 0], 180.0).T, *vectors(angle[:, 0], 360.0).T]
 
 
 #: Lengths of the whole, lengths of each, and directions, by the kind of facts.
-_OF = {
+_FEATURES = {
     "offset": _of_offsets,
     "moved": _of_offsets,
     "largest": _of_sizes,
@@ -163,7 +163,7 @@ CLOSE = 0.1
 BADLY = 3.0
 
 #: The shapes do not tell a parameter of which they leave this share of the prior's spread.
-UNTOLD = 0.9
+UNINFORMATIVE_SPREAD = 0.9
 
 #: Probability that a column has fallen without any earthquake, and the largest Bayes factor that is told.
 FALLS_OTHERWISE, MOST_TIMES = 0.01, 1e9
@@ -189,7 +189,7 @@ class Posterior:
     @property
     def informative(self) -> bool:
         """Whether the shapes tell it."""
-        return self.spread < UNTOLD
+        return self.spread < UNINFORMATIVE_SPREAD
 
     def summary(self) -> dict[str, Any]:
         """Plain values."""

@@ -72,7 +72,7 @@ class Inference(NotebookSummary):
         return self.answers.bayes_factor()
 
     @cached_property
-    def told(self) -> list[dict[str, Any]]:
+    def information(self) -> list[dict[str, Any]]:
         """What each fact tells: what is left of the prior's spread of ln PGV with it alone, and without it."""
         rows = []
         for fact in self.answers.facts:
@@ -179,7 +179,7 @@ class Inference(NotebookSummary):
             "matching": len(self.answers.matching(self.answers.facts)),
             "accepted": len(self.taken.which),
             "effective": self.taken.effective,
-            "observations": self.told,
+            "observations": self.information,
             "checks": [one.summary() for one in self.checks],
             "consistent": not self.odd,
             "survival": None

@@ -326,7 +326,7 @@ class Ruin:
             )
 
     @property
-    def told(self) -> list[Observed]:
+    def informative(self) -> list[Observed]:
         """Those of which something is seen that follows from this earthquake."""
         return [one for one in self.observed if one.state in ("stands", "fell") or one.stand]
 
@@ -334,13 +334,13 @@ class Ruin:
     def simulated(self) -> list[Structure]:
         """Structures of which something is seen."""
         by_name = {one.name: one for one in self.structures}
-        return [by_name[one.column] for one in self.told]
+        return [by_name[one.column] for one in self.informative]
 
     @property
     def facts(self) -> list[Fact]:
         """All that is seen, one by one."""
         found: list[Fact] = []
-        for i, (one, structure) in enumerate(zip(self.told, self.simulated, strict=True)):
+        for i, (one, structure) in enumerate(zip(self.informative, self.simulated, strict=True)):
             fell, name, bodies = one.state == "fell", one.column, bodies_of(structure)
             if one.state != "unknown":
                 found.append(Fact(i, "state", f"{name} {one.state}", (float(fell),)))

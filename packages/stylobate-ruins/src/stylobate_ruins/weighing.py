@@ -94,7 +94,7 @@ class Weighing(NotebookSummary):
         return np.std([self.posterior(one) for one in pieces], axis=0, ddof=1) / np.sqrt(len(pieces))
 
     @cached_property
-    def told(self) -> list[dict[str, Any]]:
+    def information(self) -> list[dict[str, Any]]:
         """Bits that each monument tells of the branches: by itself, and beside all others."""
         names = dict.fromkeys(one.name for one in self.asked.monuments)
         rows = []
@@ -139,8 +139,8 @@ class Weighing(NotebookSummary):
     @property
     def sentence(self) -> str:
         """What the monuments say, in words."""
-        number = len(self.told)
-        who = f"{number} monuments" if number > 1 else self.told[0]["monument"]
+        number = len(self.information)
+        who = f"{number} monuments" if number > 1 else self.information[0]["monument"]
         if len(self.prior) == 1:
             (only,) = self.asked.branches
             chance = self.likelihood[WAYS[0]].mean()
@@ -155,7 +155,7 @@ class Weighing(NotebookSummary):
             f"{percent(self.weight[down])})"
         )
         if number > 1:
-            most = max(self.told, key=lambda one: one["bits_beside_others"])
+            most = max(self.information, key=lambda one: one["bits_beside_others"])
             text += f"; {most['monument']} tells most beside the others"
         if not self.asked.branches[0].sources and number > 1:
             shared = self.posterior(self.likelihood[WAYS[2]])[up]
@@ -195,7 +195,7 @@ class Weighing(NotebookSummary):
                 }
                 for k, one in enumerate(self.asked.branches)
             ],
-            "monuments": self.told,
+            "monuments": self.information,
             "im": self.asked.monuments[0].capacity.measure,
             "unit": self.asked.monuments[0].capacity.unit,
             "sites": [

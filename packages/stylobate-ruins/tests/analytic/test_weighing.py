@@ -255,7 +255,7 @@ def test_fractiles_and_means_are_over_branches():
     assert (low, middle, high) == (at[0], at[1], at[2])
     assert found.mean("a", found.prior)[7] == pytest.approx(0.2 * at[0] + 0.5 * at[1] + 0.3 * at[2])
     assert found.mean("a", found.weight)[7] < found.mean("a", found.prior)[7]
-    assert found.told[0]["bits_alone"] == pytest.approx(found.bits)
+    assert found.information[0]["bits_alone"] == pytest.approx(found.bits)
 
 
 # -- ground motion and sources -----------------------------------------------------------------------------------------

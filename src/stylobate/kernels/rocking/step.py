@@ -248,8 +248,8 @@ def drop(a, g, row, whole, j):
 
 
 @apart
-def advance(s, whole, real, a, g, c, chunks, rest, linear, vertical, until_end):
-    """Advance all lanes by up to ``chunks`` × CHUNK steps; lanes that are over stand still.
+def advance(s, whole, real, a, g, c, chunks, chunk, rest, linear, vertical, until_end):
+    """Advance all lanes by up to ``chunks`` × ``chunk`` steps; lanes that are over stand still.
 
     Parameters
     ----------
@@ -259,6 +259,8 @@ def advance(s, whole, real, a, g, c, chunks, rest, linear, vertical, until_end):
         Room for a_g/g and 1 + a_v/g at half steps.
     c : tuple of float
         From :func:`trigonometry`.
+    chunk : int
+        Steps between two looks at the ground motion, :data:`CHUNK` at most.
     """
     for _ in range(chunks):
         alive = 0
@@ -273,15 +275,15 @@ def advance(s, whole, real, a, g, c, chunks, rest, linear, vertical, until_end):
                     s[X_EVENT + l] = point_of_no_return(s[ALPHA + l], remaining, real[GAMMA_MIN, l], linear)
         if alive == 0:
             return
-        rows = 2 * CHUNK + 1
+        rows = 2 * chunk + 1
         fill(a, rows, whole[A_ADDRESS], whole[LAST], whole[DONE], real[FACTOR], 0.0)
         if vertical:
             fill(g, rows, whole[AV_ADDRESS], whole[LAST], whole[DONE], real[LIFT], 1.0)
-        cut = CHUNK
+        cut = chunk
         for l in range(LANES):
             if whole[DONE, l] < whole[LAST, l]:
                 cut = min(cut, (whole[LAST, l] - whole[DONE, l]) // 2)
-        for j in range(CHUNK):
+        for j in range(chunk):
             row = 2 * j * LANES
             if j >= cut:
                 drop(a, g, row, whole, j)
@@ -324,5 +326,5 @@ def advance(s, whole, real, a, g, c, chunks, rest, linear, vertical, until_end):
                     else:
                         s[LEFT + l] = 0.0
         for l in range(LANES):
-            whole[DONE, l] += 2 * CHUNK
-            s[LEFT + l] -= CHUNK
+            whole[DONE, l] += 2 * chunk
+            s[LEFT + l] -= chunk

@@ -269,7 +269,7 @@ class SpaceBlock(LaneRuns):
             "energy": self.energies(lane),
         } | self.links_now(lane)
 
-    def left(self, lanes: list[int]) -> FinalStates:
+    def final_states(self, lanes: list[int]) -> FinalStates:
         """What the runs of some lanes leave behind."""
         which, records = np.array(lanes, dtype=np.int64), self.records
         _, slip, twist = records.joints(which)

@@ -29,7 +29,7 @@ from .packing import Records
 LARGEST, STEPS = 0.01, 400
 
 #: Force that is left, as a share of the weight.
-LEFT = 1e-10
+RESIDUAL_FORCE = 1e-10
 
 
 def potential(
@@ -96,7 +96,7 @@ def lying(
             step = 0.5 * step
         turn, height = there, height + float(step[0])
         energy, slope, curvature = found
-        if np.abs(slope * scale).max() < LEFT * weight:
+        if np.abs(slope * scale).max() < RESIDUAL_FORCE * weight:
             break
     return turn, height
 

@@ -30,22 +30,6 @@ from .links import acting, held_at_start, link_measures, link_snapshot, set_free
 from .records import LaneRecords, Packed
 
 
-def ledger_imbalance(change: ledger.Row, work: float, start: float, barrier: float) -> float:
-    """Energy imbalance of a run of drums [-].
-
-    Parameters
-    ----------
-    change : array or sequence of float
-        The ledger, shape (6,) [J].
-    work, start : float
-        Largest input work so far, and the elastic energy at rest [J].
-    barrier : float
-        Lowest energy that overturns what stands there [J].
-    """
-    missing, free = ledger.unaccounted(change), ledger.released(change)
-    return ledger.imbalance(missing, work=work, start=start, barrier=barrier, released=free)
-
-
 def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     """Histories from the snapshots of a run, in the plane or in space."""
     stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
@@ -217,7 +201,7 @@ class LaneRuns:
         """The collapse of a lane."""
         raise NotImplementedError
 
-    def left(self, lanes: list[int]) -> FinalStates:
+    def final_states(self, lanes: list[int]) -> FinalStates:
         """What the runs of some lanes leave behind."""
         raise NotImplementedError
 
@@ -459,7 +443,7 @@ class LaneRuns:
         """Energy above that at rest after a change of the ledger, with what links may set free [J]."""
         return float(change[1] + change[2] + change[3] + self.rest[lane]) + self.held_by_links(lane)
 
-    def begun(self, lane: int, change: ledger.Row) -> float:
+    def start_energy(self, lane: int, change: ledger.Row) -> float:
         """Energy at the start of a run, for its imbalance: the elastic one, or that of the pose and the velocity [J]."""
         begun = float(self.start[lane, 3])
         if self.options.start is not None:
@@ -484,9 +468,9 @@ class LaneRuns:
         lanes = [one for one in self._stopped() if one not in self.ended]
         lanes += [lane] * (lane not in lanes)
         try:
-            self.ended.update(zip(lanes, self.measures(lanes, self.left(lanes)), strict=True))
+            self.ended.update(zip(lanes, self.measures(lanes, self.final_states(lanes)), strict=True))
         except NOT_COMPUTED:  # of one of them, whose own turn it is to say so
-            (self.ended[lane],) = self.measures([lane], self.left([lane]))
+            (self.ended[lane],) = self.measures([lane], self.final_states([lane]))
 
     def measures(self, lanes: list[int], left: FinalStates, since: np.ndarray | None = None) -> list[Measures]:
         """Measures of lanes whose runs are over.
@@ -506,7 +490,13 @@ class LaneRuns:
         since = np.array([self.energies(lane) for lane in lanes]) - self.start[lanes] if since is None else since
         change = since.tolist()
         imbalance = [
-            ledger_imbalance(row, most, self.begun(lane, row), one.barrier)
+            ledger.imbalance(
+                ledger.unaccounted(row),
+                work=most,
+                start=self.start_energy(lane, row),
+                barrier=one.barrier,
+                released=ledger.released(row),
+            )
             for row, most, lane, one in zip(change, work, lanes, packed, strict=True)
         ]
         set_off = [

@@ -276,7 +276,7 @@ class ColumnLanes(LaneRuns):
             "slip": slip - self.slip[lanes],
         }
 
-    def left(self, lanes: list[int]) -> FinalStates:
+    def final_states(self, lanes: list[int]) -> FinalStates:
         """What the runs of some lanes leave behind."""
         state = self.poses(lanes)
         slip, residuals = state["slip"], Residuals.all_in_plane(*(state[one] for one in ("slip", "x", "z", "rotation")))

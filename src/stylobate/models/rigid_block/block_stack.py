@@ -10,12 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...column import Column, Joint
-from ...column.drum import section_area, section_second_moment
 from ...column.found_geometry import geometry
 from ...column.links.placed import PlacedLink, stands_at
 from ...constants import DEGREE
-from ...constants import g as STANDARD_GRAVITY
-from ...errors import InputError, check_range
+from ...errors import InputError
 
 #: Action of a link: it holds a joint in shear, holds it closed, is a straight line that holds in tension, or, a clamp, holds
 #: what it clamps apart.
@@ -381,69 +379,6 @@ class BlockStack:
             links=tuple(link.mirrored() for link in self.links),
         )
 
-    @classmethod
-    def of_quadrilaterals(
-        cls,
-        outlines: np.ndarray,
-        joints: Joint | Sequence[Joint],
-        *,
-        density: float,
-        depth: float = 1.0,
-        gravity: float = STANDARD_GRAVITY,
-    ) -> BlockStack:
-        """Blocks of any convex quadrilateral outline; joints may be inclined, and faces of unequal length.
-
-        Parameters
-        ----------
-        outlines : array
-            Corners counter-clockwise from the lower left, block by block from the bottom [m], shape (n, 4, 2).
-            The lower face of a block lies on the line of the upper face of the block below it.
-        joints : Joint or sequence of Joint
-            One for all, or one under each block.
-        density : float
-            [kg/m³]
-        depth : float
-            [m]
-        gravity : float
-            [m/s²]
-
-        Raises
-        ------
-        InputError
-            A quadrilateral that is not convex, or two faces that do not lie on each other.
-        """
-        corners = np.asarray(outlines, dtype=float)
-        if corners.ndim != 3 or corners.shape[1:] != (4, 2) or not len(corners) or not np.isfinite(corners).all():
-            raise InputError(f"outlines have shape {corners.shape}; give finite corners of shape (blocks, 4, 2).")
-        check_range("density of a block", density, 0.0, 1e5, unit="kg/m³", open_low=True)
-        check_range("depth of a block", depth, 0.0, 1e3, unit="m", open_low=True)
-        n = len(corners)
-        laws = [joints] * n if isinstance(joints, Joint) else list(joints)
-        if len(laws) != n:
-            raise InputError(f"{len(laws)} joints are given for {n} blocks; give one, or one under each block.")
-        corners = corners - corners[0, :2].mean(axis=0)
-        area, centroid, polar = _polygon(corners)
-        joint, angle, upper, lower = _faces(corners)
-        width = np.minimum(upper[:, 1], lower[:, 1]) - np.maximum(upper[:, 0], lower[:, 0])
-        contact = np.array([section_area("rectangular", d, depth) for d in width])
-        second = np.array([section_second_moment("rectangular", d, depth) for d in width])
-        return cls(
-            mass=density * depth * area,
-            inertia=density * depth * polar,
-            centroid=centroid,
-            joint=joint,
-            angle=angle,
-            width=width,
-            area=contact,
-            second_moment=second,
-            upper_reach=upper,
-            lower_reach=lower,
-            top=corners[-1, 2:].mean(axis=0),
-            gravity=check_range("gravity", gravity, 0.0, 100.0, unit="m/s²", open_low=True),
-            outlines=corners,
-            **_stiffness(laws, contact, second),
-        )
-
     def parts_above(self) -> tuple[np.ndarray, np.ndarray]:
         """Mass [kg], shape (n,), and centroid [m], shape (n, 2), of the part of the stack above each joint."""
         mass = np.cumsum(self.mass[::-1])[::-1]
@@ -471,62 +406,12 @@ class BlockStack:
         return matrix
 
 
-def _stiffness(
-    joints: Sequence[Joint], area: np.ndarray, second: np.ndarray, friction: np.ndarray | None = None
-) -> dict[str, Any]:
+def _stiffness(joints: Sequence[Joint], area: np.ndarray, second: np.ndarray, friction: np.ndarray) -> dict[str, Any]:
     normal = np.array([joint.normal_stiffness for joint in joints])
     return {
         "normal_stiffness": normal * area,  # Baraldi et al., Eq. 8
         "rotational_stiffness": normal * second,
         "shear_stiffness": np.array([joint.shear_stiffness for joint in joints]) * area,
-        "friction": np.array([joint.tan_phi for joint in joints]) if friction is None else friction,
+        "friction": friction,
         "cohesion": np.array([joint.cohesion for joint in joints]) * area,
     }
-
-
-def _polygon(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Area, centroid and polar second moment about it of convex quadrilaterals, by the sum over their edges."""
-    ahead = np.roll(corners, -1, axis=1)
-    edge, following = ahead - corners, np.roll(ahead, -1, axis=1) - ahead
-    turn = edge[..., 0] * following[..., 1] - edge[..., 1] * following[..., 0]
-    bad = np.flatnonzero((turn <= 0.0).any(axis=1))
-    if bad.size:
-        raise InputError(
-            f"block {bad[0] + 1} is not a convex quadrilateral with its corners counter-clockwise; "
-            "give its corners from the lower left around."
-        )
-    cross = corners[..., 0] * ahead[..., 1] - corners[..., 1] * ahead[..., 0]
-    area = 0.5 * cross.sum(axis=1)
-    centroid = ((corners + ahead) * cross[..., None]).sum(axis=1) / (6.0 * area[:, None])
-    squares = (corners * corners + corners * ahead + ahead * ahead).sum(axis=2)
-    polar = (squares * cross).sum(axis=1) / 12.0 - area * (centroid**2).sum(axis=1)
-    return area, centroid, polar
-
-
-def _faces(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Middle and angle of each joint, and the reach of its two faces."""
-    n = len(corners)
-    joint, angle, upper, lower = np.empty((n, 2)), np.empty(n), np.empty((n, 2)), np.empty((n, 2))
-    for i in range(n):
-        start, end = corners[i, 0], corners[i, 1]
-        length = float(np.hypot(*(end - start)))
-        along = (end - start) / length
-        across = np.array([-along[1], along[0]])
-        below = np.array([-BASE_REACH, BASE_REACH])
-        if i:
-            face = corners[i - 1, [3, 2]] - start
-            below = face @ along
-            if np.abs(face @ across).max() > 1e-9 * length:
-                raise InputError(
-                    f"the lower face of block {i + 1} does not lie on the upper face of block {i}: it is off by "
-                    f"{np.abs(face @ across).max():.3g} m; give both faces on one line."
-                )
-        left, right = max(0.0, below[0]), min(length, below[1])
-        if right - left < 1e-9 * length:
-            raise InputError(f"block {i + 1} does not overlap block {i}; move it so that their faces touch.")
-        middle = 0.5 * (left + right)
-        joint[i] = start + middle * along
-        angle[i] = np.arctan2(along[1], along[0])
-        upper[i] = -middle, length - middle
-        lower[i] = below - middle
-    return joint, angle, upper, lower

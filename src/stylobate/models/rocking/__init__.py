@@ -1,1 +1,1 @@
-"""Housner's rocking block: the model, its closed forms, the batch and the adaptive single run."""
+"""Housner's rocking block: the model, its closed forms, and the lanes that step it."""

@@ -21,21 +21,20 @@ SLENDER = math.radians(20.0)
 
 
 class Rocking(Engine):
-    """One block that rocks: single runs by an adaptive solver with impacts as events, batches in lanes."""
+    """One block that rocks, by steps of one length with impacts located; single runs and batches alike."""
 
     def expected_step(self, motion: Motion) -> tuple[float, float]:
-        """Longest step of the adaptive solver, which is the dearer one, and its cost [s]."""
-        from .block import longest_step
+        """Time step of a run, and what a step of a single one costs [s]."""
+        from .lanes import COST, steps_of
 
-        return longest_step(self.model.block(self.structure).p, motion), 3e-4
+        return steps_of(self.model, self.model.block(self.structure), motion)[1], COST
 
     def run(self, motion: Motion, options: RunOptions) -> Response:
-        """One run by an adaptive solver with impacts as events."""
-        from .block import run_single
+        """One run with histories."""
+        from .lanes import run_one
 
-        model = self.model
-        histories, measures = run_single(model.block(self.structure), motion, options, model.initial_rotation)
-        return Response(self.structure, histories, measures, model.name, {})
+        histories, measures = run_one(self.model, self.structure, motion, options)
+        return Response(self.structure, histories, measures, self.model.name, {})
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs by the lane kernel, impacts located."""
@@ -100,8 +99,8 @@ class HousnerBlock(Model):
     initial_rotation : float
         Rotation from which the block is let go at rest, counter-clockwise positive [rad].
     time_step : float, optional
-        Step of the batch [s]. By default 0.01/p, at most 4 samples of the motion, and such that the motion is a whole
-        number of steps. Single runs choose their steps themselves.
+        Time step [s]. By default 0.01/p, at most 4 samples of the motion, and such that the motion is a whole number of
+        steps.
 
     Raises
     ------

@@ -36,12 +36,12 @@ from .loose import (
     chunks_of,
     engine_of,
     go_on,
+    lane_as_drawn,
+    lane_at_rest,
     response_of,
     run_in_space,
     step_for,
-    unsettled,
 )
-from .loose import begun as settled
 from .packing import turned_over
 
 #: Structures that are kept as they have settled, in each thread.
@@ -164,7 +164,7 @@ class HandedOver(NamedTuple):
     def measures(self) -> Measures:
         """Go on to the end of the run."""
         structure, motion = self.case
-        engine = unsettled(structure, self.model)
+        engine = lane_as_drawn(structure, self.model)
         engine.take_over(*self.records, self.step)
         engine.stood_at, engine.stood_since = self.stood_at, self.stood_since
         stack = self.states.stack()
@@ -199,10 +199,10 @@ class IntactLanes:
 
     def _begun(self, structure: Structure) -> tuple[StartState, np.ndarray | None]:
         """A structure as it has settled, and the gaps between its bodies; None if something is loose from the start."""
-        engine = unsettled(structure, self.model.acting(structure))
+        engine = lane_as_drawn(structure, self.model.acting(structure))
         if self._gaps(engine).min() <= 0.0:
             return StartState(engine, np.zeros(6), None), None
-        made, gap = settled(structure, engine), self._gaps(engine)
+        made, gap = lane_at_rest(structure, engine), self._gaps(engine)
         intact = made.balanced and gap.min() > 0.0 and bool((engine.joint["weight"] == 1.0).all())
         return made, gap if intact else None
 

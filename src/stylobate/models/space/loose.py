@@ -429,9 +429,9 @@ def run_in_space(structure: Structure, motion: Motion, model: Any, options: RunO
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
-    motion, engine = motion.multiplied, unsettled(structure, model)
+    motion, engine = motion.multiplied, lane_as_drawn(structure, model)
     chunks_of(structure, motion, engine, options)
-    made = begun(structure, engine)
+    made = lane_at_rest(structure, engine)
     if made.settled and (caution := caution_of_settling(structure.name, made.settled, made.engine.least_width)):
         warnings.warn(caution, OutOfRangeWarning, stacklevel=4)
     return go_on(structure, motion, model, options, made, [])
@@ -489,7 +489,7 @@ class StartState(NamedTuple):
         return None if self.settled is None else math.isfinite(self.settled)
 
 
-def unsettled(structure: Structure, model: Any) -> Loose:
+def lane_as_drawn(structure: Structure, model: Any) -> Loose:
     """The lane of an assembly in space as drawn, with its step.
 
     Raises
@@ -502,7 +502,7 @@ def unsettled(structure: Structure, model: Any) -> Loose:
     return engine
 
 
-def begun(structure: Structure, engine: Loose) -> StartState:
+def lane_at_rest(structure: Structure, engine: Loose) -> StartState:
     """An assembly in space with its contacts closed by the weight that they carry, unless it begins as drawn."""
     way = engine.settle() if getattr(structure, "settle", True) else None
     return StartState(engine, engine.energies(), way)
@@ -614,7 +614,8 @@ def _follow(
         left = chunks - engine.steps // CHUNK
         still, over = engine.at_rest(), left <= 0
         if over:
-            waits = options.until_rest or (options.until_decided and not _fallen(structure, states).any())
+            drawn, now = ((state["position"], state["axes"]) for state in (states[0], states[-1]))
+            waits = options.until_rest or (options.until_decided and not fallen(structure, *drawn, *now).any())
             if not waits or still or engine.time > duration + LONGEST_WAIT:
                 break
             engine.now["dull"] = engine.now["eta"]
@@ -624,12 +625,6 @@ def _follow(
         if options.progress:
             options.progress(min(engine.time, duration), duration)
     return states, still and over
-
-
-def _fallen(structure: Structure, states: Sequence[dict[str, Any]]) -> np.ndarray:
-    """Which bodies have fallen in the last of some states."""
-    first, last = states[0], states[-1]
-    return fallen(structure, first["position"], first["axes"], last["position"], last["axes"])
 
 
 def _state(engine: Loose, motion: Motion) -> dict[str, Any]:

@@ -331,10 +331,10 @@ def same_step(components: list[Component], name: str, dt: float | None, processi
 
 
 #: Facts by which a record is told from another, with their nouns. A station that one file alone states is another one.
-TOLD_BY = {"station": "station", "network": "network", "location": "location", "event": "event", "event_id": "event"}
+IDENTITY = {"station": "station", "network": "network", "location": "location", "event": "event", "event_id": "event"}
 
 #: Facts that each component of a file may state for itself.
-OWN_FACTS = (*TOLD_BY, "station_name", "start_time")
+OWN_FACTS = (*IDENTITY, "station_name", "start_time")
 
 #: Labels of a channel that state no direction.
 _NO_DIRECTION = ("", "other")
@@ -352,7 +352,7 @@ def check_one_record(components: Sequence[Component]) -> None:
         have one label.
     """
     for one, other in combinations(components, 2):
-        for key, noun in TOLD_BY.items():
+        for key, noun in IDENTITY.items():
             first, second = (" ".join(str(each.facts.get(key) or "").split()) for each in (one, other))
             stated = key == "station" or None not in (one.facts.get(key), other.facts.get(key))
             if stated and first.casefold() != second.casefold():

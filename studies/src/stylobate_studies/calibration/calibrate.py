@@ -274,12 +274,9 @@ def _restitution(logs: np.ndarray, covariance: np.ndarray, confidence: float) ->
     known = np.linalg.solve(covariance + LEAST_OF_IMPACTS**2 * np.eye(len(logs)), np.ones(len(logs)))
     places = float(known @ logs / known.sum()) + np.linspace(-AROUND, AROUND, PLACES)
     computed = np.tile(places[:, None], len(logs))
-    weights = np.exp(_less(likelihoods(computed, logs, covariance, LEAST_OF_IMPACTS)[0]))
+    known = likelihoods(computed, logs, covariance, LEAST_OF_IMPACTS)[0]
+    weights = np.exp(known - known.max())
     weights /= weights.sum()
     outside = 0.5 * (1.0 - confidence)
     low, high = np.interp([outside, 1.0 - outside], np.cumsum(weights) - 0.5 * weights, places)
     return Loss(math.exp(float(weights @ places)), math.exp(low), math.exp(high), "")
-
-
-def _less(logs: np.ndarray) -> np.ndarray:
-    return logs - logs.max()

@@ -56,7 +56,7 @@ class Loss(NamedTuple):
     reaches: str
 
     @property
-    def told(self) -> bool:
+    def bounded(self) -> bool:
         """Whether the history tells it from both sides."""
         return not self.reaches
 
@@ -115,7 +115,7 @@ class Calibration(NotebookSummary):
         return losses_at(at, self.limits, law)
 
     @cached_property
-    def told(self) -> dict[str, Loss]:
+    def intervals(self) -> dict[str, Loss]:
         """Each loss with its interval, over all laws."""
         found, near = {}, 0.5 * (1.0 - self.confidence) + AT_LIMIT
         for i, (name, limits) in enumerate(zip(("stiffness_damping", "rolling_resistance"), self.limits)):
@@ -129,16 +129,16 @@ class Calibration(NotebookSummary):
         """Whether the history tells the two losses apart; None of one."""
         if len(self.limits) < 2:
             return None
-        return abs(self.after.correlation()) < TOGETHER and all(one.told for one in self.told.values())
+        return abs(self.after.correlation()) < TOGETHER and all(one.bounded for one in self.intervals.values())
 
     @property
     def sentence(self) -> str:
         """What the history tells, in words."""
         words = []
-        for name, loss in self.told.items():
+        for name, loss in self.intervals.items():
             unit = " s" if name == "stiffness_damping" else ""
             span = f"{loss.low:.2g} to {loss.high:.2g}{unit}"
-            if loss.told:
+            if loss.bounded:
                 words.append(f"{name} is {loss.value:.2g}{unit} ({span}, {percent(self.confidence)}).")
             elif loss.reaches == "least":
                 words.append(f"{name} is at most {loss.high:.2g}{unit}: this history tells no lower limit.")
@@ -160,7 +160,7 @@ class Calibration(NotebookSummary):
 
         wide = 2.0 * float(ndtri(0.5 * (1.0 + self.confidence)))
         found = {}
-        for name, one in self.told.items():
+        for name, one in self.intervals.items():
             sigma = math.log(one.high / one.low) / wide
             found[name] = min(math.sqrt(math.expm1(sigma**2)), LARGEST[name]) if sigma < 3.0 else LARGEST[name]
         if self.laws:
@@ -186,7 +186,7 @@ class Calibration(NotebookSummary):
         if not self.after.reached:
             raise InputError(f"no file of losses of {self.history.name}: {self.sentence}")
         interval: dict[str, Any] = {"confidence": self.confidence}
-        interval |= {name: [one.low, one.high] for name, one in self.told.items()}
+        interval |= {name: [one.low, one.high] for name, one in self.intervals.items()}
         measured = {
             "column": self.column.name,
             "history": self.history.name,
@@ -201,12 +201,12 @@ class Calibration(NotebookSummary):
     def summary(self) -> dict[str, Any]:
         """Plain values, as ``stylobate calibrate`` prints them."""
         found: dict[str, Any] = {"column": self.column.name, "model": self.model.name, "history": self.history.name}
-        for name, one in self.told.items():
+        for name, one in self.intervals.items():
             found[name] = {
                 "value": one.value,
                 "low": one.low,
                 "high": one.high,
-                "told": one.told,
+                "told": one.bounded,
                 "reaches": one.reaches,
             }
         found["law"], found["laws"] = self.losses.law, self.laws

@@ -60,7 +60,7 @@ def calibrate(
                 from ..calibration.pictures.calibration import draw_calibration
 
                 files.picture(draw_calibration(found), "calibration")
-            files.asked(structures=[stone], models=[how], motions=[], history=str(history))
+            files.write_request(structures=[stone], models=[how], motions=[], history=str(history))
             files.summary(summary, "calibrate.json")
     if not execution.emits(summary):
         console.say(found.sentence, facts(found), files)

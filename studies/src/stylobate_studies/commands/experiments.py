@@ -10,7 +10,7 @@ from stylobate.cli import options as o
 from stylobate.errors import InputError
 
 if TYPE_CHECKING:
-    from ..experiments.study import Found, Results
+    from ..experiments.study import Experiments, Results
 
 #: Scores that are printed.
 SHOWN = ("tests", "accuracy", "hard_tests", "hard_accuracy", "matthews", "predicted_over_observed", "brier")
@@ -76,7 +76,7 @@ def _earlier(place: Path | None) -> dict[str, Any]:
     return json.loads(written.read_text(encoding="utf-8")) if written is not None and written.is_file() else {}
 
 
-def _write(results: Results, found: Found, place: Path, films: bool) -> list[Path]:
+def _write(results: Results, found: Experiments, place: Path, films: bool) -> list[Path]:
     from stylobate import plots
     from stylobate.cli import console
 
@@ -100,7 +100,7 @@ def _write(results: Results, found: Found, place: Path, films: bool) -> list[Pat
     return files
 
 
-def _worst(results: Results, found: Found, place: Path, films: bool) -> list[Path]:
+def _worst(results: Results, found: Experiments, place: Path, films: bool) -> list[Path]:
     """Strips, and films, of the worst tests as they are computed."""
     from stylobate import plots
     from stylobate.plots.film import write_gif

@@ -29,7 +29,7 @@ Read = TypeVar("Read", Granite, Tosses, Measured)
 
 
 @dataclass
-class Found:
+class Experiments:
     """Experiments that a folder holds."""
 
     granite: Granite | None = None
@@ -46,7 +46,7 @@ class Results:
     tables: dict[str, Any] = field(default_factory=dict)
 
 
-def read(folder: Path) -> Found:
+def read(folder: Path) -> Experiments:
     """Read the experiments in a folder, or the one that the folder is.
 
     Raises
@@ -68,7 +68,7 @@ def read(folder: Path) -> Found:
             f"{folder} holds no experiment: {FILE}, granite/specimens.json or cube/tosses.npz is expected there; see "
             "docs/evidence/nature.md."
         )
-    found = Found()
+    found = Experiments()
     if "granite" in places:
         found.granite = _usable(found, read_granite, places["granite"])
     if "cube" in places:
@@ -85,7 +85,7 @@ def read(folder: Path) -> Found:
     return found
 
 
-def _usable(found: Found, read_one: Callable[[Path], Read], place: Path) -> Read | None:
+def _usable(found: Experiments, read_one: Callable[[Path], Read], place: Path) -> Read | None:
     """What is in a folder, its refused parts noted; None where nothing of it can be used."""
     try:
         one = read_one(place)
@@ -97,7 +97,7 @@ def _usable(found: Found, read_one: Callable[[Path], Read], place: Path) -> Read
 
 
 def compute(
-    found: Found,
+    found: Experiments,
     *,
     realisations: int = 0,
     calibrate: bool = True,
@@ -110,7 +110,7 @@ def compute(
 
     Parameters
     ----------
-    found : Found
+    found : Experiments
     realisations : int
         Of what is uncertain about the boulders; 0 for none.
     calibrate : bool

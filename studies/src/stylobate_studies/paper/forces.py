@@ -35,7 +35,11 @@ def differences(name: str, amplitude: float) -> dict[str, dict[str, float]]:
         shaking = harmonic(FREQUENCY, amplitude * g, TIMES[-1] + 0.2)
         response = simulate(preset(name), shaking, MODELS[label], output_interval=0.02, until_end=True)
         forces = response.joint_forces()
-        found[label] = {one: _sampled(forces.time, getattr(forces, one)) for one in ACTIONS}
+        histories = {one: getattr(forces, one).T for one in ACTIONS}
+        found[label] = {
+            name: np.stack([np.interp(TIMES, forces.time, one) for one in history])
+            for name, history in histories.items()
+        }
     block = found.pop(BLOCKS)
     return {
         label: {one: float(np.sqrt(np.mean((by[one] - block[one]) ** 2) / np.mean(block[one] ** 2))) for one in ACTIONS}
@@ -68,7 +72,3 @@ def _told(amplitude: float, far: Mapping[str, Mapping[str, Mapping[str, float]]]
         for label, by in models.items()
     )
     return f"{amplitude:g} g: {each}."
-
-
-def _sampled(time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    return np.stack([np.interp(TIMES, time, one) for one in values.T])

@@ -40,13 +40,13 @@ def infer(
             import pandas
 
             files.table(answer.draws, "draws.csv")
-            files.table(pandas.DataFrame(answer.told), "observations.csv")
+            files.table(pandas.DataFrame(answer.information), "observations.csv")
             if pictures:
                 from ..pictures.inference import draw_matches, draw_observations, draw_posterior
 
                 files.picture(draw_posterior(answer), "infer")
                 files.picture(draw_matches(answer), "matches")
-                if answer.told:
+                if answer.information:
                     files.picture(draw_observations(answer), "observations")
             what: dict[str, Any] = {
                 "structures": list(asked.structures),
@@ -55,7 +55,7 @@ def infer(
             }
             if asked.survival is not None:
                 what |= hazards_of([Path(asked.survival.hazard)], None)
-            files.asked(**what, tail_s=campaign.tail, simulations=asked.simulations, seed=asked.seed)
+            files.write_request(**what, tail_s=campaign.tail, simulations=asked.simulations, seed=asked.seed)
             files.summary(summary, "infer.json")
     if not execution.emits(summary):
         describe(answer)
@@ -70,8 +70,8 @@ def describe(answer: Inference) -> None:
 
     print(answer.sentence)
     console.print_table(answer.table.drop(columns="informative").rename(columns=HEADS), digits=3)
-    if answer.told:
-        rows = [one | {"chance": check.chance} for one, check in zip(answer.told, answer.checks, strict=True)]
+    if answer.information:
+        rows = [one | {"chance": check.chance} for one, check in zip(answer.information, answer.checks, strict=True)]
         console.print_table(pandas.DataFrame(rows).rename(columns=HEADS), digits=2)
     if answer.records:
         console.print_table(pandas.DataFrame(answer.records).rename(columns=HEADS), digits=3)

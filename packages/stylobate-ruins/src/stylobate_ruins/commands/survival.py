@@ -61,7 +61,7 @@ def survival(
 
             files.table(pandas.DataFrame(result["hazards"]), "survival.csv")
             files.picture(draw_survival(found), "survival")
-            files.asked(**kept_of(used), **hazards_of(hazard, site), state=asked.state, age_y=years)
+            files.write_request(**kept_of(used), **hazards_of(hazard, site), state=asked.state, age_y=years)
             files.summary(result, "survival.json")
     if execution.emits(result):
         return
@@ -100,7 +100,7 @@ def _several(source: Path, age: str | None, hazard: list[Path] | None, execution
             files.table(pandas.DataFrame(rows), "survival.csv")
             files.table(pandas.DataFrame(found.table()), "hazard.csv")
             files.picture(draw_weighing(found), "survival")
-            files.asked(sites=f"{source} (SHA-256 {digest(source)})")
+            files.write_request(sites=f"{source} (SHA-256 {digest(source)})")
             files.summary(result, "survival.json")
     if not execution.emits(result):
         describe(found)

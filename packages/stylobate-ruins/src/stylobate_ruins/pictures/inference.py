@@ -75,7 +75,7 @@ def draw_observations(
     inference: Inference, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
     """What is left of the prior's spread of ln PGV with each observation alone, and without it; odd ones in red."""
-    rows, odd = inference.told, [one.odd for one in inference.checks]
+    rows, odd = inference.information, [one.odd for one in inference.checks]
     figure = page(figure, (WIDTH, 1.3 + 0.24 * len(rows)))
     axes = figure.subplots()
     at = np.arange(len(rows))
@@ -263,7 +263,7 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
     sites = list(result.im)[:SITES]
     order = np.argsort(-np.maximum(result.prior, result.weight), kind="stable")[:BRANCHES]
     rows, across = math.ceil(len(sites) / 2), min(len(sites), 2)
-    top = 0.9 + 0.3 * max(len(order), len(result.told))
+    top = 0.9 + 0.3 * max(len(order), len(result.information))
     figure = page(figure, (WIDTH, 0.7 + top + 2.3 * rows))
     upper, lower = np.ravel(np.asarray(figure.subfigures(2, 1, height_ratios=(top, 2.3 * rows))))
     left, right = upper.subplots(1, 2)
@@ -282,7 +282,7 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
             fontsize=8.0,
             color=GREY,
         )
-    told = result.told
+    told = result.information
     at = np.arange(len(told))
     right.barh(at, [one["bits_alone"] for one in told], 0.5, color="#dddddd", label="by itself")
     right.plot(
