@@ -108,8 +108,8 @@ class Files(list[Path]):
         Parameters
         ----------
         **what
-            ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.CommandRequest.of` takes them, or
-            what :func:`stylobate.results.asked.kept_of` says of the runs that it rests on.
+            ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.CommandRequest.of` takes them,
+            or what :func:`stylobate.results.asked.kept_of` says of the runs that it rests on.
         """
         from ..results.asked import CommandRequest, asked_file, others_in
 
