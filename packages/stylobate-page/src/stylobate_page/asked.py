@@ -106,7 +106,7 @@ class JobAsked(Table):
 
 
 def requests(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[dict[str, Any]]:
-    """Requests to commands, as :func:`stylobate.cli.main.ask` takes them; paths from the folder of the job.
+    """Requests to commands, as :func:`stylobate.cli.main.run_request` takes them; paths from the folder of the job.
 
     Parameters
     ----------

@@ -54,8 +54,8 @@ class Job:
     asked : dict
         What the page asked for, so that it can be asked again.
     requests : list of dict
-        What commands are asked for it, one after the other, as :func:`stylobate.cli.main.ask` takes it; none in jobs of
-        earlier versions.
+        What commands are asked for it, one after the other, as :func:`stylobate.cli.main.run_request` takes it; none in jobs
+        of earlier versions.
     """
 
     id: str

@@ -118,7 +118,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
     if project is not None:
         front = [page.part(language.section(section)) for section in front_sections(project, found, cases, notes)]
     cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
-    end = [files_section(found), page.Section(SOURCES, [page.Points(list(map(page.Own, cited)))])]
+    end = [files_section(found), page.Section(SOURCES, [page.Points(list(map(page.Exact, cited)))])]
     names = _heading(found, project)
     kinds = joined(", ", dict.fromkeys(TITLES[one.kind.value] for one in found))
     day = date.today().isoformat()
