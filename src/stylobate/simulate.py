@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import logging
+import math
 import os
 import platform
 import time
@@ -13,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .column.structure import Structure
-from .errors import InputError, check_all, check_choice, check_kind, check_range
+from .errors import InputError, check_all, check_choice, check_kind, check_range, warn
+from .messages import say
 from .models import devices
 from .models.base import Case, Cases, Model, RunOptions, duration
 from .models.engine import engine_for
@@ -163,6 +165,26 @@ def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> Non
             engine.followed()
         engine.check(motion)
         engine.check_length(motion, options)
+        warn_of_north(column, motion)
+
+
+def warn_of_north(column: Structure, motion: Motion) -> None:
+    """Warn of a record that is not in the axes of a column whose bearing is known, where nobody chose its azimuth."""
+    azimuths = motion.metadata.get("azimuths") or {}
+    x, y = azimuths.get("x"), azimuths.get("y")
+    if column.north is None or x is None or (motion.metadata.get("direction") or {}).get("azimuth") is not None:
+        return
+    apart = [x - column.north] + ([] if y is None else [y - column.north + 90.0])
+    if all(abs(math.remainder(angle, 360.0)) <= 1.0 for angle in apart):
+        return
+    words = say(
+        "{motion}: x of the record points to {x:g}° clockwise from north, y to {y}, and the axes of {column} to {north:g}° "
+        "and {across:g}°, so that it is not shaken from where the ground was; `azimuth={north:g}deg` turns a record of two "
+        "horizontal components into its axes."
+    )
+    along = column.north % 360.0
+    across, to_y = (along - 90.0) % 360.0, "?" if y is None else f"{y:g}°"
+    warn(words.of(motion=motion.name, x=x, y=to_y, column=column.name, north=along, across=across))
 
 
 def run_checked(

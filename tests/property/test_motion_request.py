@@ -8,10 +8,14 @@ import pytest
 
 import stylobate as st
 from stylobate.errors import LeftOutWarning
+from stylobate.messages import Message
 from stylobate.motion import keep_axes, read_motion, write_csv
+from stylobate.motion.conditioning import conditioned_alike, trim
 from stylobate.motion.orientation import record_of, rotated
+from stylobate.motion.request import _reversed
 from stylobate.motion.specs import parse_angle
 from stylobate.motion.spectra import pseudo_acceleration
+from stylobate.simulate import warn_of_north
 from stylobate.verdicts.directions import direction_of
 from stylobate.verdicts.rocking_spectrum import rocking_block
 
@@ -315,3 +319,32 @@ def test_whole_quarters_leave_nothing_across(azimuth, azimuths):
     assert not other.any()
     assert turned.horizontal_peak == (motion.pga, axis)
     assert f"PGA {motion.pga / st.g:.3g} g along {axis}" in turned.describe()
+
+
+# -- the axes of a column whose bearing is known -------------------------------------------------------------------------
+
+
+def test_a_record_that_is_not_in_the_axes_of_a_column_is_warned_of_and_the_advice_works(recwarn):
+    column = st.Column.tapered(
+        height=2.0, bottom_width=0.5, top_width=0.5, drums=1, density=2000.0, section="circular",
+        joint=st.Joint(normal_stiffness=1e9, shear_stiffness=1e9, friction_angle=35.0),
+    )  # fmt: skip
+    column = dataclasses.replace(column, north=35.0)
+    facts = {"azimuths": {"x": 90.0, "y": 0.0}}
+    asked = rotated(st.Motion(0.01, WAVE, WAVE, metadata=facts), 35.0)
+    warn_of_north(column, asked)
+    warn_of_north(column, asked.replace(metadata={"direction": {"azimuth": 10.0}, **facts}))
+    assert not recwarn.list
+    with pytest.warns(st.errors.OutOfRangeWarning, match=r"x of the record points to 90° .* `azimuth=35deg`"):
+        warn_of_north(column, st.Motion(0.01, WAVE, WAVE, metadata=facts))
+    mirrored = st.Motion(0.01, WAVE, WAVE, metadata={"azimuths": {"x": 35.0, "y": 125.0}})
+    with pytest.warns(st.errors.OutOfRangeWarning, match=r"y to 125°, and the axes of .* to 35° and 305°"):
+        warn_of_north(column, mirrored)
+
+
+def test_what_was_done_to_a_motion_is_a_message():
+    """English text in a report in another language, where it was put together from one."""
+    both = st.Motion(0.01, WAVE, 0.5 * WAVE)
+    done = [*trim(both, 0.2, 0.8).processing, *_reversed(both, "r").processing]
+    done += [one.processing[-1] for one in conditioned_alike([both, rotated(both, 30.0)], "pgv=0.3m/s")]
+    assert [text for text in done if not isinstance(text, Message)] == []

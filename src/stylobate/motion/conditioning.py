@@ -325,13 +325,13 @@ def trim(
     if length < kept.dt or not (start or end):
         return kept
     led = taper(kept, length, start=start, end=end)
-    return led.replace(processing=(*motion.processing, f"{text}; {led.processing[-1]}"))
+    return led.replace(processing=(*motion.processing, joined("; ", (text, led.processing[-1]))))
 
 
 def scale_to_pgv(motion: Motion, pgv: float) -> Motion:
     """Scale all components so that the peak velocity along x is ``pgv`` [m/s]."""
     value = check_range("pgv", pgv, 0.0, 100.0, unit="m/s")
-    return _scaled_to(motion, value, motion.pgv, f"PGV of {value:g} m/s")
+    return _scaled_to(motion, value, motion.pgv, say("PGV of {value:g} m/s", value=value))
 
 
 def scale_to_sa(motion: Motion, period: float, sa: float, damping: float = 0.05) -> Motion:
@@ -348,9 +348,9 @@ def scale_to_sa(motion: Motion, period: float, sa: float, damping: float = 0.05)
         Share of the critical damping [-].
     """
     value = check_range("sa", sa, 0.0, 1e4, unit="m/s²")
-    return _scaled_to(
-        motion, value, sa_of(motion, period, damping), f"Sa({period:g} s, {percent(damping)}) of {value / g:g} g"
-    )
+    share = percent(damping)
+    text = say("Sa({period:g} s, {share}) of {size:g} g", period=period, share=share, size=value / g)
+    return _scaled_to(motion, value, sa_of(motion, period, damping), text)
 
 
 def sa_of(motion: Motion, period: float, damping: float = 0.05) -> float:
@@ -364,9 +364,8 @@ def _scaled_to(motion: Motion, wanted: float, found: float, text: str) -> Motion
     if found == 0.0:
         raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to a {text}.")
     factor = wanted / found
-    scaled = motion.replace(
-        factor=motion.factor * factor, processing=(*motion.processing, f"scaled by {factor:.6g} to a {text}")
-    )
+    said = say("scaled by {factor:.6g} to a {what}", factor=factor, what=text)
+    scaled = motion.replace(factor=motion.factor * factor, processing=(*motion.processing, said))
     warn_of_scaling(scaled)
     return scaled
 
@@ -515,7 +514,7 @@ def conditioned_alike(motions: Sequence[Motion], text: str) -> list[Motion]:
     strongest = motions[sizes.index(max(sizes))]
     scaled = step.apply(strongest, *values)
     times = scaled.factor / strongest.factor
-    said = f"{scaled.processing[-1]}, that of the strongest of these directions"
+    said = say("{step}, that of the strongest of these directions", step=scaled.processing[-1])
     return [one.replace(factor=one.factor * times, processing=(*one.processing, said)) for one in motions]
 
 

@@ -368,5 +368,5 @@ def _reversed(motion: Motion, record: str) -> Motion:
         ay=None if y is None else -y,
         name=f"{motion.name} reversed",
         metadata={**motion.metadata, "direction": direction} | ({"azimuths": azimuths} if azimuths else {}),
-        processing=(*motion.processing, "horizontal components reversed"),
+        processing=(*motion.processing, say("horizontal components reversed")),
     )

@@ -364,8 +364,9 @@ def _typed_columns(text: str) -> list[tuple[str, float]]:
         elif name in (IGNORED, "drum", NOTE, "density", *DIRECTIONS, *JOINT) and unit in (None, _unit_of(name)):
             columns.append((name, 1.0))
         else:
+            remedy = f"write it as {name} [m], for one; " if name in LENGTHS else suggest(name, NAMES)
             raise InputError(
-                f"`columns` {text!r}: {part.strip()!r} is not understood; {suggest(name, NAMES)}allowed are lengths "
+                f"`columns` {text!r}: {part.strip()!r} is not understood; {remedy}allowed are lengths "
                 f"({', '.join(LENGTHS)}) with [m], [cm] or [mm], {', '.join(one for one in NAMES if one not in LENGTHS)}, "
                 "and - for a column to leave out.",
                 "columns",

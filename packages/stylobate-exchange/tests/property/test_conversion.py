@@ -491,7 +491,7 @@ def test_a_survey_whose_columns_are_stated(above, encoding, tmp_path):
     [
         ("drum, height [km], -, -, -", r"'height \[km\]' is not understood.*allowed are lengths"),
         ("drum, hight [cm], -, -, -", "did you mean height"),
-        ("drum, height, -, -, -", "'height' is not understood"),
+        ("drum, height, -, -, -", r"'height' is not understood; write it as height \[m\], for one; allowed"),
         ("drum, height [cm]", "`columns` names 2 columns, .* has 5"),
         ("drum, height [cm], height [cm], top_width [cm], -", "two columns of 'height'"),
         ("drum, height [cm], bottom_width [cm], -, -", "no column 'top_width'"),

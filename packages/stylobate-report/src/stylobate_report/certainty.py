@@ -135,7 +135,7 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
             pairs.append((words, joined(" / ", shown) + here))
     scatter = known.get("scatter") or {}
     parts = PARTS.get(like, {})
-    size_of = say("{part}: {size:g} %")
+    size_of = say("{part}: {size:.3g} %")
     sizes = [
         size_of.of(part=parts.get(key, say(key)), size=100.0 * float(size)) for key, size in scatter.items() if size
     ]
