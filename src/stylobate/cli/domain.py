@@ -99,8 +99,9 @@ def domain(
             raise Stopped(summary["runs"], summary["runs"] + summary["not_run"], asked.ledger)
         if files.wanted:
             (write_probability if likely else write)(result, summary, files)
-            what = {"structures": [study.column], "models": [study.model]}
-            files.write_request(**what, duration_s=study.duration, tail_s=study.tail)
+            files.write_request(
+                structures=[study.column], models=[study.model], duration_s=study.duration, tail_s=study.tail
+            )
     if execution.emits(summary | {"files": files.names}):
         return
     console.print_doubt(summary)
