@@ -49,7 +49,7 @@ def suite(
     from ..errors import InputError
     from ..messages import say
     from ..models.shared.ground import share_of
-    from ..probability.suite import check_measure, suite_shares, suite_table
+    from ..probability.suite import check_measure, factors_in_words, suite_shares, suite_table
     from ..response.words import to_decide
     from ..verdicts.directions import compass_of_shares, harm_words, may_collapse, worst
     from ..verdicts.population import CHANCE, chance_words
@@ -114,6 +114,8 @@ def suite(
         shown = rows.filter(list(PRINTED_COLUMNS))
         shown = shown.rename(columns={"chance": CHANCE}) if any(shown["chance"]) else shown.drop(columns="chance")
         console.print_table(shown, digits=3)
+    if scaled := factors_in_words(result["runs"]):
+        print(scaled)
     describe_design(designed)
     for name, drawn in twins.items():
         print(f"{drawn['like']} like {name}: {drawn['words']}")

@@ -15,6 +15,7 @@ from ..campaign.runs import Request, run_all
 from ..campaign.twins import the_twins
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_choice, check_kind
+from ..messages import say
 from ..models.base import Case, Model
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
@@ -175,6 +176,17 @@ def suite_shares(rows: Sequence[Mapping[str, Any]]) -> list[Share]:
     each = {name: [row for row in rows if str(row["column"]) == name] for name in names}
     codes = {name: codes_of(np.array([row.get("verdict") or NOT_RUN for row in mine])) for name, mine in each.items()}
     return shares(codes, [str(row["record"]) for row in each[names[0]]]) if names else []
+
+
+def factors_in_words(rows: Sequence[Mapping[str, Any]]) -> str:
+    """By how much the motions of a suite are multiplied, from the rows of its table; empty where none is."""
+    factors = [float(row["factor"]) for row in rows if row.get("factor") is not None] or [1.0]
+    least, most = min(factors), max(factors)
+    if least == most == 1.0:
+        return ""
+    if least == most:
+        return say("The motions are multiplied by {least:.3g}.", least=least)
+    return say("The motions are multiplied by {least:.3g} to {most:.3g}.", least=least, most=most)
 
 
 def _of_column(column: Structure, motion: Motion, record: dict[str, Any]) -> dict[str, Any]:

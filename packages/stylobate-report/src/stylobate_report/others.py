@@ -16,7 +16,7 @@ from stylobate.messages import joined, say
 from stylobate.probability.evidence import median_of
 from stylobate.probability.ida import FEWEST
 from stylobate.probability.studies import StudyResult
-from stylobate.probability.suite import suite_shares
+from stylobate.probability.suite import factors_in_words, suite_shares
 from stylobate.results import Comparison, Kind, Numbers, Result, RunResult, StudyFolder
 from stylobate.results.reading import Grid
 from stylobate.verdicts.domain import CollapseProbability
@@ -232,7 +232,8 @@ def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items += kept(result.pictures, "suite", say("Peak response against a measure of the records."))
     items += kept(result.pictures, "directions", say("Share of collapses by direction."))
     items += design_items(design_of(result), result.pictures)
-    said = [*(one.collapses for one in found), result.summary.get("sentence") or result.summary.get("undecided", "")]
+    said = [*(one.collapses for one in found), factors_in_words(runs)]
+    said.append(result.summary.get("sentence") or result.summary.get("undecided", ""))
     return (joined(" ", said), " bad" if any(one.exceeded for one in found) else ""), items
 
 
