@@ -28,7 +28,7 @@ def test_ties_of_shares_are_told_apart_by_the_runs(compass_of):
     compass = compass_of(rows)
     found = worst(rows, compass)
     assert compass.worst == bearing(found) == 60.0  # falls sooner than the other
-    assert harm_words(found, compass) == "Most harm: towards 60°, r at 60°."
+    assert harm_words(found, compass) == "Most harm: turned to 60°, r at 60°."
     assert "worst: 60°, 1" in legend(compass)
 
 
@@ -49,7 +49,7 @@ def test_where_none_collapses_the_picture_says_so(undecided, said):
     assert said in legend(compass)
     assert not [text for text in legend(compass) if text.startswith("worst")]
     words = harm_words(worst(rows, compass), compass)
-    assert words.startswith(f"N{said[1:]}; it moves most towards 210°, under r at 210°.")
+    assert words.startswith(f"N{said[1:]}; it moves most turned to 210°, under r at 210°.")
     assert ("From 1 of 2 directions runs are undecided and may collapse it" in words) == bool(undecided)
 
 
@@ -60,7 +60,7 @@ def test_undecided_runs_compete_for_the_worst_direction(compass_of):
     assert worst(rows, compass)["azimuth_deg"] == 270.0
     assert compass.undecided == (270.0, 300.0)
     words = harm_words(worst(rows, compass), compass)
-    assert "towards 270°" in words
+    assert "turned to 270°" in words
     assert "From 2 of 4 directions runs are undecided and may collapse it" in words
     assert words.endswith(": go on with a tail of 20 s.")
     plots.draw_directions(compass)

@@ -93,7 +93,7 @@ def test_several_directions_are_a_table(capsys, tmp_path):
     assert ["r.csv at 0°" in rows[0], "r.csv at 90°" in rows[1]] == [True, True]
     assert text.count("left out of r.csv at") == 2
     assert f"2 folders with a run each in {tmp_path / 'out'}" in text
-    assert "Most harm: towards " in text
+    assert "Most harm: turned to " in text
     assert "step" not in text
 
 

@@ -147,13 +147,13 @@ def harm_words(found: Mapping[str, Any], compass: Compass) -> str:
     if compass.worst is None:
         words = say("Most harm: {motion}.")
     elif compass.none_collapses and compass.undecided:
-        words = say("No direction surely collapses it; it moves most towards {at:g}°, under {motion}.")
+        words = say("No direction surely collapses it; it moves most turned to {at:g}°, under {motion}.")
     elif compass.none_collapses:
-        words = say("No direction collapses it; it moves most towards {at:g}°, under {motion}.")
+        words = say("No direction collapses it; it moves most turned to {at:g}°, under {motion}.")
     elif compass.undecided and found["collapsed"]:
-        words = say("Most harm: towards {at:g}°, {motion}, which surely collapses.")
+        words = say("Most harm: turned to {at:g}°, {motion}, which surely collapses.")
     else:
-        words = say("Most harm: towards {at:g}°, {motion}.")
+        words = say("Most harm: turned to {at:g}°, {motion}.")
     return joined(" ", (words.of(at=compass.worst, motion=found["motion"]), compass.may_collapse))
 
 

@@ -79,7 +79,7 @@ def _around(column: Column) -> list[tuple[str, str]]:
     return [
         (
             say("limit analysis: becomes a mechanism at"),
-            say("{weak.multiplier:.4g} g, pushed towards {weak.azimuth:g}°", weak=weak),
+            say("{weak.multiplier:.4g} g, pushed towards azimuth {weak.azimuth:g}°", weak=weak),
         ),
         (say("mechanism"), _rocks(weak.joint, weak.mode)),
     ]
@@ -218,7 +218,7 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
             "Under steady horizontal forces the assembly becomes a mechanism at "
             "{s[collapse_multiplier_g]:.4g} times its weight"
         )
-    to = say(", pushed towards {s[weakest_azimuth_deg]:g}°", s=s) if "weakest_azimuth_deg" in s else ""
+    to = say(", pushed towards azimuth {s[weakest_azimuth_deg]:g}°", s=s) if "weakest_azimuth_deg" in s else ""
     sentence = joined("", [becomes.of(s=s), to, "."])
     modes = joined("; ", (_rocks(one["joint"], one["mode"]) for one in s.get("active_joints", ())))
     pairs = [

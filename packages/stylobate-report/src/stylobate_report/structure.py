@@ -123,7 +123,7 @@ def what_opens(column: Column, in_space: bool = False) -> tuple[float, str]:
     elif column.section == "circular" and not column.as_found:
         where = say("; in every direction")
     else:
-        where = say("; pushed towards {towards:.0f}°, the weakest of all directions", towards=towards[joint])
+        where = say("; pushed towards azimuth {towards:.0f}°, the weakest of all directions", towards=towards[joint])
     return least, say("{least} (joint {joint}{where})", least=n.acceleration(least), joint=joint + 1, where=where)
 
 

@@ -454,7 +454,7 @@ def test_what_opens_first_is_told_with_its_direction():
     assert words == "0.5 g (joint 1)"
     least, words = what_opens(slab, in_space=True)
     assert least == pytest.approx(0.25 * slab.gravity, rel=1e-6)
-    assert re.fullmatch(r"0\.25 g \(joint 1; pushed towards (90|270)°, the weakest of all directions\)", words)
+    assert re.fullmatch(r"0\.25 g \(joint 1; pushed towards azimuth (90|270)°, the weakest of all directions\)", words)
     round_ = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0, section="circular")], st.Joint(5e10, 2.5e10, 35.0))
     assert what_opens(round_, in_space=True)[1].endswith("; in every direction)")
     found = st.AsFound([st.FoundDrum(1, offset=0.1)])
@@ -463,7 +463,7 @@ def test_what_opens_first_is_told_with_its_direction():
     aside = st.AsFound([st.FoundDrum(2, offset=0.1, offset_azimuth=90.0)])  # its weight is 50 mm off the middle, 2 m up
     least, words = what_opens(two.replace(as_found=aside))
     assert least == pytest.approx(0.1 * slab.gravity, rel=1e-6)
-    assert words == "0.1 g (joint 1; pushed towards 90°, the weakest of all directions)"
+    assert words == "0.1 g (joint 1; pushed towards azimuth 90°, the weakest of all directions)"
 
 
 def test_a_monolith_has_no_drum_that_could_be_shifted():
@@ -477,18 +477,18 @@ def test_a_monolith_has_no_drum_that_could_be_shifted():
 
 
 def test_the_worst_direction_and_what_is_undecided_stand_in_the_answer(tmp_path):
-    """As the command says it: from where, how many directions are open, and what decides them."""
+    """As the command says it: by how much it is scaled, from where, how many directions are open, and what decides them."""
     time = 0.02 * np.arange(60)
     record = write_csv(st.Motion(0.02, 4.0 * np.sin(3.0 * time), 3.0 * np.cos(3.0 * time)), tmp_path / "r.csv")
     turned = tmp_path / "turned"
-    suite = ("suite", "paper-monolithic", str(record), "--model", "housner", "--azimuths", "0:270:4")
+    suite = ("suite", "paper-monolithic", str(record), "--model", "housner", "--azimuths", "0:270:4", "--scale", "2")
     assert call([*suite, "--out", str(turned)]) == 0
     said = json.loads((turned / "suite.json").read_text())["sentence"]
     assert call(["report", str(turned), "--out", str(tmp_path / "r.html")]) == 0
-    assert said in (tmp_path / "r.html").read_text(encoding="utf-8")
+    assert f"The motions are multiplied by 2. {said}" in (tmp_path / "r.html").read_text(encoding="utf-8")
     project = tmp_path / "project.toml"
     project.write_text('client = "c"\nsite = "s"\nengineer = "e"\nlanguage = "it"\n')
     assert call(["report", str(turned), "--out", str(tmp_path / "it.html"), "--project", str(project)]) == 0
     page = (tmp_path / "it.html").read_text(encoding="utf-8")
     assert said not in page
-    assert re.search("Danno maggiore: verso|Nessuna direzione la fa crollare", page)
+    assert re.search("Danno maggiore: moto ruotato a|Nessuna direzione la fa crollare", page)
