@@ -268,8 +268,14 @@ def survey_tables(
 
 def _rows_of_text(text: str, name: str) -> tuple[list[list[str]], str]:
     """Cells of every row of a table of text, and what separates them: what the row of names has most of."""
-    head = next((line for line in text.splitlines() if not line.strip('";,\t ').startswith("#") and line.strip()), "")
-    separator = max(";\t,", key=head.count)
+    lines = [line for line in text.splitlines() if not line.strip('";,\t ').startswith("#") and line.strip()]
+    head, below = (*lines, "", "")[:2]
+    separators = ";\t,"
+    if any(one in below for one in separators) and not any(one in head for one in separators):
+        raise InputError(
+            f"{name} has a line {printable(head.strip())!r} above its table, which is no row of names; put a # before it."
+        )
+    separator = max(separators, key=head.count)
     try:
         return list(csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)), separator
     except csv.Error as error:

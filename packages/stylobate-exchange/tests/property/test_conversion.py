@@ -431,6 +431,7 @@ HEAD = "drum,height_m,bottom_width_m,top_width_m"
     [
         ("", "holds no row of a drum"),
         (HEAD, "holds no row of a drum"),
+        (f"Colonna 4\n{HEAD}\n1,1,1,1", "has a line 'Colonna 4' above its table, .*; put a # before it"),
         ("drum,height_m,bottom_width_m\n1,1,1", "has no column 'top_width'"),
         (f"{HEAD},hight_m\n1,1,1,1,1", "has a column 'hight_m'; did you mean height"),
         (f"{HEAD},height_mm\n1,1,1,1,1", "has two columns of 'height'"),
