@@ -13,7 +13,7 @@ from stylobate_studies.experiments.granite import again
 HERE = Path(__file__).parent
 
 #: Beside the project, and the numbers that are stored.
-BESIDE, STORED = HERE.parents[2] / "shared" / "experiments", HERE.parent / "nature.json"
+BESIDE, STORED = HERE.parents[2] / "shared" / "experiments", HERE.parent / "evidence" / "nature.json"
 
 
 def computed(out):
