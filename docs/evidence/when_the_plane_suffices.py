@@ -7,6 +7,7 @@ takes. Not a part of the tests: a quarter of an hour of one core.
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ import stylobate as st
 from stylobate.column.scatter import twins_of
 from stylobate.motion.orientation import strongest
 from stylobate.verdicts import verdict as v
-from stylobate_studies.paper.cases import ALIKE, MONOLITH, POPULATIONS, SPACE, paper_column
+from stylobate_studies.paper.cases import ALIKE, MONOLITH, POPULATIONS, paper_column
 from stylobate_studies.paper.records import read_records
 
 #: Columns of a share, and columns that say which peak is shown; seeds of both; time after a motion [s].
@@ -36,39 +37,46 @@ def columns() -> dict[str, st.Column]:
     return {"monolith": paper_column(MONOLITH, "circular"), "12 drums": drums, "Bassae-like": bassae}
 
 
-def runs(column: st.Column, motion: st.Motion, model: st.Model, number: int, seed: int) -> tuple[int, float, int]:
-    """How many of so many columns like it collapse, the median peak of the others [m], and how many are undecided."""
+def runs(column: st.Column, motions: Sequence[st.Motion], model: st.Model, number: int, seed: int) -> list[np.ndarray]:
+    """Of every motion what becomes of so many columns like it: verdicts, and peaks of the top [m]."""
     twins = [column, *twins_of(column, ALIKE, number - 1, seed)]
-    table = st.simulate_many(twins, [motion] * number, model, tail=TAIL)
+    cases = [(twin, motion) for motion in motions for twin in twins]
+    table = st.simulate_many(*map(list, zip(*cases, strict=True)), model, tail=TAIL)
     verdicts = np.array([v.verdict(row) for row in table.to_dict("records")])
-    stands = verdicts != v.COLLAPSED
-    peak = float(np.median(table["peak_top_displacement_m"][stands])) if stands.any() else float("nan")
-    return int((~stands).sum()), peak, int((verdicts == v.UNDECIDED).sum())
+    return [verdicts.reshape(-1, number), table["peak_top_displacement_m"].to_numpy().reshape(-1, number)]
 
 
 def main(records: Path) -> None:
     """Compute all of it, and print the rows."""
-    models, undecided = list(POPULATIONS.values()), 0
+    plane, *_, space = models = list(POPULATIONS.values())
+    undecided = 0
     for record in map(strongest, read_records(records)):
-        recorded, peaks, scaled = [], [], []
+        scaled = [record.replace(factor=record.factor * peak * st.g / record.pga) for peak in PEAKS]
+        rows: list[list[str]] = [[], [], []]
         for column in columns().values():
-            counts = [runs(column, record, model, MANY, SEED) for model in (models[0], models[-1])]
-            recorded.append(", ".join(str(count) for count, *_ in counts))
-            peaks.append(", ".join(f"{peak:.2f}" for _, peak, _ in counts))
-            undecided += sum(number for *_, number in counts)
-            for peak in PEAKS:
-                shaken = record.replace(factor=record.factor * peak * st.g / record.pga)
-                if runs(column, shaken, POPULATIONS[SPACE], FEW, OTHER)[0] >= 2:
-                    counts = [runs(column, shaken, model, MANY, SEED) for model in models]
-                    undecided += sum(number for *_, number in counts)
-                    scaled.append(f"{peak:.2f} g: " + ", ".join(str(count) for count, *_ in counts))
-                    break
-            else:
-                scaled.append("stands up to 3 g")
-        print(f"| {record.name} | {record.pga / st.g:.2f} g | as recorded: plane, space | {' | '.join(recorded)} |")
-        print(f"| | | median peak of the top [m] | {' | '.join(peaks)} |")
-        print(f"| | scaled | plane, twin, space | {' | '.join(scaled)} |", flush=True)
+            verdicts, peaks = zip(*(runs(column, [record], model, MANY, SEED) for model in (plane, space)), strict=True)
+            rows[0].append(fallen(verdicts))
+            rows[1].append(
+                ", ".join(f"{np.median(peak[seen != v.COLLAPSED]):.2f}" for seen, peak in zip(verdicts, peaks))
+            )
+            undecided += sum(int((seen == v.UNDECIDED).sum()) for seen in verdicts)
+            few, _ = runs(column, scaled, space, FEW, OTHER)
+            falls = np.flatnonzero((few == v.COLLAPSED).sum(axis=1) >= 2)
+            if not falls.size:
+                rows[2].append(f"stands up to {PEAKS[-1]:g} g")
+                continue
+            verdicts = [runs(column, [scaled[falls[0]]], model, MANY, SEED)[0] for model in models]
+            undecided += sum(int((seen == v.UNDECIDED).sum()) for seen in verdicts)
+            rows[2].append(f"{PEAKS[falls[0]]:.2f} g: {fallen(verdicts)}")
+        print(f"| {record.name} | {record.pga / st.g:.2f} g | as recorded: plane, space | {' | '.join(rows[0])} |")
+        print(f"| | | median peak of the top [m] | {' | '.join(rows[1])} |")
+        print(f"| | scaled | plane, twin, space | {' | '.join(rows[2])} |", flush=True)
     print(f"{undecided} undecided")
+
+
+def fallen(verdicts: Iterable[np.ndarray]) -> str:
+    """How many collapse, of each model."""
+    return ", ".join(str(int((seen == v.COLLAPSED).sum())) for seen in verdicts)
 
 
 if __name__ == "__main__":
