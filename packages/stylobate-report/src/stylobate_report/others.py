@@ -146,7 +146,7 @@ def _scope(kind: Kind) -> str:
     """Limits of a result."""
     if kind in (Kind.PUSHOVER, Kind.LIMIT):
         return say(
-            "Forces at rest tell when rocking begins and how far the column can lean; whether it stands an "
+            "Forces at rest tell when rocking begins and how far the structure can lean; whether it stands an "
             "earthquake, only runs in time tell."
         )
     if kind is Kind.RECORDS:
