@@ -62,7 +62,7 @@ def drums_block() -> tuple[float, ...]:
 
 def case_of_ledger(model: str, what: str, drums: str, compute, limit: float) -> None:
     """Two lines for a model and a column: the size of what is missed, and how it falls with the step."""
-    source = "$\\frac12 k a b$ at every closing contact ([theory](theory/distinct_element_2d.md))"
+    source = "$\\frac12 k a b$ at every closing contact ([theory](../theory/distinct_element_2d.md))"
 
     def size() -> float:
         return compute()[0]

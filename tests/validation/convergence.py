@@ -175,7 +175,7 @@ def dem_moment(column: Column, points: int, phi: float) -> float:
     "moment–rotation curve of 32 contact points, rectangle and circle, closed and open: largest relative "
     "difference to the elastic bed",
     AtMost(0.01),
-    source="[Eqs. R2 and R3](theory/rigid_beam.md)",
+    source="[Eqs. R2 and R3](../theory/rigid_beam.md)",
     reason="the bed has infinitely many",
 )
 def many_points_are_a_bed():

@@ -241,7 +241,7 @@ OPENINGS = tuple((section, stiffness) for section in ("rectangular", "circular")
     "dem2d",
     "acceleration that opens the base joint [g]: trapezium with $k_n$ = 10⁸ and 10¹⁰ N/m³, cone with the same",
     Near(tuple(by_statics(*one) for one in OPENINGS), rel=1e-3),
-    source="statics, [Eq. D4](theory/distinct_element_2d.md); rigid: $B_1 / 2 z_C$ = 0.2046 g, 0.2187 g",
+    source="statics, [Eq. D4](../theory/distinct_element_2d.md); rigid: $B_1 / 2 z_C$ = 0.2046 g, 0.2187 g",
     reason="vibration that the ramp leaves in the soft joint",
 )
 def uplift():

@@ -92,7 +92,7 @@ def pressed(width_at, half: float, load: float, phi: float) -> float:
     "opens it: largest error over $M_u$",
     AtMost(2e-5),
     source="quadrature over the section",
-    reason="the circle is a fitted polynomial ([Eq. R3](theory/rigid_beam.md))",
+    reason="the circle is a fitted polynomial ([Eq. R3](../theory/rigid_beam.md))",
 )
 def elastic_bed():
     half, load, worst = 0.6, 2.0e-2, 0.0
@@ -133,7 +133,7 @@ def laws_of_lines():
 
 @case(
     "rigid-beam",
-    "accelerations from the drums' rotations ([Eq. F3](theory/rigid_beam.md)) and from the paper's nodal "
+    "accelerations from the drums' rotations ([Eq. F3](../theory/rigid_beam.md)) and from the paper's nodal "
     "form, 1, 2 and 12 drums: largest relative difference",
     AtMost(1e-12),
     source="Baraldi et al., Eq. 2 to 5, put right",
