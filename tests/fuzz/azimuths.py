@@ -47,7 +47,7 @@ def one(rng: random.Random, folder: Path) -> str:
         raise Fault(f"the worst is {said['worst']}, and by its runs {most}")
     if sorted(said["undecided_directions_deg"]) != open_:
         raise Fault(f"undecided are {said['undecided_directions_deg']}, and by the runs {open_}")
-    if f"towards {bearing(said['worst']):g}°, " not in said["sentence"]:
+    if f"turned to {bearing(said['worst']):g}°, " not in said["sentence"]:
         raise Fault(f"{bearing(said['worst'])}° is not in {said['sentence']!r}")
     ways = len({bearing(row) for row in runs})
     if (f"From {len(open_)} of {ways} directions runs are undecided" in said["sentence"]) != bool(open_):
