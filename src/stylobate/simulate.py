@@ -183,7 +183,7 @@ def warn_of_north(column: Structure, motion: Motion) -> None:
         "horizontal components into its axes."
     )
     along = column.north % 360.0
-    across, to_y = (along - 90.0) % 360.0, "?" if y is None else f"{y:g}°"
+    across, to_y = (along - 90.0) % 360.0, "–" if y is None else f"{y:g}°"
     warn(words.of(motion=motion.name, x=x, y=to_y, column=column.name, north=along, across=across))
 
 

@@ -364,8 +364,8 @@ def _scaled_to(motion: Motion, wanted: float, found: float, text: str) -> Motion
     if found == 0.0:
         raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to a {text}.")
     factor = wanted / found
-    said = say("scaled by {factor:.6g} to a {what}", factor=factor, what=text)
-    scaled = motion.replace(factor=motion.factor * factor, processing=(*motion.processing, said))
+    step = say("scaled by {factor:.6g} to a {what}", factor=factor, what=text)
+    scaled = motion.replace(factor=motion.factor * factor, processing=(*motion.processing, step))
     warn_of_scaling(scaled)
     return scaled
 

@@ -204,14 +204,14 @@ def stands(stand, slip, energy, gravity, walks, body, joint, lane, l):
     return 0.0 < lowest and energy < lowest
 
 
-FOUND_TYPE = np.dtype(
+AS_FOUND_TYPE = np.dtype(
     [("lean", np.float64, (3, 3))]
     + [(name, np.float64) for name in "x y low high right left back front towards".split()]
 )
 
 
 @law
-def put(into, at, axes, x, y, z):
+def write_place(into, at, axes, x, y, z):
     """Writes where a place in these axes is, whose origin is ``at``."""
     for c in range(3):
         into[c] = at[c] + axes[c, 0] * x + axes[c, 1] * y + axes[c, 2] * z
@@ -251,9 +251,9 @@ def put_down_found(found, slip, turns, frame, origin, centroid, offset):
         x, y = turned_by(d.x + slip[j, 0], d.y + slip[j, 1], math.cos(turns[j]), math.sin(turns[j]))
         offset[j, 0], offset[j, 1] = x, y
         put_leaning(frame[j + 1], frame[j], d.lean, math.cos(turns[j + 1]), math.sin(turns[j + 1]))
-        put(origin[j + 1], origin[j], frame[j], x, y, 0.0)
-        put(centroid[j], origin[j + 1], frame[j + 1], 0.0, 0.0, d.low)
-        put(origin[j + 1], origin[j + 1], frame[j + 1], 0.0, 0.0, d.high)
+        write_place(origin[j + 1], origin[j], frame[j], x, y, 0.0)
+        write_place(centroid[j], origin[j + 1], frame[j + 1], 0.0, 0.0, d.low)
+        write_place(origin[j + 1], origin[j + 1], frame[j + 1], 0.0, 0.0, d.high)
 
 
 @law

@@ -351,12 +351,12 @@ class Loose:
                 lost=lambda: self.failed or not self._way_from(poses) <= AS_DRAWN * self.least_width,
             )  # fmt: skip
 
-        at_rest = rests()
-        if at_rest:
+        balanced = rests()
+        if balanced:
             self._join_layers()
-            at_rest = rests()
+            balanced = rests()
         before = drawn[3]
-        if at_rest:
+        if balanced:
             self.body["local"] = 0.0
             for name in ("work", "shear", "visc", "touched", "last", "earlier"):
                 self.now[name] = before[name]
@@ -367,7 +367,7 @@ class Loose:
             for array, old in zip(arrays, drawn, strict=True):
                 array[...] = old
         self.feed[...] = drawn[4]
-        return self._way_from(poses) if at_rest else math.inf
+        return self._way_from(poses) if balanced else math.inf
 
     def _join_layers(self) -> None:
         """Let friction go on from one layer: which part of a face touched first while it settled is an accident."""
