@@ -1,7 +1,8 @@
-"""What the Roman temple of Évora bears, column by column and as a whole: the table and the picture of the page on it.
+"""What the page on the Roman temple of Évora tells of what it bears, of its fragility and of where its stones lie.
 
-``python docs/evidence/evora.py OUT`` keeps what it computes in OUT/limits.json, resumes there, prints the table and writes
-OUT/evora.png. Not a part of the tests: the temple takes some eight seconds of one core for each direction, a column one.
+``python docs/evidence/evora.py OUT [limits|fragility|debris]`` keeps what it computes in OUT, resumes there, prints the
+tables and writes pictures. Not a part of the tests: limits take some eight seconds of one core for each direction of the
+temple and one for those of a column, a fragility and debris up to an hour of two cores each.
 """
 
 from __future__ import annotations
@@ -17,9 +18,12 @@ from typing import Any
 import numpy as np
 from matplotlib.collections import PolyCollection
 
+import stylobate as st
+from stylobate import plots
 from stylobate.column.assembly_files import load_structure
 from stylobate.column.structure import Structure
 from stylobate.constants import DEGREE
+from stylobate.motion.conditioning import trim
 from stylobate.plots.drawing import solids_of
 from stylobate.plots.scene import View, painted
 from stylobate.plots.style import BLACK, GREY, RED, page
@@ -27,6 +31,9 @@ from stylobate.statics.limit import limit_directions
 
 #: Directions of the forces [degrees]; the weakest is looked for between them.
 AZIMUTHS = [45.0 * k for k in range(8)]
+
+#: Simulated motions, and peak ground velocities to which each is scaled [m/s].
+MOTIONS, LEVELS = 10, (0.08, 0.12, 0.2, 0.3, 0.45, 0.65)
 
 #: From where the temple is seen: from its corner A6 [rad].
 SEEN_FROM = View(-50.0 * DEGREE, 16.0 * DEGREE)
@@ -84,9 +91,8 @@ def draw(temple: Any, facts: dict[str, dict[str, Any]], path: Path) -> None:
     figure.savefig(path, dpi=110)
 
 
-def main(out: Path) -> None:
-    warnings.simplefilter("ignore")
-    temple: Any = load_structure("evora")
+def limits(temple: Any, out: Path) -> None:
+    """Table and picture of what the temple and each of its columns bear."""
     kept = out / "limits.json"
     facts: dict[str, dict[str, Any]] = json.loads(kept.read_text()) if kept.exists() else {}
     for name, structure in parts_of(temple).items():
@@ -99,7 +105,40 @@ def main(out: Path) -> None:
     draw(temple, facts, out / "evora.png")
 
 
+def motions() -> list[st.Motion]:
+    """Simulated motions of magnitude 6.5 at 10 km in two components, from 3 to 97 % of their energy."""
+    drawn = (st.stochastic_motion(6.5, 10e3, "greece", seed=seed, horizontal=2) for seed in range(MOTIONS))
+    return [trim(motion, 0.03, 0.97) for motion in drawn]
+
+
+def fragility(temple: Any, out: Path) -> None:
+    """Runs of every motion at every level until they are decided, their table, curve and picture."""
+    found = st.ida(
+        temple, motions(), st.DistinctElement3D(), "pgv", levels=LEVELS, largest_factor=100.0, tail=3.0,
+        ledger=out / "fragility.sqlite", progress=lambda done, total: print(f"{done} of {total}", flush=True),
+    )  # fmt: skip
+    found.table.to_csv(out / "fragility.csv", index=False)
+    curve = st.fragility(found)
+    print(found.table.to_string(), curve.sentence, json.dumps(curve.summary(), indent=1, default=float), sep="\n")
+    plots.draw_fragility(curve).savefig(out / "evora_fragility.png", dpi=110)
+
+
+def debris(temple: Any, out: Path) -> None:
+    """Where the stones of the temple and of fifteen like it are, five seconds after a pulse."""
+    pulse = st.ricker(0.5, 0.2 * st.g, duration=7.5)
+    found = st.certainty(
+        temple, pulse, st.DistinctElement3D(), replicates=15, tail=5.0, ledger=out / "debris.sqlite",
+        progress=lambda done, total: print(f"{done:.3g} of {total:.3g}", flush=True),
+    )  # fmt: skip
+    found.population.table.to_csv(out / "debris.csv", index=False)
+    found.population.table_of_bodies.to_csv(out / "debris_bodies.csv", index=False)
+    print(found.sentence)
+    plots.draw_debris(found.response, found.population.bodies).savefig(out / "evora_debris.png", dpi=110)
+
+
 if __name__ == "__main__":
     folder = Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    main(folder)
+    warnings.simplefilter("ignore")
+    for task in sys.argv[2:] or ("limits",):
+        {"limits": limits, "fragility": fragility, "debris": debris}[task](load_structure("evora"), folder)

@@ -93,7 +93,9 @@ def test_columns_that_are_not_understood_are_refused_before_a_file_is_opened(col
 @pytest.mark.parametrize(
     ("above", "number", "proposal"),
     [
-        ("Zeit N O Z", 3, "t [s], x [g], y [g], z [g]"),
+        ("Zeit N O Z", 3, "t [s], y [g], x [g], z [g]"),
+        ("unità: cm/s²\ntempo;NS;EW;UP", 3, "t [s], y [cm/s2], x [cm/s2], z [cm/s2]"),
+        ("time, acc_north, acc_east", 2, "t [s], y [g], x [g]"),
         ("time, displacement velocity acceleration", 3, "t [s], -, -, x [g]"),
         ("time; EW (m/s²); NS (m/s²); UD (m/s²)", 3, "t [s], x [m/s2], y [m/s2], z [m/s2]"),
         ("# time [s], vertical [g/10], east [g/10]", 2, "t [s], z [g/10], x [g/10]"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -699,6 +700,9 @@ def other_laws(response: Response, motion: Motion, model: Model, campaign: Campa
         return None
     column = response.structure
     others = dict(_companions(column, model))
+    logging.getLogger("stylobate").info(
+        "%s The same is now computed under %d other laws of its joints.", response.sentence, len(others)
+    )
     options = run_options(campaign.tail, quiet=response.provenance["quiet_share"], until_decided=True)
     alone = replace(campaign.of_computing, progress=None, ledger=None, tail=campaign.tail)
     rows = batch([Case(one, motion) for one in others.values()], column, model, alone, options)

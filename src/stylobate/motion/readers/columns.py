@@ -159,6 +159,8 @@ EXAMPLE = "time_s,ax_g"
 
 _STATED_COLUMN = re.compile(r"(?P<axis>-|\w+)\s*(?:\[\s*(?P<unit>[^\]]*?)\s*\])?")
 _OWN_COLUMN = re.compile(r"time_(?P<time>s|ms)|a(?P<axis>[xyz])(?:_(?P<unit>\S+))?")
+#: Names of a column of the motion to north, in several languages.
+_NORTH = re.compile(r"(?:\b|_)n(?:[-_/]?s|or(?:th|d|te)\w*)?(?![^\W_])")
 #: A step that was done to a record, as this package writes it.
 _DONE = re.compile(r"#\s*processing (?P<number>\d{1,9})\s*:\s*(?P<step>.*\S)")
 _FACTS = ("station", "network", "event", "event_id", "start_time", "terms")
@@ -320,9 +322,10 @@ def _bare(above: list[str], below: list[str], table: np.ndarray, unit: str | Non
     what = f"{file}, line {number}: {line.strip()[:200]!r} is not a header as {EXAMPLE} is" if line else (
         f"{file} has {table.shape[1]} columns of numbers without names"
     )  # fmt: skip
+    unit = unit or next((known for text in reversed(above) if (known := _unit_in(text.lower()))), None)
     proposal = propose(line, table, unit)
     step = "" if proposal.startswith("t") else ", and `dt`, the time from sample to sample"
-    none = "" if unit or _unit_in(line.lower()) else ", of which it states none"
+    none = "" if unit else ", of which it states none"
     raise UnstatedError(
         f"{what}; state what each column holds, which may be `columns='{proposal}'`{step}: check what is x, y and z "
         f"(upward), and the units{none}.",
@@ -362,12 +365,15 @@ def propose(line: str, table: np.ndarray, unit: str | None) -> str:
             found.append(f"{free.pop(0)} [{_unit_in(cell) or unit}]" if free else "-")
     if free[:1] == ["x"]:
         found[rises] = f"x [{unit}]"
+    if not free and _NORTH.search(cells[(x := next(i for i, one in enumerate(found) if one[0] == "x"))]):
+        y = next(i for i, one in enumerate(found) if one[0] == "y")  # with z upward, y is to the left of x: north of east
+        found[x], found[y] = "y" + found[x][1:], "x" + found[y][1:]
     return ", ".join(found)
 
 
 def _unit_in(cell: str) -> str | None:
-    """A unit of acceleration that a cell is, or holds behind a name: in brackets, or behind a stroke."""
-    for found in (cell.strip(), *re.findall(r"[\[(_/]\s*([^][(),;\t|_]+)", cell)):
+    """A unit of acceleration that a cell is, or holds behind a name: in brackets, or behind a stroke or a colon."""
+    for found in (cell.strip(), *re.findall(r"[\[(_/:]\s*([^][(),:;\t|_]+)", cell)):
         try:
             return acceleration_unit(found)[0]
         except InputError:
