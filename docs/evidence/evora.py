@@ -33,7 +33,7 @@ from stylobate.statics.limit import limit_directions
 AZIMUTHS = [45.0 * k for k in range(8)]
 
 #: Simulated motions, and peak ground velocities to which each is scaled [m/s].
-MOTIONS, LEVELS = 10, (0.08, 0.12, 0.2, 0.3, 0.45, 0.65)
+MOTIONS, LEVELS = 10, (0.2, 0.3, 0.45, 0.65)
 
 #: From where the temple is seen: from its corner A6 [rad].
 SEEN_FROM = View(-50.0 * DEGREE, 16.0 * DEGREE)
