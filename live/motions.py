@@ -12,7 +12,7 @@ SINE, PULSE = 10.0, 12.0
 EARTHQUAKES = {
     "el-centro-1940": "El Centro, California, 1940",
     "san-francisco-1989": "Loma Prieta in San Francisco, 1989",
-    "hanmer-springs-2016": "Kaikōura in Hanmer Springs, New Zealand, 2016",
+    "hanmer-springs-2016": "Kaikōura, New Zealand, 2016",
     "ridgecrest-2019": "Ridgecrest, California, 2019",
 }
 

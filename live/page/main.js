@@ -3,7 +3,7 @@
 const $ = (id) => document.getElementById(id);
 const SHOWN = 2.5; // after a verdict [s]
 const MAP_COLUMNS = 12, MAP_ROWS = 10;
-const state = { film: null, id: 0, mapId: 0, playing: true, speed: 1 };
+const state = { film: null, id: 0, mapId: 0, playing: true, speed: 1, maps: {} };
 
 if (!window.missing) start();
 
@@ -59,7 +59,7 @@ function form() {
   for (const item of data.earthquakes) {
     $("earthquake").append(new Option(item.title, item.name));
     const line = document.createElement("li");
-    line.textContent = `${item.about}. ${item.terms}.`;
+    line.textContent = `${item.about}. ${item.terms[0].toUpperCase()}${item.terms.slice(1)}.`;
     $("sources").append(line);
   }
   const [low, high] = data.amplitudes;
@@ -150,7 +150,7 @@ function strength({ amplitude, name }) {
 
 function pace({ kind, frequency }) {
   const period = `${(1 / frequency).toFixed(frequency < 2 ? 1 : 2)} s`, hertz = `${frequency.toFixed(2)} Hz`;
-  if (kind === "pulse") return `back and forth in ${period} (${hertz})`;
+  if (kind === "pulse") return `lasting ${period} (${hertz})`;
   return frequency >= 1 ? `${frequency.toFixed(2)} times a second` : `once in ${period} (${hertz})`;
 }
 
@@ -265,17 +265,18 @@ function beginMap({ motion }) {
     across = Array.from({ length: MAP_COLUMNS }, (_, i) => frequencyAt((200 * i) / (MAP_COLUMNS - 1)));
     labels = { ticks: across.map((item, i) => (i % 3 === 0 || i === MAP_COLUMNS - 1 ? `${+item.toFixed(item < 1 ? 2 : 1)}` : "")), title: "how fast: times a second (Hz)" };
   }
-  map.begin(across, up, labels);
+  map.begin(across, up, labels, state.maps[state.mapKey]); // what is known of it stays known
+  state.maps[state.mapKey] = map.cells;
   state.mapKind = motion.kind;
   // from coarse to fine, so that the picture is there before all of it is
   const order = (k, bits) => [...Array(bits).keys()].reduce((sum, bit) => sum + (((k >> bit) & 1) << (bits - 1 - bit)), 0);
   const cells = [];
-  for (let j = 0; j < up.length; j++) for (let i = 0; i < across.length; i++) cells.push({ i, j });
+  for (let j = 0; j < up.length; j++) for (let i = 0; i < across.length; i++) if (map.of(i, j) === null) cells.push({ i, j });
   cells.sort((a, b) => order(a.i, 4) + order(a.j, 4) - order(b.i, 4) - order(b.j, 4) || order(a.i, 4) - order(b.i, 4));
   state.mapCells = cells.map(({ i, j }) => ({ i, j, ...cellMotion(i, j) }));
   state.mapBegun = false;
   state.mapper.postMessage({ id: ++state.mapId });
-  $("map-text").textContent = "";
+  sayMap();
 }
 
 function cellMotion(i, j) {
@@ -295,8 +296,14 @@ function mapped(message) {
     const { i, j } = state.mapCells[message.cell];
     map.set(i, j, message.outcome);
   }
+  sayMap();
+}
+
+function sayMap() {
+  const { map } = state;
   const { length } = map.cells, known = map.cells.filter((item) => item !== null).length;
-  $("map-text").textContent = known < length ? `${known} of ${length} computed …` : summary();
+  const waits = state.mapBegun ? `${known} of ${length} computed …` : "These are computed next.";
+  $("map-text").textContent = known < length ? waits : summary();
   $("map").dataset.over = known === length;
 }
 

@@ -35,8 +35,8 @@ class Verdicts {
     this.describe = () => {};
   }
 
-  begin(across, up, labels) {
-    Object.assign(this, { across, up, labels, cells: new Array(across.length * up.length).fill(null) });
+  begin(across, up, labels, cells = new Array(across.length * up.length).fill(null)) {
+    Object.assign(this, { across, up, labels, cells });
     this.at = [Math.min(this.at[0], across.length - 1), Math.min(this.at[1], up.length - 1)];
     this.draw();
   }

@@ -219,6 +219,30 @@ def test_what_is_chosen_on_the_map_is_seen(open_live, width, height):
 
 
 @needs_browser
+def test_nothing_lies_over_the_text_where_the_page_is_scrolled(open_live):
+    page = open_live(1280, 800)
+    page.wait_for_selector("html[data-ready]")
+    for place in (300, 500, 700):
+        page.evaluate("place => scrollTo(0, place)", place)
+        ends = page.evaluate(
+            "['see', 'about'].map(id => $(id).getBoundingClientRect()).map(one => [one.top, one.bottom])"
+        )
+        assert ends[0][1] <= ends[1][0]
+
+
+@needs_browser
+def test_a_map_is_kept_while_another_one_is_seen(open_live):
+    page = open_live(1280)
+    page.wait_for_selector("html[data-ready]")
+    page.check("input[value=paper-monolithic]", force=True)
+    page.wait_for_function("state.map.cells.filter(one => one !== null).length > 3")
+    page.check("input[value=pulse]", force=True)
+    assert page.evaluate("state.map.cells.filter(one => one !== null).length") == 0
+    page.check("input[value=sine]", force=True)
+    assert page.evaluate("state.map.cells.filter(one => one !== null).length") > 3
+
+
+@needs_browser
 def test_earthquakes_are_named_with_their_recorded_strength(open_live):
     page = open_live(1280)
     page.wait_for_selector("html[data-ready]")
