@@ -236,7 +236,7 @@ function tick(now) {
   let index = Math.min(film.times.length - 1, Math.max(0, Math.floor((film.time / computed) * (film.times.length - 1)) || 0));
   while (index + 1 < film.times.length && film.times[index + 1] <= film.time) index++;
   while (index > 0 && film.times[index] > film.time) index--;
-  state.stage.draw(film.column, film.poses[index], film.times[index], film.fell.map((time, lane) => (film.times[index] >= time ? film.verdicts[lane].joint : Infinity)), film.dust);
+  state.stage.draw(film.column, film.poses[index], film.times[index], film.fell.map((time) => film.times[index] >= time), film.dust);
   const length = film.over ? film.length : Math.max(film.length, computed);
   state.trace.draw(film.full, length, computed, film.time, state.data.g);
   $("clock").textContent = `${film.time.toFixed(1)} s`;

@@ -42,7 +42,7 @@ class Stage {
     return result;
   }
 
-  // One moment: poses of all lanes, from which drum on they have fallen by then, and dust.
+  // One moment: poses of all lanes, which of them have fallen by then, and dust.
   draw(column, poses, time, fell, dust) {
     this.last = [column, poses, time, fell, dust];
     const { pen } = this, w = this.canvas.width, h = this.canvas.height;
@@ -92,7 +92,7 @@ class Stage {
       pen.lineTo(top / 2, height - centroid);
       pen.lineTo(-top / 2, height - centroid);
       pen.closePath();
-      pen.fillStyle = i >= fell[lane] ? fallen : stone;
+      pen.fillStyle = fell[lane] ? fallen : stone;
       pen.fill();
       if (fine && column.round) {
         pen.lineWidth = 0.8 / k;
