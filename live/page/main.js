@@ -315,7 +315,9 @@ function mapFailed({ reason }) {
 function summary() {
   const { map } = state, fell = map.cells.filter((item) => item === FELL).length, weakest = map.cells.indexOf(FELL);
   if (!fell) return "None of these brings it down.";
-  return `${fell} of ${map.cells.length} bring it down; the weakest: ${cellName(weakest % map.across.length, Math.floor(weakest / map.across.length))}. Choose a square to see it happen.`;
+  const records = new Map(state.data.earthquakes.map((item) => [item.name, item.peak / state.data.g]));
+  const stronger = map.cells.every((item, k) => item !== FELL || map.up[Math.floor(k / map.across.length)] > records.get(map.across[k % map.across.length]));
+  return `${fell} of ${map.cells.length} bring it down; the weakest: ${cellName(weakest % map.across.length, Math.floor(weakest / map.across.length))}.${stronger ? " All of these are stronger than what was recorded." : ""} Choose a square to see it happen.`;
 }
 
 function cellName(i, j) {
