@@ -147,8 +147,11 @@ def test_our_own_hazard_files(tmp_path):
     assert (found.unit, found.im.tolist(), found.rate.tolist()) == ("m/s", [0.1, 0.5], [0.02, 0.001])
     for text, why in (
         ("im_g,annual_rate\n0.1,0.01\n0.2,0.02\n", "rises"),
+        ("im_g,annual_rate\n0.1,0.01\n0.2,0\n0.4,0.0001\n", "rises from 0 a year at 0.2 g to 0.0001 at 0.4"),
         ("im_g,annual_rate\n0.1,0.01\n", "at least two"),
-        ("im_g,annual_rate\n-0.1,0.01\n0.2,0.001\n", "not positive"),
+        ("im_g,annual_rate\n-0.1,0.01\n0.2,0.001\n", "has 0.01 a year at -0.1 g; allowed are"),
+        ("im_g,annual_rate\n0.1,0.01\n0.2,-0.001\n", "has -0.001 a year at 0.2 g; allowed are"),
+        ("im_g,annual_rate\n0.1,0.01\n0.1,0.01\n0.2,0.001\n", "has 0.1 g twice; leave one out"),
         ("im_g,annual_rate\n0.1,often\n0.2,0.001\n", "'often'"),
         ("pga,rate\n0.1,0.01\n", "needs im_g or im_m_s"),
         ("", "no column .annual_rate"),

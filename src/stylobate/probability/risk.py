@@ -96,16 +96,19 @@ class Hazard:
         order = np.argsort(self.im, kind="stable")
         im, rate = np.asarray(self.im, dtype=float)[order], np.asarray(self.rate, dtype=float)[order]
         positive = rate > 0.0  # an intensity that is never exceeded is beyond the end of the curve
-        if (rate < 0.0).any() or not np.isfinite(rate).all() or not (np.isfinite(im) & (im > 0.0)).all():
+        wrong = np.flatnonzero(~(np.isfinite(im) & (im > 0.0) & np.isfinite(rate) & (rate >= 0.0)))
+        if wrong.size:
             raise InputError(
-                f"hazard curve {self.name} has an intensity that is not positive, or a rate below 0; mend the file."
+                f"hazard curve {self.name} has {rate[wrong[0]]:g} a year at {im[wrong[0]]:g} {self.unit}; allowed are rates "
+                "from 0 at intensities above 0: mend the file."
             )
-        im, rate = im[positive], rate[positive]
-        if len(im) < 2 or (np.diff(im) == 0.0).any():
+        if positive.sum() < 2:
             raise InputError(
-                f"hazard curve {self.name} has {len(np.unique(im))} intensities with a rate; it needs at least two that "
-                "differ."
+                f"hazard curve {self.name} has {positive.sum()} intensities with a rate; it needs at least two."
             )
+        twice = im[:-1][np.diff(im) == 0.0]
+        if twice.size:
+            raise InputError(f"hazard curve {self.name} has {twice[0]:g} {self.unit} twice; leave one out.")
         rises = np.flatnonzero(np.diff(rate) > 0.0)
         if rises.size:
             k, remedy = int(rises[0]), "check its rows and columns"
@@ -115,6 +118,7 @@ class Hazard:
                 f"hazard curve {self.name} rises from {rate[k]:.3g} a year at {im[k]:g} {self.unit} to {rate[k + 1]:.3g} at "
                 f"{im[k + 1]:g}, and the rate of exceeding more cannot be larger; {remedy}."
             )
+        im, rate = im[positive], rate[positive]
         if im[0] <= FEEBLEST and math.log(rate[0] / rate[-1]) < math.log(im[-1] / im[0]):
             raise InputError(
                 f"hazard curve {self.name} begins at {im[0]:g} {self.unit}, exceeded {rate[0]:.3g} times a year, and falls "
@@ -247,7 +251,9 @@ def _nearest(name: str, number: int, places: list[list[float]] | None, site: tup
     """Which of several sites is meant."""
     if number == 1:
         return 0
-    if site is None or places is None:
+    if places is None or any(len(place) != 2 for place in places):
+        raise InputError(f"{name} holds {number} sites without longitude and latitude; give a file of one site.")
+    if site is None:
         raise InputError(f"{name} holds {number} sites; choose one with `site=LON,LAT`.", "site")
     away = [_distance_km(place, site) for place in places]
     nearest = int(np.argmin(away))
@@ -271,7 +277,7 @@ def _distance_km(place: Sequence[float], other: Sequence[float]) -> float:
 
 def _of_chances(name: str, kind: str, statistic: str, time: float, im: np.ndarray, poe: np.ndarray) -> Hazard:
     """The curve of probabilities of exceedance in a time [y]; PGV in cm/s, all else in g."""
-    if ((poe < 0.0) | (poe > 1.0)).any():
+    if not ((poe >= 0.0) & (poe <= 1.0)).all():
         raise InputError(f"{name} has a probability of exceedance outside 0 to 1; mend the file.")
     velocity = kind.upper().startswith("PGV")
     sure = poe < 1.0  # a certain exceedance has no rate
@@ -315,7 +321,9 @@ def _nrml(name: str, text: str, site: tuple[float, float] | None) -> Hazard:
         kind += f"-{found.get('quantileValue', '')}"
     elif not kind and found.get("sourceModelTreePath"):
         kind = f"{found.get('sourceModelTreePath')}~{found.get('gsimTreePath', '')}"
-    imt = found.get("IMT", "") + (f"({float(period):g})" if period else "")
+    imt = found.get("IMT", "")
+    if period:
+        imt += f"({_number(f'saPeriod of {name}', 1, [period], 0):g})"
     return _of_chances(name, imt, _statistic(kind, name), time, im, poe)
 
 

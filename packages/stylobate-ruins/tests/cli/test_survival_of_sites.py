@@ -131,6 +131,9 @@ def test_hazard_curves_in_nrml(tmp_path):
         ("</nrml>", "", "no XML"),
         ('investigationTime="50.0" ', "", "investigationTime"),
         ("0.4 0.2 0.05", "0.4 0.2", "3 intensities and 2"),
+        ("0.4 0.2 0.05", "nan 0.2 0.05", "outside 0 to 1"),
+        ('IMT="PGV"', 'IMT="SA" saPeriod="1 s"', "saPeriod of curve.xml has '1 s' where a number"),
+        ("21.90 37.43", "", "2 sites without longitude and latitude"),
         ("<nrml", "<!DOCTYPE x [<!ENTITY a 'b'>]><nrml", "entities"),
         ("hazardCurves", "other", "0 sets"),
     ):
