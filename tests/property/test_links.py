@@ -124,6 +124,7 @@ TITANIUM: dict[str, Any] = {"diameter": 0.04, "embedment": 0.1, "material": "tit
         (lambda: st.Tie(at=(0.6, 0.0), to_drum=40, axial_stiffness=1e6), "the drums are 1 to 12"),
         (lambda: st.Layer(joint=1), "neither friction_coefficient"),
         (lambda: st.Dowel(joint=2, **{"at": (0.1,), "shear_stiffness": 1e6}), "a place in plan"),
+        (lambda: st.Dowel(joint=2, **(TITANIUM | {"stone_strength": 60.0})), r"is 60 Pa; .* use SI units"),
         (lambda: "dowel", "allowed is a Dowel, Bar, Tie, Core, Layer or Pad"),
     ],
 )
@@ -162,6 +163,14 @@ class Brake(st.Tie):
     """A kind of link that nobody computes."""
 
     kind = "brake"
+
+
+def test_two_dowels_in_one_stone_are_no_two_dowels() -> None:
+    """A block of a file that is copied, and its place forgotten, would hold twice as much."""
+    far, near, joint = (st.Dowel(joint=k, at=(x, 0.0), **TITANIUM) for k, x in ((2, 0.2), (2, 0.17), (3, 0.17)))
+    COLUMN.replace(links=[far, joint, st.Dowel(joint=2, at=(0.15, 0.0), **TITANIUM)])
+    with pytest.raises(st.InputError, match=r"link 2 .* in joint 2 are 0\.03 m apart .* give them other places"):
+        COLUMN.replace(links=[far, near])
 
 
 @pytest.mark.parametrize("name", [*MODELS, "limit_analysis", "limit_in_space", "pushover"])

@@ -326,6 +326,7 @@ class Link:
     def _range(self, name: str, low: float, high: float, unit: str, **more: Any) -> None:
         value = getattr(self, name)
         if value is not None:
+            more = {"remedy": "use SI units", **more}
             number = check_range(name, value, low, high, unit=unit, of=f"a {self.kind}", **more)
             object.__setattr__(self, name, number)
 

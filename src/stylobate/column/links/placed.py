@@ -234,6 +234,16 @@ def _check(link: PlacedLink, others: Sequence[PlacedLink]) -> None:
         raise InputError(f"a {link.kind} without axial_stiffness cannot be pretensioned; give one.", "axial_stiffness")
     beside = [other for other in others if (other.lower, other.upper) == (link.lower, link.upper)]
     where = f"joint {link.joint}" if link.joint else "its joint"
+    for other in (
+        beside if link.joint and link.diameter else []
+    ):  # in an assembly in the plane one may stand behind the other
+        apart = math.dist(link.low, other.low)
+        if other.diameter and apart < 0.5 * (link.diameter + other.diameter):
+            raise InputError(
+                f"a {link.kind} of {link.diameter:g} m and a {other.kind} of {other.diameter:g} m in {where} are "
+                f"{apart:.3g} m apart from axis to axis, and would share stone; give them other places with at.",
+                "at",
+            )
     if link.friction_coefficient is not None and any(other.friction_coefficient is not None for other in beside):
         raise InputError(f"{where} has two layers with a friction_coefficient; keep one.", "joint")
     if link.bed_stiffness < math.inf and any(other.bed_stiffness < math.inf for other in beside):
