@@ -58,7 +58,7 @@ def test_a_file_is_read(tmp_path):
     [
         ('name = "beam"', 'name = "left"', "two blocks are called 'left'"),
         ("[[-1.5, 2.0], [1.5, 2.0]", "[[-1.5, 1.9], [1.5, 1.9]", "block 'beam' and block 'left' overlap by 100 mm"),
-        ("density = 2000.0", "densty = 2000.0", "did you mean 'density'"),
+        ("density = 2000.0", "densty = 2000.0", "did you mean density"),
         ('"left", "beam"]', '"left", "bean"]', "'bean', which does not exist"),
         ("[[-1.5, 0.0], [-0.5, 0.0]", "[[-1.5, -0.01], [-0.5, -0.01]", "'left' lies in the ground by 10 mm"),
     ],

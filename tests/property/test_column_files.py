@@ -300,7 +300,7 @@ def test_a_misspelt_key_is_named_with_the_right_one(data, tmp_path_factory):
     with pytest.raises(st.InputError) as error:
         read_column(path)
     assert f"unknown key '{wrong}'" in str(error.value)
-    assert f"'{key}'" in str(error.value)
+    assert f"did you mean {key}?" in str(error.value)
     assert "misspelt.toml" in str(error.value)
 
 
@@ -417,7 +417,7 @@ def test_a_key_of_a_table_in_a_table_is_told_by_the_whole_path(tmp_path):
     path = tmp_path / "column.toml"
     path.write_text(TAPERED + "\n[[as_found.drum]]\nindex = 2\nofset = 0.01\n")
     with pytest.raises(
-        InputError, match=r"unknown key 'ofset' in \[\[as_found\.drum\]\] number 1; did you mean 'offset'"
+        InputError, match=r"unknown key 'ofset' in \[\[as_found\.drum\]\] number 1; did you mean offset"
     ):
         read_column(path)
 

@@ -206,7 +206,7 @@ def _sentence(item: Any, schema: type[Table], others: list[Any]) -> tuple[str, s
     place = _place(where)
     if kind == "extra_forbidden":
         keys = _keys(schema, where)
-        near = suggest(repr(key), map(repr, keys)).strip()
+        near = suggest(key, keys).strip()
         return f"unknown key {key!r}{place}; " + (near or f"allowed are {', '.join(keys)}."), place
     if kind == "missing":
         return f"key {key!r} is missing{place}; add it.", place
