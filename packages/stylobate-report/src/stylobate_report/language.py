@@ -38,7 +38,10 @@ WORD, FIELD = re.compile(r"(?<![\w./-])[^\W\d_]{2,}(?![\w]|\.\w)"), re.compile(r
 DECIMAL, GROUPS = "X-Decimal", "X-Groups"
 
 #: Names that the program gives to parts of what stands, of which the nouns are translated.
-NUMBERED = re.compile(r"(column|drum|capital|architrave|block|tie|dowel|clamp|layer|core|bar)( \d+)?")
+NUMBERED = re.compile(r"(ground|column|drum|capital|architrave|block|tie|dowel|clamp|layer|core|bar)( \d+)?")
+
+#: Name of a link in a joint, and its number where the joint has several.
+IN_JOINT = re.compile(r"(dowel|bar|layer|pad) in joint (\d+)((?:, \d+)?)")
 
 
 #: Symbols of units, which are alike in all languages, and the most words that a name has: more are a sentence.
@@ -111,8 +114,12 @@ class Language:
             known = {name: value for name, value in link.groupdict().items() if value is not None}
             start = "drum {lower}" if "lower" in known else "the base"
             return self.say(say(f"{{kind}} from {start} to drum {{upper}}", **known | {"kind": say(known["kind"])}))
+        if link := IN_JOINT.fullmatch(text):
+            return self.say(say("{kind} in joint {joint}", kind=say(link[1]), joint=link[2])) + link[3]
         if text in self.own or not WORD.search(text):
             return text
+        if len(pair := text.split(" – ")) == 2:  # a joint, by what it lies between
+            return " – ".join(map(self.say, pair))
         if parts := numbered(text):
             return ", ".join(self._template(noun) + number for noun, number in parts)
         if len(WORD.findall(text)) > MOST_IN_A_NAME:

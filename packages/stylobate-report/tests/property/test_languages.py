@@ -92,6 +92,9 @@ def test_what_has_no_translation_is_told_and_names_are_not():
     language.say("the column of my uncle")
     language.say("north_column-2.csv")
     assert language.say("column 1, drum 7") == "colonna 1, rocco 7"
+    assert [language.say(one) for one in ("ground – drum 1", "dowel in joint 5, 1", "layer in joint 1")] == [
+        "suolo – rocco 1", "perno nel giunto 5, 1", "strato nel giunto 1",
+    ]  # fmt: skip
     assert not language.missing
     language.say(say("The column wore a hat of stone."))
     assert list(language.missing) == ["The column wore a hat of stone."]
