@@ -178,13 +178,13 @@ def warn_of_north(column: Structure, motion: Motion) -> None:
     if all(abs(math.remainder(angle, 360.0)) <= 1.0 for angle in apart):
         return
     words = say(
-        "{motion}: x of the record points to {x:g}° clockwise from north, y to {y}, and the axes of {column} to {north:g}° "
-        "and {across:g}°, so that it is not shaken from where the ground was; `azimuth={north:g}deg` turns a record of two "
-        "horizontal components into its axes."
+        "{motion}: x of the record points to {x:g}° clockwise from north, y to {y}, and x and y of what is shaken to "
+        "{north:g}° and {across:g}°, so that it is not shaken from where the ground was; `azimuth={north:g}deg` turns a "
+        "record of two horizontal components into its axes."
     )
     along = column.north % 360.0
     across, to_y = (along - 90.0) % 360.0, "–" if y is None else f"{y:g}°"
-    warn(words.of(motion=motion.name, x=x, y=to_y, column=column.name, north=along, across=across))
+    warn(words.of(motion=motion.name, x=x, y=to_y, north=along, across=across))
 
 
 def run_checked(

@@ -141,8 +141,8 @@ def test_a_measure_is_compared_with_the_column_as_it_stands_today():
 
 
 def test_what_is_undecided_stands_in_the_advice():
-    said = dataclasses.replace(KNOWN, share_low=-0.05, ratio_high=1.1, pairs=27, undecided=13).advice
-    assert said.endswith("; 13 of 40 pairs of runs are undecided, and longer runs may settle them).")
+    said = dataclasses.replace(KNOWN, share_low=-0.05, ratio_high=1.1, pairs=27, undecided=13, to_decide="do so").advice
+    assert said.endswith("; 13 of 40 pairs of runs are undecided: do so).")
     few = dataclasses.replace(KNOWN, records=3, undecided=13).advice  # longer runs of so few would settle nothing
     assert few.endswith(
         "3 records and worse in 9; nothing is concluded from fewer than 10 records; 13 of 53 pairs of runs are undecided)."

@@ -335,10 +335,12 @@ def test_a_record_that_is_not_in_the_axes_of_a_column_is_warned_of_and_the_advic
     warn_of_north(column, asked)
     warn_of_north(column, asked.replace(metadata={"direction": {"azimuth": 10.0}, **facts}))
     assert not recwarn.list
-    with pytest.warns(st.errors.OutOfRangeWarning, match=r"x of the record points to 90° .* `azimuth=35deg`"):
-        warn_of_north(column, st.Motion(0.01, WAVE, WAVE, metadata=facts))
+    askew, twin = st.Motion(0.01, WAVE, WAVE, metadata=facts), dataclasses.replace(column, name="twin 1")
+    with pytest.warns(st.errors.OutOfRangeWarning, match=r"x of the record points to 90° .* `azimuth=35deg`") as said:
+        any(warn_of_north(one, askew) for one in (column, twin))
+    assert len({str(one.message) for one in said}) == 1  # the program says the same but once
     mirrored = st.Motion(0.01, WAVE, WAVE, metadata={"azimuths": {"x": 35.0, "y": 125.0}})
-    with pytest.warns(st.errors.OutOfRangeWarning, match=r"y to 125°, and the axes of .* to 35° and 305°"):
+    with pytest.warns(st.errors.OutOfRangeWarning, match=r"y to 125°, and x and y of .* to 35° and 305°"):
         warn_of_north(column, mirrored)
 
 

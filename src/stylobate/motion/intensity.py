@@ -21,7 +21,7 @@ from .specs import values_of as _values
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
 
 #: Of a peak velocity, in warnings that results keep and that what rests on them says again.
-DRIFTS = "is that of a baseline which drifts"
+DRIFTS = say("is that of a baseline which drifts")
 
 
 def peak_ground_velocity(motion: Motion, component: str = "x") -> float:

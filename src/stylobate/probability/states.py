@@ -25,7 +25,7 @@ from ..notebook import NotebookSummary
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
 from ..response.response import Response
-from ..response.words import ROUND_IN_THE_PLANE
+from ..response.words import ROUND_IN_THE_PLANE, to_decide
 from ..verdicts.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, Share, parse_state, shares
 from ..verdicts.verdict import caveat, few_laws, under_another_law
 from .evidence import DIGITS, Evidence, evidence, intervals, medians_by_law
@@ -108,6 +108,8 @@ class Difference:
         What limits the links of this state instead of them, in words.
     lacking : str
         What the runs lack for a comparison of medians; empty where they lack nothing, or a state has no curve.
+    to_decide : str
+        What decides the undecided runs of this state, in a clause.
     """
 
     state: str
@@ -133,6 +135,7 @@ class Difference:
     confidence: float = 0.95
     stone: str = ""
     lacking: str = ""
+    to_decide: str = ""
 
     @property
     def conclusion(self) -> str:
@@ -187,8 +190,8 @@ class Difference:
                 if alone
                 else say("{open} of {all} pairs of runs are undecided")
             )
-            later = say(", and longer runs may settle them") if self.records >= FEWEST else ""
-            words.append(said.of(open=self.undecided, all=self.pairs + self.undecided) + later)
+            told = said.of(open=self.undecided, all=self.pairs + self.undecided)
+            words.append(joined(": ", [told, *[self.to_decide] * (self.to_decide != "" and self.records >= FEWEST)]))
         here = joined("; ", words) if self.pairs + self.undecided else NO_PAIR
         if measure:
             no = say(
@@ -535,8 +538,12 @@ def compare_states(
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
     weak = [stone_that_breaks(column.placed_links) for column in named[1:]]
     differences = tuple(
-        dataclasses.replace(with_undecided(told[at], one, curves[at], curve, samples, seed, confidence), stone=words)
-        for at, one, curve, words in zip(compared.values(), told[1:], curves[1:], weak, strict=True)
+        dataclasses.replace(
+            with_undecided(told[at], one, curves[at], curve, samples, seed, confidence),
+            stone=words,
+            to_decide=to_decide(column, model.parameters(), campaign.tail),
+        )
+        for at, one, curve, words, column in zip(compared.values(), told[1:], curves[1:], weak, named[1:], strict=True)
     )
     side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records, told[0].laws))
     before = doubt(labels, named, model) if study.of_one_law else ""
