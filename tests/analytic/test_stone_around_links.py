@@ -42,9 +42,8 @@ def test_the_smallest_of_bar_anchor_and_stone_by_hand():
     out at 7.7 √60 50^1.5 N before a bond of 10 MPa does."""
     area = math.pi * 0.02**2 / 4.0
     bar = {"joint": 1, "diameter": 0.02, "material": "titanium"}
-    sheared, bonded, coned = BLOCK.replace(
-        links=(st.Dowel(**bar, embedment=0.2), st.Bar(**bar, embedment=0.2), st.Bar(**bar, embedment=0.05, bond=1e7))
-    ).placed_links
+    each = st.Dowel(**bar, embedment=0.2), st.Bar(**bar, embedment=0.2), st.Bar(**bar, embedment=0.05, bond=1e7)
+    sheared, bonded, coned = (BLOCK.replace(links=(one,)).placed_links[0] for one in each)
     assert sheared.shear_capacity == pytest.approx(275e6 / math.sqrt(3.0) * area, rel=1e-9)
     assert bonded.axial_capacity == pytest.approx(math.pi * 0.02 * 0.2 * 3e6, rel=1e-9)
     cone = 7.7 * math.sqrt(60.0) * 50.0**1.5
@@ -53,10 +52,10 @@ def test_the_smallest_of_bar_anchor_and_stone_by_hand():
     (near,) = DOWELLED.placed_links
     assert near.shear_capacity == pytest.approx(V_EDGE, rel=1e-9)
     assert (sheared.failure, near.failure) == ("ductile", "brittle")
-    each = [
+    limits = [
         (one.limited_by("shear_capacity"), one.limited_by("axial_capacity")) for one in (sheared, bonded, coned, near)
     ]
-    assert each == [("link", "link"), ("link", "link"), ("link", "stone"), ("stone", "link")]
+    assert limits == [("link", "link"), ("link", "link"), ("link", "stone"), ("stone", "link")]
     assert [one.governs.split("; ")[-1].split(" (")[0] for one in (sheared, bonded, coned, near)] == [
         "shear of the bar", "bond to the stone", "cone of the stone", "edge of the stone",
     ]  # fmt: skip
