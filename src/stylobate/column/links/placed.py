@@ -234,9 +234,8 @@ def _check(link: PlacedLink, others: Sequence[PlacedLink]) -> None:
         raise InputError(f"a {link.kind} without axial_stiffness cannot be pretensioned; give one.", "axial_stiffness")
     beside = [other for other in others if (other.lower, other.upper) == (link.lower, link.upper)]
     where = f"joint {link.joint}" if link.joint else "its joint"
-    for other in (
-        beside if link.joint and link.diameter else []
-    ):  # in an assembly in the plane one may stand behind the other
+    # in an assembly in the plane, whose links have no joint by number, one may stand behind the other
+    for other in beside if link.joint and link.diameter else []:
         apart = math.dist(link.low, other.low)
         if other.diameter and apart < 0.5 * (link.diameter + other.diameter):
             raise InputError(

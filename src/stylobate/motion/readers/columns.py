@@ -366,7 +366,9 @@ def propose(line: str, table: np.ndarray, unit: str | None) -> str:
     if free[:1] == ["x"]:
         found[rises] = f"x [{unit}]"
     if not free and _NORTH.search(cells[(x := next(i for i, one in enumerate(found) if one[0] == "x"))]):
-        y = next(i for i, one in enumerate(found) if one[0] == "y")  # with z upward, y is to the left of x: north of east
+        y = next(
+            i for i, one in enumerate(found) if one[0] == "y"
+        )  # with z upward, y is to the left of x: north of east
         found[x], found[y] = "y" + found[x][1:], "x" + found[y][1:]
     return ", ".join(found)
 
