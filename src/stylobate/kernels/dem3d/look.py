@@ -91,8 +91,8 @@ def slip_where_closest(u, v, e, l, twist):
 #: A lane whose positions are larger has failed [m].
 FAR = 1.0e6
 
-#: Cosine of the angle between two faces below which they count as parted [-].
-ON_EDGE = 0.1
+#: Cosine of the angle between two faces below which they count as parted, 75.5°: laws of faces do not hold beyond [-].
+ON_EDGE = 0.25
 
 #: Sine of a tilt below which a direction of lean means nothing [-].
 UPRIGHT = 1e-3
