@@ -213,7 +213,10 @@ def ledger(folder: Path | None, *, waits: bool = False) -> Path | None:
         return None
     if not waits:
         refuse_held(folder / RUNS_FILE)
-    signals.KEPT.append(f"interrupted; what is finished is kept in {folder}: the same command goes on from there.")
+    signals.KEPT.append(
+        f"interrupted; what is finished is kept in {folder}: the same command goes on from there, and begins the run "
+        "under way again."
+    )
     return folder / RUNS_FILE
 
 
