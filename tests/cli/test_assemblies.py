@@ -136,7 +136,7 @@ def test_films(command, fallen, tmp_path, kind):
 
 def test_a_person_is_told(command, portal):
     text, _ = command("run", portal, *SHAKEN)
-    assert text.startswith("All 3 blocks are in place: no joint opened. Everything lies still.")
+    assert text.startswith("All 3 blocks stand: no joint opened. Everything lies still.")
     for words in ("assembly", "portal, 3 blocks, 4 joints", "harmonic 1 Hz, 0.02 g", "dem2d", "peak displacement"):
         assert words in text
     still_moving, _ = command("run", portal, *MODEL, "--harmonic", "1Hz,0.4g,1s")

@@ -43,18 +43,18 @@ def sentence_of_blocks(response: Recorded) -> str:
         if len(order) < len(moving) and not blocks.at_rest:
             words.append(say("Not all is at rest at the end: what has not fallen by then may yet fall."))
         return joined(" ", [*words, _moving(response)])
-    in_place = {1: say("The block is in place"), 2: say("Both blocks are in place")}.get(
-        len(moving), say("All {count} blocks are in place", count=len(moving))
+    stand = {1: say("The block stands"), 2: say("Both blocks stand")}.get(
+        len(moving), say("All {count} blocks stand", count=len(moving))
     )
-    in_place = in_place if response.decided else say("Nothing has fallen so far")
+    stand = stand if response.decided else say("Nothing has fallen so far")
     if response.outcome is Outcome.AT_REST:
-        return say("{in_place}: no joint opened.", in_place=in_place)
+        return say("{stand}: no joint opened.", stand=stand)
     if response.outcome is Outcome.ROCKED:
-        closed = say("{in_place}: joints opened and closed, none is shifted", in_place=in_place)
+        closed = say("{stand}: joints opened and closed, none is shifted", stand=stand)
         return closed + _widest(response) + "."
     gone = response.displacement[-1]
     far = max(moving, key=lambda i: gone[i])
-    words = [in_place, say(", but shifted") if response.decided else say("; out of place at the end")]
+    words = [stand, say(", but shifted") if response.decided else say("; out of place at the end")]
     words.append(say(": {body} by {far}", body=response.bodies.names[far], far=_length(float(gone[far]))))
     words += [say(", the others by less") * (len(moving) > 1), _widest(response), "."]
     return joined(" ", [joined("", words), _moving(response)])
