@@ -117,9 +117,9 @@ def fragility(temple: Any, out: Path) -> None:
         temple, motions(), st.DistinctElement3D(), "pgv", levels=LEVELS, largest_factor=100.0, tail=3.0,
         ledger=out / "fragility.sqlite", progress=lambda done, total: print(f"{done} of {total}", flush=True),
     )  # fmt: skip
-    found.table.to_csv(out / "fragility.csv", index=False)
+    found.runs.to_csv(out / "fragility.csv", index=False)
     curve = st.fragility(found)
-    print(found.table.to_string(), curve.sentence, json.dumps(curve.summary(), indent=1, default=float), sep="\n")
+    print(found.runs.to_string(), curve.sentence, json.dumps(curve.summary(), indent=1, default=float), sep="\n")
     plots.draw_fragility(curve).savefig(out / "evora_fragility.png", dpi=110)
 
 
