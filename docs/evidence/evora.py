@@ -1,8 +1,8 @@
 """What the page on the Roman temple of Évora tells of what it bears, of its fragility and of where its stones lie.
 
 ``python docs/evidence/evora.py OUT [limits|fragility|debris]`` keeps what it computes in OUT, resumes there, prints the
-tables and writes pictures. Not a part of the tests: limits take some eight seconds of one core for each direction of the
-temple and one for those of a column, a fragility and debris up to an hour of two cores each.
+tables and writes pictures. Not a part of the tests: a limit takes some eight seconds of one core, of a single column one,
+the fragility more than an hour of two cores, the debris ten minutes.
 """
 
 from __future__ import annotations

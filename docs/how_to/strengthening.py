@@ -2,7 +2,7 @@
 
 ``python docs/how_to/strengthening.py RECORDS OUT [bassae|drums] [plane|space] [STATE,STATE …]`` keeps its runs in
 OUT and resumes there; it prints the table of the page and writes its picture. RECORDS is a folder with the files named
-below, as their networks published them. Not a part of the tests: a column takes up to a quarter of an hour of one core in
+below, as their networks published them. Not a part of the tests: a column takes half an hour to an hour of one core in
 space.
 """
 

@@ -204,7 +204,8 @@ def stands(stand, slip, energy, gravity, walks, body, joint, lane, l):
     return 0.0 < lowest and energy < lowest
 
 
-AS_FOUND_TYPE = np.dtype(
+#: Numbers of a drum as found, see ``found_numbers`` in ``models/dem3d/packing.py``.
+FOUND_DRUM_TYPE = np.dtype(
     [("lean", np.float64, (3, 3))]
     + [(name, np.float64) for name in "x y low high right left back front towards".split()]
 )

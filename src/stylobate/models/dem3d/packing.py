@@ -703,10 +703,10 @@ class _Contact:
 def found_numbers(column: Column) -> tuple[np.ndarray, np.ndarray, float]:
     """Numbers of a column as found for the law, see ``kernels/dem3d/standing.py``: of its drums; the direction against
     gravity [-], and mass times height of all drums as they were found [kg m]."""
-    from ...kernels.dem3d.standing import AS_FOUND_TYPE
+    from ...kernels.dem3d.standing import FOUND_DRUM_TYPE
 
     at, up, drums = space_geometry(column), upward(column), column.drums
-    one: Any = np.zeros(column.n, AS_FOUND_TYPE)
+    one: Any = np.zeros(column.n, FOUND_DRUM_TYPE)
     one["lean"] = at.bed.transpose(0, 2, 1)
     below = np.concatenate(([0.0], at.turned[:-1]))  # offsets as found are in axes that do not turn with the drums
     c, s = np.cos(below), np.sin(below)
