@@ -84,8 +84,10 @@ def shakings(number: int, seconds: float = 10.0) -> list[st.Motion]:
 
 def measure_machine() -> dict[str, Any]:
     """What the figures were measured on, and by what."""
-    asked = ["nvidia-smi", "--query-gpu=name,driver_version,memory.total,clocks.max.sm", "--format=csv,noheader"]
-    told = subprocess.run(asked, capture_output=True, text=True, check=False).stdout if shutil.which(asked[0]) else ""
+    command = ["nvidia-smi", "--query-gpu=name,driver_version,memory.total,clocks.max.sm", "--format=csv,noheader"]
+    output = (
+        subprocess.run(command, capture_output=True, text=True, check=False).stdout if shutil.which(command[0]) else ""
+    )
     names = ("numpy", "numba", "llvmlite", "scipy", "pandas", "cuda-bindings")
     versions = {}
     for name in names:
@@ -94,7 +96,7 @@ def measure_machine() -> dict[str, Any]:
     first = next(iter(kinds.kinds()))
     generator = re.search(r"NVVM [^\n]*|release [^,\n]*", kinds.text_of(first))
     return {
-        "date": time.strftime("%Y-%m-%d"), "card": driver.the_card().name, "driver": told.strip(), "cpu": _processor(),
+        "date": time.strftime("%Y-%m-%d"), "card": driver.the_card().name, "driver": output.strip(), "cpu": _processor(),
         "threads": thread_count(None), "python": platform.python_version(), "sources": source_digest(),
         "kernels": generator.group() if generator else "", **versions,
     }  # fmt: skip
@@ -112,8 +114,8 @@ def measure_kinds(keep: Keep) -> None:
     """Every kernel beside the processor in the short runs by which it is checked, all at the same time."""
     with _processes(len(kinds.kinds())) as pool:
         waiting = [pool.submit(_check, name) for name in kinds.kinds()]
-        for one in as_completed(waiting):
-            keep(one.result())
+        for future in as_completed(waiting):
+            keep(future.result())
 
 
 def _check(name: str) -> dict[str, Any]:
@@ -201,13 +203,13 @@ def measure_kernels(keep: Keep) -> None:
         many._begin()
         many.card.advance(0)
         feed, watch = many.card.here["feed"], many.card.here["watch"]
-        first, spent, launches, found = int(feed["step"].sum()), 0.0, 0, {}
+        first, spent, launches, rates = int(feed["step"].sum()), 0.0, 0, {}
         while (running := int(np.count_nonzero(watch["status"] == RUNNING))) > 0:
             started = time.perf_counter()
             many.card.advance(lanes.CHUNKS_PER_LAUNCH)
             spent, launches = spent + time.perf_counter() - started, launches + 1
-            if not found and np.count_nonzero(watch["status"] == RUNNING) < 0.9 * many.lanes:
-                found = {"steps_of_lanes_per_s": (int(feed["step"].sum()) - first) / spent, "launches": launches}
+            if not rates and np.count_nonzero(watch["status"] == RUNNING) < 0.9 * many.lanes:
+                rates = {"steps_of_lanes_per_s": (int(feed["step"].sum()) - first) / spent, "launches": launches}
         mean = (int(feed["step"].sum()) - first) / many.lanes
         keep(
             {
@@ -215,10 +217,10 @@ def measure_kernels(keep: Keep) -> None:
                     "lanes": many.lanes,
                     "lanes_to_their_end_runs_per_s": many.lanes / spent,
                     "steps_of_a_run": mean,
-                    "runs_per_s": found["steps_of_lanes_per_s"] / mean,
+                    "runs_per_s": rates["steps_of_lanes_per_s"] / mean,
                     "launch_s": spent / launches,
                     "steps_of_a_launch": CHUNK * lanes.CHUNKS_PER_LAUNCH,
-                    **found,
+                    **rates,
                     "running": running,
                 }
             }
@@ -253,10 +255,10 @@ def measure_tests(keep: Keep) -> None:
         "packages/stylobate-gpu/tests/agreement/test_on_card.py",
     ]
     with subprocess.Popen(command, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as running:
-        told: list[str] = []
+        lines: list[str] = []
         for line in running.stdout or ():
-            told.append(line.rstrip())
-            keep({"said": told[-60:]})
+            lines.append(line.rstrip())
+            keep({"said": lines[-60:]})
     keep({"exit_code": running.returncode})
 
 
@@ -311,8 +313,8 @@ def measure_million(histories: int, seconds: float, folder: Path, keep: Keep) ->
     began = time.monotonic()
     for name, last in (("killed", False), ("gone on with", True)):
         started, before, first = time.monotonic(), _kept(folder), None
-        with (folder / f"{name}.json").open("w") as out, (folder / f"{name}.txt").open("w") as told:
-            running = subprocess.Popen(run, cwd=folder, stdout=out, stderr=told)
+        with (folder / f"{name}.json").open("w") as out, (folder / f"{name}.txt").open("w") as log:
+            running = subprocess.Popen(run, cwd=folder, stdout=out, stderr=log)
             while running.poll() is None:
                 time.sleep(1.0)
                 done, now = _kept(folder), time.monotonic()
@@ -352,11 +354,11 @@ def _kept(folder: Path) -> int:
     if not path.is_file():
         return 0
     with suppress(sqlite3.Error):
-        found = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
+        database = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
         try:
-            return int(found.execute("SELECT count(*) FROM runs").fetchone()[0])
+            return int(database.execute("SELECT count(*) FROM runs").fetchone()[0])
         finally:
-            found.close()
+            database.close()
     return 0
 
 
@@ -404,50 +406,50 @@ def main() -> None:
     words.add_argument("--histories", type=int, default=1_000_000, help="runs of the study (1000000)")
     words.add_argument("--small", action="store_true", help="few runs, to try it")
     words.add_argument("--alone", action="store_true", help=argparse.SUPPRESS)  # the process of one part
-    asked = words.parse_args()
-    unknown = [part for part in asked.parts if part not in PARTS]
+    options = words.parse_args()
+    unknown = [part for part in options.parts if part not in PARTS]
     if unknown:
         words.error(f"there is no part {unknown[0]!r}; parts are {', '.join(PARTS)}")
-    asked.out.mkdir(parents=True, exist_ok=True)
-    if asked.alone:
-        (part,) = asked.parts
-        found: dict[str, Any] = {}
+    options.out.mkdir(parents=True, exist_ok=True)
+    if options.alone:
+        (part,) = options.parts
+        figures: dict[str, Any] = {}
 
         def keep(more: dict[str, Any]) -> None:
-            found.update(more)
-            with replacing(asked.out / f"{part}.json") as partial_file:
-                partial_file.write_text(json.dumps(found, indent=1))
+            figures.update(more)
+            with replacing(options.out / f"{part}.json") as partial_file:
+                partial_file.write_text(json.dumps(figures, indent=1))
 
         try:
-            measure(part, asked.seconds, asked.histories, asked.small, keep, asked.out)
+            measure(part, options.seconds, options.histories, options.small, keep, options.out)
         except st.StylobateError as error:
             sys.exit(str(error))
         return
-    until = time.monotonic() + asked.seconds
-    for part in ["machine", *(asked.parts or [part for part in PARTS if part != "machine"])]:
-        left = min(until - time.monotonic(), PARTS[part])
-        if left < 5.0:
+    until = time.monotonic() + options.seconds
+    for part in ["machine", *(options.parts or [part for part in PARTS if part != "machine"])]:
+        remaining = min(until - time.monotonic(), PARTS[part])
+        if remaining < 5.0:
             print(f"{part}: no time is left", flush=True)
             continue
         started = time.monotonic()
-        command = [sys.executable, __file__, part, "--alone", "--out", str(asked.out)]
-        command += ["--seconds", str(left), "--histories", str(asked.histories)]
-        with (asked.out / f"{part}.txt").open("w") as told:
+        command = [sys.executable, __file__, part, "--alone", "--out", str(options.out)]
+        command += ["--seconds", str(remaining), "--histories", str(options.histories)]
+        with (options.out / f"{part}.txt").open("w") as log:
             running = subprocess.Popen(
-                command + ["--small"] * asked.small, stdout=told, stderr=subprocess.STDOUT, start_new_session=True
+                command + ["--small"] * options.small, stdout=log, stderr=subprocess.STDOUT, start_new_session=True
             )
             try:
-                code = str(running.wait(left))
+                code = str(running.wait(remaining))
             except subprocess.TimeoutExpired:
                 code = "its time was over"
                 with suppress(ProcessLookupError):
                     os.killpg(running.pid, signal.SIGKILL)
                 running.wait()
         print(f"{part}: {code}, {_monotonic_since(started):.0f} s", flush=True)
-        written = asked.out / f"{part}.json"
+        written = options.out / f"{part}.json"
         print(written.read_text() if written.is_file() else "", flush=True)
         if code != "0":
-            print((asked.out / f"{part}.txt").read_text()[-2000:], flush=True)
+            print((options.out / f"{part}.txt").read_text()[-2000:], flush=True)
             if part == "machine":
                 sys.exit(2)
 

@@ -50,7 +50,7 @@ def film_after(page: Page) -> float:
     return float(page.evaluate("seen.painted - seen.asked"))
 
 
-def told(name: str, values: list[float]) -> None:
+def show_times(name: str, values: list[float]) -> None:
     """Print the middle and the largest one."""
     print(f"{name}: median {median(values):.0f} ms, largest {max(values):.0f} ms")
 
@@ -64,12 +64,12 @@ def measure(page: Page, address: str, runs: int) -> None:
     until(page, "document.querySelector('#status').textContent === 'ready'", 600.0)  # code may have to be compiled
     page.evaluate(WATCH)
     page.click("[data-tab=run]")
-    found = []
+    times = []
     for _ in range(runs):
         page.click("#go")
-        found.append(film_after(page))
+        times.append(film_after(page))
         time.sleep(0.5)
-    told("from a click to the film, twelve drums for ten seconds with fifteen columns like it", found)
+    show_times("from a click to the film, twelve drums for ten seconds with fifteen columns like it", times)
 
     page.click("[data-tab=domain]")
     page.fill('#domain [data-field="frequencies.number"]', "24")
@@ -80,7 +80,7 @@ def measure(page: Page, address: str, runs: int) -> None:
     for key in ("ArrowRight", "ArrowRight", "ArrowUp"):
         page.keyboard.press(key)
     page.keyboard.press("Enter")
-    told("the same for a cell, while 24 by 32 others are computed", [film_after(page)])
+    show_times("the same for a cell, while 24 by 32 others are computed", [film_after(page)])
     page.evaluate("seen.gaps.length = 0")
     time.sleep(5.0)
     gaps = sorted(page.evaluate("seen.gaps"))

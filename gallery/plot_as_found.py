@@ -16,8 +16,8 @@ from stylobate import plots
 
 built = st.preset("paper-12-drums").replace(name="as built")
 drums = st.FoundDrum(1, chip_right=0.12), st.FoundDrum(5, offset=0.04)
-found = built.replace(as_found=st.AsFound(drums, base_tilt=-0.5), name="as found")
-for column in (built, found):
+damaged = built.replace(as_found=st.AsFound(drums, base_tilt=-0.5), name="as found")
+for column in (built, damaged):
     uplift = column.uplift_acceleration / st.g
     print(f"{column.name}: a joint opens at {uplift:.3f} g")
 
@@ -34,11 +34,11 @@ except st.InputError as refusal:
 
 pulse = st.ricker(0.8, 1.0, duration=8.0)
 grid = {"start": 0.1 * st.g, "stop": 0.9 * st.g, "step": 0.02 * st.g}
-for column, sign in ((built, 1), (found, 1), (found, -1)):
+for column, sign in ((built, 1), (damaged, 1), (damaged, -1)):
     turned = pulse.scaled(sign)
     result = st.critical_amplitude(column, turned, st.DistinctElement2D(), **grid)
     print(f"{column.name}, pulse × {sign:+d}: {result.critical / st.g:.2f} g")
 
-response = st.simulate(found, st.ricker(0.8, 0.4 * st.g), st.DistinctElement2D())
+response = st.simulate(damaged, st.ricker(0.8, 0.4 * st.g), st.DistinctElement2D())
 figure = plots.draw_filmstrip(response)
 figure.savefig("as_found.png")

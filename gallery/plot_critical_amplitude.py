@@ -15,7 +15,7 @@ from stylobate import plots
 column = st.preset("paper-12-drums")
 pulse = st.mavroeidis_papageorgiou(1 / 1.2, amplitude=1.0, oscillation=2.0)
 grid = {"start": 0.1 * st.g, "stop": 2.0 * st.g, "step": 0.02 * st.g}
-found = st.critical_amplitude(column, pulse, st.DistinctElement2D(), **grid)
+result = st.critical_amplitude(column, pulse, st.DistinctElement2D(), **grid)
 
 # %%
 # The acceleration that opens a joint is a lower bound, here a distant one. And there is a window far
@@ -24,9 +24,9 @@ found = st.critical_amplitude(column, pulse, st.DistinctElement2D(), **grid)
 # is spent on bringing it back. Above it the column falls at once, to the side of the first half.
 
 print(f"a joint opens at {column.uplift_acceleration / st.g:.3f} g")
-print(f"first collapse at {found.critical / st.g:.2f} g")
-print(f"all collapse from {found.all_collapse_above / st.g:.2f} g on")
-print(found.alternation.to_string(index=False, float_format="{:.2f}".format))
+print(f"first collapse at {result.critical / st.g:.2f} g")
+print(f"all collapse from {result.all_collapse_above / st.g:.2f} g on")
+print(result.alternation.to_string(index=False, float_format="{:.2f}".format))
 
-figure = plots.draw_amplitudes(found)
+figure = plots.draw_amplitudes(result)
 figure.savefig("critical_amplitude.png")

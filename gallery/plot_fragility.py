@@ -26,20 +26,20 @@ def near_fault(period, seed):
 
 motions = [near_fault(1.2 + 0.12 * seed, seed) for seed in range(12)]
 column = st.preset("paper-monolithic")
-found = st.ida(column, motions, st.DistinctElement2D(), "pgv", runs=12, tail=5.0)
+analysis = st.ida(column, motions, st.DistinctElement2D(), "pgv", runs=12, tail=5.0)
 
 # %%
 # Which number of a motion says most? The velocity of the ground: capacities scatter by a fifteenth in PGV, by three
 # times as much in PGA, given which the length of the pulse still matters (its p is small).
 
-best = which_tells_most(found.runs)
+best = which_tells_most(analysis.runs)
 print(best[["measure", "beta", "p_pgv_over_pga_s"]].to_string(index=False, float_format="{:.3f}".format))
 
 # %%
 # The curve over the peak velocity, with an interval over records. It is that of one kind of motion from one fault:
 # records of many earthquakes scatter five times as much.
 
-curve = st.fragility(st.evidence(found.runs, "pgv", name=column.name))
+curve = st.fragility(st.evidence(analysis.runs, "pgv", name=column.name))
 low, high = curve.median_interval
 print(f"half of the records collapse it at {curve.median:.2f} m/s ({low:.2f} to {high:.2f}), β {curve.beta:.2f}")
 figure = plots.draw_fragility(curve)
@@ -51,5 +51,5 @@ figure.savefig("fragility.png")
 pgv = np.geomspace(0.02, 3.0, 12)
 hazards = [Hazard(pgv, rate * pgv**-2.2, "m/s", name) for name, rate in (("severe", 4e-4), ("mild", 4e-5))]
 stood = st.survival(curve, 2400.0, hazards)
-for one, probability in zip(hazards, stood.probability):
-    print(f"{one.name}: would still stand with a probability of {probability:.2f}")
+for hazard, probability in zip(hazards, stood.probability):
+    print(f"{hazard.name}: would still stand with a probability of {probability:.2f}")

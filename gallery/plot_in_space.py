@@ -27,8 +27,8 @@ drums = [st.Stone.drum(0.8, 0.8, 4.0, at, 2700.0, name=name) for at, name in zip
 azimuths = np.arange(0.0, 360.0, 15.0)
 for name, columns in (("square", square), ("round", drums)):
     podium = st.SpatialAssembly([*columns, slab], law, name=f"podium of {name} columns")
-    found = st.limit_directions(podium, azimuths)
-    weak, most = found.weakest, found.multipliers.max()
+    limits = st.limit_directions(podium, azimuths)
+    weak, most = limits.weakest, limits.multipliers.max()
     print(
         f"{name}: {weak.multiplier:.4f} g at {weak.azimuth:g}°, at most {most:.4f} g; moving: {', '.join(weak.moving)}"
     )

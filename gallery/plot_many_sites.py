@@ -41,8 +41,8 @@ Path("sites.toml").write_text('branches = "tree.csv"\n' + "".join(sites))
 # %%
 # ``stylobate survival sites.toml`` does the same.
 
-found = st.weigh(st.read_sites("sites.toml"))
-for branch, before, after in zip(found.asked.branches, found.prior, found.weight):
+weighing = st.weigh(st.read_sites("sites.toml"))
+for branch, before, after in zip(weighing.asked.branches, weighing.prior, weighing.weight):
     print(f"{branch.name}: {before:.2f} before, {after:.3f} after")
-figure = plots.draw_weighing(found)
+figure = plots.draw_weighing(weighing)
 figure.savefig("many_sites.png")

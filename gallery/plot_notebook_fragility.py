@@ -28,13 +28,13 @@ motions = [st.read_motion(path) for path in sorted(folder.glob("*.csv"))]
 
 drum = st.Drum(2.4, 0.42, 0.36, density=2600.0, section="circular")
 column = st.Column.of_drums([drum], st.Joint(5e10, 2.5e10, 35.0), name="stele")
-found = st.ida(column, motions, st.HousnerBlock(), "pgv", runs=12, tail=5.0)
-found.runs[["record", "pgv_m_s", "verdict", "peak_top_displacement_m"]].head()
+analysis = st.ida(column, motions, st.HousnerBlock(), "pgv", runs=12, tail=5.0)
+analysis.runs[["record", "pgv_m_s", "verdict", "peak_top_displacement_m"]].head()
 
 # %%
 # A lognormal curve by maximum likelihood, with an interval over records.
 
-curve = st.fragility(st.evidence(found.runs, "pgv", name=column.name))
+curve = st.fragility(st.evidence(analysis.runs, "pgv", name=column.name))
 low, high = curve.median_interval
 print(f"half of the records collapse it at {curve.median:.2f} m/s ({low:.2f} to {high:.2f}), β {curve.beta:.2f}")
 
@@ -43,6 +43,6 @@ print(f"half of the records collapse it at {curve.median:.2f} m/s ({low:.2f} to 
 
 figure = Figure(figsize=(10.0, 4.2), layout="constrained")
 left, right = figure.subplots(1, 2)
-plots.draw_ida(found, title="each record", ax=left)
+plots.draw_ida(analysis, title="each record", ax=left)
 plots.draw_fragility(curve, title="the curve", ax=right)
 figure.savefig("notebook_fragility.png")

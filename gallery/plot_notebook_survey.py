@@ -19,8 +19,8 @@ survey = pandas.DataFrame(
     columns=["height", "bottom_width", "top_width"],
 )
 drums = [st.Drum(**sizes, density=2650.0, section="circular") for sizes in survey.to_dict("records")]
-found = st.AsFound((st.FoundDrum(3, offset=0.05),))
-column = st.Column.of_drums(drums, st.Joint(5e10, 2.5e10, 35.0), name="north side, column 5").replace(as_found=found)
+as_found = st.AsFound((st.FoundDrum(3, offset=0.05),))
+column = st.Column.of_drums(drums, st.Joint(5e10, 2.5e10, 35.0), name="north side, column 5").replace(as_found=as_found)
 survey
 
 # %%

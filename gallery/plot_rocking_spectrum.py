@@ -27,8 +27,8 @@ print(f"blocks of {np.degrees(closed):.0f}° and more stay closed")
 for i in (0, 20, 39):
     half_diagonal = 0.75 * st.g / spectrum.frequency_parameter[i] ** 2
     fallen = np.degrees(spectrum.slenderness[spectrum.collapsed[i]])
-    said = f"falls up to {fallen.max():.0f}°" if len(fallen) else "always stands"
-    print(f"half diagonal {half_diagonal:.2f} m: {said}")
+    outcome = f"falls up to {fallen.max():.0f}°" if len(fallen) else "always stands"
+    print(f"half diagonal {half_diagonal:.2f} m: {outcome}")
 
 figure = plots.draw_rocking_spectrum(spectrum)
 figure.savefig("rocking_spectrum.png")

@@ -16,7 +16,7 @@ from stylobate import plots
 law, density, top = st.Joint(5e9, 2.5e9, friction_coefficient=0.7), 2500.0, 0.677
 drums = [(top, top, 0.1333, (0.0, 0.0, 0.0)), (top, 0.867, 0.1333, (0.0, 0.0, 0.1333))]
 pieces = [
-    *(st.Stone.drum(*one, density) for one in drums),
+    *(st.Stone.drum(*sizes, density) for sizes in drums),
     st.Stone.box((0.867, 0.867, 0.1334), (0, 0, 0.2666), density),
 ]
 parts = [part for piece in pieces for part in piece.placed]

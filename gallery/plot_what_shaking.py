@@ -31,17 +31,17 @@ seen = [
 # ``unknown_stiffness`` out: stiff joints take small steps. Several thousand draws are better.
 
 prior = st.Prior(pgv=(0.1, 2.0), period=(0.4, 1.6), unknown_stiffness=0.0)
-found = st.infer(st.Ruin(columns, seen, prior, simulations=1000, seed=2))
-print(found.sentence)
+inference = st.infer(st.Ruin(columns, seen, prior, simulations=1000, seed=2))
+print(inference.sentence)
 
 # %%
 # What each observation tells: what is left of the spread of PGV with it alone, and without it.
 
-for one in found.information:
-    print(f"{one['observation']}: alone {one['spread_alone']:.2f}, without it {one['spread_without']:.2f}")
+for row in inference.information:
+    print(f"{row['observation']}: alone {row['spread_alone']:.2f}, without it {row['spread_without']:.2f}")
 
 # %%
 # The posterior, with the prior behind.
 
-figure = plots.draw_posterior(found)
+figure = plots.draw_posterior(inference)
 figure.savefig("what_shaking.png")

@@ -29,9 +29,9 @@ states = {"as built": column, "dowels": column.replace(links=dowels), "core": co
 
 motions = [st.ricker(f, st.g).replace(name=f"{f:.1f} Hz") for f in np.linspace(0.5, 1.6, 12)]
 levels = [0.2, 0.35, 0.5, 0.7, 0.9]  # g
-found = st.compare_states(states, motions, st.DistinctElement2D(), levels, parse_measure("pga"), tail=3.0)
-for one in found.differences:
-    print(one.sentence)
-print(found.links.to_string(index=False, float_format="{:.2f}".format))
-figure = plots.draw_states(found)
+comparison = st.compare_states(states, motions, st.DistinctElement2D(), levels, parse_measure("pga"), tail=3.0)
+for difference in comparison.differences:
+    print(difference.sentence)
+print(comparison.links.to_string(index=False, float_format="{:.2f}".format))
+figure = plots.draw_states(comparison)
 figure.savefig("worth_it.png")

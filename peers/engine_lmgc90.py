@@ -56,7 +56,7 @@ def simulated(solver, scene: Scene, step: float) -> Run:
             kick(solver, number, body, turn, velocity, np.array(scene.omega), step)
     solver.close_before_computing()
     first = solver.get_initial_state()
-    frames = [np.array(one).reshape(3, 3) for one in first.init_body_frames]
+    frames = [np.array(frame).reshape(3, 3) for frame in first.init_body_frames]
     at_start = [turned(q) for _, q, _ in scene.starts()]
     every = max(1, round(scene.output / step))
     states, began = [(first.init_bodies, first.init_body_frames)], time.process_time()

@@ -50,11 +50,11 @@ def simulated(scene: Scene, step: float) -> Run:
         else:
             shape = bullet.createCollisionShape(bullet.GEOM_MESH, vertices=body.mesh()[0].tolist())
         mass, inertia = body.inertia  # Bullet would take the inertia of the box around it
-        one = bullet.createMultiBody(mass, shape, -1, place, np.roll(quaternion, -1))
+        handle = bullet.createMultiBody(mass, shape, -1, place, np.roll(quaternion, -1))
         rough |= {"localInertiaDiagonal": inertia.tolist()}
-        bullet.changeDynamics(one, -1, linearDamping=0.0, angularDamping=0.0, activationState=4, **rough)
-        bullet.resetBaseVelocity(one, velocity.tolist(), scene.omega)
-        bodies.append(one)
+        bullet.changeDynamics(handle, -1, linearDamping=0.0, angularDamping=0.0, activationState=4, **rough)
+        bullet.resetBaseVelocity(handle, velocity.tolist(), scene.omega)
+        bodies.append(handle)
     every, steps = max(1, round(scene.output / step)), round(scene.duration / step)
     pull = -scene.acceleration(step * (np.arange(steps) + 0.5))
     places, turns, began = [pose(bodies)], [], time.process_time()
@@ -73,4 +73,4 @@ def simulated(scene: Scene, step: float) -> Run:
 
 def pose(bodies) -> list:
     """Place and quaternion of every body."""
-    return [bullet.getBasePositionAndOrientation(one) for one in bodies]
+    return [bullet.getBasePositionAndOrientation(body) for body in bodies]

@@ -45,7 +45,7 @@ LIMIT = 1500
 
 def parts_folder(name: str) -> Path:
     """Where an engine's finished parts are kept, so that a call that was stopped goes on; another one for other code."""
-    sources = [HERE / f"{one}.py" for one in (f"engine_{name}", "measures", "run", "scenes")]
+    sources = [HERE / f"{stem}.py" for stem in (f"engine_{name}", "measures", "run", "scenes")]
     if name == "stylobate":
         sources += sorted((HERE.parent / "src").rglob("*.py"))
     else:
@@ -56,12 +56,12 @@ def parts_folder(name: str) -> Path:
     return folder
 
 
-def one(job: tuple[str, str, str]) -> tuple[tuple[str, str, str], dict]:
+def run_part(job: tuple[str, str, str]) -> tuple[tuple[str, str, str], dict]:
     """Run a part, or take it if it is there; what went wrong is a result."""
     name, variant, part = job
     began = time.perf_counter()
-    told = hashlib.sha256(variant.encode()).hexdigest()[:6]
-    file = parts_folder(name) / f"{name}-{told}-{part}.json"
+    fingerprint = hashlib.sha256(variant.encode()).hexdigest()[:6]
+    file = parts_folder(name) / f"{name}-{fingerprint}-{part}.json"
     ended = [""]
     if not file.exists():
         python = sys.executable if name == "stylobate" else str(OTHERS)
@@ -83,21 +83,21 @@ def one(job: tuple[str, str, str]) -> tuple[tuple[str, str, str], dict]:
 def reason(lines: list[str]) -> str:
     """The line that says best why a process ended."""
     plain = [" ".join(line.replace("\0", " ").split()) for line in lines]
-    told = [line for line in plain if "rror" in line or "ready" in line or "reach" in line or "rich" in line]
-    return (told or [line for line in plain if line] or ["ended without a word"])[-1][:160]
+    complaints = [line for line in plain if "rror" in line or "ready" in line or "reach" in line or "rich" in line]
+    return (complaints or [line for line in plain if line] or ["ended without a word"])[-1][:160]
 
 
 def main(*names: str) -> None:
-    asked = {which: parts for which, parts in PARTS.items() if not names or which[0] in names}
-    jobs = [(name, variant, part) for (name, variant), parts in asked.items() for part in parts]
+    selection = {which: parts for which, parts in PARTS.items() if not names or which[0] in names}
+    jobs = [(name, variant, part) for (name, variant), parts in selection.items() for part in parts]
     jobs.sort(key=lambda job: (job[0] != "lmgc90", job[2] != "plane"))  # the longest first
     stored = json.loads(RESULTS.read_text(encoding="utf-8"))["engines"] if names else {}
     table: dict = {
-        variant: {"engine": name, "parts": {}} if (name, variant) in asked else stored[variant]
+        variant: {"engine": name, "parts": {}} if (name, variant) in selection else stored[variant]
         for name, variant in PARTS
     }
     with ThreadPoolExecutor(WORKERS) as pool:
-        for (_, variant, part), seen in pool.map(one, jobs):
+        for (_, variant, part), seen in pool.map(run_part, jobs):
             entry = table[variant]
             if "found" in seen:
                 entry |= {"version": seen["version"], "settings": seen["settings"]}

@@ -135,7 +135,7 @@ def rolling(run: Engine, facets: int) -> dict:
         return {"fell": True}
     axis = seen.axis[:, 0]
     azimuth = np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
-    speed, turning = (np.gradient(one, seen.time, axis=0) for one in (seen.position[:, 0], axis))
+    speed, turning = (np.gradient(samples, seen.time, axis=0) for samples in (seen.position[:, 0], axis))
     across = (0.75 * DIAMETER**2 + TALL**2) / 12.0
     energy = GRAVITY * seen.position[:, 0, 2] + 0.5 * (speed**2).sum(1) + 0.5 * across * (turning**2).sum(1)
     first, last = energy[2:32].mean(), energy[-32:-2].mean()
@@ -184,7 +184,7 @@ def plane(run: Engine, few: bool = False, free: bool = True) -> dict:
         chosen = FEW if few and name == "drums" else cells
         out[name] = {"swings": swings(top(seen, bodies)), "wall": seen.wall, "verdicts": verdicts(run, bodies, chosen)}
     wide = [column(1, size) for size in IMPERFECTIONS]
-    out["peaks"] = [float(np.abs(top(shaken(run, one, 1.0, 0.3, rest=0.0), one)).max()) for one in wide]
+    out["peaks"] = [float(np.abs(top(shaken(run, body, 1.0, 0.3, rest=0.0), body)).max()) for body in wide]
     return out
 
 
@@ -230,10 +230,10 @@ def one_pass(run: Engine, precession: float) -> dict:
 
 def passes(run: Engine) -> dict:
     """One pass of the round column at several precessions; a population of runs at 1 Hz and 0.3 g: collapses, peaks [m]."""
-    found = [one_pass(run, rate) for rate in PRECESSIONS]
+    results = [one_pass(run, rate) for rate in PRECESSIONS]
     bodies = (round_body(),)
     peaks = [horizontal_peak(shaken(run, bodies, 1.0, 0.3, share, 0.0), bodies) for share in POPULATION]
-    return {key: [one[key] for one in found] for key in found[0]} | {"population": sorted(peaks)}
+    return {key: [result[key] for result in results] for key in results[0]} | {"population": sorted(peaks)}
 
 
 def horizontal_peak(seen: Run, bodies) -> float:
@@ -244,12 +244,12 @@ def horizontal_peak(seen: Run, bodies) -> float:
 
 def round_stack(run: Engine) -> dict:
     """Twelve round drums at 1 Hz, with a hundredth of the motion across: verdicts, and the seconds of the run at 0.3 g."""
-    bodies, found, wall = round_drums(), {}, math.nan
+    bodies, collapses, wall = round_drums(), {}, math.nan
     for a in (0.2, 0.3, 0.4, 0.5):
         seen = shaken(run, bodies, 1.0, a, across=0.01)
-        found[cell(1.0, a)] = collapsed(seen, bodies)
+        collapses[cell(1.0, a)] = collapsed(seen, bodies)
         wall = seen.wall if a == 0.3 else wall
-    return {"verdicts": found, "wall": wall}
+    return {"verdicts": collapses, "wall": wall}
 
 
 def cell(frequency: float, amplitude: float) -> str:

@@ -16,9 +16,9 @@ import measures
 def rounded(value):
     """Numbers with six digits; what is not finite as text."""
     if isinstance(value, dict):
-        return {key: rounded(one) for key, one in value.items()}
+        return {key: rounded(entry) for key, entry in value.items()}
     if isinstance(value, (list, tuple)):
-        return [rounded(one) for one in value]
+        return [rounded(entry) for entry in value]
     if isinstance(value, bool):
         return value
     value = float(value)
@@ -29,17 +29,17 @@ def main(name: str, variant: str, part: str, file: str) -> None:
     module = importlib.import_module(f"engine_{name}")
     run = module.engine(variant)
     if part == "plane":
-        found = measures.plane(run, few=name != "stylobate", free=not variant.endswith("beam"))
+        results = measures.plane(run, few=name != "stylobate", free=not variant.endswith("beam"))
     elif part == "drums":
-        found = measures.round_stack(run)
+        results = measures.round_stack(run)
     elif part == "passes":
-        found = measures.passes(run)
+        results = measures.passes(run)
     else:
         facets = int(part)
-        found = measures.space(run, facets, whole=facets == 0 or (name == "lmgc90" and facets == 12))
-    told = {"version": module.VERSION, "settings": module.SETTINGS, "found": rounded(found)}
+        results = measures.space(run, facets, whole=facets == 0 or (name == "lmgc90" and facets == 12))
+    document = {"version": module.VERSION, "settings": module.SETTINGS, "found": rounded(results)}
     fresh = Path(file).with_suffix(".new")
-    fresh.write_text(json.dumps(told, ensure_ascii=False), encoding="utf-8")
+    fresh.write_text(json.dumps(document, ensure_ascii=False), encoding="utf-8")
     fresh.replace(file)
 
 

@@ -24,7 +24,7 @@ class Standing(Scene):
 
     def acceleration(self, time):
         times = self.dt * np.arange(len(self.samples[0]))
-        return np.array([np.interp(time, times, one, right=0.0) for one in self.samples])
+        return np.array([np.interp(time, times, component, right=0.0) for component in self.samples])
 
     def fallen(self, height):
         return False
@@ -34,12 +34,12 @@ class Standing(Scene):
 
 
 def main(name: str, variant: str, file: str) -> None:
-    told = json.loads(Path(file).read_text(encoding="utf-8"))
-    bodies = tuple(Body(shape, tuple(size)) for shape, size, _ in told["bodies"])
-    places = tuple(tuple(place) for *_, place in told["bodies"])
-    samples = tuple(tuple(told[c]) for c in "xy")
+    scene = json.loads(Path(file).read_text(encoding="utf-8"))
+    bodies = tuple(Body(shape, tuple(size)) for shape, size, _ in scene["bodies"])
+    places = tuple(tuple(place) for *_, place in scene["bodies"])
+    samples = tuple(tuple(scene[c]) for c in "xy")
     module = importlib.import_module(f"engine_{name}")
-    seen = module.engine(variant)(Standing(bodies, told["duration"], places=places, samples=samples, dt=told["dt"]))
+    seen = module.engine(variant)(Standing(bodies, scene["duration"], places=places, samples=samples, dt=scene["dt"]))
     lower = seen.position[0, :, 2] - seen.position[-1, :, 2] > 0.3
     print(json.dumps({"version": module.VERSION, "seconds": seen.wall, "fallen": int(lower.sum())}))
 

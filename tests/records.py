@@ -13,7 +13,7 @@ from stylobate.motion.readers.source import samples
 FOLDER = Path(__file__).resolve().parents[2] / "shared" / "records"
 
 #: Samples by the name of their file.
-SHIPPED = {one.file: one for one in samples().values()}
+SHIPPED = {sample.file: sample for sample in samples().values()}
 
 needs_folder = pytest.mark.skipif(not FOLDER.is_dir(), reason="no folder ../shared/records with real records")
 

@@ -28,15 +28,15 @@ def rows(case: str) -> list[dict[str, str]]:
 
 def scenes():
     """The module of the scenes."""
-    found = importlib.util.spec_from_file_location("reference_scenes", FOLDER / "scenes.py")
-    module = importlib.util.module_from_spec(found)
-    found.loader.exec_module(module)
+    spec = importlib.util.spec_from_file_location("reference_scenes", FOLDER / "scenes.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
     return module
 
 
 def assembly(bodies, name="reference") -> st.SpatialAssembly:
     """A scene of the references as an assembly."""
-    return st.SpatialAssembly([_stone(one) for one in bodies], LAW, name)
+    return st.SpatialAssembly([_stone(body) for body in bodies], LAW, name)
 
 
 def _stone(body) -> st.Stone:

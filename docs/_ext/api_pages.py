@@ -32,7 +32,11 @@ def page(room):
     package = importlib.import_module(room)
     names = [package.__name__]
     if hasattr(package, "__path__"):
-        names = [one.name for one in pkgutil.walk_packages(package.__path__, f"{package.__name__}.") if not one.ispkg]
+        names = [
+            module.name
+            for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
+            if not module.ispkg
+        ]
         names = [name for name in names if ".commands." not in name]
     parts = [f"# `{room}`\n"]
     if len(names) > 1:

@@ -12,18 +12,20 @@ OPTION = re.compile(r"(?<!\S)--[a-z-]+")
 
 def texts(out):
     """The command line and the references."""
-    described = [command(one, name) for name, one in commands().commands.items()]
-    references = "".join(f"{one.text}\n\n" for one in sorted(bibliography().values(), key=lambda one: one.text))
+    described = [command(click_command, name) for name, click_command in commands().commands.items()]
+    references = "".join(
+        f"{reference.text}\n\n" for reference in sorted(bibliography().values(), key=lambda reference: reference.text)
+    )
     return [(out / "commands.md", "\n".join(described)), (out / "references.md", references)]
 
 
-def command(one, name):
+def command(click_command, name):
     """Help, usage and options of a command."""
-    arguments = [parameter for parameter in one.params if parameter.param_type_name == "argument"]
-    options = [parameter for parameter in one.params if parameter.param_type_name == "option"]
+    arguments = [parameter for parameter in click_command.params if parameter.param_type_name == "argument"]
+    options = [parameter for parameter in click_command.params if parameter.param_type_name == "option"]
     usage = " ".join(["stylobate", name, *(metavar(parameter) for parameter in arguments), "[OPTIONS]"])
-    rows = "".join(f"| {spelling(one)} | {words(one)} |\n" for one in [*arguments, *options])
-    text = OPTION.sub(lambda found: f"`{found[0]}`", inspect.cleandoc(one.help))
+    rows = "".join(f"| {spelling(parameter)} | {words(parameter)} |\n" for parameter in [*arguments, *options])
+    text = OPTION.sub(lambda match: f"`{match[0]}`", inspect.cleandoc(click_command.help))
     head = f"| option | |\n| --- | --- |\n{rows}" if rows else ""
     return f"## {name}\n\n{text}\n\n```text\n{usage}\n```\n\n{head}"
 
@@ -47,7 +49,7 @@ def code(text):
 
 def words(parameter):
     """Help, whether it must be given, and the default."""
-    text = OPTION.sub(lambda found: f"`{found[0]}`", (parameter.help or "").replace("|", "\\|"))
+    text = OPTION.sub(lambda match: f"`{match[0]}`", (parameter.help or "").replace("|", "\\|"))
     if parameter.required:
         return f"{text} *Required.*"
     shown = parameter.default not in (None, "", False) and not callable(parameter.default)

@@ -31,10 +31,10 @@ class Numbered(SphinxTransform):
         """Register the tags of one document."""
         domain: MathDomain = self.env.domains["math"]
         for node in self.document.findall(nodes.math_block):
-            found = TAG.search(node.astext())
-            if found is None:
+            match = TAG.search(node.astext())
+            if match is None:
                 continue
-            label = found.group(1)
+            label = match.group(1)
             domain.note_equation(self.env.docname, label, location=node)
             domain.equations[label] = (self.env.docname, label)
             node["tagged"] = label

@@ -45,11 +45,11 @@ def texts(out):
     """What each model assumes, and where it ends."""
     parts = []
     for name in MODELS:
-        one = model_class(name)
-        first = inspect.getdoc(one).split("\n")[0]
-        parts.append(f"### `{name}`: {one.title}\n\n{first} [Theory](../theory/{PAGES[name]}.md).\n")
-        for title, sentences in (("Assumptions", one.assumptions), ("Limits", one.limits)):
-            items = "".join(f"- {OPTION.sub(lambda found: f'`{found[0]}`', sentence)}\n" for sentence in sentences)
+        model = model_class(name)
+        first = inspect.getdoc(model).split("\n")[0]
+        parts.append(f"### `{name}`: {model.title}\n\n{first} [Theory](../theory/{PAGES[name]}.md).\n")
+        for title, sentences in (("Assumptions", model.assumptions), ("Limits", model.limits)):
+            items = "".join(f"- {OPTION.sub(lambda match: f'`{match[0]}`', sentence)}\n" for sentence in sentences)
             parts.append(f"*{title}*\n\n{items}")
     return [(out / "models.md", "\n".join(parts))]
 
@@ -60,8 +60,8 @@ def computed(out):
     draw(shares).savefig(out / "models.png", dpi=150, facecolor="white")
     rows = [
         f"| {label if k == 0 else ''} | {name} | {' | '.join(f'{100 * value:.0f}' for value in share)} |\n"
-        for label, found in zip(("monolith", "12 drums"), shares.values(), strict=True)
-        for k, (name, share) in enumerate(found.items())
+        for label, column_shares in zip(("monolith", "12 drums"), shares.values(), strict=True)
+        for k, (name, share) in enumerate(column_shares.items())
     ]
     head = (
         f"| column | model | {' | '.join(f'{f:g} Hz' for f in FREQUENCIES)} |\n|{' --- |' * (2 + len(FREQUENCIES))}\n"

@@ -20,21 +20,21 @@ def computed(out):
     """The tables of the page."""
     stored = json.loads(STORED.read_text(encoding="utf-8"))
     summary, wrong = stored["summary"], stored["worst"]
-    said = f"Computed on {summary['date']}; digest of the tables {stored['digest'][:12]}."
+    note = f"Computed on {summary['date']}; digest of the tables {stored['digest'][:12]}."
     shown = "Their films are on the page where the files lie beside the project when it is built."
     try:
-        found = study.read(BESIDE)
-        results = study.compute(found, calibrate=False, bars=lambda _: nullcontext(), ledger=None)
+        experiments = study.read(BESIDE)
+        results = study.compute(experiments, calibrate=False, bars=lambda _: nullcontext(), ledger=None)
         if {"granite", "cube"} <= set(results.summary):
-            summary, said = results.summary, "Computed when this page was built, from the files beside the project."
+            summary, note = results.summary, "Computed when this page was built, from the files beside the project."
             wrong = results.tables["granite_worst"].to_dict("records")
-            shown = films(found.granite, wrong, out / "static" / "films")
+            shown = films(experiments.granite, wrong, out / "static" / "films")
     except InputError:
         pass
     return [
         (out / "nature_choices.md", choices()),
-        (out / "nature_granite.md", granite(summary) + f"\n{said}\n"),
-        (out / "nature_cube.md", cube(summary) + f"\n{said}\n"),
+        (out / "nature_granite.md", granite(summary) + f"\n{note}\n"),
+        (out / "nature_cube.md", cube(summary) + f"\n{note}\n"),
         (out / "nature_worst.md", worst(wrong) + f"\n{shown}\n"),
         (out / "nature_probabilities.md", probabilities(stored["probabilities"])),
     ]
@@ -61,7 +61,7 @@ def probabilities(stored):
     """Scores of the probabilities, and how they stand to what was observed."""
     lines = ["| | Brier score | of the mean share | of the logistic fit |", "| --- | --- | --- | --- |"]
     for name in ("SP1", "SP2"):
-        lines.append(f"| {name} | {' | '.join(f'{one:.3f}' for one in stored['brier'][name])} |")
+        lines.append(f"| {name} | {' | '.join(f'{score:.3f}' for score in stored['brier'][name])} |")
     lines += [
         "",
         "| computed probability | SP1: tests | toppled | SP2: tests | toppled |",
@@ -69,15 +69,15 @@ def probabilities(stored):
     ]
     for k, (low, high) in enumerate(zip((0, 0.2, 0.4, 0.6, 0.8), (0.2, 0.4, 0.6, 0.8, 1))):
         cells = [cell for name in ("SP1", "SP2") for cell in stored["reliability"][name][k]]
-        shown = [str(one) if isinstance(one, int) else "–" if one is None else f"{one:.2f}" for one in cells]
+        shown = [str(cell) if isinstance(cell, int) else "–" if cell is None else f"{cell:.2f}" for cell in cells]
         lines.append(f"| {low:g} to {high:g} | {' | '.join(shown)} |")
-    said = f"{stored['realisations']} realisations of all 252 tests, computed on {stored['date']}."
-    return "\n".join([*lines, "", said]) + "\n"
+    note = f"{stored['realisations']} realisations of all 252 tests, computed on {stored['date']}."
+    return "\n".join([*lines, "", note]) + "\n"
 
 
 def choices():
     """What was fixed by argument."""
-    rows = [f"| {one.what} | {one.value} | {one.reason} | {one.date} |" for one in CHOICES]
+    rows = [f"| {choice.what} | {choice.value} | {choice.reason} | {choice.date} |" for choice in CHOICES]
     return "\n".join(["| | fixed at | reason | date |", "| --- | --- | --- | --- |", *rows]) + "\n"
 
 
@@ -88,12 +88,12 @@ def granite(summary):
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for name in ("SP1", "SP2"):
-        one = summary["granite"][name]
+        row = summary["granite"][name]
         lines.append(
-            f"| {name} | {one['tests']} | {one['accuracy']:.3f} | {one['accuracy_low']:.3f} to {one['accuracy_high']:.3f} "
-            f"| {one['hard_tests']} | {one['hard_accuracy']:.3f} | {one['matthews']:.3f} "
-            f"| {one['predicted']} / {one['observed']} = {one['predicted_over_observed']:.2f} "
-            f"| {one['toppled_but_predicted_to_stand']} | {one['stood_but_predicted_to_topple']} |"
+            f"| {name} | {row['tests']} | {row['accuracy']:.3f} | {row['accuracy_low']:.3f} to {row['accuracy_high']:.3f} "
+            f"| {row['hard_tests']} | {row['hard_accuracy']:.3f} | {row['matthews']:.3f} "
+            f"| {row['predicted']} / {row['observed']} = {row['predicted_over_observed']:.2f} "
+            f"| {row['toppled_but_predicted_to_stand']} | {row['stood_but_predicted_to_topple']} |"
         )
     lines += ["", "| PGV at half toppled [m/s] | observed | computed |", "| --- | --- | --- |"]
     for name in ("SP1", "SP2"):
@@ -112,10 +112,10 @@ def cube(summary):
         "| after | tosses | error of position [widths]: median (90 %) | of rotation [°]: median (90 %) |",
         "| --- | --- | --- | --- |",
     ]
-    for when, one in summary["cube"]["after"].items():
+    for when, row in summary["cube"]["after"].items():
         lines.append(
-            f"| {when} | {one['tosses']} | {one['position_error_widths']:.3f} ({one['position_error_widths_90']:.2f}) "
-            f"| {one['rotation_error_deg']:.1f} ({one['rotation_error_deg_90']:.0f}) |"
+            f"| {when} | {row['tosses']} | {row['position_error_widths']:.3f} ({row['position_error_widths_90']:.2f}) "
+            f"| {row['rotation_error_deg']:.1f} ({row['rotation_error_deg_90']:.0f}) |"
         )
     share = summary["cube"]["rest_face_accuracy"]
     lines += ["", f"{summary['cube']['tosses']} tosses; {share:.1%} come to rest on the face on which the cube did."]
@@ -128,10 +128,10 @@ def worst(rows):
         "| specimen, test | record | PGA [g] | PGV [m/s] | observed | computed, largest tilt | logistic fit |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
-    for one in rows:
-        verdicts = ["toppled" if one[key] else "stood" for key in ("observed", "computed")]
+    for row in rows:
+        verdicts = ["toppled" if row[key] else "stood" for key in ("observed", "computed")]
         lines.append(
-            f"| {one['specimen']}, {one['test']} | {one['record']} | {one['pga_10hz_g']:.2f} | {one['pgv_m_s']:.2f} "
-            f"| {verdicts[0]} | {verdicts[1]}, {one['peak_tilt_deg']:.1f}° | {one['logit']:.2f} |"
+            f"| {row['specimen']}, {row['test']} | {row['record']} | {row['pga_10hz_g']:.2f} | {row['pgv_m_s']:.2f} "
+            f"| {verdicts[0]} | {verdicts[1]}, {row['peak_tilt_deg']:.1f}° | {row['logit']:.2f} |"
         )
     return "\n".join(lines) + "\n"

@@ -11,14 +11,14 @@ log = logging.getLogger(__name__)
 
 def computed(out):
     """One text for each kind of evidence: its figures and its table."""
-    found = []
+    pages = []
     for kind in KINDS:
         name = kind.replace(" ", "_")
         rows = [row(case) for case in CASES if case.kind == kind]
         head = "| model | what is computed | must be | found | tolerance |\n| --- | --- | --- | --- | --- |\n"
         pictures = "".join(picture(draw, words, out) for draw, words in FIGURES[kind].items())
-        found.append((out / f"validation_{name}.md", f"{head}{''.join(rows)}\n{pictures}"))
-    return found
+        pages.append((out / f"validation_{name}.md", f"{head}{''.join(rows)}\n{pictures}"))
+    return pages
 
 
 def row(case):

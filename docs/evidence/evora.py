@@ -51,15 +51,15 @@ def parts_of(temple: Any) -> dict[str, Structure]:
 
 def facts_of(structure: Structure) -> dict[str, Any]:
     """What is borne all round, and the weakest direction with the joint and the number of blocks that move."""
-    found = limit_directions(structure, AZIMUTHS)
-    weak = found.weakest
+    directions = limit_directions(structure, AZIMUTHS)
+    weak = directions.weakest
     return {
         "weakest": weak.multiplier,
         "azimuth": weak.azimuth,
         "mode": weak.mode,
         "between": weak.between,
         "moving": len(weak.moving),
-        "all": dict(zip(map(str, found.azimuths.tolist()), found.multipliers.tolist(), strict=True)),
+        "all": dict(zip(map(str, directions.azimuths.tolist()), directions.multipliers.tolist(), strict=True)),
     }
 
 
@@ -76,8 +76,8 @@ def draw(temple: Any, facts: dict[str, dict[str, Any]], path: Path) -> None:
     seen.set_xlim(flat[:, 0].min() - 1.0, flat[:, 0].max() + 1.0)
     seen.set_ylim(flat[:, 1].min() - 1.0, flat[:, 1].max() + 1.0)
     seen.set_axis_off()
-    for name, one in facts.items():
-        turns = sorted((float(azimuth) % 360.0, value) for azimuth, value in one["all"].items())
+    for name, part in facts.items():
+        turns = sorted((float(azimuth) % 360.0, value) for azimuth, value in part["all"].items())
         angles, values = zip(*turns, turns[0], strict=True)
         weak = name in ("Column_A3", "Column_A4")
         colour, width = (BLACK, 1.8) if name == "temple" else (RED, 1.0) if weak else (GREY, 0.5)
@@ -99,9 +99,11 @@ def limits(temple: Any, out: Path) -> None:
         if name not in facts:
             facts[name] = facts_of(structure)
             kept.write_text(json.dumps(facts, indent=1))
-        one = facts[name]
-        joint = " – ".join(text.rpartition(" ")[2] if name != "temple" else text for text in one["between"])
-        print(f"| {name} | {one['weakest']:.4f} | {one['azimuth']:.0f} | {joint}, {one['mode']} | {one['moving']} |")
+        part = facts[name]
+        joint = " – ".join(text.rpartition(" ")[2] if name != "temple" else text for text in part["between"])
+        print(
+            f"| {name} | {part['weakest']:.4f} | {part['azimuth']:.0f} | {joint}, {part['mode']} | {part['moving']} |"
+        )
     draw(temple, facts, out / "evora.png")
 
 
@@ -113,27 +115,27 @@ def motions() -> list[st.Motion]:
 
 def fragility(temple: Any, out: Path) -> None:
     """Runs of every motion at every level until they are decided, their table, curve and picture."""
-    found = st.ida(
+    analysis = st.ida(
         temple, motions(), st.DistinctElement3D(), "pgv", levels=LEVELS, largest_factor=100.0, tail=3.0,
         ledger=out / "fragility.sqlite", progress=lambda done, total: print(f"{done} of {total}", flush=True),
     )  # fmt: skip
-    found.runs.to_csv(out / "fragility.csv", index=False)
-    curve = st.fragility(found)
-    print(found.runs.to_string(), curve.sentence, json.dumps(curve.summary(), indent=1, default=float), sep="\n")
+    analysis.runs.to_csv(out / "fragility.csv", index=False)
+    curve = st.fragility(analysis)
+    print(analysis.runs.to_string(), curve.sentence, json.dumps(curve.summary(), indent=1, default=float), sep="\n")
     plots.draw_fragility(curve).savefig(out / "evora_fragility.png", dpi=110)
 
 
 def debris(temple: Any, out: Path) -> None:
     """Where the stones of the temple and of fifteen like it are, five seconds after a pulse."""
     pulse = st.ricker(0.5, 0.2 * st.g, duration=7.5)
-    found = st.certainty(
+    certainty = st.certainty(
         temple, pulse, st.DistinctElement3D(), replicates=15, tail=5.0, ledger=out / "debris.sqlite",
         progress=lambda done, total: print(f"{done:.3g} of {total:.3g}", flush=True),
     )  # fmt: skip
-    found.population.table.to_csv(out / "debris.csv", index=False)
-    found.population.table_of_bodies.to_csv(out / "debris_bodies.csv", index=False)
-    print(found.sentence)
-    plots.draw_debris(found.response, found.population.bodies).savefig(out / "evora_debris.png", dpi=110)
+    certainty.population.table.to_csv(out / "debris.csv", index=False)
+    certainty.population.table_of_bodies.to_csv(out / "debris_bodies.csv", index=False)
+    print(certainty.sentence)
+    plots.draw_debris(certainty.response, certainty.population.bodies).savefig(out / "evora_debris.png", dpi=110)
 
 
 if __name__ == "__main__":

@@ -73,12 +73,12 @@ def states_of(column: st.Column) -> dict[str, st.Column]:
             st.Layer(joint=1, friction_coefficient=0.08, shear_stiffness=column.mass * (2.0 * math.pi / 3.0) ** 2),
         ),
     }
-    return {name: column.replace(links=one) for name, one in links.items()}
+    return {name: column.replace(links=measure) for name, measure in links.items()}
 
 
 def read(folder: Path, name: str) -> st.Motion:
     """A record by the beginning of its name."""
-    called = next(one for one in FILES if one.startswith(name))
+    called = next(candidate for candidate in FILES if candidate.startswith(name))
     unit = {"unit": "g"} if called.startswith("El Centro") else {}
     return st.read_motion(folder / FILES[called], **unit).replace(name=called)
 
@@ -90,35 +90,40 @@ def pulses() -> list[st.Motion]:
 
 def motions_in_plane(folder: Path) -> list[st.Motion]:
     """Twelve motions of one component, stepped from their first to their last sample."""
-    found = []
+    motions = []
     for name, axes in IN_PLANE:
         whole = read(folder, name)
-        found += [st.Motion(whole.dt, whole.components[axis]).replace(name=f"{whole.name} {axis}") for axis in axes]
-    return found + pulses()
+        motions += [st.Motion(whole.dt, whole.components[axis]).replace(name=f"{whole.name} {axis}") for axis in axes]
+    return motions + pulses()
 
 
 def motions_in_space(folder: Path) -> list[st.Motion]:
     """Twelve motions with all components that were recorded; those with one horizontal one shake a little across it."""
-    found = [read(folder, name) for name in FILES] + pulses()
-    return [one if one.y_samples is not None else one.replace(ay=ACROSS * one.samples) for one in found]
+    motions = [read(folder, name) for name in FILES] + pulses()
+    return [
+        motion if motion.y_samples is not None else motion.replace(ay=ACROSS * motion.samples) for motion in motions
+    ]
 
 
-def table(found: StateComparison) -> str:
+def table(comparison: StateComparison) -> str:
     """The table of the page, in Markdown."""
-    links = found.links
-    told = {one.state: one for one in found.differences}
+    links = comparison.links
+    differences = {difference.state: difference for difference in comparison.differences}
     head = ("state", "collapses of {}", "median PGV (95 %)", "against as built, paired (95 %)", "saved, harmed",
             "links broken in a run, mean")  # fmt: skip
-    runs = len(found.table) // len(found.labels)
+    runs = len(comparison.table) // len(comparison.labels)
     lines = [f"| {' | '.join(head)} |".format(runs), "|" + " --- |" * len(head)]
-    for label, curve in zip(found.labels, found.curves, strict=True):
-        fallen = int(found.table.loc[found.table["state"] == label, "collapsed"].fillna(0).sum())
+    for label, curve in zip(comparison.labels, comparison.curves, strict=True):
+        fallen = int(comparison.table.loc[comparison.table["state"] == label, "collapsed"].fillna(0).sum())
         median = "" if curve is None else f"{curve.median:.2f} m/s ({_limits(*curve.median_interval)})"
         cells = [label, str(fallen), median, "", "", ""]
-        if label in told:
-            one = told[label]
-            shares = [f"{100.0 * value:+.0f}".replace("-", "−") for value in (one.share, one.share_low, one.share_high)]
-            cells[3:5] = [f"{shares[0]} % ({shares[1]} to {shares[2]})", f"{one.saved}, {one.harmed}"]
+        if label in differences:
+            difference = differences[label]
+            shares = [
+                f"{100.0 * value:+.0f}".replace("-", "−")
+                for value in (difference.share, difference.share_low, difference.share_high)
+            ]
+            cells[3:5] = [f"{shares[0]} % ({shares[1]} to {shares[2]})", f"{difference.saved}, {difference.harmed}"]
         mine = links[links["state"] == label] if len(links) else links
         if len(mine):
             broken = mine["broken"].sum() / max(mine["runs"].max(), 1)
@@ -141,22 +146,25 @@ def main(records: str, out: str, which: str = "bassae", where: str = "plane", on
     folder.mkdir(parents=True, exist_ok=True)
     chosen = only.split(",") if only else None
     column = column_of(which)
-    states = {name: one for name, one in states_of(column).items() if chosen is None or name in chosen}
+    states = {name: state for name, state in states_of(column).items() if chosen is None or name in chosen}
     plane = where == "plane"
     motions = motions_in_plane(Path(records)) if plane else motions_in_space(Path(records))
     model = st.DistinctElement2D() if plane else st.DistinctElement3D()
     measure, levels = levels_of(MEASURES[where], LEVELS)
-    found = compare_states(
+    comparison = compare_states(
         states, motions, model, levels, measure, replicates=TWINS.get((which, where), 0), tail=TAIL[where], threads=1,
         out=folder,
     )  # fmt: skip
-    (folder / "states.json").write_text(json.dumps(found.summary(), indent=1))
-    plots.draw_states(found, f"{column.name}, in {'the plane' if plane else 'space'}").savefig(
+    (folder / "states.json").write_text(json.dumps(comparison.summary(), indent=1))
+    plots.draw_states(comparison, f"{column.name}, in {'the plane' if plane else 'space'}").savefig(
         folder / "states.png", dpi=110
     )
-    print(table(found))
-    for one in found.differences:
-        print(one.sentence, f"ratio {one.ratio:.2f} ({one.ratio_low:.2f} to {one.ratio_high:.2f})")
+    print(table(comparison))
+    for difference in comparison.differences:
+        print(
+            difference.sentence,
+            f"ratio {difference.ratio:.2f} ({difference.ratio_low:.2f} to {difference.ratio_high:.2f})",
+        )
     print(f"{time.process_time() - began:.0f} s of a core")
 
 

@@ -71,27 +71,27 @@ python docs/reference/columns_of_the_world.py OUT {where}
 def motions() -> list[st.Motion]:
     """Twelve motions, each along x, with a hundredth of it across."""
     along = [st.sample_motion(name) for name in RECORDS]
-    found = [st.Motion(one.dt, one.samples).replace(name=one.name) for one in along]
-    found += [st.mavroeidis_papageorgiou(f, 0.3 * st.g).replace(name=f"near-fault pulse {f:g} Hz") for f in PULSES]
-    return [one.replace(ay=ACROSS * one.samples) for one in found]
+    shakings = [st.Motion(record.dt, record.samples).replace(name=record.name) for record in along]
+    shakings += [st.mavroeidis_papageorgiou(f, 0.3 * st.g).replace(name=f"near-fault pulse {f:g} Hz") for f in PULSES]
+    return [shaking.replace(ay=ACROSS * shaking.samples) for shaking in shakings]
 
 
 def fragility_of(known: KnownColumn, folder: Path, where: str) -> tuple[Fragility | str, int]:
     """Fragility of a column in PGV, or why there is none; and how many runs fell."""
     model = st.DistinctElement3D() if where == "space" else st.DistinctElement2D()
-    shaking = motions() if where == "space" else [one.replace(ay=None) for one in motions()]
-    found = st.ida(
+    shaking = motions() if where == "space" else [motion.replace(ay=None) for motion in motions()]
+    analysis = st.ida(
         known.column, shaking, model, "pgv", levels=LEVELS, largest_factor=100.0, tail=TAIL, threads=1,
         ledger=folder / "runs.sqlite",
     )  # fmt: skip
-    fallen = int(found.runs["collapsed"].fillna(0).sum())
+    fallen = int(analysis.runs["collapsed"].fillna(0).sum())
     try:
-        return st.fragility(st.evidence(found), method="runs"), fallen
+        return st.fragility(st.evidence(analysis), method="runs"), fallen
     except st.InputError as reason:
         return str(reason), fallen
 
 
-def told(curve: Fragility | str) -> str:
+def median_cell(curve: Fragility | str) -> str:
     """Median and its interval, as far as they lie within the levels."""
     if isinstance(curve, str):
         return "no fragility goes through the runs"
@@ -104,21 +104,21 @@ def told(curve: Fragility | str) -> str:
 def page(rows: list[str], where: str) -> str:
     """The page as Markdown."""
     runs = (len(RECORDS) + len(PULSES)) * len(LEVELS)
-    levels = ", ".join(f"{one:g}" for one in LEVELS)
+    levels = ", ".join(f"{level:g}" for level in LEVELS)
     model = (
         "in space (`dem3d`)"
         if where == "space"
         else "in the plane (`dem2d`), where round columns stand more than in space"
     )
-    said = PAGE_TEXT.format(
+    introduction = PAGE_TEXT.format(
         world=len(CATALOGUE) - len(PAPER), normal=JOINT.normal_stiffness / 1e9, shear=JOINT.shear_stiffness / 1e9,
         friction=JOINT.tan_phi, model=model, records=len(RECORDS), pulses=len(PULSES), first=PULSES[0], last=PULSES[-1],
         levels=levels, runs=runs, tail=TAIL, where=where,
     )  # fmt: skip
-    text = said + "\n".join(rows) + "\n\n## Figures\n"
+    text = introduction + "\n".join(rows) + "\n\n## Figures\n"
     for known in CATALOGUE.values():
         text += f"\n**{known.title}** (`{known.name}`)\n\n"
-        text += "".join(f"- {name.replace('_', ' ')}: {one.text}\n" for name, one in known.figures.items())
+        text += "".join(f"- {name.replace('_', ' ')}: {figure.text}\n" for name, figure in known.figures.items())
     keys = dict.fromkeys(key for known in CATALOGUE.values() for key in known.sources)
     text += "\n## Sources\n\n" + "\n\n".join(sorted(bibliography()[key].text for key in keys)) + "\n"
     return text
@@ -131,8 +131,8 @@ def main(out: str, where: str = "space") -> None:
     for known in CATALOGUE.values():
         curve, fallen = fragility_of(known, Path(out) / where, where)
         figures = [known.figures[name] for name in ("height", "bottom_width", "top_width", "drums", "density")]
-        cells = [f"{one.value:.4g}" + ("" if one.measured else "\\*") for one in figures]
-        rows.append(f"| {' | '.join([f'`{known.name}`', *cells, told(curve), str(fallen)])} |")
+        cells = [f"{figure.value:.4g}" + ("" if figure.measured else "\\*") for figure in figures]
+        rows.append(f"| {' | '.join([f'`{known.name}`', *cells, median_cell(curve), str(fallen)])} |")
         print(f"{time.time() - began:.0f} s", rows[-1], curve if isinstance(curve, str) else "", flush=True)
     PAGE.write_text(page(rows, where), encoding="utf-8")
 

@@ -51,7 +51,9 @@ def wall_corner(courses=6, stones=3, length=0.6, height=0.3):
                 sides, along = [long, thick, height], [start + 0.5 * long, 0.5 * thick]
                 if wing == "y":
                     sides, along = [thick, long, height], along[::-1]
-                box, at = (", ".join(f"{one:.6g}" for one in each) for each in (sides, [*along, course * height]))
+                box, at = (
+                    ", ".join(f"{coordinate:.6g}" for coordinate in each) for each in (sides, [*along, course * height])
+                )
                 parts.append(f'\n[[block]]\nname = "{wing} {course + 1}.{number}"\nbox = [{box}]\nat = [{at}]\n')
                 start, number = start + long, number + 1
     return "".join(parts)

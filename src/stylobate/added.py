@@ -102,10 +102,10 @@ def entry_points(group: str) -> EntryPoints:
 
 def entries(group: str) -> dict[str, EntryPoint]:
     """Entry points of a group by their names; of two with the same name, the first."""
-    found: dict[str, EntryPoint] = {}
+    entries_by_name: dict[str, EntryPoint] = {}
     for entry in entry_points(group=group):
-        found.setdefault(entry.name, entry)
-    return found
+        entries_by_name.setdefault(entry.name, entry)
+    return entries_by_name
 
 
 def added_commands(taken: Collection[str]) -> dict[str, Callable[..., None]]:
@@ -116,15 +116,15 @@ def added_commands(taken: Collection[str]) -> dict[str, Callable[..., None]]:
     taken : collection of str
         Names that the program has already.
     """
-    found: dict[str, Callable[..., None]] = {}
+    commands: dict[str, Callable[..., None]] = {}
     for entry in entry_points(group=COMMANDS):
         try:
-            if entry.name in taken or entry.name in found:
+            if entry.name in taken or entry.name in commands:
                 raise ValueError("there is a command of this name already")
-            found[entry.name] = entry.load()
+            commands[entry.name] = entry.load()
         except Exception as error:  # of somebody else's package, which may raise anything
             print(f"stylobate: warning: the command {_named(entry)} is left out: {error}.", file=sys.stderr)
-    return found
+    return commands
 
 
 def missing(kind: str, name: str) -> str | None:

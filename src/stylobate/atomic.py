@@ -77,10 +77,10 @@ class OwnFiles:
 
     def add(self, path: Path, content: Path) -> None:
         """List a file before it appears under its name; ``content`` is where it lies until then."""
-        found = digest(content)
-        if found not in self._known.setdefault(self._name(path), set()):
-            self._append(f"{found}  {self._name(path)}")
-            self._known[self._name(path)].add(found)
+        checksum = digest(content)
+        if checksum not in self._known.setdefault(self._name(path), set()):
+            self._append(f"{checksum}  {self._name(path)}")
+            self._known[self._name(path)].add(checksum)
 
     def remove(self, path: Path) -> None:
         """Remove a file if it is there as it was written; leave it otherwise."""
@@ -97,7 +97,7 @@ class OwnFiles:
     def _link(self, path: Path) -> Path | None:
         """The folder on the way to the path that is a link, if there is one."""
         way = Path(os.path.abspath(path)).relative_to(self.folder).parents
-        return next((self.folder / one for one in list(way)[:-1] if (self.folder / one).is_symlink()), None)
+        return next((self.folder / parent for parent in list(way)[:-1] if (self.folder / parent).is_symlink()), None)
 
     def _is_own(self, path: Path) -> bool:
         return self.lists(path) and digest(path) in self._known[self._name(path)]
@@ -149,19 +149,19 @@ def own_files(folder: str | Path, writes: Iterable[str] = ()) -> Iterator[OwnFil
     """
     active = _ACTIVE.get()
     inner = active[-1] if active else None
-    found = inner if inner is not None and inner.folder == Path(os.path.abspath(folder)) else OwnFiles(folder)
+    guard = inner if inner is not None and inner.folder == Path(os.path.abspath(folder)) else OwnFiles(folder)
     for name in writes:
-        found.check(found.folder / name)
-    token = _ACTIVE.set((*active, found))
+        guard.check(guard.folder / name)
+    token = _ACTIVE.set((*active, guard))
     try:
-        yield found
+        yield guard
     finally:
         _ACTIVE.reset(token)
 
 
 def guard_of(path: Path) -> OwnFiles | None:
     """The innermost guarded folder that the path lies in."""
-    return next((one for one in reversed(_ACTIVE.get()) if one.covers(path)), None)
+    return next((guard for guard in reversed(_ACTIVE.get()) if guard.covers(path)), None)
 
 
 def digest(path: Path) -> str:
@@ -247,7 +247,7 @@ def output_folder(path: str | Path, writes: Iterable[str] = ()) -> Iterator[Path
         The folder cannot be made or written to, or one of the files to be is there and is somebody else's.
     """
     folder = Path(path)
-    made = [one for one in (folder, *folder.parents) if not one.exists()]
+    made = [ancestor for ancestor in (folder, *folder.parents) if not ancestor.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -260,8 +260,8 @@ def output_folder(path: str | Path, writes: Iterable[str] = ()) -> Iterator[Path
             yield folder
     except BaseException:
         with suppress(OSError):  # not empty: something finished is kept
-            for one in made:
-                one.rmdir()
+            for directory in made:
+                directory.rmdir()
         raise
 
 
@@ -291,11 +291,11 @@ def _partial_name(target: Path, process: str, token: str) -> str:
 
 def _remove_left(target: Path) -> None:
     start, middle, end = map(re.escape, _partial_name(target, "\0", "\0").split("\0"))
-    left = re.compile(rf"{start}(\d{{1,9}}){middle}[0-9a-f]{{8}}{end}")
+    pattern = re.compile(rf"{start}(\d{{1,9}}){middle}[0-9a-f]{{8}}{end}")
     with suppress(OSError):
         for path in target.parent.iterdir():
-            found = left.fullmatch(path.name)
-            if found and not path.is_symlink() and not _is_running(int(found[1])):
+            match = pattern.fullmatch(path.name)
+            if match and not path.is_symlink() and not _is_running(int(match[1])):
                 path.unlink(missing_ok=True)
 
 

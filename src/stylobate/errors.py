@@ -112,8 +112,8 @@ def reworded(sentence: str, called: Callable[[str], str]) -> str:
         From the name of a parameter to what the reader calls it.
     """
 
-    def word(found: re.Match[str]) -> str:
-        name, value = found.groups()
+    def word(match: re.Match[str]) -> str:
+        name, value = match.groups()
         text = (value or "").strip("'") + UNITS.get(name, "")
         return " ".join([called(name), *([f'"{text}"' if " " in text else text] if value else [])])
 
@@ -155,7 +155,7 @@ def as_typed(value: Any) -> str:
 
 def _plain(value: Any) -> Any:
     if type(value) in (list, tuple):
-        return type(value)(_plain(one) for one in value)
+        return type(value)(_plain(item) for item in value)
     return value.item() if getattr(value, "shape", None) == () and hasattr(value, "item") else value
 
 
@@ -248,7 +248,11 @@ def check_choice(
     """Raise :class:`InputError` if ``value`` is none of those that are ``known``; else as :func:`check_range`."""
     choices = list(known)
     if value not in choices:
-        near = suggest(value, [one for one in map(str, choices) if len(one) > 2]) if isinstance(value, str) else ""
+        near = (
+            suggest(value, [choice for choice in map(str, choices) if len(choice) > 2])
+            if isinstance(value, str)
+            else ""
+        )
         raise _wrong(name, value, as_typed(value), f"are {', '.join(map(str, choices))}", remedy, of, field, near)
 
 
@@ -276,7 +280,7 @@ def check_kind(name: str, value: Any, kind: Any, *, allowed: str = "", optional:
 
 def check_name(what: str, value: Any) -> str:
     """Return a name that is one line of text, else raise :class:`InputError`; ``what`` is what the message calls it."""
-    if not check_kind(what, value, str).strip() or any(unicodedata.category(one) in NOT_IN_NAMES for one in value):
+    if not check_kind(what, value, str).strip() or any(unicodedata.category(char) in NOT_IN_NAMES for char in value):
         raise InputError(
             f"{what} is {value!a}; write one line of text, without tabs and control characters.",
             "name",
@@ -295,10 +299,10 @@ def check_all(name: str, values: Any, kind: Any, *, allowed: str = "") -> Sequen
         raise _wrong(
             name, values, _value_in_words(values), f"is a list, each {_expected_kind(kind, allowed)}", "", "", None
         )
-    found = values if isinstance(values, (list, tuple)) else tuple(values)
-    for number, one in enumerate(found, 1):
-        check_kind(f"number {number} of {name}", one, kind, allowed=allowed)
-    return found
+    sequence = values if isinstance(values, (list, tuple)) else tuple(values)
+    for number, element in enumerate(sequence, 1):
+        check_kind(f"number {number} of {name}", element, kind, allowed=allowed)
+    return sequence
 
 
 #: What a person calls the kinds of plain values.
@@ -315,7 +319,8 @@ _PLAIN = {
 def _expected_kind(kind: Any, allowed: str) -> str:
     kinds = kind if isinstance(kind, tuple) else (kind,)
     called = (
-        getattr(one, "wanted", None) or _with_article(str(_PLAIN.get(one.__name__, one.__name__))) for one in kinds
+        getattr(option, "wanted", None) or _with_article(str(_PLAIN.get(option.__name__, option.__name__)))
+        for option in kinds
     )
     return allowed or " or ".join(called)
 

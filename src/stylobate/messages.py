@@ -64,10 +64,16 @@ class Message(str):
     def changed(self, change: Callable[[str], str]) -> str:
         """The message with its texts changed, such as names of parameters to those of options."""
         if self.parts:
-            return joined("", (one.changed(change) if isinstance(one, Message) else change(one) for one in self.parts))
+            return joined(
+                "", (part.changed(change) if isinstance(part, Message) else change(part) for part in self.parts)
+            )
         values = {
-            key: one.changed(change) if isinstance(one, Message) else change(one) if isinstance(one, str) else one
-            for key, one in self.values.items()
+            key: value.changed(change)
+            if isinstance(value, Message)
+            else change(value)
+            if isinstance(value, str)
+            else value
+            for key, value in self.values.items()
         }
         template = change(self.template)
         return Message(filled(template, values) if values else template, template, values)
@@ -83,7 +89,7 @@ def say(template: str, /, **values: Any) -> Message:
         return Message(template, template)
     names = {name for _, name, _, _ in _FORMATTER.parse(template) if name}
     return Message(
-        template.format(**values), template, {one: _FORMATTER.get_field(one, (), values)[0] for one in names}
+        template.format(**values), template, {name: _FORMATTER.get_field(name, (), values)[0] for name in names}
     )
 
 
@@ -95,10 +101,10 @@ def digits(value: Any, form: str = "") -> Message:
 def joined(between: str, texts: Iterable[str]) -> str:
     """Texts one after another, those that are empty left out, with what they are made of."""
     each = [text for text in texts if text]
-    parts = [one for k, text in enumerate(each) for one in (between * (k > 0), text) if one]
-    if not any(isinstance(one, Message) for one in parts):
+    parts = [piece for k, text in enumerate(each) for piece in (between * (k > 0), text) if piece]
+    if not any(isinstance(part, Message) for part in parts):
         return "".join(parts)
-    flat = chain.from_iterable(one.parts if isinstance(one, Message) and one.parts else (one,) for one in parts)
+    flat = chain.from_iterable(part.parts if isinstance(part, Message) and part.parts else (part,) for part in parts)
     return Message("".join(parts), parts=flat)
 
 
@@ -117,18 +123,20 @@ def messages_in(value: Any, place: str = "") -> dict[str, Any]:
     if isinstance(value, Message):
         return {place: _plain(value)}
     each = value.items() if isinstance(value, Mapping) else enumerate(value) if isinstance(value, (list, tuple)) else ()
-    return {key: one for name, inside in each for key, one in messages_in(inside, f"{place}/{name}").items()}
+    return {key: message for name, inside in each for key, message in messages_in(inside, f"{place}/{name}").items()}
 
 
 def restored(value: Any, messages: Mapping[str, Any], place: str = "") -> Any:
     """The plain values of a result with their messages, where their English texts are still those of the file."""
     if isinstance(value, str) and place in messages:
-        found = _restored(messages[place])
-        return found if found == value else value
+        message = _restored(messages[place])
+        return message if message == value else value
     if isinstance(value, dict):
-        return {key: restored(one, messages, f"{place}/{key}") for key, one in value.items()}
+        return {key: restored(entry, messages, f"{place}/{key}") for key, entry in value.items()}
     return (
-        [restored(one, messages, f"{place}/{k}") for k, one in enumerate(value)] if isinstance(value, list) else value
+        [restored(entry, messages, f"{place}/{k}") for k, entry in enumerate(value)]
+        if isinstance(value, list)
+        else value
     )
 
 
@@ -137,7 +145,7 @@ def _plain(value: Any) -> Any:
         return value.item() if hasattr(value, "item") else value
     if not value.template:
         return {"parts": [_plain(part) for part in value.parts]}
-    values = {key: _plain(one) for key, one in value.values.items()}
+    values = {key: _plain(entry) for key, entry in value.values.items()}
     return {"template": value.template, "values": values} if values else {"template": value.template}
 
 
@@ -146,7 +154,7 @@ def _restored(value: Any) -> Any:
         return value
     if "parts" in value:
         return joined("", map(_restored, value["parts"]))
-    template, values = value["template"], {key: _restored(one) for key, one in value.get("values", {}).items()}
+    template, values = value["template"], {key: _restored(entry) for key, entry in value.get("values", {}).items()}
     if any(len(form or "") > LONGEST_FORMAT for _, _, form, _ in _FORMATTER.parse(template)):
         raise ValueError(f"a format of {template!r} is too long")
     return Message(filled(template, values) if values else template, template, values)

@@ -26,8 +26,10 @@ class NotebookSummary:
         cls.__repr__ = NotebookSummary.__repr__  # a dataclass would write its arrays out
 
     def __repr__(self) -> str:
-        said = getattr(self, "sentence", "") or ", ".join(f"{key} {_words(one)}" for key, one in self._facts().items())
-        return f"<{type(self).__name__}: {said}>"
+        sentence = getattr(self, "sentence", "") or ", ".join(
+            f"{key} {_words(value)}" for key, value in self._facts().items()
+        )
+        return f"<{type(self).__name__}: {sentence}>"
 
     def _repr_html_(self) -> str:
         return page(type(self).__name__, str(getattr(self, "sentence", "")), self._facts())
@@ -51,12 +53,12 @@ def page(title: str, sentence: str, facts: Mapping[str, Any], picture: str = "")
         f"<tr><td>{html.escape(str(key))}</td><td>{html.escape(_words(value))}</td></tr>"
         for key, value in _plain(facts).items()
     )
-    said = f"<p>{html.escape(sentence)}</p>" if sentence else ""
-    return f"<p><b>{html.escape(title)}</b></p>{said}{picture}<table>{rows}</table>"
+    paragraph = f"<p>{html.escape(sentence)}</p>" if sentence else ""
+    return f"<p><b>{html.escape(title)}</b></p>{paragraph}{picture}<table>{rows}</table>"
 
 
 def _plain(facts: Mapping[str, Any]) -> dict[str, Any]:
-    plain = [one for one in facts.items() if not (one[1] is None or isinstance(one[1], (list, tuple, dict)))]
+    plain = [fact for fact in facts.items() if not (fact[1] is None or isinstance(fact[1], (list, tuple, dict)))]
     return dict(plain[:ROWS])
 
 

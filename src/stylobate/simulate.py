@@ -209,16 +209,16 @@ def run_on_card(
     StylobateError
         It computes otherwise than the processor, or has failed on the way.
     """
-    finished = left = 0
+    finished = on_processor = 0
     engine = engine_for(model, cases[0].column)
     for index, measures in engine.run_on_card(devices.gpu(), cases, options, thread_count(threads)):
         finished += 1
-        left += measures.computed_by == CPU
+        on_processor += measures.computed_by == CPU
         yield index, measures
-    if left:
+    if on_processor:
         logging.getLogger("stylobate").info(
             "%d of %d runs were computed by the processor: the graphics card has no kernel for what they need.",
-            left,
+            on_processor,
             finished,
         )
 
@@ -267,7 +267,7 @@ def simulate_many(
     shares = [share_of(motion) if quiet is None else quiet for motion in motions]
     options = {"tail": tail, "until_end": until_end, "threads": threads, "device": device}
     for share in sorted(set(shares)):
-        numbers = [number for number, one in enumerate(shares) if one == share]
+        numbers = [number for number, quiet_share in enumerate(shares) if quiet_share == share]
         cases = Cases(len(numbers), lambda k, numbers=numbers: Case(columns[numbers[k]], motions[numbers[k]]))
         for index, measures in run_cases(cases, model, quiet=share, **options):
             rows[numbers[index]] = measures.row()

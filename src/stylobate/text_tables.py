@@ -39,9 +39,9 @@ def read_bytes(path: str | Path, most: int, remedy: str = "give another file") -
     check_file(path, most, remedy)
     try:
         with Path(path).open("rb") as file:
-            told = min(os.fstat(file.fileno()).st_size, most)
-            data = file.read(told + 1)  # a buffer of this size: not of the most that is allowed
-            if len(data) > told:  # it grows, or its size is not told beforehand; no more even so
+            size = min(os.fstat(file.fileno()).st_size, most)
+            data = file.read(size + 1)  # a buffer of this size: not of the most that is allowed
+            if len(data) > size:  # it grows, or its size is not told beforehand; no more even so
                 data += file.read(most + 1 - len(data))
     except OSError as error:
         raise _unreadable(path, error) from None
@@ -53,21 +53,23 @@ def read_bytes(path: str | Path, most: int, remedy: str = "give another file") -
 def check_file(path: str | Path, most: int, remedy: str = "give another file") -> None:
     """Refuse what is no file or too large a one, without opening it; see :func:`read_bytes`."""
     try:
-        found = Path(path).stat()
+        status = Path(path).stat()
     except (OSError, ValueError) as error:
         raise _unreadable(path, error) from None
-    if stat.S_ISDIR(found.st_mode):
+    if stat.S_ISDIR(status.st_mode):
         raise InputError(f"{printable(path)} is a folder; name the file in it.")
-    if not stat.S_ISREG(found.st_mode):
+    if not stat.S_ISREG(status.st_mode):
         raise InputError(f"{printable(path)} is not a file but a pipe or a device; give a file.")
-    if found.st_size > most:
-        raise InputError(f"{printable(path)} holds {found.st_size} bytes; allowed is up to {most}: {remedy}.")
+    if status.st_size > most:
+        raise InputError(f"{printable(path)} holds {status.st_size} bytes; allowed is up to {most}: {remedy}.")
 
 
 def printable(path: str | Path) -> str:
     """A path as it can be printed and stored: bytes that are no UTF-8, and control characters, as ``\\x…``."""
     text = os.fsencode(str(path)).decode("utf-8", "backslashreplace")
-    return "".join(one if one.isprintable() else one.encode("unicode_escape").decode() for one in text)
+    return "".join(
+        character if character.isprintable() else character.encode("unicode_escape").decode() for character in text
+    )
 
 
 def _unreadable(path: str | Path, error: OSError | ValueError) -> InputError:
@@ -76,7 +78,7 @@ def _unreadable(path: str | Path, error: OSError | ValueError) -> InputError:
         if slashed != str(path) and Path(slashed).exists():
             return InputError(f"there is no file {printable(path)}; write {slashed}.")
         folder = Path(path).parent
-        near = suggest(Path(path).name, (one.name for one in folder.iterdir())) if folder.is_dir() else ""
+        near = suggest(Path(path).name, (entry.name for entry in folder.iterdir())) if folder.is_dir() else ""
         return InputError(f"there is no file {printable(path)}; {near}check its name and folder.")
     reason = getattr(error, "strerror", None) or str(error)
     return InputError(f"{printable(path)} cannot be read: {reason}; check the path.")
@@ -195,9 +197,9 @@ def read(path: str | Path, most: int, key: str, needs: str) -> Table:
     lines = io.StringIO(text, newline=None).readlines()
     above = next((k for k, line in enumerate(lines) if line.strip() and not line.lstrip().startswith("#")), len(lines))
     for delimiter in DELIMITERS:
-        found = _parse(name, lines[above:], delimiter, above, key)
-        if found is not None:
-            return found
+        table = _parse(name, lines[above:], delimiter, above, key)
+        if table is not None:
+            return table
     first = f"; its first line is {printable(lines[above].strip())[:LONGEST]!r}" if above < len(lines) else ""
     raise InputError(f"{name} has no column {key!r}{first}; it needs {needs}.")
 
@@ -241,7 +243,7 @@ def _parse(name: str, lines: list[str], delimiter: str, above: int, key: str) ->
         return None
     if key not in header:
         return None
-    twice = next((one for k, one in enumerate(header) if one and one in header[:k]), None)
+    twice = next((heading for k, heading in enumerate(header) if heading and heading in header[:k]), None)
     if twice is not None:
         raise InputError(f"{name} has two columns called {printable(twice)!r}; rename or remove one.")
     numbers, rows = [], []
@@ -259,7 +261,7 @@ def _parse(name: str, lines: list[str], delimiter: str, above: int, key: str) ->
         raise InputError(
             f"line {above + reader.line_num} of {name} is no row of a table ({error}); mend its quotation marks."
         ) from None
-    named = [k for k, one in enumerate(header) if one]
+    named = [k for k, heading in enumerate(header) if heading]
     for line, row in zip(numbers, rows):
         if len(named) < len(header) and any(row[k] for k in range(len(header)) if k not in named):
             raise InputError(f"line {line} of {name} has a value in a column without a name; name it in the header.")

@@ -28,8 +28,8 @@ PORTAL = st.Assembly(
 
 
 def batch(motions, model=MODEL, **options):
-    found = dict(run_cases([Case(PORTAL, motion) for motion in motions], model, threads=1, **options))
-    return [found[i] for i in range(len(motions))]
+    results = dict(run_cases([Case(PORTAL, motion) for motion in motions], model, threads=1, **options))
+    return [results[i] for i in range(len(motions))]
 
 
 @pytest.mark.parametrize("losses", ["none", "stone"])
@@ -37,10 +37,10 @@ def test_without_histories_a_run_has_the_same_measures(losses):
     # Neither falls: the batch leaves out the ledger between start and end, and nothing else.
     model = st.DistinctElement2D(losses=losses)
     motions = [st.harmonic(1.0, size * st.g, 2.0) for size in (0.05, 0.25)]
-    for one, motion in zip(batch(motions, model), motions, strict=True):
+    for measures, motion in zip(batch(motions, model), motions, strict=True):
         alone = simulate(PORTAL, motion, model).measures
         assert not alone.collapsed
-        assert one == alone
+        assert measures == alone
 
 
 def test_a_run_that_is_cut_after_a_fall_is_not_told_at_rest():
@@ -70,15 +70,15 @@ def test_a_run_of_a_batch_ends_after_the_fall():
     # One push fells it in about two seconds, and 28 s of quiet follow.
     push = np.concatenate([0.6 * st.g * np.sin(np.pi * np.arange(0, 1.001, 0.01)), np.zeros(2900)])
     motion = st.Motion(0.01, push)
-    [one] = batch([motion])
+    [measures] = batch([motion])
     [whole] = batch([motion], until_end=True)
     alone = simulate(PORTAL, motion, MODEL).measures
     assert whole == alone
-    assert one.collapsed
+    assert measures.collapsed
     for name in ("outcome", "decided", "collapse_time", "peak_rotation", "peak_joint_opening", "time_step"):
-        assert getattr(one, name) == getattr(alone, name)
-    assert one.blocks.peak_displacement == alone.blocks.peak_displacement
-    assert one.blocks.fell_at == alone.blocks.fell_at
-    ended = one.steps * one.time_step
-    assert max(when for _, when in one.blocks.fell_at) + AFTER_THE_FALL == pytest.approx(ended, abs=0.05)
+        assert getattr(measures, name) == getattr(alone, name)
+    assert measures.blocks.peak_displacement == alone.blocks.peak_displacement
+    assert measures.blocks.fell_at == alone.blocks.fell_at
+    ended = measures.steps * measures.time_step
+    assert max(when for _, when in measures.blocks.fell_at) + AFTER_THE_FALL == pytest.approx(ended, abs=0.05)
     assert ended < 15.0 < whole.steps * whole.time_step

@@ -50,20 +50,20 @@ class Block:
 
 
 def test_cases_are_asked_for_as_lanes_become_free():
-    asked, most = 0, 0
+    requests, most = 0, 0
 
     def cases():
-        nonlocal asked
+        nonlocal requests
         for number in range(20_000):
-            asked += 1
+            requests += 1
             yield number
 
     done = 0
     for index, (_, case) in run_lanes(Block, cases(), 1):
         assert index == case
         done += 1
-        most = max(most, asked - done)
-    assert done == asked == 20_000
+        most = max(most, requests - done)
+    assert done == requests == 20_000
     assert most <= WINDOW + 2 * Block.lanes + 1
     # nothing but what waits to be handed over is ahead of the caller
     before = threading.active_count()
@@ -93,9 +93,9 @@ def test_what_lanes_hand_over_goes_on_alone(threads):
             raise st.InputError("this one is odd.")
         return number
 
-    found = dict(run_lanes(Handing, range(1000), threads))
-    assert found.pop(7).reason == "this one is odd"
-    assert found == {number: number for number in range(1000) if number != 7}
+    results = dict(run_lanes(Handing, range(1000), threads))
+    assert results.pop(7).reason == "this one is odd"
+    assert results == {number: number for number in range(1000) if number != 7}
     # each thread may add those of its lanes before it looks
     assert max(counted) <= MOST_ALONE + threads * Block.lanes
     assert not waiting
@@ -106,9 +106,9 @@ def test_memory_is_flat_however_many_cases_there_are():
         tracemalloc.start()
         for _ in run_alike(lambda case: "one", Block, (np.full(1000, number) for number in range(count)), 1):
             pass
-        found = tracemalloc.get_traced_memory()[1]
+        memory = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
-        return found
+        return memory
 
     few, many = peak(WINDOW), peak(4 * WINDOW)
     assert many < 2.0 * few
@@ -116,20 +116,20 @@ def test_memory_is_flat_however_many_cases_there_are():
 
 def test_kinds_share_blocks_and_every_case_is_run_once():
     cases = [number % 3 for number in range(2 * WINDOW + 100)]
-    found = dict(run_alike(lambda case: case, Block, iter(cases), 2))
-    assert found == {index: (case, case) for index, case in enumerate(cases)}
+    results = dict(run_alike(lambda case: case, Block, iter(cases), 2))
+    assert results == {index: (case, case) for index, case in enumerate(cases)}
 
 
 def test_a_case_that_cannot_be_loaded_is_failed_and_the_others_go_on():
     cases = ["odd" if number % 50 == 7 else number for number in range(500)]
-    found = dict(run_lanes(Block, cases, 2))
-    assert len(found) == 500
+    results = dict(run_lanes(Block, cases, 2))
+    assert len(results) == 500
     for index, case in enumerate(cases):
         if case == "odd":
-            assert found[index].outcome.label == "failed"
-            assert found[index].reason == "this one is odd"
+            assert results[index].outcome.label == "failed"
+            assert results[index].reason == "this one is odd"
         else:
-            assert found[index] == (None, case)
+            assert results[index] == (None, case)
 
 
 class Kept(Sequence):
@@ -152,12 +152,16 @@ class Kept(Sequence):
 BLOCK = column(1)
 
 
-@pytest.mark.parametrize("model", [st.HousnerBlock(), st.RigidBeam(), st.DistinctElement2D()], ids=lambda one: one.name)
+@pytest.mark.parametrize(
+    "model", [st.HousnerBlock(), st.RigidBeam(), st.DistinctElement2D()], ids=lambda model: model.name
+)
 def test_models_take_sequences_that_make_their_cases(model):
     cases = Kept(40)
     lazily = dict(run_cases(cases, model, threads=2))
     listed = dict(run_cases(list(cases), model, threads=1))
-    assert {k: one.row() for k, one in lazily.items()} == {k: one.row() for k, one in listed.items()}
+    assert {k: measures.row() for k, measures in lazily.items()} == {
+        k: measures.row() for k, measures in listed.items()
+    }
     assert sorted(lazily) == list(range(40))
 
 
@@ -176,19 +180,19 @@ def test_of_runs_that_end_together_each_has_its_own_measures_or_its_own_error(mo
         return stay(block, lanes, *given)
 
     monkeypatch.setattr(ColumnLanes, "stay", odd)
-    found = dict(run_cases(cases, model, threads=1))
-    assert found.pop(3).reason == "this one is odd"
-    assert found == {number: measures for number, measures in enumerate(alone) if number != 3}
+    results = dict(run_cases(cases, model, threads=1))
+    assert results.pop(3).reason == "this one is odd"
+    assert results == {number: measures for number, measures in enumerate(alone) if number != 3}
 
 
 def test_a_beam_on_joints_that_do_not_hold_it_is_failed_and_aborts_no_batch():
     soft = st.Joint(1e6, 5e5, friction_angle=35.0)
     motion = st.harmonic(1.0, 1.0, 1.0)
-    some = [column(4), column(4, soft), column(1, soft), column(4)]
+    columns = [column(4), column(4, soft), column(1, soft), column(4)]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", OutOfRangeWarning)
-        table = st.simulate_many(some, [motion] * 4, st.RigidBeam())
-        single = st.simulate(some[1], motion, st.RigidBeam())
+        table = st.simulate_many(columns, [motion] * 4, st.RigidBeam())
+        single = st.simulate(columns[1], motion, st.RigidBeam())
     assert list(table.outcome) == ["rocked", "failed", "failed", "rocked"]
     assert "too soft to hold the column upright" in table.reason[1]
     assert single.outcome.label == "failed"
@@ -240,7 +244,11 @@ def test_compiled_calls_are_short_however_long_the_run(model):
             return getattr(real, name)
 
         def advance(self, *arguments):
-            calls.append(next(one for one in reversed(arguments[:7]) if isinstance(one, int) and one != chunk))
+            calls.append(
+                next(
+                    argument for argument in reversed(arguments[:7]) if isinstance(argument, int) and argument != chunk
+                )
+            )
 
     if isinstance(model, st.RigidBeam):
         from stylobate.models.rigid_beam import lanes

@@ -50,14 +50,17 @@ def cluster():
 
 def test_rows_are_those_of_threads_to_the_bit(cluster, tmp_path):
     records = MotionRequest(files=("sample:el-centro-1940",)).expand().motions
-    motions = [st.harmonic(0.8, 1.0, 2.0), *(one.replace(ax=one.samples[:300], ay=None, az=None) for one in records)]
+    motions = [
+        st.harmonic(0.8, 1.0, 2.0),
+        *(record.replace(ax=record.samples[:300], ay=None, az=None) for record in records),
+    ]
     columns = [st.preset("paper-monolithic"), st.preset("paper-12-drums")]
     cases = Cases(60, lambda n: Case(columns[n % 3 == 0], motions[n % len(motions)].scaled(0.3 + 0.05 * n)))
     on_workers = run_all(
         Request.of(cases, Hasher(st.DistinctElement2D(), RunOptions()), 0.1),
         st.Campaign(ledger=tmp_path / "runs.sqlite"),
     )
-    by_threads = {number: one.row() for number, one in run_cases(cases, st.DistinctElement2D(), quiet=0.1)}
+    by_threads = {number: measures.row() for number, measures in run_cases(cases, st.DistinctElement2D(), quiet=0.1)}
     assert list(map(repr, on_workers)) == [repr(by_threads[number]) for number in range(60)]
 
 
@@ -66,8 +69,8 @@ def test_a_killed_worker_is_replaced_and_its_chunks_are_computed_again(cluster):
     [pid] = cluster.run(os.getpid).values()
     cases = Cases(60, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
     kill.start()
-    found = run_all(Request.of(cases, Hasher(Poisonous(0.05))))
-    assert [row["peak_top_displacement_m"] for row in found] == [1.0 + n for n in range(60)]
+    rows = run_all(Request.of(cases, Hasher(Poisonous(0.05))))
+    assert [row["peak_top_displacement_m"] for row in rows] == [1.0 + n for n in range(60)]
     assert list(cluster.run(os.getpid).values()) != [pid]
 
 
@@ -78,10 +81,10 @@ def test_the_libraries_of_the_cluster_say_nothing_of_their_own(cluster):
 
 def test_a_case_that_kills_its_workers_is_a_run_that_failed(cluster):
     for _ in range(2):  # so often that the one who starts the worker again gives up and is replaced
-        found = dict(executor()([Case(COLUMN, MOTION), Case(POISON, MOTION)], Poisonous(), RunOptions(), None))
-        assert found[0].row()["outcome"] == "rocked"
-        assert found[1].row()["outcome"] == "failed"
-        assert found[1].reason == "the workers that computed it died, each time"
+        results = dict(executor()([Case(COLUMN, MOTION), Case(POISON, MOTION)], Poisonous(), RunOptions(), None))
+        assert results[0].row()["outcome"] == "rocked"
+        assert results[1].row()["outcome"] == "failed"
+        assert results[1].reason == "the workers that computed it died, each time"
 
 
 STUDY = """
@@ -98,23 +101,23 @@ levels = ["0.3g", "0.5g", "0.9g"]
 def test_the_recipe_for_slurm_and_a_study_on_its_cluster(cluster, tmp_path, monkeypatch, capsys):
     page = (Path(__file__).parents[2] / "docs" / "how_to" / "cluster.md").read_text(encoding="utf-8")
     script = page.split("```python\n")[1].split("```")[0]
-    asked = {}
+    settings = {}
 
     class Scheduler:  # in place of dask_jobqueue.SLURMCluster, which takes a queue of jobs
         scheduler_address = cluster.scheduler.address
 
         def __init__(self, **job):
-            asked.update(job)
+            settings.update(job)
 
         def scale(self, jobs):
-            asked["jobs"] = jobs
+            settings["jobs"] = jobs
 
     monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=Scheduler))
     monkeypatch.setattr("builtins.input", lambda: "")
     exec(script, {})
     address = capsys.readouterr().out.split()[-1]
     assert address == cluster.scheduler.address
-    assert asked["jobs"] > 0
+    assert settings["jobs"] > 0
     (tmp_path / "study.toml").write_text(STUDY)
     for out, options in (("threads", []), ("dask", ["--dask", address])):
         arguments = ["study", "run", tmp_path / "study.toml", "--out", tmp_path / out, "--json", *options]
@@ -159,7 +162,7 @@ class Client:
         return {"one": self.threads}
 
     def subscribe_topic(self, topic, handler):
-        self.send = lambda some: handler((0.0, some))
+        self.send = lambda message: handler((0.0, message))
 
     def unsubscribe_topic(self, topic):
         self.send = None
@@ -180,7 +183,7 @@ class Client:
                 future.status = "cancelled"
             else:
                 for _ in range(1 + self.twice):
-                    results_of(chunk, [one.result() for one in given[1]], self.send, "here")
+                    results_of(chunk, [future.result() for future in given[1]], self.send, "here")
             tell(future)
 
         future.add_done_callback = done
@@ -194,10 +197,10 @@ def handed_out(client, count=40):
 
 def test_a_chunk_that_kills_its_workers_is_cut_down_to_the_case():
     client = Client(poison=[7, 31])
-    found = dict(handed_out(client))
-    assert len(found) == 40
-    assert {n for n, one in found.items() if one.outcome.label == "failed"} == {7, 31}
-    assert [found[n].peak_top_displacement for n in range(6)] == [1.0 + n for n in range(6)]
+    results = dict(handed_out(client))
+    assert len(results) == 40
+    assert {n for n, measures in results.items() if measures.outcome.label == "failed"} == {7, 31}
+    assert [results[n].peak_top_displacement for n in range(6)] == [1.0 + n for n in range(6)]
     assert sorted(client.chunks[-2:]) == [[7], [31]]  # once more, each alone
 
 
@@ -205,23 +208,23 @@ def test_what_was_suspected_only_because_it_was_beside_is_computed_in_the_end():
     client = Client(poison=[7])
     cases = Cases(8, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
     work = HandOut(client, cases, Poisonous(), RunOptions())
-    found = {}
+    results = {}
     for number, measures in work.results():
-        found[number] = measures
-        if len(found) == 7:  # what killed the workers was something else
+        results[number] = measures
+        if len(results) == 7:  # what killed the workers was something else
             client.poison.clear()
-    assert found[7].outcome.label == "rocked"
+    assert results[7].outcome.label == "rocked"
 
 
 def test_lost_chunks_are_sent_again_and_results_that_come_twice_count_once():
-    found = handed_out(Client(lost=[3, 20], twice=True))
-    assert sorted(number for number, _ in found) == list(range(40))
+    results = handed_out(Client(lost=[3, 20], twice=True))
+    assert sorted(number for number, _ in results) == list(range(40))
 
 
 def test_chunks_are_about_as_long_as_they_should_be():
     client = Client()
     handed_out(client, 5_000)
-    sizes = [len(one) for one in client.chunks]
+    sizes = [len(chunk) for chunk in client.chunks]
     assert sizes[0] == 128
     assert max(sizes) <= 20_000
     assert all(after <= 8 * max(sizes[: k + 1]) for k, after in enumerate(sizes[1:]))
@@ -249,8 +252,8 @@ def test_motions_that_are_made_one_by_one_are_not_taken_for_one_another(monkeypa
 
     monkeypatch.setattr("stylobate.campaign.cluster.MOTIONS", 8)
     cases = Cases(100, lambda n: Case(COLUMN, st.Motion(0.01, np.full(200, float(n)))))
-    found = dict(HandOut(Client(), cases, Seen(), RunOptions()).results())
-    assert [found[n].peak_top_displacement for n in range(100)] == list(range(100))
+    results = dict(HandOut(Client(), cases, Seen(), RunOptions()).results())
+    assert [results[n].peak_top_displacement for n in range(100)] == list(range(100))
 
 
 class Asked(Client):
@@ -275,20 +278,20 @@ class Asked(Client):
 def test_the_worker_that_asks_gets_the_next_chunk_and_the_last_ones_are_small(monkeypatch):
     client = Asked()
     cases = Cases(300, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
-    work, found = HandOut(client, cases, Poisonous(), RunOptions()), []
+    work, numbers = HandOut(client, cases, Poisonous(), RunOptions()), []
     work._count_threads()
     work._each, work._largest = 0.1, 300  # as if it had been timed
     monkeypatch.setattr(work, "_time", lambda *_: None)
     runs = work.results()
     while work._next < len(cases):
-        found.append(next(runs)[0])
+        numbers.append(next(runs)[0])
     for finish in client.waiting:
         finish()
-    found += [number for number, _ in runs]
-    assert sorted(found) == list(range(300))
+    numbers += [number for number, _ in runs]
+    assert sorted(numbers) == list(range(300))
     assert client.where[:2] == [{}, {}]
     assert client.where[2] == {"workers": ["tcp://worker-1"], "allow_other_workers": True}
-    sizes = [len(one) for one in client.chunks]
+    sizes = [len(chunk) for chunk in client.chunks]
     assert sizes == sorted(sizes, reverse=True)
     assert sizes[0] == 75  # half of a worker's share of what is left
     assert sizes[-1] <= 4
@@ -300,8 +303,8 @@ class Twenty(Poisoning):
     def run_many(self, cases, options, threads):
         coming, running = enumerate(cases), []
         while True:
-            while len(running) < 20 and (one := next(coming, None)) is not None:
-                running.append(one)
+            while len(running) < 20 and (pair := next(coming, None)) is not None:
+                running.append(pair)
             if not running:
                 return
             BESIDE.append(len(running))
@@ -325,7 +328,7 @@ BESIDE: list[int] = []
 
 
 def test_the_next_chunk_begins_before_the_lanes_of_the_last_one_are_empty():
-    stream, found, threads = Stream(), {}, []
+    stream, peaks, threads = Stream(), {}, []
     BESIDE.clear()
 
     def chunk(name, first):
@@ -335,13 +338,13 @@ def test_the_next_chunk_begins_before_the_lanes_of_the_last_one_are_empty():
 
     def compute_one(name, first, more):
         motion = (MOTION.dt, MOTION.samples, None, None)
-        results_of(chunk(name, first), [motion], lambda some: take(some[1]), "here", stream, more)
+        results_of(chunk(name, first), [motion], lambda message: take(message[1]), "here", stream, more)
 
-    def take(some):
-        if isinstance(some, bytes):
-            found.update((number, one.peak_top_displacement) for number, one in unpack(some))
+    def take(content):
+        if isinstance(content, bytes):
+            peaks.update((number, measures.peak_top_displacement) for number, measures in unpack(content))
         else:
-            assert some > 0.3  # 40 cases of 0.01 s
+            assert content > 0.3  # 40 cases of 0.01 s
 
     def next_one():
         threads.append(threading.Thread(target=compute_one, args=("b", 40, lambda: None)))
@@ -349,7 +352,7 @@ def test_the_next_chunk_begins_before_the_lanes_of_the_last_one_are_empty():
 
     compute_one("a", 0, next_one)
     threads[0].join()
-    assert found == {number: float(number) for number in range(80)}
+    assert peaks == {number: float(number) for number in range(80)}
     assert set(BESIDE[:60]) == {20}  # no lane was empty until both chunks were in them
     assert stream.left == 0
 
@@ -358,7 +361,7 @@ def test_what_has_finished_is_sent_although_nothing_else_finishes():
     sent = []
     numbers, motion = [0, 1], (MOTION.dt, MOTION.samples, None, None)
     chunk = Chunk("a", law(), Poisonous(0.45), RunOptions(), numbers, [COLUMN], [0, 0], [0, 0], [1.0, 2.0], ["m", "m"])
-    results_of(chunk, [motion], lambda some: sent.append(some[1]), "here")
+    results_of(chunk, [motion], lambda message: sent.append(message[1]), "here")
     assert [number for number, _ in unpack(sent[0])] == [0]
     assert [number for number, _ in unpack(sent[1])] == [1]
 
@@ -369,14 +372,14 @@ def test_a_fault_in_a_run_is_told_and_the_lanes_go_on():
     def result(factor):
         chunk = Chunk("a", law(), Lanes(), RunOptions(), [0], [COLUMN], [0], [0], [factor], ["m"])
         sent = []
-        results_of(chunk, [motion], lambda some: sent.append(some[1]), "here", stream)
+        results_of(chunk, [motion], lambda message: sent.append(message[1]), "here", stream)
         return unpack(sent[0])
 
     with pytest.raises(ArithmeticError, match="a fault"):
         result(-1.0)
     assert stream.left == 0
-    [(number, one)] = result(2.0)
-    assert (number, one.peak_top_displacement) == (0, 2.0)
+    [(number, measures)] = result(2.0)
+    assert (number, measures.peak_top_displacement) == (0, 2.0)
 
 
 def test_a_worker_with_another_law_is_refused_in_a_sentence():
@@ -401,9 +404,9 @@ def test_an_unreachable_scheduler_is_one_sentence(address, monkeypatch, capsys):
     grid = ["--frequencies", "1:2:2", "--amplitudes", "0.1g:0.3g:3"]
     started = time.monotonic()
     assert call(["domain", "paper-monolithic", *grid, "--dask", address]) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert f"no Dask scheduler answers at {address!r}" in said
+    message = capsys.readouterr().err
+    assert message.count("\n") == 1
+    assert f"no Dask scheduler answers at {address!r}" in message
     assert time.monotonic() - started < 8.0
 
 

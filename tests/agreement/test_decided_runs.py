@@ -70,25 +70,25 @@ def test_a_column_that_rocks_at_the_end_goes_on_until_its_verdict_is_certain():
     weak = st.harmonic(0.7, grid[0], 4.0 / 0.7)
     motions = [weak, weak.scaled((grid[0] + grid[2]) / grid[0])]
     alone = [st.simulate(column, motion, model) for motion in motions]
-    assert [one.decided for one in alone] == [True, False]
+    assert [response.decided for response in alone] == [True, False]
     waits = [st.simulate(column, motion, model, until_decided=True) for motion in motions]
-    assert all(one.decided for one in waits)
+    assert all(response.decided for response in waits)
     assert waits[0].measures.steps == alone[0].measures.steps
     same = len(alone[1].time) - 1  # the last row of a run may come early
     assert np.array_equal(waits[1].drum_x[:same], alone[1].drum_x[:same])
     assert alone[1].time[-1] < waits[1].time[-1] < alone[1].time[-1] + 10.0
-    found = st.critical_amplitude(column, motions[0], model, *grid, nominal=0.3 * st.g)
-    assert found.counts["undecided"] == 0
-    assert found.table["steps"].tolist() == [one.measures.steps for one in waits]
+    result = st.critical_amplitude(column, motions[0], model, *grid, nominal=0.3 * st.g)
+    assert result.counts["undecided"] == 0
+    assert result.table["steps"].tolist() == [response.measures.steps for response in waits]
 
 
 @pytest.mark.parametrize("replicates", ["0", "2"])
 def test_the_command_goes_on_with_a_run_and_columns_like_it(replicates, capsys):
     command = ["run", "paper-12-drums", "--harmonic", "0.7Hz,0.4g,5.714s", "--json"]
     assert call([*command, "--replicates", replicates]) == 0
-    said = json.loads(capsys.readouterr().out)
-    assert said["decided"]
-    assert said.get("certainty", {}).get("undecided", 0) == 0
+    summary = json.loads(capsys.readouterr().out)
+    assert summary["decided"]
+    assert summary.get("certainty", {}).get("undecided", 0) == 0
 
 
 def test_what_cannot_move_on_does_not_wait():
@@ -96,5 +96,5 @@ def test_what_cannot_move_on_does_not_wait():
     tied = st.preset("paper-monolithic").replace(
         links=(st.Core(axial_stiffness=5e7, axial_capacity=2e5, pretension=1e5),)
     )
-    found = st.simulate(tied, st.harmonic(1.0, 0.02 * st.g, 1.0), st.DistinctElement2D(), until_decided=True)
-    assert found.time[-1] < 1.1
+    response = st.simulate(tied, st.harmonic(1.0, 0.02 * st.g, 1.0), st.DistinctElement2D(), until_decided=True)
+    assert response.time[-1] < 1.1

@@ -68,11 +68,11 @@ def test_batch_has_the_bits_of_single_runs(model):
 
 def test_threads_and_order_do_not_change_a_bit():
     columns, motions = mixed_cases()
-    one = simulate_many(columns, motions, DistinctElement2D(), threads=1)
+    single = simulate_many(columns, motions, DistinctElement2D(), threads=1)
     two = simulate_many(columns, motions, DistinctElement2D(), threads=2)
     back = simulate_many(columns[::-1], motions[::-1], DistinctElement2D(), threads=2)[::-1].reset_index(drop=True)
-    assert one[MEASURES].equals(two[MEASURES])
-    assert one[MEASURES].equals(back[MEASURES])
+    assert single[MEASURES].equals(two[MEASURES])
+    assert single[MEASURES].equals(back[MEASURES])
 
 
 def test_columns_of_different_drum_counts_share_a_batch():

@@ -30,7 +30,7 @@ def rows(table):
 
 def test_a_single_run_has_the_bits_of_the_batch_in_any_order_and_with_any_threads():
     cases = [(COLUMNS[i % 2], shaking(0.3 * i, 0.15 + 0.02 * i)) for i in range(20)]
-    columns, motions = [one for one, _ in cases], [motion for _, motion in cases]
+    columns, motions = [column for column, _ in cases], [motion for _, motion in cases]
     tables = [rows(st.simulate_many(columns, motions, MODEL, threads=n)) for n in (1, 2)]
     back = rows(st.simulate_many(columns[::-1], motions[::-1], MODEL, threads=1))[::-1]
     assert tables[0] == tables[1] == back
@@ -70,11 +70,11 @@ def test_no_declared_collapse_recovers(drums, section):
     block = engine_for(MODEL, column).block(RunOptions(until_end=True, tail=4.0))
     for lane in range(block.lanes):
         block.load(lane, Case(column, shaking(0.4 * lane, 0.25 + 0.04 * lane)))
-    left, declared, down = set(range(block.lanes)), 0, 0
-    while left:
+    remaining, declared, down = set(range(block.lanes)), 0, 0
+    while remaining:
         block.advance()
-        for lane in [lane for lane in left if block.is_over(lane)]:
-            left.discard(lane)
+        for lane in [lane for lane in remaining if block.is_over(lane)]:
+            remaining.discard(lane)
             if block.watch["when"][0, lane] >= 0:
                 declared += 1
                 upright = (

@@ -29,15 +29,15 @@ def box(x0, x1, z0, z1, name, **fields):
 
 def forces_along(engine, path):
     """Force and moment on the last body at every pose (x, z, angle) of a path that is gone through once."""
-    found = np.empty((len(path), 3))
+    forces = np.empty((len(path), 3))
     engine.start(1e-9)
     for k, (x, z, angle) in enumerate(path):
         b = engine.records.body[-1]
         b["x"], b["z"], b["th"], b["c"], b["s"] = x, z, angle, math.cos(angle), math.sin(angle)
         engine.renew_pairs()
         engine.kernel.loose_forces(engine.records.state, engine.search)
-        found[k] = b["fx"][0], b["fz"][0], b["mo"][0]
-    return found
+        forces[k] = b["fx"][0], b["fz"][0], b["mo"][0]
+    return forces
 
 
 def overturning(steps, depth=1e-4):

@@ -98,10 +98,10 @@ def test_runs_under_coarse_noise(seed):
     x = random.normal(size=150)
     motion = Motion(0.0075, 0.8 * g * x / np.abs(x).max())
     model = HousnerBlock(restitution=0.5)
-    found, (_, measures) = simulate(block, motion, model), run_adaptive(model, block, motion)
-    assert str(found.outcome) == str(measures.outcome) == "rocked"
+    response, (_, measures) = simulate(block, motion, model), run_adaptive(model, block, motion)
+    assert str(response.outcome) == str(measures.outcome) == "rocked"
     assert measures.energy_imbalance < 1e-6
-    assert found.peak_rotation == pytest.approx(measures.peak_rotation, rel=2e-2)
+    assert response.peak_rotation == pytest.approx(measures.peak_rotation, rel=2e-2)
 
 
 def test_the_tail_changes_nothing_before_it():

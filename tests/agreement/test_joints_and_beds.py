@@ -27,8 +27,8 @@ def still(duration):
 def turned(corners, degrees):
     angle = math.radians(degrees)
     c, s = math.cos(angle), math.sin(angle)
-    found = np.asarray(corners) @ np.array([[c, s], [-s, c]])
-    return tuple((float(x), float(z)) for x, z in found)
+    points = np.asarray(corners) @ np.array([[c, s], [-s, c]])
+    return tuple((float(x), float(z)) for x, z in points)
 
 
 def slope(degrees):

@@ -175,14 +175,14 @@ def test_code_for_two_records_by_two_processes_is_told_apart(tmp_path, monkeypat
     (package / "rule.py").write_text(TWICE, encoding="utf-8")
     monkeypatch.setenv("STYLOBATE_CACHE", str(tmp_path / "cache"))
 
-    def found(*records):
+    def outputs(*records):
         script = RECORDS.format(root=str(tmp_path), name="trial.kernels", records=records)
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
         return done.stdout.split()
 
     short, long = ("last", "other"), ("a", "b", "c", "last")
-    assert found(short) == found(long) == ["14.0"]
-    assert found(short, long) == found(long, short) == ["14.0", "14.0"]
+    assert outputs(short) == outputs(long) == ["14.0"]
+    assert outputs(short, long) == outputs(long, short) == ["14.0", "14.0"]
 
 
 RULE = "from .jit import law\n\n@law\ndef rule(i):\n    return 7 * i\n"
@@ -229,12 +229,12 @@ def test_damaged_compiled_code_is_made_anew_with_a_warning(tmp_path, monkeypatch
     script = STARTS.format(root=str(tmp_path), here=str(Path(__file__).parent), cache=cache)
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    first, *found = json.loads(done.stdout)
-    assert len(found) == 2 * len(DAMAGES)
-    assert {total for _, _, total, _ in (first, *found)} == {21}
-    for suffix, name, _, said in found:
+    first, *restarts = json.loads(done.stdout)
+    assert len(restarts) == 2 * len(DAMAGES)
+    assert {total for _, _, total, _ in (first, *restarts)} == {21}
+    for suffix, name, _, messages in restarts:
         expected = [] if name.startswith("after") else ["was damaged and is compiled anew."]
-        assert said == expected, (suffix, name)
+        assert messages == expected, (suffix, name)
 
 
 def test_code_is_found_by_a_copy_of_the_sources_elsewhere_and_at_another_time(tmp_path, monkeypatch):
@@ -278,8 +278,8 @@ def test_shipped_code_is_taken_by_its_level_and_damaged_one_is_not(tmp_path, mon
         shutil.rmtree(tmp_path / "cache")
     for path in (package / "built").rglob("*.kernel"):
         path.write_bytes(path.read_bytes()[:-1])
-    said, count = run()
-    assert "was damaged and is compiled anew" in said
+    output, count = run()
+    assert "was damaged and is compiled anew" in output
     assert count > 0
     assert run()[1] == count
 

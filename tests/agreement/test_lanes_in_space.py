@@ -53,14 +53,14 @@ def batch(cases, monkeypatch, model=None, **options):
     alone, collect = [], lanes.IntactLanes.collect
 
     def counted(self, lane):
-        found = collect(self, lane)
-        alone.extend([found] * callable(found))
-        return found
+        result = collect(self, lane)
+        alone.extend([result] * callable(result))
+        return result
 
     with monkeypatch.context() as patched:
         patched.setattr(lanes.IntactLanes, "collect", counted)
-        found = dict(run_checked(cases, model or st.DistinctElement3D(), RunOptions(**options), 1))
-    return [found[i] for i in range(len(cases))], len(alone)
+        results = dict(run_checked(cases, model or st.DistinctElement3D(), RunOptions(**options), 1))
+    return [results[i] for i in range(len(cases))], len(alone)
 
 
 def handed_over(case, share, model):
@@ -82,31 +82,31 @@ def test_what_stays_intact(structure, beta, monkeypatch):
     """Joints that open and slip by tenths of a millimetre; some lanes begin where others have ended."""
     model = st.DistinctElement3D(stiffness_damping=beta)
     motions = [shaking(size, duration=duration) for size, duration in ((0.05, 0.3), (0.3, 0.4), (0.3, 0.25))]
-    found, alone = batch([Case(structure, motion) for motion in motions], monkeypatch, model)
+    results, alone = batch([Case(structure, motion) for motion in motions], monkeypatch, model)
     assert alone == 0
-    for one, motion in zip(found, motions, strict=True):
-        alike(one, st.simulate(structure, motion, model).measures)
+    for measures, motion in zip(results, motions, strict=True):
+        alike(measures, st.simulate(structure, motion, model).measures)
 
 
 def test_losses_by_name_are_those_of_each_structure(monkeypatch):
     """Two portals of other columns in one block of lanes: each has the damping that it has alone."""
     model, cases = st.DistinctElement3D(losses="stone"), [Case(portal(wide), shaking(0.2)) for wide in (0.8, 0.7)]
-    found, alone = batch(cases, monkeypatch, model)
+    results, alone = batch(cases, monkeypatch, model)
     assert alone == 0
     damping = [engine_for(model, case.column).acting.stiffness_damping for case in cases]
     assert damping[0] > 1.1 * damping[1] > 1e-5
-    for one, case in zip(found, cases, strict=True):
-        alike(one, st.simulate(*case, model).measures)
+    for measures, case in zip(results, cases, strict=True):
+        alike(measures, st.simulate(*case, model).measures)
 
 
-def alike(one, other):
+def alike(measures, other):
     """Whether two runs agree as long as no impacts have made rounding grow."""
     for name in PEAKS:
-        assert getattr(one, name) == pytest.approx(getattr(other, name), rel=1e-9, abs=1e-9)
-    assert one.blocks.peak_displacement == pytest.approx(other.blocks.peak_displacement, abs=1e-9)
-    assert one.energy_imbalance == pytest.approx(other.energy_imbalance, abs=1e-6)
+        assert getattr(measures, name) == pytest.approx(getattr(other, name), rel=1e-9, abs=1e-9)
+    assert measures.blocks.peak_displacement == pytest.approx(other.blocks.peak_displacement, abs=1e-9)
+    assert measures.energy_imbalance == pytest.approx(other.energy_imbalance, abs=1e-6)
     for name in ("outcome", "decided", "steps", "time_step", "reason", "collapse"):
-        assert getattr(one, name) == getattr(other, name)
+        assert getattr(measures, name) == getattr(other, name)
 
 
 def test_what_is_handed_over_at_once_is_the_run_alone():
@@ -128,13 +128,13 @@ def test_what_comes_loose_goes_on_alone(monkeypatch):
     """One of three is thrown over by a pulse: the same bodies fall, at the same time but for a thousandth of a second."""
     structure = portal()
     motions = [shaking(size, 0.0, 0.5) for size in (0.1, 3.0, 0.2)]
-    found, alone = batch([Case(structure, motion) for motion in motions], monkeypatch, tail=1.5)
+    results, alone = batch([Case(structure, motion) for motion in motions], monkeypatch, tail=1.5)
     assert alone == 1
-    assert [one.collapsed for one in found] == [False, True, False]
+    assert [measures.collapsed for measures in results] == [False, True, False]
     other = st.simulate(structure, motions[1], st.DistinctElement3D(), tail=1.5).measures
-    assert (found[1].outcome, found[1].decided, found[1].steps) == (other.outcome, other.decided, other.steps)
-    assert dict(found[1].blocks.fell_at) == pytest.approx(dict(other.blocks.fell_at), abs=1e-3)
-    assert found[1].peak_rotation == pytest.approx(other.peak_rotation, rel=1e-9)
+    assert (results[1].outcome, results[1].decided, results[1].steps) == (other.outcome, other.decided, other.steps)
+    assert dict(results[1].blocks.fell_at) == pytest.approx(dict(other.blocks.fell_at), abs=1e-3)
+    assert results[1].peak_rotation == pytest.approx(other.peak_rotation, rel=1e-9)
 
 
 def test_what_is_undecided_at_the_end_goes_on_alone(monkeypatch):
@@ -142,14 +142,14 @@ def test_what_is_undecided_at_the_end_goes_on_alone(monkeypatch):
     motions = [shaking(0.3, 0.0), shaking(0.0, 0.0, 0.7)]
     cases = [Case(portal(), motion) for motion in motions]
     model = st.DistinctElement3D(stiffness_damping=1e-3)
-    found, alone = batch(cases, monkeypatch, model, until_decided=True)
+    results, alone = batch(cases, monkeypatch, model, until_decided=True)
     assert alone == 1
-    for one, motion in zip(found, motions, strict=True):
+    for measures, motion in zip(results, motions, strict=True):
         other = st.simulate(portal(), motion, model, until_decided=True).measures
-        print(one, other)
-        alike(one, other)
-        assert one.decided
-    assert found[0].steps * found[0].time_step > motions[0].duration + 0.5
+        print(measures, other)
+        alike(measures, other)
+        assert measures.decided
+    assert results[0].steps * results[0].time_step > motions[0].duration + 0.5
 
 
 def test_bodies_that_may_strike_one_another_are_run_alone(monkeypatch):
@@ -191,7 +191,7 @@ def test_a_joint_that_opens_far_over_is_told_alone(monkeypatch):
     stone = st.Stone.box((0.8, 0.8, 1.0), (0.0, 0.0, 0.0), 2700.0, name="block")
     block = st.SpatialAssembly((stone,), st.Joint(5e9, 2.5e9, 60.0), name="block")
     motions = [st.Motion(0.005, np.where(time < 0.25, push * st.g, 0.0), vertical=drop) for push in (1.6, 0.0)]
-    found, alone = batch([Case(block, motion) for motion in motions], monkeypatch)
+    results, alone = batch([Case(block, motion) for motion in motions], monkeypatch)
     assert alone == 1
-    alike(found[0], st.simulate(block, motions[0], st.DistinctElement3D()).measures)
-    assert math.radians(20.0) < found[0].peak_rotation < math.radians(35.0)
+    alike(results[0], st.simulate(block, motions[0], st.DistinctElement3D()).measures)
+    assert math.radians(20.0) < results[0].peak_rotation < math.radians(35.0)

@@ -53,31 +53,31 @@ CLOSE = {"tie": 2e-8, "pretension": 4e-8}
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_column_with_links_in_both_engines(kind, tmp_path) -> None:
     """The first swing of some centimetres: places to 1e-9 m, the same links broken at the same step, the same forces."""
-    links = tuple(link_from_dict(one) for one in KINDS[kind])
+    links = tuple(link_from_dict(fields) for fields in KINDS[kind])
     drums = [st.Drum(1.0, 0.8, 0.8, 2700.0, section="circular")] * 3
     made = st.Column.of_drums(drums, JOINT, name="column").replace(links=links)
     write_column(made, tmp_path / "column.toml")
     (tmp_path / "alone.toml").write_text('[[column]]\nfile = "column.toml"\nat = [[0.0, 0.0]]\n')
     column, assembly = st.read_column(tmp_path / "column.toml"), st.read_assembly(tmp_path / "alone.toml")
-    assert [one.name for one in assembly.placed_links] == [f"column 1, {one.name}" for one in column.placed_links]
+    assert [link.name for link in assembly.placed_links] == [f"column 1, {link.name}" for link in column.placed_links]
     model = st.DistinctElement3D(time_step=STEP)
-    lane, space = (st.simulate(one, pushed(0.6), model) for one in (column, assembly))
-    ways = [np.array(one.poses.position)[:, -3:] for one in (lane, space)]
+    lane, space = (st.simulate(structure, pushed(0.6), model) for structure in (column, assembly))
+    ways = [np.array(response.poses.position)[:, -3:] for response in (lane, space)]
     ways = [way - way[0] for way in ways]
     close = CLOSE.get(kind, 1e-9)
     assert np.abs(ways[0]).max() > 1e-2
     assert ways[1] == pytest.approx(ways[0], abs=close)
-    stiffest = max(one.get("shear_stiffness", one.get("axial_stiffness", 0.0)) for one in KINDS[kind])
+    stiffest = max(fields.get("shear_stiffness", fields.get("axial_stiffness", 0.0)) for fields in KINDS[kind])
     for name, each in (("shear", stiffest), ("tension", stiffest), ("slip", 1.0), ("elongation", 1.0)):
         assert getattr(space.links, name) == pytest.approx(getattr(lane.links, name), abs=each * close)
-    for one, other in zip(lane.measures.links, space.measures.links, strict=True):
-        assert other.broken_at == pytest.approx(one.broken_at, abs=1e-12, nan_ok=True)
+    for lane_link, other in zip(lane.measures.links, space.measures.links, strict=True):
+        assert other.broken_at == pytest.approx(lane_link.broken_at, abs=1e-12, nan_ok=True)
     assert space.energy_imbalance < 1e-5
 
 
 def both(boxes: dict, law: st.Joint, surface: st.Joint | None, *kinds: dict) -> tuple[Assembly, st.SpatialAssembly]:
     """Boxes from left to right and from low to high [m], 1 m deep, in the plane and in space; ``held`` is fixed."""
-    links = tuple(block_link(**one) for one in kinds)
+    links = tuple(block_link(**fields) for fields in kinds)
     flat, solid = [], []
     for name, (a, b, c, d) in boxes.items():
         how = {"fixed": name == "held", "surface": surface}
@@ -90,9 +90,9 @@ def swung(pair: tuple, step: float) -> tuple:
     """Responses in the plane and in space to a sine of 0.5 g in the plane, and ways of bodies [m]."""
     motion = st.Motion(0.0025, 0.5 * 9.81 * np.sin(np.pi * np.arange(0.0, 0.30001, 0.0025) / 0.15))
     models = st.DistinctElement2D(time_step=step), st.DistinctElement3D(time_step=step)
-    found = [st.simulate(one, motion, model) for one, model in zip(pair, models, strict=True)]
-    ways = [np.array(one.poses.position) for one in found]
-    return *found, *(way - way[0] for way in ways)
+    responses = [st.simulate(structure, motion, model) for structure, model in zip(pair, models, strict=True)]
+    ways = [np.array(response.poses.position) for response in responses]
+    return *responses, *(way - way[0] for way in ways)
 
 
 def test_clamped_boxes_that_slide_go_as_in_the_plane() -> None:
@@ -111,13 +111,13 @@ def test_clamped_boxes_that_slide_go_as_in_the_plane() -> None:
         {"kind": "core", "between": ("ground", "far"), "at": (2.5, 0.0, 0.0), "to": (2.2, 0.0, 0.25),
          "axial_stiffness": 1e4},
     )  # fmt: skip
-    flat, solid, one, other = swung(pair, 0.3 / (32 * 100))
-    assert np.abs(one).max() > 0.02
-    assert other == pytest.approx(one, abs=1e-8)
+    flat, solid, flat_ways, other = swung(pair, 0.3 / (32 * 100))
+    assert np.abs(flat_ways).max() > 0.02
+    assert other == pytest.approx(flat_ways, abs=1e-8)
     assert solid.links.tension == pytest.approx(flat.links.tension, abs=0.1)
     assert solid.links.elongation == pytest.approx(flat.links.elongation, abs=1e-7)
-    broken = [one.broken_at for one in flat.measures.links]
-    assert [one.broken_at for one in solid.measures.links] == pytest.approx(broken, abs=1e-9, nan_ok=True)
+    broken = [link.broken_at for link in flat.measures.links]
+    assert [link.broken_at for link in solid.measures.links] == pytest.approx(broken, abs=1e-9, nan_ok=True)
     assert np.isnan(broken).tolist() == [True, False, True]
 
 
@@ -135,9 +135,9 @@ def test_a_stack_beside_the_plane() -> None:
         {"kind": "tie", "between": ("ground", "mid"), "at": (-0.25, 0.0, 0.0), "to": (-0.25, 0.0, 1.4),
          "axial_stiffness": 1e6, "pretension": 2e3},
     )  # fmt: skip
-    flat, solid, one, other = swung(pair, 0.3 / (32 * 240))
-    assert np.abs(one).max() > 0.03
-    assert other == pytest.approx(one, abs=0.035 * np.abs(one).max())
+    flat, solid, flat_ways, other = swung(pair, 0.3 / (32 * 240))
+    assert np.abs(flat_ways).max() > 0.03
+    assert other == pytest.approx(flat_ways, abs=0.035 * np.abs(flat_ways).max())
     assert np.abs(other[..., 1]).max() < 1e-9
     tension = flat.links.tension
     assert solid.links.tension == pytest.approx(tension, abs=0.08 * tension.max())

@@ -69,11 +69,11 @@ def bytes_per_case(work, few, many):
         next(given)
         tracemalloc.start()
         kept = next(given)
-        found = tracemalloc.get_traced_memory()[1]
+        memory = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         given.close()
         del kept
-        return found
+        return memory
 
     peak(100)  # what is loaded once
     return (peak(many) - peak(few)) / (many - few)
@@ -98,14 +98,14 @@ def test_a_campaign_keeps_the_bytes_of_its_numbers():
 
 
 def test_a_stream_of_runs_keeps_their_digests_and_one_that_goes_on_no_more(tmp_path):
-    left = 200
+    remaining = 200
     row = AtOnce().collect(0).row()
 
     def work(count):
         ledger = tmp_path / f"{count}.sqlite"
         request = Request.of(distinct(count), Hasher(Instant()))
         with closing(Ledger(ledger)) as book:
-            for number in range(count - left):
+            for number in range(count - remaining):
                 book.record(int(request.digests.keys[number]), {"case": request.digests[number], **row})
         yield
         with closing(Runs(st.Campaign(ledger=ledger))) as runs:
@@ -125,18 +125,18 @@ ROWS = [
 
 
 def test_rows_come_back_as_they_were_put_in():
-    some = Rows(len(ROWS))
+    rows = Rows(len(ROWS))
     for number in (3, 0, 4, 2):  # as they are finished
-        some[number] = ROWS[number]
-    assert list(some) == ROWS
-    assert some == ROWS
-    assert some == Rows.of(ROWS)
-    assert some != ROWS[:-1]
-    assert some != [None, *ROWS[1:]]
-    assert some[1:4] == ROWS[1:4]
-    assert some.finished == 4
-    assert [type(value) for value in some[0].values()] == [type(ROWS[0][name]) for name in some[0]]
-    assert math.copysign(1.0, some[2]["size"]) == -1.0
+        rows[number] = ROWS[number]
+    assert list(rows) == ROWS
+    assert rows == ROWS
+    assert rows == Rows.of(ROWS)
+    assert rows != ROWS[:-1]
+    assert rows != [None, *ROWS[1:]]
+    assert rows[1:4] == ROWS[1:4]
+    assert rows.finished == 4
+    assert [type(value) for value in rows[0].values()] == [type(ROWS[0][name]) for name in rows[0]]
+    assert math.copysign(1.0, rows[2]["size"]) == -1.0
     part = Rows.of(ROWS[:4])
     np.testing.assert_array_equal(part.floats("size"), [0.1 + 0.2, np.nan, -0.0, np.nan])
     np.testing.assert_array_equal(part.floats("nothing"), np.full(4, np.nan))
@@ -157,8 +157,8 @@ def test_a_table_of_rows_is_that_of_their_dictionaries():
 
 def test_cases_are_made_when_they_are_asked_for():
     made = []
-    some = Cases(3, lambda number: made.append(number) or ONE)
-    assert len(some) == 3
+    lazy_cases = Cases(3, lambda number: made.append(number) or ONE)
+    assert len(lazy_cases) == 3
     assert made == []
-    assert len(list(some)) == 3
+    assert len(list(lazy_cases)) == 3
     assert made == [0, 1, 2]

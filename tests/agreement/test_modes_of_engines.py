@@ -26,17 +26,17 @@ def spectral(time: np.ndarray, signal: np.ndarray, near: float, window: float) -
     count = 1 << (int(np.log2(len(signal))) + 4)
     height = np.abs(np.fft.rfft((signal - signal.mean()) * np.hanning(len(signal)), count))
     frequency = np.fft.rfftfreq(count, time[1] - time[0])
-    some = np.flatnonzero(np.abs(frequency - near) < window * near)
-    i = some[height[some].argmax()]
+    candidates = np.flatnonzero(np.abs(frequency - near) < window * near)
+    i = candidates[height[candidates].argmax()]
     a, b, c = np.log(height[i - 1 : i + 2])
     return float(frequency[i] + 0.5 * (a - c) / (a - 2.0 * b + c) * frequency[1])
 
 
 def compared(structure, model, modes, azimuth: float = 0.0, window: float = 0.05) -> np.ndarray:
     """How far the engine is from the frequencies of some modes of bending [-]."""
-    told = [mode.frequency for mode in modes]
-    response = rung(structure, model, min(told), max(told), azimuth)
-    late = response.time > 0.3 / min(told)
+    frequencies = [mode.frequency for mode in modes]
+    response = rung(structure, model, min(frequencies), max(frequencies), azimuth)
+    late = response.time > 0.3 / min(frequencies)
     top = response.top_displacement if response.top_displacement.ndim == 2 else response.top_displacement[:, None]
     off = []
     for mode in modes:
@@ -123,5 +123,5 @@ def test_a_portal_in_the_plane_and_a_trilithon_in_space():
         late = response.time > 0.3 / modes[0].frequency
         for mode in modes:
             signal = of_centroid(response, -1, mode.azimuth)[late]
-            found = spectral(response.time[late], signal, mode.frequency, 0.05)
-            assert found == pytest.approx(mode.frequency, rel=2e-4)
+            peak = spectral(response.time[late], signal, mode.frequency, 0.05)
+            assert peak == pytest.approx(mode.frequency, rel=2e-4)

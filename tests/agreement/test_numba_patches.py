@@ -17,7 +17,7 @@ LONGER = np.dtype([*((name, FIELDS[name]) for name in FIELDS.names), ("y", np.fl
 
 
 def optimised(dispatcher) -> str:
-    (code,) = (one.library.get_llvm_str() for one in dispatcher.overloads.values())
+    (code,) = (overload.library.get_llvm_str() for overload in dispatcher.overloads.values())
     return code
 
 
@@ -28,8 +28,8 @@ def test_arrays_may_be_said_not_to_overlap():
             a[i] = b[i] + 1.0
 
     plain, apart = (numba.njit(**how)(copied) for how in ({}, {"noalias": True}))
-    for one in (plain, apart):
-        one(np.zeros(3), np.ones(3))
+    for function in (plain, apart):
+        function(np.zeros(3), np.ones(3))
     assert optimised(apart).count("noalias") > optimised(plain).count("noalias")
 
 
@@ -50,9 +50,9 @@ def test_a_record_is_never_taken_for_a_shorter_one():
 
 
 def test_a_record_is_named_by_its_fields():
-    one, same, other = (numba.from_dtype(np.dtype(kind)) for kind in (FIELDS, FIELDS.descr, LONGER))
-    assert one.mangling_args == same.mangling_args != other.mangling_args
-    assert str(one._code) not in one.mangling_args[1][0]  # the number that it has in this process
+    record_type, same, other = (numba.from_dtype(np.dtype(kind)) for kind in (FIELDS, FIELDS.descr, LONGER))
+    assert record_type.mangling_args == same.mangling_args != other.mangling_args
+    assert str(record_type._code) not in record_type.mangling_args[1][0]  # the number that it has in this process
 
 
 def test_the_code_of_a_kernel_holds_its_own_copies_of_others():
@@ -71,8 +71,8 @@ def test_the_code_of_a_kernel_holds_its_own_copies_of_others():
         return inner(x) + inner(2.0 * x)
 
     outer.compile("float64(float64)")
-    (code,) = (one.library for one in outer.overloads.values())
-    kinds = {one.linkage for one in code.get_defined_functions() if "inner" in one.name}
+    (code,) = (overload.library for overload in outer.overloads.values())
+    kinds = {function.linkage for function in code.get_defined_functions() if "inner" in function.name}
     assert kinds == {llvm.Linkage.internal}
 
 
@@ -90,13 +90,13 @@ def test_fields_are_read_and_written_as_numpy_does(at):
     records["a"], records["b"] = np.arange(12.0).reshape(3, 4), np.arange(24.0).reshape(3, 2, 4)
     records["x"] = 0.5
     expected = records.copy()
-    found = shuffle(records, 1, at)
+    result = shuffle(records, 1, at)
     u = expected[1]
     u["a"][at] = 10.0 * u["b"][1, at] + u["x"]
     u["b"][0, at] = u["a"][at] + 4 + 2 * 4
     u["n"] = 4
     assert (records == expected).all()
-    assert found == (u["a"][at], u["b"][0, at], u["b"][-1, at], u["a"].sum())
+    assert result == (u["a"][at], u["b"][0, at], u["b"][-1, at], u["a"].sum())
 
 
 def test_fields_are_reached_without_a_description_of_them_in_memory():

@@ -25,16 +25,16 @@ POPULATIONS = [(0.5, (0.1, 0.3), 32), (0.7, (0.15, 0.4), 34)]
 @pytest.mark.parametrize(("frequency", "amplitudes", "collapses"), POPULATIONS)
 def test_last_bits_turn_single_verdicts_and_leave_the_population(frequency, amplitudes, collapses):
     unit, sizes = harmonic(frequency, 1.0, 6.0), np.linspace(*amplitudes, 100) * g
-    found = []
+    rows = []
     for bits in (0, 3, -5):
         motions = [unit.scaled(size * (1.0 + bits * EPS)) for size in sizes]
         table = simulate_many(preset("paper-12-drums"), motions, DistinctElement2D())
         assert not (table["outcome"] == "failed").any()
-        found.append(table["collapsed"].to_numpy())
-    verdicts = np.array(found)
+        rows.append(table["collapsed"].to_numpy())
+    verdicts = np.array(rows)
     # What can turn is a band of some 12 cells about the boundary, each at most a fair coin there: between two runs 6
     # differ in the mean, with a standard deviation below 2, and a count has one below √12 / 2. Four of them each.
-    turned = [int((one != verdicts[0]).sum()) for one in verdicts[1:]]
+    turned = [int((row != verdicts[0]).sum()) for row in verdicts[1:]]
     assert max(turned) <= 6 + 4 * 2
     assert (np.abs(verdicts.sum(axis=1) - collapses) <= 4.0 * np.sqrt(12) / 2.0).all()
     # Away from the boundary nothing turns.

@@ -35,8 +35,8 @@ def shocks(*sizes, pause=8.0, last=None):
 
 def rows(motions, model, quiet, column=COLUMN, tail=0.0):
     cases = [Case(column, motion) for motion in motions]
-    found = dict(run_cases(cases, model, tail=tail, quiet=quiet, threads=1))
-    return [found[i].row() for i in range(len(cases))]
+    results = dict(run_cases(cases, model, tail=tail, quiet=quiet, threads=1))
+    return [results[i].row() for i in range(len(cases))]
 
 
 @pytest.mark.parametrize("model", MODELS, ids=["dem2d", "rigid-block", "damped", "dem3d"])
@@ -46,9 +46,9 @@ def test_a_run_in_pieces_has_the_bits_of_one_in_a_piece(model, monkeypatch):
         monkeypatch.setattr(block, "at_rest", lambda *_: False)
     motion = st.Motion(0.01, np.concatenate([shocks(0.5).samples[790:], np.zeros(300)]))
     whole, pieces = (rows([motion, motion.scaled(0.3)], model, quiet) for quiet in (0.0, QUIET))
-    for one, other in zip(whole, pieces, strict=True):
+    for whole_row, other in zip(whole, pieces, strict=True):
         assert other.pop("stepped_s") == other.pop("stepped_to_s") - other.pop("stepped_from_s")
-        assert one == other
+        assert whole_row == other
 
 
 @pytest.mark.parametrize("model", [st.DistinctElement2D(), st.DistinctElement3D()], ids=["dem2d", "dem3d"])
@@ -57,24 +57,24 @@ def test_shocks_with_quiet_between_them(model):
     # vibration of the joints changes, and a collapse is found at its time in the record.
     motions = [shocks(0.25, 0.1), shocks(0.1, 4.0)]
     whole, cut = (rows(motions, model, quiet) for quiet in (0.0, QUIET))
-    assert [verdict(one) for one in whole] == [verdict(one) for one in cut] == ["stands", "collapsed"]
+    assert [verdict(row) for row in whole] == [verdict(row) for row in cut] == ["stands", "collapsed"]
     assert cut[0]["peak_top_displacement_m"] == pytest.approx(whole[0]["peak_top_displacement_m"], rel=0.05)
     assert cut[1]["collapse_time_s"] == pytest.approx(whole[1]["collapse_time_s"], abs=0.1)
     assert cut[1]["collapse_time_s"] > 17.0
-    for one, other in zip(whole, cut, strict=True):
+    for whole_row, other in zip(whole, cut, strict=True):
         assert other["stepped_from_s"] == pytest.approx(8.0 - QUIET_BEFORE, abs=0.1)
         assert other["steps"] * other["time_step_s"] == pytest.approx(other["stepped_s"], rel=1e-9)
-        assert other["steps"] < (0.75 if one["outcome"] != "collapsed" else 0.95) * one["steps"]
+        assert other["steps"] < (0.75 if whole_row["outcome"] != "collapsed" else 0.95) * whole_row["steps"]
 
 
 def test_what_still_rocks_goes_on():
     # The pulse ends at 1 s and the column rocks on for seconds: it is stepped until it lies at rest, not to the pulse's end.
     motion = st.Motion(0.01, np.concatenate([shocks(0.27, pause=0.05).samples[:106], np.zeros(3000)]))
-    [one] = rows([motion], st.DistinctElement2D(), QUIET)
+    [cut] = rows([motion], st.DistinctElement2D(), QUIET)
     [whole] = rows([motion], st.DistinctElement2D(), 0.0)
-    assert 1.0 + 3.0 * LOOK < one["stepped_to_s"] < 25.0
-    assert one["peak_top_displacement_m"] == whole["peak_top_displacement_m"]
-    assert verdict(one) == verdict(whole) == "stands"
+    assert 1.0 + 3.0 * LOOK < cut["stepped_to_s"] < 25.0
+    assert cut["peak_top_displacement_m"] == whole["peak_top_displacement_m"]
+    assert verdict(cut) == verdict(whole) == "stands"
 
 
 def test_the_level_counts_every_component_and_sliding():
@@ -94,8 +94,8 @@ def test_the_level_counts_every_component_and_sliding():
 
 def test_stretches_of_a_record():
     motion = shocks(0.3, 0.3, pause=10.0)
-    found = shaking(motion, COLUMN, QUIET)
-    assert found == pytest.approx(np.array([[10.0, 11.0], [21.0, 22.0]]), abs=0.05)
+    stretches = shaking(motion, COLUMN, QUIET)
+    assert stretches == pytest.approx(np.array([[10.0, 11.0], [21.0, 22.0]]), abs=0.05)
     faint = shaking(motion.scaled(1e-3), COLUMN, QUIET)  # below the share: its peak
     assert len(faint) >= 1
     assert 10.0 < faint[0][0] < faint[0][1] < 11.0
@@ -113,12 +113,12 @@ def test_python_and_batches_of_records_and_computed_motions_cut_each_as_a_run_of
     """The share was one for all motions of a call, and none in Python, where a command cut a record."""
     motions, model = [shocks(0.25), shocks(0.25).replace(metadata={})], st.DistinctElement2D()
     alone = [st.simulate(COLUMN, motion, model) for motion in motions]
-    assert [one.measures.stepped is None for one in alone] == [False, True]
+    assert [response.measures.stepped is None for response in alone] == [False, True]
     tables = st.simulate_many(COLUMN, motions, model), suite_table(COLUMN, motions, model)
-    for number, one in enumerate(alone):
+    for number, response in enumerate(alone):
         for table in tables:
-            assert table["steps"][number] == one.measures.steps
-            assert table["peak_top_displacement_m"][number] == one.measures.peak_top_displacement
+            assert table["steps"][number] == response.measures.steps
+            assert table["peak_top_displacement_m"][number] == response.measures.peak_top_displacement
 
 
 @needs_folder
@@ -126,7 +126,7 @@ def test_the_verdicts_of_real_records_are_the_same():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", OutOfRangeWarning)
         motions = st.read_suite(FOLDER, "g").motions
-        whole, cut = (suite_table(COLUMN, motions, st.DistinctElement2D(), whole=one) for one in (True, False))
+        whole, cut = (suite_table(COLUMN, motions, st.DistinctElement2D(), whole=uncut) for uncut in (True, False))
     assert list(whole["verdict"]) == list(cut["verdict"])
     assert cut["steps"].sum() < whole["steps"].sum() / 1.6
 
@@ -179,6 +179,6 @@ def test_the_file_of_a_motion_is_the_motion_that_was_run(model, tmp_path):
     motion = shocks(0.27).scaled(1.0 / 0.7)
     again = st.read_motion(write_csv(motion, tmp_path / "motion.csv"))
     assert (again.factor, motion.factor) == (1.0, 1.0 / 0.7)
-    one, other = (st.simulate(COLUMN, shaken, model) for shaken in (motion, again))
-    assert one.measures == other.measures
-    assert np.array_equal(one.body_position, other.body_position)
+    original, other = (st.simulate(COLUMN, shaken, model) for shaken in (motion, again))
+    assert original.measures == other.measures
+    assert np.array_equal(original.body_position, other.body_position)

@@ -170,10 +170,10 @@ def test_collapse_verdicts_are_never_taken_back():
     # Followed after the verdict, every collapsed column ends on its side or far over.
     column = stack(3)
     motions = [harmonic(f, a * g, 4.0) for f in (0.5, 1.0) for a in np.linspace(0.25, 0.6, 12)]
-    found = dict(
+    results = dict(
         run_cases([Case(column, motion) for motion in motions], RigidBeam(), tail=2.0, until_end=True, threads=1)
     )
-    collapsed = [m for m in found.values() if m.collapsed]
+    collapsed = [m for m in results.values() if m.collapsed]
     assert len(collapsed) >= 4
     for measures in collapsed:
         assert measures.peak_rotation > 1.5

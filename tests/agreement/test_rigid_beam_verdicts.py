@@ -40,10 +40,10 @@ def test_a_drum_that_slides_over_the_edge_comes_down(push, expected, solver):
 
 def test_a_drum_without_contact_is_lost_while_the_motion_goes_on():
     motion = Motion(0.005, np.full(601, 0.12 * g))
-    found = simulate(COLUMN, motion, RigidBeam(sliding=True))
-    assert found.outcome is Outcome.COLLAPSED
-    assert found.decided
-    assert found.collapse_time < motion.duration
+    response = simulate(COLUMN, motion, RigidBeam(sliding=True))
+    assert response.outcome is Outcome.COLLAPSED
+    assert response.decided
+    assert response.collapse_time < motion.duration
 
 
 ONE = Column.tapered(height=5.0, bottom_width=0.9, top_width=0.9, drums=1, density=2000.0, joint=ROUGH)
@@ -67,12 +67,12 @@ def test_a_column_that_leaves_the_ground_has_no_verdict(model):
             warnings.simplefilter("ignore", OutOfRangeWarning)
             single = simulate(ONE, motion, model()).measures
             batch = dict(run_cases([Case(ONE, motion)], model(), threads=1))[0]
-        for found in (single, batch):
-            assert (found.outcome is Outcome.FAILED) == fails
+        for measures in (single, batch):
+            assert (measures.outcome is Outcome.FAILED) == fails
             if fails:
-                assert not found.decided
+                assert not measures.decided
                 # −1.02 sin(2π 1.7 t) reaches −1 at 0.1285 s, between samples drawn straight a little later
-                assert "at 0.1286 s" in found.reason
+                assert "at 0.1286 s" in measures.reason
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -81,10 +81,10 @@ def test_what_fell_before_the_column_left_the_ground_has_fallen(model):
     time = np.arange(0.0, 6.5, 0.005)
     motion = Motion(0.005, np.where(time < 1.0, 0.8 * g, 0.0), vertical=np.where(time > 6.2, -1.2 * g, 0.0))
     with pytest.warns(OutOfRangeWarning, match="leave the ground"):
-        found = simulate(ONE.with_joint(friction_coefficient=5.0), motion, model())
-    assert found.outcome is Outcome.COLLAPSED
-    assert found.decided
-    assert 0.5 < found.collapse_time < 6.0
+        response = simulate(ONE.with_joint(friction_coefficient=5.0), motion, model())
+    assert response.outcome is Outcome.COLLAPSED
+    assert response.decided
+    assert 0.5 < response.collapse_time < 6.0
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -98,9 +98,9 @@ def test_displacements_count_from_the_start(model):
     assert history[0] == 0.0
     # let go from a tilt to −x it comes to upright, 0.36 m on, and some way over to the other side
     assert np.abs(history).max() > ONE.height * start
-    for found in (single.measures, batch):
-        assert found.peak_top_displacement == pytest.approx(np.abs(history).max(), rel=1e-2)
-        assert found.residual_top_displacement == pytest.approx(history[-1], rel=2e-2)
+    for measures in (single.measures, batch):
+        assert measures.peak_top_displacement == pytest.approx(np.abs(history).max(), rel=1e-2)
+        assert measures.residual_top_displacement == pytest.approx(history[-1], rel=2e-2)
 
 
 def test_a_second_horizontal_component_is_named_as_left_out():

@@ -39,7 +39,7 @@ def spatial_assembly():
 
 def by_hand(*motions, rest=REST):
     zeros = np.zeros(round(rest / 0.01))
-    return np.concatenate([part for one in motions for part in (one, zeros)])
+    return np.concatenate([part for samples in motions for part in (samples, zeros)])
 
 
 @pytest.mark.parametrize(
@@ -56,32 +56,32 @@ def by_hand(*motions, rest=REST):
     ids=["dem2d", "rigid-block", "rigid-beam", "housner", "dem3d", "blocks", "stones"],
 )
 def test_a_sequence_is_one_run_of_both_with_rest_between_to_the_bit(structure, model):
-    found = st.sequence(structure, [FIRST, SECOND], model, rest=REST)
+    result = st.sequence(structure, [FIRST, SECOND], model, rest=REST)
     whole = st.Motion(0.01, by_hand(FIRST.acceleration, SECOND.acceleration))
     once = st.simulate(structure, whole, model)
-    assert found.response.measures == once.measures
+    assert result.response.measures == once.measures
     for name in ("time", "opening", "slip", "twist", "body_position", "body_orientation"):
-        np.testing.assert_array_equal(getattr(found.response, name), getattr(once, name))
+        np.testing.assert_array_equal(getattr(result.response, name), getattr(once, name))
     for term, values in once.histories.energy.items():
-        np.testing.assert_array_equal(found.response.histories.energy[term], values)
-    assert [event.number for event in found.events] == [1, 2]
-    assert found.events[1].run is found.response
-    early, late = found.events
+        np.testing.assert_array_equal(result.response.histories.energy[term], values)
+    assert [event.number for event in result.events] == [1, 2]
+    assert result.events[1].run is result.response
+    early, late = result.events
     assert early.run.time[-1] == pytest.approx(early.span.ends, abs=0.03)
     # what the first left and the second added is what both leave, joint by joint
     sums = np.add(early.run.residuals.slip_x, late.added.slip_x)
-    np.testing.assert_allclose(sums, found.response.residuals.slip_x, atol=2e-3)
+    np.testing.assert_allclose(sums, result.response.residuals.slip_x, atol=2e-3)
     assert early.summary()["outcome"] in ("at_rest", "rocked", "displaced")
 
 
 def test_two_components_are_joined_alike():
-    both = [st.Motion(0.01, one.samples, 0.5 * one.samples, -0.1 * one.samples) for one in (FIRST, SECOND)]
+    both = [st.Motion(0.01, motion.samples, 0.5 * motion.samples, -0.1 * motion.samples) for motion in (FIRST, SECOND)]
     joined = in_sequence(both, REST)
     for name, share in (("acceleration", 1.0), ("lateral", 0.5), ("vertical", -0.1)):
         expected = by_hand(share * FIRST.acceleration, share * SECOND.acceleration)
         np.testing.assert_array_equal(getattr(joined, name), expected)
     spans = spans_of(joined)
-    assert [(one.begins, one.quiet, one.ends) for one in spans] == [
+    assert [(span.begins, span.quiet, span.ends) for span in spans] == [
         pytest.approx((0.0, 0.6, 1.1)),
         pytest.approx((1.11, 1.91, 2.41)),
     ]
@@ -99,7 +99,7 @@ def test_steps_that_differ_are_divided_and_said():
         inside = (joined.time >= span.begins - 1e-9) & (joined.time <= span.quiet + 1e-9)
         expected = np.interp(joined.time[inside] - span.begins, motion.time, motion.acceleration)
         np.testing.assert_allclose(joined.acceleration[inside], expected, atol=1e-12)
-        assert any(one.startswith(f"{motion.name}: step of") for one in joined.processing)
+        assert any(step.startswith(f"{motion.name}: step of") for step in joined.processing)
     with pytest.raises(st.InputError, match="have no common one"):
         in_sequence([coarse, st.Motion(0.01 * math.pi, np.ones(3))])
 
@@ -112,12 +112,12 @@ def test_a_block_that_slides_slides_as_far_each_time():
     speed = (push - holds) * length
     way = 0.5 * speed * length + 0.5 * speed**2 / holds
     motion = st.Motion(0.002, np.full(round(length / 0.002) + 1, -push))
-    found = st.sequence(low, motion, st.DistinctElement2D(), rest=1.0, repeat=3)
-    assert [event.added.slip_x[0] for event in found.events] == pytest.approx([way] * 3, rel=0.04)
-    assert found.response.residuals.slip_x[0] == pytest.approx(3.0 * way, rel=0.04)
-    assert [event.at_rest for event in found.events] == [True] * 3
-    assert found.unsettled == ()
-    table = found.table
+    result = st.sequence(low, motion, st.DistinctElement2D(), rest=1.0, repeat=3)
+    assert [event.added.slip_x[0] for event in result.events] == pytest.approx([way] * 3, rel=0.04)
+    assert result.response.residuals.slip_x[0] == pytest.approx(3.0 * way, rel=0.04)
+    assert [event.at_rest for event in result.events] == [True] * 3
+    assert result.unsettled == ()
+    table = result.table
     assert table["residual_slip_m"].tolist() == pytest.approx([way, 2.0 * way, 3.0 * way], rel=0.04)
     assert np.allclose(table["added_slip_m"], way, rtol=0.04)
 
@@ -125,37 +125,37 @@ def test_a_block_that_slides_slides_as_far_each_time():
 def test_a_column_falls_once_and_the_run_ends_there():
     hard = st.Motion(0.01, 12.0 * np.sin(np.linspace(0.0, 2.0 * np.pi, 121)), name="hard")
     gentle = FIRST.scaled(0.1)
-    found = st.sequence(MONOLITH, [gentle, hard, gentle], st.DistinctElement2D(), rest=1.0)
-    assert (found.fell_in, len(found.events)) == (2, 2)
-    first, second = found.events
+    result = st.sequence(MONOLITH, [gentle, hard, gentle], st.DistinctElement2D(), rest=1.0)
+    assert (result.fell_in, len(result.events)) == (2, 2)
+    first, second = result.events
     assert not first.run.collapsed
     assert first.run.summary()["decided"]
-    assert second.run.summary() == found.response.summary()
+    assert second.run.summary() == result.response.summary()
     assert second.added is None
     assert math.isnan(second.peak_rotation)
-    assert found.sentence.startswith("It falls in earthquake 2 of 3 (hard). The run ends there")
-    assert found.summary()["events"][1]["alone"]["added_slip_m"] is None
+    assert result.sentence.startswith("It falls in earthquake 2 of 3 (hard). The run ends there")
+    assert result.summary()["events"][1]["alone"]["added_slip_m"] is None
 
 
 def test_an_assembly_goes_on_when_a_block_has_fallen():
-    found = st.sequence(
+    result = st.sequence(
         plane_assembly(), [FIRST.scaled(0.1), FIRST.scaled(1.2), FIRST], st.DistinctElement2D(), rest=2.0
     )
-    assert [event.fallen for event in found.events] == [(), ("tall",), ()]
-    assert [event.run.fallen for event in found.events] == [(), ("tall",), ("tall",)]
-    assert [event.run.summary()["fallen"] for event in found.events] == [[], ["tall"], ["tall"]]
-    assert found.fell_in == 2
-    assert found.sentence.startswith("1 body falls in earthquake 2 of 3")
-    assert found.events[2].span.ends == pytest.approx(found.response.time[-1], abs=0.02)
+    assert [event.fallen for event in result.events] == [(), ("tall",), ()]
+    assert [event.run.fallen for event in result.events] == [(), ("tall",), ("tall",)]
+    assert [event.run.summary()["fallen"] for event in result.events] == [[], ["tall"], ["tall"]]
+    assert result.fell_in == 2
+    assert result.sentence.startswith("1 body falls in earthquake 2 of 3")
+    assert result.events[2].span.ends == pytest.approx(result.response.time[-1], abs=0.02)
 
 
 def test_a_link_stays_broken():
     weak = st.Dowel(joint=1, shear_stiffness=1e8, shear_capacity=2e3, failure="brittle")
-    found = st.sequence(
+    result = st.sequence(
         COLUMN.replace(links=[weak]), [FIRST.scaled(0.01), FIRST.scaled(2.0), FIRST], st.DistinctElement2D(), rest=0.5
     )
-    assert [len(event.broken) for event in found.events] == [0, 1, 0]
-    assert [event.run.summary()["links_broken"] for event in found.events] == [0, 1, 1]
+    assert [len(event.broken) for event in result.events] == [0, 1, 0]
+    assert [event.run.summary()["links_broken"] for event in result.events] == [0, 1, 1]
 
 
 def test_counts_are_told_with_what_is_not_known():
@@ -182,18 +182,18 @@ def test_the_interval_of_a_median_holds_it_as_often_as_it_says():
     """Of the order of uniform numbers alone: the interval of a median of 15 holds it in at least 95 % of 2000 samples."""
     drawn = np.random.default_rng(3).integers(1, 1_000_001, (2000, 15))
     inside = []
-    for one in drawn:
-        low, high = Count(tuple(one.tolist()), tuple(one.tolist()), 2_000_000).interval
+    for counts in drawn:
+        low, high = Count(tuple(counts.tolist()), tuple(counts.tolist()), 2_000_000).interval
         inside.append(low <= 500_000 <= high)
     assert 0.945 < np.mean(inside) < 0.985
 
 
 def test_how_many_it_takes_of_a_kind():
     hard = st.Motion(0.01, 12.0 * np.sin(np.linspace(0.0, 2.0 * np.pi, 121)), name="hard")
-    told = st.earthquakes_until_fall(MONOLITH, [hard, FIRST.scaled(0.1)], st.DistinctElement2D(), 2, rest=0.5)
-    assert [one.sentence for one in told.each] == ["1", "more than 2"]
-    assert told.over_motions.median == (1, 1)
-    assert told.table["not_fallen"].tolist() == [0, 1]
+    until_fall = st.earthquakes_until_fall(MONOLITH, [hard, FIRST.scaled(0.1)], st.DistinctElement2D(), 2, rest=0.5)
+    assert [count.sentence for count in until_fall.each] == ["1", "more than 2"]
+    assert until_fall.over_motions.median == (1, 1)
+    assert until_fall.table["not_fallen"].tolist() == [0, 1]
     with_twins = st.earthquakes_until_fall(MONOLITH, hard, st.DistinctElement2D(), 2, rest=0.5, replicates=7, seed=2)
     assert len(with_twins.each[0].low) == 7
     riding = st.sequence(MONOLITH, hard, st.DistinctElement2D(), repeat=2, rest=0.5, replicates=7, seed=2)
@@ -202,7 +202,7 @@ def test_how_many_it_takes_of_a_kind():
 
 
 @pytest.mark.parametrize(
-    ("call", "said"),
+    ("call", "message"),
     [
         (lambda: in_sequence([]), "no motion is given"),
         (lambda: in_sequence(FIRST, rest=-1.0), "`rest` is -1"),
@@ -221,8 +221,8 @@ def test_how_many_it_takes_of_a_kind():
         ),
     ],
 )
-def test_what_cannot_be_used_is_refused_in_a_sentence(call, said):
-    with pytest.raises(st.InputError, match=said) as refused:
+def test_what_cannot_be_used_is_refused_in_a_sentence(call, message):
+    with pytest.raises(st.InputError, match=message) as refused:
         call()
     assert str(refused.value).count("\n") == 0
 
@@ -230,15 +230,15 @@ def test_what_cannot_be_used_is_refused_in_a_sentence(call, said):
 def test_records_leave_their_quiet_out_as_any_run_does():
     """The same bits as one run with the share of quiet of records; a block that slides slides as far when all is stepped."""
     low = st.Column.tapered(height=0.3, bottom_width=0.8, top_width=0.8, drums=1, density=2000.0, joint=SLIPPERY)
-    recorded = [one.scaled(2.0).replace(metadata={"format": "columns"}) for one in (FIRST, SECOND)]
-    found = st.sequence(low, recorded, st.DistinctElement2D(), rest=20.0)
-    whole = st.Motion(0.01, by_hand(*(one.acceleration for one in recorded), rest=20.0))
+    recorded = [motion.scaled(2.0).replace(metadata={"format": "columns"}) for motion in (FIRST, SECOND)]
+    result = st.sequence(low, recorded, st.DistinctElement2D(), rest=20.0)
+    whole = st.Motion(0.01, by_hand(*(motion.acceleration for motion in recorded), rest=20.0))
     once = st.simulate(low, whole, st.DistinctElement2D(), quiet=0.1)
-    assert found.response.measures == once.measures
-    assert found.response.measures.stepped[2] < 0.6 * whole.duration
+    assert result.response.measures == once.measures
+    assert result.response.measures.stepped[2] < 0.6 * whole.duration
     all_of_it = st.sequence(low, recorded, st.DistinctElement2D(), rest=20.0, whole=True)
     assert all_of_it.response.measures.stepped is None
-    for mine, other in zip(found.events, all_of_it.events, strict=True):
+    for mine, other in zip(result.events, all_of_it.events, strict=True):
         assert abs(other.added.slip_x[0]) > 5e-4
         np.testing.assert_allclose(mine.added.slip_x, other.added.slip_x, atol=1e-4)
 
@@ -247,17 +247,19 @@ def test_pictures_are_drawn():
     from stylobate import plots
 
     for structure in (COLUMN, plane_assembly()):
-        found = st.sequence(structure, [FIRST, SECOND], st.DistinctElement2D(), rest=REST)
-        plots.draw_sequence(found.response, found.events).draw_without_rendering()
-        plots.draw_ends(found.response, found.events).draw_without_rendering()
+        result = st.sequence(structure, [FIRST, SECOND], st.DistinctElement2D(), rest=REST)
+        plots.draw_sequence(result.response, result.events).draw_without_rendering()
+        plots.draw_ends(result.response, result.events).draw_without_rendering()
 
 
 def test_components_that_the_model_leaves_out_need_not_be_alike():
     """A record with a component across and one without, by a plane model: the one across is left out, and told."""
     across = FIRST.replace(ay=0.5 * FIRST.samples)
-    found, same = (st.sequence(COLUMN, [one, SECOND], st.DistinctElement2D(), rest=REST) for one in (across, FIRST))
-    assert "first: second horizontal component" in found.response.provenance["left_out"][0]
-    assert found.response.measures == same.response.measures
+    result, same = (
+        st.sequence(COLUMN, [motion, SECOND], st.DistinctElement2D(), rest=REST) for motion in (across, FIRST)
+    )
+    assert "first: second horizontal component" in result.response.provenance["left_out"][0]
+    assert result.response.measures == same.response.measures
 
 
 def test_undecided_runs_widen_the_share_that_has_fallen_and_a_fall_without_a_time_is_one():

@@ -50,8 +50,8 @@ def test_a_column_of_drums_in_both_engines(azimuth):
     motion = st.Motion(0.0025, push * math.cos(azimuth), lateral=push * math.sin(azimuth))
     model = st.DistinctElement3D(time_step=STEP)
     ways = []
-    for one in (column, assembly):
-        response = st.simulate(one, motion, model)
+    for structure in (column, assembly):
+        response = st.simulate(structure, motion, model)
         position = np.array(response.poses.position)[:, -3:]
         assert response.measures.time_step == STEP
         ways.append(position - position[0])

@@ -15,27 +15,27 @@ from stylobate.statics.pushover import pushover
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
 
 
-def block(section="rectangular", **found):
+def block(section="rectangular", **condition):
     """A block of 1 m by 4 m, found with this."""
-    base = found.pop("base_tilt", 0.0)
+    base = condition.pop("base_tilt", 0.0)
     drum = st.Drum(4.0, 1.0, 1.0, 2500.0, section)
-    as_found = st.AsFound((st.FoundDrum(1, **found),), base)
+    as_found = st.AsFound((st.FoundDrum(1, **condition),), base)
     return st.Column.of_drums([drum], JOINT, name="block").replace(as_found=as_found)
 
 
-def drums(found=None):
+def drums(found_drums=None):
     """Three drums: offset, leaning and chipped, on a base out of level."""
     stack = st.Column.tapered(height=4.5, bottom_width=0.9, top_width=0.7, drums=3, density=2500.0, joint=JOINT)
-    found = found or (
+    found_drums = found_drums or (
         st.FoundDrum(1, chip_left=0.06),
         st.FoundDrum(2, offset=0.05, tilt=-0.8),
         st.FoundDrum(3, offset=-0.03, chip_right=0.04),
     )
-    return stack.replace(as_found=st.AsFound(found, 0.7))
+    return stack.replace(as_found=st.AsFound(found_drums, 0.7))
 
 
 @pytest.mark.parametrize(
-    ("found", "right", "left"),
+    ("condition", "right", "left"),
     [
         # half the width left on either side, over the height of the centroid
         ({"chip_left": 0.1}, 0.5 / 2.0, 0.4 / 2.0),
@@ -49,8 +49,8 @@ def drums(found=None):
         ({"base_tilt": 2.0}, *(math.tan(math.atan(0.25) + s * math.radians(2.0)) for s in (1, -1))),
     ],
 )
-def test_a_block_as_found_overturns_by_hand_in_both_directions(found, right, left):
-    column = block(**found)
+def test_a_block_as_found_overturns_by_hand_in_both_directions(condition, right, left):
+    column = block(**condition)
     for direction, expected in ((0.0, right), (180.0, left)):
         assert limit_analysis(column, direction=direction).multiplier == pytest.approx(expected, rel=1e-9)
         assert pushover(column, direction=direction).collapse_multiplier == pytest.approx(expected, rel=1e-3)
@@ -62,10 +62,10 @@ def test_a_slippery_block_on_a_slope_slides_by_hand_in_both_directions():
     # horizontal push on a slope τ that rises to the right: tan(φ ± τ)
     column = block(base_tilt=2.0).with_joint(friction_coefficient=0.15)
     for direction, sign in ((0.0, 1.0), (180.0, -1.0)):
-        found = limit_analysis(column, direction=direction)
-        assert found.multiplier == pytest.approx(math.tan(math.atan(0.15) + sign * math.radians(2.0)), rel=1e-9)
+        limit = limit_analysis(column, direction=direction)
+        assert limit.multiplier == pytest.approx(math.tan(math.atan(0.15) + sign * math.radians(2.0)), rel=1e-9)
         assert limit_in_space(column, direction).mode == "sliding"
-        assert limit_in_space(column, direction).multiplier == pytest.approx(found.multiplier, rel=1e-9)
+        assert limit_in_space(column, direction).multiplier == pytest.approx(limit.multiplier, rel=1e-9)
 
 
 def test_a_round_block_in_space_overturns_by_hand():
@@ -115,8 +115,8 @@ def test_a_column_found_out_of_the_plane_falls_in_its_weakest_direction_where_th
     stack = st.Column.of_drums(
         [st.Drum(2.0, 0.9, 0.8, 2500.0, "circular"), st.Drum(2.0, 0.8, 0.7, 2500.0, "circular")], joint
     )
-    found = (st.FoundDrum(1, tilt=-0.6, tilt_azimuth=20.0), st.FoundDrum(2, offset=0.05, offset_azimuth=80.0))
-    column = stack.replace(as_found=st.AsFound(found, 0.5, 130.0))
+    found_drums = (st.FoundDrum(1, tilt=-0.6, tilt_azimuth=20.0), st.FoundDrum(2, offset=0.05, offset_azimuth=80.0))
+    column = stack.replace(as_found=st.AsFound(found_drums, 0.5, 130.0))
     weakest = limit_directions(column).weakest
     assert weakest.azimuth == pytest.approx(24.9, abs=0.2)
     motions = [ramp(level * weakest.multiplier, weakest.azimuth) for level in (0.98, 1.02)]
@@ -127,11 +127,11 @@ def test_a_column_found_out_of_the_plane_falls_in_its_weakest_direction_where_th
 def test_the_commands_take_the_weaker_direction(tmp_path, capsys):
     file = write_column(block(chip_left=0.1), tmp_path / "found.toml")
     assert call(["limit", str(file), "--json", "--out", str(tmp_path / "out")]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["weakest_azimuth_deg"] == 180.0
-    assert found["collapse_multiplier_g"] == pytest.approx(0.2)
-    assert [one["multiplier_g"] for one in found["directions"]] == pytest.approx([0.25, 0.2])
-    assert {"limit.png", "directions.png"} <= {one.name for one in (tmp_path / "out").iterdir()}
+    summary = json.loads(capsys.readouterr().out)
+    assert summary["weakest_azimuth_deg"] == 180.0
+    assert summary["collapse_multiplier_g"] == pytest.approx(0.2)
+    assert [direction["multiplier_g"] for direction in summary["directions"]] == pytest.approx([0.25, 0.2])
+    assert {"limit.png", "directions.png"} <= {path.name for path in (tmp_path / "out").iterdir()}
     assert call(["pushover", str(file), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["direction_deg"] == 180.0
     assert call(["limit", "paper-monolithic", "--directions", "0:345:24", "--json"]) == 0
@@ -152,5 +152,5 @@ def test_the_commands_take_the_weaker_direction(tmp_path, capsys):
 def test_what_statics_cannot_do_is_said_in_one_sentence(tmp_path, capsys, arguments, words):
     column = block().replace(as_found=st.AsFound((st.FoundDrum(1, tilt=-1.0, tilt_azimuth=40.0),)))
     file = write_column(column, tmp_path / "found.toml")
-    assert call([one.format(file=file) for one in arguments]) == 2
+    assert call([argument.format(file=file) for argument in arguments]) == 2
     assert words in capsys.readouterr().err

@@ -39,14 +39,16 @@ def population(*rows: dict) -> Population:
 def test_a_run_that_is_no_example_of_its_twins_says_so():
     """It stands where most of them fall, falls where most stand, or moves as none of those that stand."""
     mostly = population(*[row("collapsed")] * 11, *[row("rocked")] * 4)
-    said = "That this one stands does not make it safe, as most like it collapse: 11 of 16, this one and 15 like it, "
-    said += "collapse (95 %: 44 to 86 %); 5 stand."
-    assert mostly.beside(row("rocked")) == said
+    sentence = (
+        "That this one stands does not make it safe, as most like it collapse: 11 of 16, this one and 15 like it, "
+    )
+    sentence += "collapse (95 %: 44 to 86 %); 5 stand."
+    assert mostly.beside(row("rocked")) == sentence
     open_ = mostly.beside(row("rocked", decided=False))
     assert "this one has not fallen yet" in open_
     assert open_.endswith("(95 %: 44 to 90 %); 4 stand and 1 is undecided.")
     assert mostly.beside(row("collapsed")) == mostly.beside(row("failed", decided=False)) == ""
-    assert mostly.summary(row("rocked"))["certainty"]["beside"] == said
+    assert mostly.summary(row("rocked"))["certainty"]["beside"] == sentence
     seldom = population(*[row("rocked")] * 14, row("rocked", decided=False))
     assert seldom.sentence.endswith("; 14 stand and 1 is undecided.")
     advised = dataclasses.replace(seldom, to_decide=to_decide(COLUMN, {}, 5.0))
@@ -58,7 +60,7 @@ def test_a_run_that_is_no_example_of_its_twins_says_so():
         "collapses (95 %: 1 to 36 %); 14 stand and 1 is undecided."
     )
     assert seldom.probability == 0.0  # of the twins alone
-    moved = [row("rocked", peak_top_displacement_m=one) for one in np.linspace(0.1, 0.2, 15)]
+    moved = [row("rocked", peak_top_displacement_m=peak) for peak in np.linspace(0.1, 0.2, 15)]
     spread = population(*moved)
     assert spread.beside(row("rocked", peak_top_displacement_m=-0.15)) == ""
     assert "less than that of any column like it that stands (100 to 200 mm)" in spread.beside(
@@ -69,7 +71,7 @@ def test_a_run_that_is_no_example_of_its_twins_says_so():
 
 
 @pytest.mark.parametrize(
-    "model", [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()], ids=lambda one: one.name
+    "model", [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()], ids=lambda model: model.name
 )
 @pytest.mark.parametrize("amplitude", [0.35, 0.9])
 def test_the_column_itself_does_not_change_to_the_bit(model, amplitude):
@@ -78,29 +80,29 @@ def test_the_column_itself_does_not_change_to_the_bit(model, amplitude):
     alone = st.simulate(COLUMN, motion, model, until_decided=True)
     beside = st.certainty(COLUMN, motion, model).response
     assert alone.measures == beside.measures
-    for one, other in (
+    for history, other in (
         (alone.time, beside.time),
         (alone.body_position, beside.body_position),
         (alone.slip, beside.slip),
     ):
-        assert np.array_equal(one, other)
+        assert np.array_equal(history, other)
     assert alone.provenance == beside.provenance
 
 
-@pytest.mark.parametrize("model", [st.DistinctElement2D(), st.DistinctElement3D()], ids=lambda one: one.name)
+@pytest.mark.parametrize("model", [st.DistinctElement2D(), st.DistinctElement3D()], ids=lambda model: model.name)
 def test_twins_that_ride_along_are_those_of_a_batch_to_the_bit(model):
     motion = st.sine_pulse(frequency=0.9, amplitude=0.5 * st.g, duration=2.0)
     ridden = st.certainty(COLUMN, motion, model, replicates=18, seed=3, scatter=st.Scatter()).population  # of one law
     twins = the_twins(COLUMN, model, st.Campaign(replicates=18, seed=3), laws=False).columns
     options = RunOptions(until_decided=True)
-    again = batch([Case(one, motion) for one in twins], COLUMN, model, st.Campaign(threads=2), options)
-    assert [str(one) for one in ridden.rows] == [str(one) for one in again]
-    assert len({one["peak_top_displacement_m"] for one in ridden.rows}) == 18
+    again = batch([Case(twin, motion) for twin in twins], COLUMN, model, st.Campaign(threads=2), options)
+    assert [str(row) for row in ridden.rows] == [str(row) for row in again]
+    assert len({row["peak_top_displacement_m"] for row in ridden.rows}) == 18
 
 
 def test_the_same_seed_gives_the_same_twins_of_any_number():
     few, many = (twins_of(COLUMN, st.Scatter(), number, seed=5) for number in (3, 9))
-    assert [one.digest for one in few] == [one.digest for one in many[:3]]
+    assert [twin.digest for twin in few] == [twin.digest for twin in many[:3]]
     assert few[0].digest != twins_of(COLUMN, st.Scatter(), 1, seed=6)[0].digest
     still = twins_of(COLUMN, dataclasses.replace(st.Scatter(), friction=0.0), 1, seed=5)[0]
     assert still.joints[0].tan_phi == COLUMN.joints[0].tan_phi
@@ -111,26 +113,26 @@ def test_the_scatter_is_that_declared():
     # 400 columns: standard errors of a coefficient of variation are 1/√(2·400) = 3.5 % of it, bounds at four of these; the
     # cut at 2.5 standard deviations takes 4 % off the spread
     twins = twins_of(COLUMN, st.Scatter(), 400, seed=0)
-    friction = np.array([[joint.tan_phi for joint in one.joints] for one in twins]) / COLUMN.joints[0].tan_phi
+    friction = np.array([[joint.tan_phi for joint in twin.joints] for twin in twins]) / COLUMN.joints[0].tan_phi
     assert np.std(friction[:, 0]) == pytest.approx(0.1, rel=0.18)
     assert np.corrcoef(friction[:, 0], friction[:, 2])[0, 1] == pytest.approx(0.5, abs=0.2)
-    offset = np.array([one.as_found.of(2).offset for one in twins]) / COLUMN.joint_widths[1]
+    offset = np.array([twin.as_found.of(2).offset for twin in twins]) / COLUMN.joint_widths[1]
     assert np.std(offset) == pytest.approx(0.003, rel=0.18)
-    assert all(one.as_found.in_plane for one in twins)
-    assert not all(one.as_found.in_plane for one in twins_of(COLUMN, st.Scatter(), 2, seed=0, space=True))
+    assert all(twin.as_found.in_plane for twin in twins)
+    assert not all(twin.as_found.in_plane for twin in twins_of(COLUMN, st.Scatter(), 2, seed=0, space=True))
 
 
 def test_undecided_and_failed_twins_are_counted_as_neither():
-    found = population(row("collapsed"), row("rocked"), row("rocked", decided=False), row("failed"))
-    assert found.probability == pytest.approx(1 / 3)
-    low, high = found.interval
+    twins = population(row("collapsed"), row("rocked"), row("rocked", decided=False), row("failed"))
+    assert twins.probability == pytest.approx(1 / 3)
+    low, high = twins.interval
     # Wilson's limits for 1 of 3 and for 2 of 3
     assert (low, high) == pytest.approx((0.0615, 0.9385), abs=1e-3)
-    assert found.sentence.startswith(
+    assert twins.sentence.startswith(
         "Collapses in 1 of 3 columns like this (95 %: 6 to 94 %); 1 stands and 1 is undecided"
     )
-    assert found.sentence.endswith("1 more failed.")
-    assert (found.worst, found.median) == (0, 2)
+    assert twins.sentence.endswith("1 more failed.")
+    assert (twins.worst, twins.median) == (0, 2)
     nothing = population(row("failed"))
     assert np.isnan(nothing.probability)
     assert nothing.summary()["certainty"]["median_twin"] is None
@@ -138,28 +140,28 @@ def test_undecided_and_failed_twins_are_counted_as_neither():
 
 def test_the_interval_of_the_issue():
     # 15 of 30 collapses: Wilson's 95 % interval is 33 to 67 %
-    found = population(*[row("collapsed")] * 15, *[row("rocked")] * 15)
-    assert "15 of 30 columns like this (95 %: 33 to 67 %)" in found.sentence
+    twins = population(*[row("collapsed")] * 15, *[row("rocked")] * 15)
+    assert "15 of 30 columns like this (95 %: 33 to 67 %)" in twins.sentence
 
 
 def test_a_model_of_columns_as_built_leaves_the_offsets_out_and_says_so():
-    found = st.certainty(
+    result = st.certainty(
         COLUMN, st.sine_pulse(frequency=0.9, amplitude=2.0, duration=1.2), st.RigidBlock(), replicates=2
     )
-    assert found.population.drawn.left_out == ("offset",)
-    assert found.population.drawn.scatter.offset == 0.0
+    assert result.population.drawn.left_out == ("offset",)
+    assert result.population.drawn.scatter.offset == 0.0
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"replicates": 0}, "allowed is a whole number from 1"),
         ({"seed": -1}, "seed"),
         ({"scatter": st.Scatter(*[0.0] * 6)}, "scatters"),
     ],
 )  # fmt: skip
-def test_what_makes_no_population_is_refused(changes, said):
-    with pytest.raises(st.InputError, match=said):
+def test_what_makes_no_population_is_refused(changes, message):
+    with pytest.raises(st.InputError, match=message):
         st.certainty(
             COLUMN, st.sine_pulse(frequency=0.9, amplitude=2.0, duration=1.2), st.DistinctElement2D(), **changes
         )

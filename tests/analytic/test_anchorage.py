@@ -28,15 +28,15 @@ def test_cone_edge_and_bearing_in_round_numbers():
 
 def test_an_edge_twice_as_far_bears_more_and_a_longer_bar_than_twelve_diameters_no_more_at_the_edge():
     assert st.stone_at_anchor(**GIVEN | {"edge": 0.2})["edge"] > 2.0 * st.stone_at_anchor(**GIVEN)["edge"]
-    long, longer = (st.stone_at_anchor(**GIVEN | {"embedment": one})["edge"] for one in (0.24, 0.5))
+    long, longer = (st.stone_at_anchor(**GIVEN | {"embedment": embedment})["edge"] for embedment in (0.24, 0.5))
     assert long == longer
 
 
 def test_a_thick_bar_counts_along_the_edge_for_eight_diameters_or_300_mm():
     """EN 1992-4, 7.2.2.5: 12·24 = 288 mm, from there 300 mm up to 37.5 mm, then 8 d: what is longer bears no more."""
     for diameter, length in ((0.024, 0.288), (0.03, 0.3), (0.05, 0.4)):
-        bars = (GIVEN | {"diameter": diameter, "embedment": one} for one in (0.99 * length, length, 2.0))
-        short, just, longer = (st.stone_at_anchor(**one)["edge"] for one in bars)
+        bars = (GIVEN | {"diameter": diameter, "embedment": embedment} for embedment in (0.99 * length, length, 2.0))
+        short, just, longer = (st.stone_at_anchor(**bar)["edge"] for bar in bars)
         assert short < just == longer
 
 
@@ -90,13 +90,13 @@ def test_the_stone_that_gives_way_before_a_dowel_is_told():
     assert first.stone.pull == math.inf  # a dowel lifts out
     assert second.stone.shear > second.shear_capacity
     assert third.stone is None
-    told = stone_words(column.placed_links)
-    assert f"before 1 of 3 links do, first around {first.name}: at {first.stone.shear / 1e3:.4g} kN in shear" in told
-    assert "The stone around 1 of 3 links was not checked" in told
-    assert "The stone around 2 of 2" not in told
+    words = stone_words(column.placed_links)
+    assert f"before 1 of 3 links do, first around {first.name}: at {first.stone.shear / 1e3:.4g} kN in shear" in words
+    assert "The stone around 1 of 3 links was not checked" in words
+    assert "The stone around 2 of 2" not in words
     assert "bears more than they hold" in stone_words([second])
     assert not stone_words([])
-    held = [_resistance_words(_link(link)) for link in (first, second, third)]
-    assert held[0] == f"holds {first.stone.shear / 1e3:.4g} kN in shear; edge of the stone (EN 1992-4, 7.2.2.5)"
-    assert f"where the bar holds {first.alone.shear_capacity / 1e3:.4g} kN" in told
-    assert held[1].startswith(f"holds {second.shear_capacity / 1e3:.4g} kN in shear;")
+    descriptions = [_resistance_words(_link(link)) for link in (first, second, third)]
+    assert descriptions[0] == f"holds {first.stone.shear / 1e3:.4g} kN in shear; edge of the stone (EN 1992-4, 7.2.2.5)"
+    assert f"where the bar holds {first.alone.shear_capacity / 1e3:.4g} kN" in words
+    assert descriptions[1].startswith(f"holds {second.shear_capacity / 1e3:.4g} kN in shear;")

@@ -17,21 +17,21 @@ STILL = st.Motion(0.5, np.zeros(3))
 HALF, HEIGHT = 0.3, 3.0
 
 
-def column(drums=1, **found):
+def column(drums=1, **condition):
     made = st.Column.tapered(
         height=HEIGHT, bottom_width=2 * HALF, top_width=2 * HALF, drums=drums, density=2000.0, joint=JOINT, name="prism"
     )
-    return made.replace(as_found=as_found(**found))
+    return made.replace(as_found=as_found(**condition))
 
 
 def as_found(base_tilt=0.0, **drums):
-    some = {int(name.split("_")[-1]) for name in drums}
+    numbers = {int(name.split("_")[-1]) for name in drums}
     return st.AsFound(
         tuple(
             st.FoundDrum(
                 i, **{name.rpartition("_")[0]: value for name, value in drums.items() if name.endswith(f"_{i}")}
             )
-            for i in some
+            for i in numbers
         ),
         base_tilt,
     )
@@ -127,17 +127,17 @@ UPLIFT["lean on its slope"] = (
 
 @pytest.mark.parametrize("name", UPLIFT)
 def test_uplift_accelerations_by_hand(name):
-    found, drums, right, left = UPLIFT[name]
-    got = uplift_accelerations(column(drums, **found))[0] / st.g
+    condition, drums, right, left = UPLIFT[name]
+    got = uplift_accelerations(column(drums, **condition))[0] / st.g
     assert got == pytest.approx([-left, right], rel=1e-12)
 
 
 @pytest.mark.parametrize("name", UPLIFT)
 @pytest.mark.parametrize("side", [1, -1])
 def test_distinct_elements_open_the_joint_at_its_closed_form(name, side):
-    found, drums, right, left = UPLIFT[name]
+    condition, drums, right, left = UPLIFT[name]
     limit = right if side > 0 else left
-    stone = column(drums, **found).with_joint(normal_stiffness=1e12, shear_stiffness=5e11)
+    stone = column(drums, **condition).with_joint(normal_stiffness=1e12, shear_stiffness=5e11)
     for share, opens in ((0.99, False), (1.01, True)):
         ramp = side * share * limit * st.g * np.concatenate((np.linspace(0.0, 1.0, 100), np.ones(5)))
         response = st.simulate(stone, st.Motion(0.01, ramp), st.DistinctElement2D(stiffness_damping=1e-5))

@@ -23,7 +23,7 @@ STILL = Motion(0.5, np.zeros(3))
 TURN = 37.0
 
 
-def found(turned=0.0, tilt=0.0, azimuth=0.0, **third):
+def disturbed_column(turned=0.0, tilt=0.0, azimuth=0.0, **third):
     """Offsets in two directions and a lean, all turned about the vertical."""
     drums = (
         st.FoundDrum(2, offset=0.06, offset_azimuth=60.0 + turned, turn=20.0),
@@ -50,15 +50,15 @@ def test_in_the_plane_the_geometry_is_that_of_the_plane():
     flat, at = geometry(plane), space_geometry(plane)
     assert at.centroid[:, [0, 2]] == pytest.approx(flat.centroid, abs=1e-14)
     for j in range(3):
-        one, other = joint_load(plane, flat, j), space_load(plane, at, j)
-        assert other.normal == pytest.approx(one.normal, rel=1e-13)
-        assert other.place[0] == pytest.approx(one.place, abs=1e-13)
-        assert other.shear[0] == pytest.approx(one.shear, abs=1e-9)
+        plane_load, other = joint_load(plane, flat, j), space_load(plane, at, j)
+        assert other.normal == pytest.approx(plane_load.normal, rel=1e-13)
+        assert other.place[0] == pytest.approx(plane_load.place, abs=1e-13)
+        assert other.shear[0] == pytest.approx(plane_load.shear, abs=1e-9)
 
 
 @pytest.mark.parametrize("model", [{}, {"law": "bed"}])
 def test_a_found_column_stands_still_from_the_start(model):
-    column = found(tilt=1.5, azimuth=200.0)
+    column = disturbed_column(tilt=1.5, azimuth=200.0)
     block = block_of(column, **model)
     assert block.residual_acceleration(0) < 2e-6
     before = {name: block.records.body[name][1:, 0].copy() for name in "xyz"}
@@ -150,7 +150,7 @@ def test_everything_turned_by_37_degrees_turns_the_response():
 def test_a_batch_of_found_columns_has_the_bits_of_single_runs():
     time = np.arange(201) * 5e-3
     motion = Motion(5e-3, 0.24 * st.g * np.sin(1.4 * math.pi * time), 0.05 * st.g * np.cos(9.0 * time))
-    columns = [found(turned, 1.0, 10.0) for turned in (0.0, TURN, 110.0)]
+    columns = [disturbed_column(turned, 1.0, 10.0) for turned in (0.0, TURN, 110.0)]
     batch = st.simulate_many(columns, [motion] * 3, DistinctElement3D())
     for i, column in enumerate(columns):
         single = st.simulate(column, motion, DistinctElement3D()).measures
@@ -167,16 +167,16 @@ def test_out_of_equilibrium_and_out_of_the_plane_are_refused_in_one_sentence(tmp
     with pytest.raises(st.InputError, match=r"joint 1 slides down its slope, .* N of friction are missing"):
         round_column(friction=0.02).replace(as_found=st.AsFound((), 3.0, 70.0))
     with pytest.raises(st.InputError, match=r"dem2d computes the plane of x and z, and .* is found out of it"):
-        st.simulate(found(), STILL, st.DistinctElement2D())
+        st.simulate(disturbed_column(), STILL, st.DistinctElement2D())
     with pytest.raises(st.InputError, match="planar = True holds the motion in the plane"):
-        st.simulate(found(), STILL, DistinctElement3D(planar=True))
+        st.simulate(disturbed_column(), STILL, DistinctElement3D(planar=True))
     chipped = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(1, chip_left=0.02),)))
     with pytest.raises(st.InputError, match="dem3d with law=bed knows no chips of round drums"):
         st.simulate(chipped, STILL, DistinctElement3D(law="bed"))
     twice = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(1, chip_left=0.02, chip_right=0.01),)))
     with pytest.raises(st.InputError, match=r"drum 1 of .* is round and chipped on the left and on the right"):
         st.simulate(twice, STILL, DistinctElement3D())
-    column = found(5.0, 1.0)
+    column = disturbed_column(5.0, 1.0)
     assert Column.from_toml(write_column(column, tmp_path / "c.toml")) == column
 
 
@@ -185,9 +185,15 @@ def barrier_of(column, turns=None):
     from stylobate.kernels.dem3d.standing import lowest_found
     from stylobate.models.dem3d.packing import found_numbers, numbers_for
 
-    found, up, high = found_numbers(column)
+    drum_numbers, up, high = found_numbers(column)
     turned = space_geometry(column).turned if turns is None else turns
-    numbers = found, numbers_for(column, np.zeros((2, column.n))), np.zeros((column.n, 2)), np.append(0.0, turned), up
+    numbers = (
+        drum_numbers,
+        numbers_for(column, np.zeros((2, column.n))),
+        np.zeros((column.n, 2)),
+        np.append(0.0, turned),
+        up,
+    )
     lowest, low = lowest_found(*numbers, column.section == "rectangular", column.gravity, False)
     if turns is None:
         assert low == pytest.approx(high, rel=1e-12)
@@ -234,8 +240,8 @@ def test_a_drum_that_has_turned_takes_its_slope_with_it(psi):
     after = wedge.replace(as_found=st.AsFound((st.FoundDrum(1, tilt=-4.0, tilt_azimuth=psi, turn=psi),), 4.0))
     assert barrier_of(before, np.array([turn, turn])) == pytest.approx(barrier_of(after), rel=1e-9)
     stack = st.Column.of_drums([*drums, drums[0]], joint)
-    one, other = st.FoundDrum(2, offset=0.2), st.FoundDrum(3, offset=-0.2)
-    before = stack.replace(as_found=st.AsFound((one, other)))
+    second, other = st.FoundDrum(2, offset=0.2), st.FoundDrum(3, offset=-0.2)
+    before = stack.replace(as_found=st.AsFound((second, other)))
     after = stack.replace(
         as_found=st.AsFound((st.FoundDrum(2, offset=0.2, turn=psi), st.FoundDrum(3, offset=-0.2, offset_azimuth=psi)))
     )

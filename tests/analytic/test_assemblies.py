@@ -122,12 +122,12 @@ def test_inclined_plane_at_22_degrees(friction, gap):
     response = run(assembly, still(1.2), model)
     down = -((response.x[:, -1] - response.x[0, -1]) * c + (response.z[:, -1] - response.z[0, -1]) * s)
     late = response.time > 0.3
-    found = 2.0 * np.polyfit(response.time[late], down[late], 2)[0]
+    acceleration = 2.0 * np.polyfit(response.time[late], down[late], 2)[0]
     expected = g * (s - c * math.tan(math.radians(friction)))
     if friction < 22.0:
-        assert found == pytest.approx(expected, rel=2e-3)
+        assert acceleration == pytest.approx(expected, rel=2e-3)
     else:
-        assert found == pytest.approx(0.0, abs=1e-3)
+        assert acceleration == pytest.approx(0.0, abs=1e-3)
         assert down[-1] < 2e-3
 
 
@@ -205,10 +205,10 @@ def test_semicircular_arch_at_the_edge_of_milankovitch_s_thickness(share, stands
 def test_a_whole_collapse_keeps_its_energy_and_comes_to_rest(name, frequency, amplitude):
     column = preset(name)
     response = simulate(column, harmonic(frequency, amplitude * g, 6.0), DistinctElement2D(), until_rest=True)
-    found = response.mechanism
+    mechanism = response.mechanism
     assert response.collapsed
-    assert found.at_rest
-    assert found.fallen
+    assert mechanism.at_rest
+    assert mechanism.fallen
     assert response.energy_imbalance < 0.01
     # a dashpot and a slip can only take energy
     for term in ("friction", "viscous"):
@@ -218,10 +218,10 @@ def test_a_whole_collapse_keeps_its_energy_and_comes_to_rest(name, frequency, am
 
 def test_standing_after_a_collapse_that_never_was():
     response = simulate(preset("paper-12-drums"), harmonic(1.0, 0.2 * g, 2.0), DistinctElement2D(), until_rest=True)
-    found = response.mechanism
-    assert not found.fallen
-    assert found.standing == tuple(range(1, 13))
-    assert found.describe().startswith("All 12 drums stand")
+    mechanism = response.mechanism
+    assert not mechanism.fallen
+    assert mechanism.standing == tuple(range(1, 13))
+    assert mechanism.describe().startswith("All 12 drums stand")
 
 
 @pytest.mark.parametrize(
@@ -237,10 +237,10 @@ def test_standing_after_a_collapse_that_never_was():
 def test_a_mechanism_in_words(fallen, standing, says):
     joint = 1 if fallen == (1,) else 2 if fallen else 0
     n = len(standing)
-    found = Mechanism(
+    mechanism = Mechanism(
         fallen, (1.0,) * len(fallen), ("left",) * len(fallen), joint, False, True, standing, (0.003,) * n, (0.0,) * n
     )
-    assert says in found.describe()
+    assert says in mechanism.describe()
 
 
 def test_offsets_of_metres_are_given_in_metres():

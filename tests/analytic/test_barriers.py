@@ -13,7 +13,7 @@ def column(drums: int, slenderness: float = 8.0, section: str = "circular") -> s
     return st.Column.tapered(**size, drums=drums, joint=st.Joint(1e9, 5e8, 35.0), section=section)
 
 
-def told(stone: st.Column, toes: np.ndarray) -> np.ndarray:
+def joint_barriers(stone: st.Column, toes: np.ndarray) -> np.ndarray:
     """Barrier over each joint of small angles [J]: ½ (W b)²/(g B) of the rigid column less what joints give."""
     mass, height = stone.parts_above
     most = stone.joint_weights * 0.5 * stone.joint_widths
@@ -45,7 +45,7 @@ def least_on_an_edge(stone: st.Column, joints) -> float:
     order = np.arange(stone.n)
     leaning = stone.gravity * (mass * height)[np.maximum.outer(order, order)]
     most = stone.joint_weights * 0.5 * stone.joint_widths
-    found = []
+    barriers = []
     for j in order:
         others, scale = order != j, most[j] ** 2 / leaning[j, j]
 
@@ -53,13 +53,13 @@ def least_on_an_edge(stone: st.Column, joints) -> float:
             moments = np.full(stone.n, most[j])
             moments[others] = shares * most[others]
             turns = np.linalg.solve(leaning, moments)
-            return (sum(one(turn) for one, turn in zip(joints, turns, strict=True)) - 0.5 * moments @ turns) / scale
+            return (sum(joint(turn) for joint, turn in zip(joints, turns, strict=True)) - 0.5 * moments @ turns) / scale
 
         start = np.minimum(leaning[j] / leaning[j, j] * most[j] / most, 1.0)[others]
         for share in (1.0, 0.9):
             best = minimize(energy, share * start, bounds=[(-1.0, 1.0)] * (stone.n - 1), method="L-BFGS-B")
-            found.append(best.fun * scale)
-    return min(found)
+            barriers.append(best.fun * scale)
+    return min(barriers)
 
 
 @pytest.mark.parametrize(("kn", "least"), [(1e10, 0.97), (1e9, 0.6)])
@@ -70,7 +70,7 @@ def test_beds_overturn_with_no_less_than_is_told(kn, least):
     joints = [
         of_bed(kn, 0.5 * width, weight) for width, weight in zip(stone.joint_widths, stone.joint_weights, strict=True)
     ]
-    lowest = told(stone, bed_toes(stone, np.full(6, kn))).min()
+    lowest = joint_barriers(stone, bed_toes(stone, np.full(6, kn))).min()
     true = least_on_an_edge(stone, joints)
     assert least * true < lowest <= true
 
@@ -83,7 +83,7 @@ def test_points_overturn_with_no_less_than_is_told():
         of_points(kn, 0.5 * width, weight, area)
         for width, weight, area in zip(stone.joint_widths, stone.joint_weights, stone.joint_areas, strict=True)
     ]
-    lowest = told(stone, point_toes(stone, np.full(8, kn), 0.5)).min()
+    lowest = joint_barriers(stone, point_toes(stone, np.full(8, kn), 0.5)).min()
     true = least_on_an_edge(stone, joints)
     assert 0.95 * true < lowest <= true
 
@@ -91,8 +91,8 @@ def test_points_overturn_with_no_less_than_is_told():
 @pytest.mark.parametrize("toes", [rim_toes, bed_toes])
 def test_stiff_joints_overturn_as_rigid_ones(toes):
     stone = column(6)
-    rigid = told(stone, np.zeros((2, 6))).min()
-    barriers = [told(stone, toes(stone, np.full(6, kn))).min() / rigid for kn in (1e9, 1e10, 1e11, 1e13)]
+    rigid = joint_barriers(stone, np.zeros((2, 6))).min()
+    barriers = [joint_barriers(stone, toes(stone, np.full(6, kn))).min() / rigid for kn in (1e9, 1e10, 1e11, 1e13)]
     assert barriers == sorted(barriers)
     assert 0.985 < barriers[-1] < 1.0
 
@@ -102,8 +102,8 @@ def test_a_tall_column_on_soft_beds_is_decided():
     was ever decided."""
     stone = st.preset("marcus-aurelius")
     soft = stone.replace(joints=tuple(j.changed(normal_stiffness=3e9, shear_stiffness=1.5e9) for j in stone.joints))
-    found = st.simulate(
+    response = st.simulate(
         soft, st.sine_pulse(1.0, 0.02 * st.g, 1.5), st.DistinctElement3D(law="bed"), output_interval=0.1
     )
-    assert found.decided
-    assert not found.collapsed
+    assert response.decided
+    assert not response.collapsed

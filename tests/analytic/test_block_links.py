@@ -149,11 +149,11 @@ def test_the_numbers_of_a_clamp_are_those_of_its_bar_and_of_two_dowels() -> None
     clamp = Clamp(material="titanium", section=(0.02, 0.01), embedment=0.06)
     diameter = math.sqrt(4.0 * 0.02 * 0.01 / math.pi)
     assert clamp.diameter == pytest.approx(diameter)
-    found = clamp.held(Site(0.3))
+    resistance = clamp.held(Site(0.3))
     made = MATERIALS["titanium"]
     legs = shear_stiffness("titanium", diameter, 0.06, 50e9)
-    assert found.axial_stiffness == pytest.approx(1.0 / (0.3 / (made.modulus * 2e-4) + 1.0 / legs))
+    assert resistance.axial_stiffness == pytest.approx(1.0 / (0.3 / (made.modulus * 2e-4) + 1.0 / legs))
     weakest = min(275e6 * 2e-4, *shear_limits("titanium", diameter, 0.06, 60e6).values())
-    assert found.axial_capacity == pytest.approx(weakest)
-    assert found.shear_stiffness == pytest.approx(shear_stiffness("titanium", diameter, 0.15, 50e9))
-    assert "legs: shear of the bar" in found.governs
+    assert resistance.axial_capacity == pytest.approx(weakest)
+    assert resistance.shear_stiffness == pytest.approx(shear_stiffness("titanium", diameter, 0.15, 50e9))
+    assert "legs: shear of the bar" in resistance.governs

@@ -106,12 +106,12 @@ def test_sums_over_the_edge_of_the_overlap(low, up):
     for _ in range(12):
         rotation = turn(*rng.normal(size=2) * 1e-3, 0.0) @ turn(0.0, 0.0, rng.uniform(0.0, 6.0))
         place = np.array([*rng.normal(size=2) * 0.25, -3e-4 * rng.uniform()])
-        found, exact = sums_of(low, up, place, rotation), brute(low, up, place, rotation)
+        sums, exact = sums_of(low, up, place, rotation), brute(low, up, place, rotation)
         total = exact[PRESS] + exact[LOWER + PRESS]
-        assert found[EDGE] == pytest.approx(exact[EDGE], rel=1e-3)
+        assert sums[EDGE] == pytest.approx(exact[EDGE], rel=1e-3)
         for at in (0, LOWER):
-            assert found[at : at + 5] == pytest.approx(exact[at : at + 5], abs=1e-3 * total + 1e-12)
-            assert found[at + SQUARE] == pytest.approx(exact[at + SQUARE], abs=1e-3 * total * 1e-3)
+            assert sums[at : at + 5] == pytest.approx(exact[at : at + 5], abs=1e-3 * total + 1e-12)
+            assert sums[at + SQUARE] == pytest.approx(exact[at + SQUARE], abs=1e-3 * total * 1e-3)
 
 
 def test_disc_on_disc_is_the_rim_law():
@@ -175,9 +175,9 @@ def test_of_edges_that_lie_on_one_another_it_does_not_matter_which_is_inside(twi
         place = np.array([1e-9 * way, 1e-9 * way, -depth])
         sums.append(sums_of(face, face, place, rotation))
     z, n = np.array([0.0, 0.0, 1.0]), rotation[:, 2]
-    one, other = (some[PRESS] * z + some[LOWER + PRESS] * n for some in sums)
-    assert np.abs(one - other).max() < 1e-3 * angle * one[2]
-    assert one[2] == pytest.approx(3.6 * depth, rel=1e-6)
+    force, other = (integrals[PRESS] * z + integrals[LOWER + PRESS] * n for integrals in sums)
+    assert np.abs(force - other).max() < 1e-3 * angle * force[2]
+    assert force[2] == pytest.approx(3.6 * depth, rel=1e-6)
 
 
 def test_a_small_face_inside_a_large_one():

@@ -33,8 +33,8 @@ def pushed(column, azimuths, levels, **options):
     """How far the joints open [m] under a ground that slowly takes up each acceleration [g] towards each azimuth [°]."""
     rise = np.concatenate((np.linspace(0.0, 1.0, 100), np.ones(5))) * st.g
     motions = [
-        Motion(0.01, level * rise * math.cos(math.radians(one)), level * rise * math.sin(math.radians(one)))
-        for one, level in zip(azimuths, levels, strict=True)
+        Motion(0.01, level * rise * math.cos(math.radians(azimuth)), level * rise * math.sin(math.radians(azimuth)))
+        for azimuth, level in zip(azimuths, levels, strict=True)
     ]
     model = DistinctElement3D(stiffness_damping=1e-5, **options)
     return st.simulate_many([column] * len(motions), motions, model)["peak_joint_opening_m"].to_numpy()
@@ -45,11 +45,11 @@ def places(column, motion, model):
     block = engine_for(model, column).block(RunOptions(until_end=True))
     block.load(0, Case(column, motion))
     bodies = block.records.body
-    first, found = bodies["x"][1:, 0].copy(), []
+    first, displacements = bodies["x"][1:, 0].copy(), []
     while not block.is_over(0):
         block.advance(1)
-        found.append(bodies["x"][1:, 0] - first)
-    return np.array(found)
+        displacements.append(bodies["x"][1:, 0] - first)
+    return np.array(displacements)
 
 
 def shaken(duration=0.5, turned=1.0, mirrored=1.0):
@@ -81,14 +81,14 @@ def test_in_its_plane_a_chipped_prism_moves_as_the_plane_model(drums):
     step = engine_for(DistinctElement3D(), column).step
     flat = places(column, motion, st.DistinctElement2D(points=2, time_step=step))
     for planar in (True, False):
-        found = places(column, motion, DistinctElement3D(planar=planar, time_step=step))
-        assert np.abs(found - flat).max() < 1e-9
+        spatial = places(column, motion, DistinctElement3D(planar=planar, time_step=step))
+        assert np.abs(spatial - flat).max() < 1e-9
     assert np.abs(flat).max() > 0.01
 
 
 def test_a_chipped_column_in_a_mirror():
     """Mirrored in the plane of x and z: front and back change places, and the response is that in the mirror."""
-    found = [
+    histories = [
         places(
             prism(3, st.Joint(5e10, 2.5e10, friction_coefficient=0.7), **chips),
             shaken(0.4, 1.0, sign),
@@ -99,17 +99,19 @@ def test_a_chipped_column_in_a_mirror():
             ({"chip_back": 0.05, "chip_left": 0.03}, -1.0),
         )
     ]
-    assert np.abs(found[0]).max() > 5e-3
-    assert np.abs(found[0] - found[1]).max() < 1e-10
+    assert np.abs(histories[0]).max() > 5e-3
+    assert np.abs(histories[0] - histories[1]).max() < 1e-10
 
 
 def test_the_ledger_of_a_chipped_column_closes():
-    found = (
+    found_drums = (
         st.FoundDrum(1, chip_front=0.04, chip_left=0.1),
         st.FoundDrum(2, chip_back=0.05, offset=0.02, turn=3.0),
         st.FoundDrum(3, chip_right=0.05, tilt=0.5, tilt_azimuth=50.0),
     )
-    column = prism(3, st.Joint(5e9, 2.5e9, friction_coefficient=0.7)).replace(as_found=st.AsFound(found, 1.0, 30.0))
+    column = prism(3, st.Joint(5e9, 2.5e9, friction_coefficient=0.7)).replace(
+        as_found=st.AsFound(found_drums, 1.0, 30.0)
+    )
     block = engine_for(DistinctElement3D(), column).block(RunOptions())
     block.load(0, Case(column, shaken()))
     assert block.residual_acceleration(0) < 5e-5
@@ -155,9 +157,9 @@ def test_chips_that_cannot_be_are_refused_in_one_sentence():
 
 
 def test_a_chip_azimuth_of_180_turns_left_and_right_round():
-    one = st.FoundDrum(1, chip_left=0.1, chip_right=0.2, chip_azimuth=180.0)
-    assert one == st.FoundDrum(1, chip_left=0.2, chip_right=0.1)
-    assert one.in_plane
+    drum = st.FoundDrum(1, chip_left=0.1, chip_right=0.2, chip_azimuth=180.0)
+    assert drum == st.FoundDrum(1, chip_left=0.2, chip_right=0.1)
+    assert drum.in_plane
     assert not st.FoundDrum(1, chip_left=0.1, chip_azimuth=90.0).in_plane
     assert st.FoundDrum(1, chip_azimuth=90.0) == st.FoundDrum(1)
 

@@ -41,25 +41,28 @@ def test_a_block_checked_by_hand():
     # one block: e* = 1, a0* = g tan α / FC; q = 2
     column = st.preset("paper-monolithic")
     path, stack = st.pushover(column), BlockStack.of_column(column)
-    found = code_check(stack, path, CodeSite.typed("ntc2018,ag=0.2g,F0=2.5,Tc*=0.3s,soil=C,knowledge=LC2"))
-    m = found.displacement
+    check = code_check(stack, path, CodeSite.typed("ntc2018,ag=0.2g,F0=2.5,Tc*=0.3s,soil=C,knowledge=LC2"))
+    m = check.displacement
     assert m.acceleration == pytest.approx(math.tan(column.slenderness) * st.g / m.participation / 1.2, rel=1e-3)
-    assert found.demand_acceleration == pytest.approx(0.2 * st.g * 1.4 / 2.0)
-    assert found.acceleration_factor == pytest.approx(m.acceleration / found.demand_acceleration)
-    assert {one.source for one in found.coefficients} >= {"NTC 2018, Table 3.2.IV", "Circolare 617/2009, C8A.4.2.3"}
-    assert all(one.source for one in found.coefficients)
-    assert any("7/2019" in one for one in found.left_out)
+    assert check.demand_acceleration == pytest.approx(0.2 * st.g * 1.4 / 2.0)
+    assert check.acceleration_factor == pytest.approx(m.acceleration / check.demand_acceleration)
+    assert {coefficient.source for coefficient in check.coefficients} >= {
+        "NTC 2018, Table 3.2.IV",
+        "Circolare 617/2009, C8A.4.2.3",
+    }
+    assert all(coefficient.source for coefficient in check.coefficients)
+    assert any("7/2019" in omission for omission in check.left_out)
     eurocode = code_check(stack, path, CodeSite.typed("ec8,ag=0.2g,soil=C,knowledge=KL2"))
     assert eurocode.demand_acceleration == pytest.approx(0.2 * st.g * 1.15 / 2.0)
-    assert any("EN 1998-3" in one for one in eurocode.left_out)
+    assert any("EN 1998-3" in omission for omission in eurocode.left_out)
 
 
 def test_the_command_tells_every_coefficient_with_its_source(capsys):
     arguments = ["pushover", "paper-monolithic", "--check", "ec8,ag=0.25g,soil=B"]
     assert call([*arguments, "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)["check"]
-    assert {"name": "S", "value": 1.2, "source": "EN 1998-1:2004, Table 3.2"} in found["coefficients"]
-    assert found["passed"] in (True, False)
+    check = json.loads(capsys.readouterr().out)["check"]
+    assert {"name": "S", "value": 1.2, "source": "EN 1998-1:2004, Table 3.2"} in check["coefficients"]
+    assert check["passed"] in (True, False)
     assert call(arguments) == 0
     assert "(EN 1998-3:2005, Table 3.1, KL1)" in capsys.readouterr().out
 

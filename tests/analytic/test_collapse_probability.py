@@ -26,7 +26,7 @@ from stylobate.verdicts.domain import (
 from stylobate.verdicts.population import certainty
 from stylobate.verdicts.verdict import collapse_interval, share_collapsed, wilson_interval
 
-CODES = {letter: v.VERDICTS.index(one) for letter, one in zip("SCUFN", v.VERDICTS)}
+CODES = {letter: v.VERDICTS.index(verdict) for letter, verdict in zip("SCUFN", v.VERDICTS)}
 #: All of the scatter but width.
 NOTHING = {name: 0.0 for name in LARGEST if name != "width"}
 GRID = (np.array([0.5, 1.0]), np.linspace(0.15, 0.45, 4) * st.g, 6.0)
@@ -34,7 +34,7 @@ GRID = (np.array([0.5, 1.0]), np.linspace(0.15, 0.45, 4) * st.g, 6.0)
 
 def probability(cells, amplitudes=(0.1, 0.2, 0.3, 0.4)):
     """One frequency per line, one word of verdicts per cell: S stands, C collapsed, U undecided, F failed, N not run."""
-    codes = np.array([[[CODES[one] for one in cell] for cell in line.split()] for line in cells], dtype=np.int8)
+    codes = np.array([[[CODES[letter] for letter in cell] for cell in line.split()] for line in cells], dtype=np.int8)
     return CollapseProbability(
         preset("paper-monolithic"), "dem2d", np.arange(1.0, len(cells) + 1.0), np.array(amplitudes) * st.g, codes,
         np.zeros(codes.shape, np.float32), Scatter(), MotionScatter(), 0, 0.95, 1.0, {},
@@ -69,35 +69,35 @@ def test_wilson_s_interval_covers_as_often_as_it_says():
 
 
 def test_kinds_of_cells_and_the_band():
-    found = probability(["SSSS SSSC SCCC CCCC", "SSSS SSUS SUUU SSSS", "SSSS CSSS SSSS CCCS", "CCCF FFFF CCCC CCCC"])
-    assert found.kinds.tolist() == [
+    result = probability(["SSSS SSSC SCCC CCCC", "SSSS SSUS SUUU SSSS", "SSSS CSSS SSSS CCCS", "CCCF FFFF CCCC CCCC"])
+    assert result.kinds.tolist() == [
         [SAFE, UNCERTAIN, UNCERTAIN, UNSAFE],
         [SAFE, UNKNOWN, UNKNOWN, SAFE],
         [SAFE, UNCERTAIN, SAFE, UNCERTAIN],
         [UNSAFE, UNKNOWN, UNSAFE, UNSAFE],
     ]
-    low, high = (one / st.g for one in found.band)
+    low, high = (bound / st.g for bound in result.band)
     np.testing.assert_allclose(low, [0.2, np.nan, 0.2, 0.1])
     np.testing.assert_allclose(high, [0.3, 0.4, 0.4, np.nan])
-    np.testing.assert_allclose(found.band_width / st.g, [0.2, np.nan, np.nan, 0.0], atol=1e-12)
-    assert found.band_is_open.tolist() == [False, False, True, False]
-    summary = found.summary()
+    np.testing.assert_allclose(result.band_width / st.g, [0.2, np.nan, np.nan, 0.0], atol=1e-12)
+    assert result.band_is_open.tolist() == [False, False, True, False]
+    summary = result.summary()
     assert summary["band_width_median_g"] == pytest.approx(0.1)
     assert summary["band_open_frequencies"] == 1
     assert summary["all_stand"] + summary["some_collapse"] + summary["all_collapse"] + summary["no_verdict"] == 16
 
 
 def test_what_is_undecided_or_failed_is_no_collapse_and_widens_the_interval():
-    found = probability(["CSSS CSSU CSSF FFFF"])
-    np.testing.assert_allclose(found.frequency[0], [0.25, 0.25, 1 / 3, np.nan])
-    low, high = found.interval
+    result = probability(["CSSS CSSU CSSF FFFF"])
+    np.testing.assert_allclose(result.frequency[0], [0.25, 0.25, 1 / 3, np.nan])
+    low, high = result.interval
     assert low[0, 1] == low[0, 0]
     assert high[0, 1] > high[0, 0]
     np.testing.assert_allclose([low[0, 2], high[0, 2]], np.ravel(wilson_interval([1], [3])))
     assert (low[0, 3], high[0, 3]) == (0.0, 1.0)
-    assert found.summary()["collapsed"] == 3
-    assert found.summary()["failed"] == 5
-    assert found.table["undecided"].tolist() == [0, 1, 0, 0]
+    assert result.summary()["collapsed"] == 3
+    assert result.summary()["failed"] == 5
+    assert result.table["undecided"].tolist() == [0, 1, 0, 0]
 
 
 @pytest.mark.parametrize("field", ["amplitude", "phase", "across"])
@@ -109,11 +109,13 @@ def test_an_impossible_scatter_of_the_motion_is_refused(field):
 def test_where_next_to_nothing_scatters_every_column_has_the_verdict_of_the_domain():
     column = preset("paper-monolithic")
     domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
-    found = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, width=1e-9))
-    names = np.array(v.VERDICTS, dtype=object)[found.codes]
+    result = collapse_probability(
+        column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, width=1e-9)
+    )
+    names = np.array(v.VERDICTS, dtype=object)[result.codes]
     assert (names == domain.verdicts[..., None]).all()
-    assert (found.summary()["some_collapse"], found.summary()["runs"]) == (0, 24)
-    np.testing.assert_allclose(found.peaks[..., 0], domain.grid("peak_top_displacement_m"), rtol=1e-6)
+    assert (result.summary()["some_collapse"], result.summary()["runs"]) == (0, 24)
+    np.testing.assert_allclose(result.peaks[..., 0], domain.grid("peak_top_displacement_m"), rtol=1e-6)
     with pytest.raises(st.InputError, match="nothing scatters"):
         collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, width=0.0))
 
@@ -121,7 +123,7 @@ def test_where_next_to_nothing_scatters_every_column_has_the_verdict_of_the_doma
 def test_a_cell_agrees_with_the_columns_like_this_one_of_a_run_of_its_motion():
     """One population; those beside a run take its step, so that single verdicts near the boundary are other ones."""
     column, model, number = preset("paper-12-drums"), st.DistinctElement2D(), 40
-    found = collapse_probability(column, model, [0.8], [0.33 * st.g], 5.0, replicates=number, seed=2, tail=2.0)
+    result = collapse_probability(column, model, [0.8], [0.33 * st.g], 5.0, replicates=number, seed=2, tail=2.0)
     motion = st.harmonic(0.8, 0.33 * st.g, 5.0)
     paced = collapse_probability(
         column, engine_for(model, column).paced, [0.8], [0.33 * st.g], 5.0, replicates=number, seed=2, tail=2.0
@@ -129,8 +131,8 @@ def test_a_cell_agrees_with_the_columns_like_this_one_of_a_run_of_its_motion():
     beside = certainty(column, motion, model, replicates=number, seed=2, tail=2.0).population
     fell = np.array([bool(row["collapsed"]) for row in beside.rows])
     np.testing.assert_array_equal(paced.codes[0, 0] == CODES["C"], fell)
-    assert found.scatter == beside.drawn.scatter
-    low, high = wilson_interval(np.array([found.count("collapsed")[0, 0], fell.sum()]), np.full(2, number))
+    assert result.scatter == beside.drawn.scatter
+    low, high = wilson_interval(np.array([result.count("collapsed")[0, 0], fell.sum()]), np.full(2, number))
     assert 0.0 < low.max() <= high.min() < 1.0
 
 
@@ -149,22 +151,22 @@ def test_threads_and_seed_decide_nothing_but_what_they_should():
 def test_phase_starts_the_sine_elsewhere_and_shares_its_samples():
     sines = ScatteredSines(GRID[0], 6.0, MotionScatter(phase=0.25), 40, 0)
     motions = [sines.motion(0, 1.0, k) for k in range(40)]
-    starts = sorted({float(one.samples[0]) for one in motions})
+    starts = sorted({float(motion.samples[0]) for motion in motions})
     assert starts[0] == pytest.approx(-1.0)
     assert starts[-1] == pytest.approx(1.0)
-    assert len({id(one.samples) for one in motions}) <= PHASES
+    assert len({id(motion.samples) for motion in motions}) <= PHASES
     assert motions[0].duration == pytest.approx(6.0)
 
 
 def test_an_interrupted_probability_goes_on_where_it_was(tmp_path, monkeypatch):
     column = preset("paper-monolithic")
     whole = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4)
-    asked, real = [], runs.executor()
+    counts, real = [], runs.executor()
 
     def stopping(cases, *args, **kwargs):
-        asked.append(len(cases))
+        counts.append(len(cases))
         for n, item in enumerate(real(cases, *args, **kwargs)):
-            if len(asked) == 1 and n == 9:
+            if len(counts) == 1 and n == 9:
                 raise KeyboardInterrupt
             yield item
 
@@ -173,7 +175,7 @@ def test_an_interrupted_probability_goes_on_where_it_was(tmp_path, monkeypatch):
     assert not first.complete
     assert first.summary()["not_run"] == 23
     second = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4, out=tmp_path)
-    assert asked == [32, 23]
+    assert counts == [32, 23]
     np.testing.assert_array_equal(second.peaks, whole.peaks)
     assert {path.name for path in tmp_path.iterdir()} == {"probability.nc", "probability.csv", "runs.sqlite"}
 
@@ -198,14 +200,14 @@ def test_a_probability_is_read_back_from_its_file(tmp_path):
     size = {"scatter": Scatter(width=0.02), "motion_scatter": MotionScatter(phase=0.1)}
     column = preset("paper-monolithic")
     made = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, **size, seed=4, out=tmp_path)
-    found = CollapseProbability.load(tmp_path / "probability.nc")
-    np.testing.assert_array_equal(found.codes, made.codes)
-    np.testing.assert_array_equal(found.peaks, made.peaks)
-    assert found.summary() == made.summary()
+    copy = CollapseProbability.load(tmp_path / "probability.nc")
+    np.testing.assert_array_equal(copy.codes, made.codes)
+    np.testing.assert_array_equal(copy.peaks, made.peaks)
+    assert copy.summary() == made.summary()
     # a rigid block as built: all but its size is left out of the scatter
-    assert (found.column, found.motion_scatter) == (column, size["motion_scatter"])
-    assert found.scatter == Scatter(**NOTHING | {"width": 0.02, "height": 0.005})
-    assert json.dumps(found.provenance) == json.dumps(made.provenance)
+    assert (copy.column, copy.motion_scatter) == (column, size["motion_scatter"])
+    assert copy.scatter == Scatter(**NOTHING | {"width": 0.02, "height": 0.005})
+    assert json.dumps(copy.provenance) == json.dumps(made.provenance)
     domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
     with pytest.raises(st.InputError, match="is a domain, not a probability"):
         CollapseProbability.load(domain.save(tmp_path / "domain.nc"))
@@ -213,14 +215,14 @@ def test_a_probability_is_read_back_from_its_file(tmp_path):
 
 def test_a_domain_is_read_back_from_its_file(tmp_path):
     domain = st.collapse_domain(preset("paper-monolithic"), st.HousnerBlock(), *GRID)
-    found = Domain.load(domain.save(tmp_path / "domain.nc"))
-    np.testing.assert_array_equal(found.verdicts, domain.verdicts)
-    np.testing.assert_array_equal(found.first_collapse, domain.first_collapse)
-    for kept, row in zip(found.rows, domain.rows):
+    copy = Domain.load(domain.save(tmp_path / "domain.nc"))
+    np.testing.assert_array_equal(copy.verdicts, domain.verdicts)
+    np.testing.assert_array_equal(copy.first_collapse, domain.first_collapse)
+    for kept, row in zip(copy.rows, domain.rows):
         assert kept == {key: row[key] for key in kept}
-    assert found.column == domain.column
-    assert json.dumps(found.provenance) == json.dumps(domain.provenance)
-    assert found.wall_time == domain.wall_time
+    assert copy.column == domain.column
+    assert json.dumps(copy.provenance) == json.dumps(domain.provenance)
+    assert copy.wall_time == domain.wall_time
     with pytest.raises(st.InputError, match="there is no file"):
         Domain.load(tmp_path / "none.nc")
     part = dataclasses.replace(domain, rows=[None, *domain.rows[1:]])
@@ -263,9 +265,9 @@ def test_a_motion_that_is_drawn_does_not_depend_on_how_many_are():
     f, size = np.array([0.5]), MotionScatter(amplitude=0.1, phase=0.25, across=0.05)
     few, many = (ScatteredSines(f, 2.0, size, number, 3) for number in (7, 40))
     for k in range(7):
-        one, other = few.motion(0, 1.0, k), many.motion(0, 1.0, k)
-        np.testing.assert_array_equal(one.acceleration, other.acceleration)
-        np.testing.assert_array_equal(one.lateral, other.lateral)
+        motion, other = few.motion(0, 1.0, k), many.motion(0, 1.0, k)
+        np.testing.assert_array_equal(motion.acceleration, other.acceleration)
+        np.testing.assert_array_equal(motion.lateral, other.lateral)
 
 
 def test_probabilities_of_an_earlier_version_are_refused_as_such(tmp_path):
@@ -276,14 +278,14 @@ def test_probabilities_of_an_earlier_version_are_refused_as_such(tmp_path):
 
 def test_what_the_model_leaves_out_of_the_motions_is_told_as_left_out():
     plane = st.DistinctElement3D(planar=True)
-    assert [one.is_plane(one.parameters()) for one in (st.HousnerBlock(), plane, st.DistinctElement3D())] == [
+    assert [model.is_plane(model.parameters()) for model in (st.HousnerBlock(), plane, st.DistinctElement3D())] == [
         True,
         True,
         False,
     ]
-    found = collapse_probability(
+    result = collapse_probability(
         preset("paper-monolithic"), st.HousnerBlock(), [1.0], [0.5], 0.1, replicates=1,
         motion_scatter=MotionScatter(phase=0.1, across=0.01),
     )  # fmt: skip
-    assert found.summary()["left_out"] == ["friction", "joint_stiffness", "density", "offset", "across"]
-    assert found.motion_scatter == MotionScatter(phase=0.1)
+    assert result.summary()["left_out"] == ["friction", "joint_stiffness", "density", "offset", "across"]
+    assert result.motion_scatter == MotionScatter(phase=0.1)

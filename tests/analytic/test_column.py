@@ -111,15 +111,15 @@ def test_a_capital_on_a_shaft_is_no_mistake(capital):
 
 
 @pytest.mark.parametrize(
-    ("widths", "said"),
+    ("widths", "message"),
     [
         ([(1.0, 0.9), (0.8, 0.9), (0.8, 0.7)], "drum 2 of 'c' widens upward"),
         ([(1.0, 0.9), (0.8, 0.9)], "drum 2 of 'c' widens upward"),
         ([(0.7, 0.8), (0.8, 0.9), (0.9, 1.0)], "'c' widens upward from its base"),
     ],
 )
-def test_widths_that_fit_better_swapped_are_said(widths, said):
-    with pytest.warns(st.OutOfRangeWarning, match=said) as seen:
+def test_widths_that_fit_better_swapped_are_said(widths, message):
+    with pytest.warns(st.OutOfRangeWarning, match=message) as seen:
         column_of(*widths)
     assert len(seen) == 1
 

@@ -17,9 +17,9 @@ def test_a_low_drum_slides_down_a_slope_beyond_its_friction():
     gravity = nodes.slope(37.0, 0.7)
     seen = nodes.run(LOW, 0.5, gravity=gravity)
     speed = (seen.velocity[-1] - seen.velocity[10])[:2] / (seen.time[-1] - seen.time[10])
-    found = math.hypot(*gravity[:2]) + 0.7 * gravity[2]
-    assert speed @ (math.cos(0.7), math.sin(0.7)) == pytest.approx(found, rel=1e-3)
-    assert speed @ (-math.sin(0.7), math.cos(0.7)) == pytest.approx(0.0, abs=1e-3 * found)
+    expected = math.hypot(*gravity[:2]) + 0.7 * gravity[2]
+    assert speed @ (math.cos(0.7), math.sin(0.7)) == pytest.approx(expected, rel=1e-3)
+    assert speed @ (-math.sin(0.7), math.cos(0.7)) == pytest.approx(0.0, abs=1e-3 * expected)
 
 
 def test_below_its_friction_it_stands():
@@ -60,8 +60,8 @@ def test_a_chipped_disc_has_its_area_and_stands_on_its_chord():
     base = nodes.chipped(2 * R, 0.1, 512)
     grid = (np.arange(2000) + 0.5) / 2000 * 2 * R - R
     x, y = np.meshgrid(grid, grid)
-    left = ((x * x + y * y < R * R) & (x < R - 0.1)).mean() * (2 * R) ** 2
-    assert base.area.sum() == pytest.approx(left, rel=1e-3)
+    area = ((x * x + y * y < R * R) & (x < R - 0.1)).mean() * (2 * R) ** 2
+    assert base.area.sum() == pytest.approx(area, rel=1e-3)
     assert base.place[:, 0].max() == pytest.approx(R - 0.1)
 
 
@@ -106,6 +106,6 @@ def test_a_column_that_wobbles_twists_by_four_fifths_of_that(softer, share):
     w, x, y, z = response.body_orientation[later, 0].T
     azimuth = np.unwrap(np.arctan2(y * z - w * x, x * z + w * y))
     twist = np.unwrap(2.0 * np.arctan2(z, w))
-    found = abs(np.ptp(twist[[0, -1]]) / np.ptp(azimuth[[0, -1]]))
+    ratio = abs(np.ptp(twist[[0, -1]]) / np.ptp(azimuth[[0, -1]]))
     theory = 1.0 - cosine + rate**2 * b * sine / G * softer * theta
-    assert share[0] < found / theory < share[1]
+    assert share[0] < ratio / theory < share[1]

@@ -177,7 +177,7 @@ def test_the_domain_on_disk(tmp_path):
         assert data.sizes == {"frequency": 3, "amplitude": 12}
         np.testing.assert_array_equal(data["amplitude"], AMPLITUDES)
         meanings = data["verdict"].attrs["flag_meanings"].split()
-        assert meanings == [one.replace(" ", "_") for one in v.VERDICTS]
+        assert meanings == [verdict.replace(" ", "_") for verdict in v.VERDICTS]
         np.testing.assert_array_equal(np.array(v.VERDICTS)[data["verdict"].to_numpy()], result.verdicts)
         assert data["collapse_time_s"].attrs["units"] == "s"
     lines = (tmp_path / "domain.csv").read_text().splitlines()

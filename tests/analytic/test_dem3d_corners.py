@@ -44,11 +44,11 @@ def blocks(column, motion, model=None, every=1, start=None):
 
 def path(column, motion, model=None, **options):
     """Places of all centroids over time, shape (T, n, 3)."""
-    found = [
+    places = [
         np.stack([block.records.body[c][1:, 0] for c in "xyz"], axis=-1).copy()
         for block in blocks(column, motion, model, **options)
     ]
-    return np.array(found)
+    return np.array(places)
 
 
 def both_ways(a, b, f=1.0, second=1.3, duration=1.0, dt=1e-3):
@@ -136,23 +136,23 @@ def sliding(ax, ay, duration, dt=1e-3):
     column = Column.of_drums([Drum(0.2, 2.0, 2.0, 2000.0, depth=2.0)], Joint(5e9, 2.5e9, friction_coefficient=0.3))
     t = np.arange(round(duration / dt) + 1) * dt
     model = DistinctElement3D(stiffness_damping=1e-4)
-    found = [
+    slips = [
         (block.time(0), *block.records.joints(0)[1][0]) for block in blocks(column, Motion(dt, ax(t), ay=ay(t)), model)
     ]
-    return np.array(found)
+    return np.array(slips)
 
 
 def test_friction_is_a_cone():
     """Closed forms: a constant push along the diagonal, and two pulses a quarter of a period apart."""
     push = lambda t: np.where(t < 0.2 + 1e-9, -0.6 * g / math.sqrt(2.0), 0.0)  # noqa: E731
-    found = sliding(push, push, 0.6)
+    slips = sliding(push, push, 0.6)
     # the record falls to zero over one sample: half of it belongs to the push
-    length, last = 0.6 * g * 0.2005**2 / 2.0 * (0.6 / 0.3 - 1.0), found[-1, 1:]
+    length, last = 0.6 * g * 0.2005**2 / 2.0 * (0.6 / 0.3 - 1.0), slips[-1, 1:]
     assert np.hypot(*last) == pytest.approx(length, rel=3e-3)
     assert last[0] == pytest.approx(last[1], rel=1e-6)
     wave = lambda t: np.where((t >= 0) & (t <= 1.0), 0.8 * g * np.sin(2.0 * np.pi * t), 0.0)  # noqa: E731
-    found = sliding(wave, lambda t: wave(t - 0.25), 1.8)
-    assert found[-1, 1:] == pytest.approx([0.0719977, -0.3834036], abs=2e-3)
+    slips = sliding(wave, lambda t: wave(t - 0.25), 1.8)
+    assert slips[-1, 1:] == pytest.approx([0.0719977, -0.3834036], abs=2e-3)
 
 
 def free(column, omega, duration, step):
@@ -204,10 +204,10 @@ def test_free_rotation_of_a_slab_about_its_middle_axis():
     omega[order] = (-0.01, 3.0, 0.01)  # y, x and z are left-handed
     errors = []
     for step in (1e-3, 5e-4):
-        _, axes, kinetic, found = free(column, omega, 10.0, step)
+        _, axes, kinetic, inertia = free(column, omega, 10.0, step)
         errors.append(np.abs(kinetic / kinetic[0] - 1.0).max())
     momentum = np.array([moments[c] * omega[c] for c in range(3)])
-    end = (momentum @ axes[-1] / found)[order]
+    end = (momentum @ axes[-1] / inertia)[order]
     assert np.abs(end) == pytest.approx([0.1141247, 2.9959416, 0.1261485], abs=2e-5)
     assert errors[0] < 1e-6
     assert 3.0 < errors[0] / errors[1] < 5.0
@@ -272,8 +272,8 @@ def test_release_about_a_corner_and_about_an_edge():
                 )
             )
         i = int(np.argmax(np.array(leans) < 0.0))
-        found = times[i - 1] + (times[i] - times[i - 1]) * leans[i - 1] / (leans[i - 1] - leans[i])
-        assert found == pytest.approx(exact, rel=1e-3)
+        crossing = times[i - 1] + (times[i] - times[i - 1]) * leans[i - 1] / (leans[i - 1] - leans[i])
+        assert crossing == pytest.approx(exact, rel=1e-3)
 
 
 def test_barrier_of_turned_and_offset_faces():
@@ -311,10 +311,10 @@ def test_how_much_of_the_overlap_of_turned_faces_is_missing(sides, twist, missin
     c, s = math.cos(math.radians(twist)), math.sin(math.radians(twist))
     corners = half * np.array([(1, -1), (1, 1), (-1, 1), (-1, -1)])
     turned = corners @ np.array([(c, s), (-s, c)])
-    held = np.clip(turned, -half, half)
+    overlap = np.clip(turned, -half, half)
     angles = np.radians(np.arange(0.0, 180.0, 0.05))
     ways = np.stack((np.cos(angles), np.sin(angles)), axis=1)
-    four = np.array([reach(held, way) for way in ways])
+    four = np.array([reach(overlap, way) for way in ways])
     true = np.array([min(reach(corners, way), reach(turned, way)) for way in ways])
     assert (four < true * (1.0 + 1e-12)).all()
     worst = int(np.argmin(four / true))
@@ -327,7 +327,7 @@ def test_how_much_of_the_overlap_of_turned_faces_is_missing(sides, twist, missin
     column = column.replace(as_found=AsFound((FoundDrum(2, turn=twist),)))
     # the upper drum alone, 0.75 m to its middle
     rise = np.concatenate((np.linspace(0.0, 1.0, 100), np.ones(20))) * -g * four[worst] / 0.75
-    motions = [Motion(0.01, *(share * rise * one for one in ways[worst])) for share in (0.97, 1.03)]
+    motions = [Motion(0.01, *(share * rise * component for component in ways[worst])) for share in (0.97, 1.03)]
     below, above = simulate_many([column] * 2, motions, DistinctElement3D())["peak_joint_opening_m"]
     assert above > 1e-5 > 10.0 * below
 

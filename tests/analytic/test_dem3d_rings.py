@@ -46,7 +46,10 @@ def test_two_rings_against_quadrature_over_the_plane():
         upper, lower = np.hypot(x - along, y - across), np.hypot(x, y)
         depth = np.maximum(d + gx * x + gy * y, 0.0)
         there = (upper < ra) & (lower < rl) & (upper > ia) & (lower > il) & (depth > 0.0)
-        exact = [cell * float(one[there].sum()) for one in (np.ones_like(x), depth, depth * x, depth * y, depth**2)]
+        exact = [
+            cell * float(integrand[there].sum())
+            for integrand in (np.ones_like(x), depth, depth * x, depth * y, depth**2)
+        ]
         area, n, mx, my, _, square, *_ = settle_ring(d, gx, gy, along, across, ra, rl, ia, il)
         size = (exact[0], exact[1], exact[1] * ra, exact[1] * ra, exact[4])
         assert np.abs(np.subtract((area, n, mx, my, square), exact) / size).max() < 0.012
@@ -79,8 +82,8 @@ def threshold(column, inner):
     drum = column.drums[0]
     b, weight = drum.centroid_height, column.mass * column.gravity
     slopes = np.geomspace(1e-4, 2e-2, 400)
-    held = [lever(5e10, 0.48, weight, s, inner) for s in slopes]
-    reach = [(arm - b * s) / (b - depth) for s, (arm, depth) in zip(slopes, held, strict=True)]
+    levers = [lever(5e10, 0.48, weight, s, inner) for s in slopes]
+    reach = [(arm - b * s) / (b - depth) for s, (arm, depth) in zip(slopes, levers, strict=True)]
     return max(reach), slopes[int(np.argmax(reach))]
 
 
@@ -180,8 +183,8 @@ def test_no_step_adds_to_rolling(spin):
     block = engine_for(model, column).block(RunOptions(start=start, until_end=True))
     block.load(0, Case(column, Motion(0.5, np.zeros(2))))
     block.advance(1)
-    found = sum(block.records.body[f"w{c}"][1, 0] * block.records.body[f"k{c}"][1, 0] for c in "xyz")
-    assert abs(found) < 0.5 * spin
+    axial_spin = sum(block.records.body[f"w{c}"][1, 0] * block.records.body[f"k{c}"][1, 0] for c in "xyz")
+    assert abs(axial_spin) < 0.5 * spin
 
 
 def test_rocking_in_a_plane_does_not_roll():

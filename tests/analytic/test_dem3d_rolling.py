@@ -32,8 +32,8 @@ def time_to_upright(column, tilt, azimuth, law="rim"):
 def test_time_from_release_to_upright(column, quarters):
     """θ̈ = −p² sin(α − θ), integrated to 1e-8 s; the joint's flexibility adds up to 1.5e-4 of it for the smallest tilt."""
     for share, exact in quarters.items():
-        found = time_to_upright(column, share * column.slenderness, 0.6)
-        assert found == pytest.approx(exact, rel=1.5e-4)
+        duration = time_to_upright(column, share * column.slenderness, 0.6)
+        assert duration == pytest.approx(exact, rel=1.5e-4)
 
 
 def test_a_stiffer_joint_comes_nearer_to_the_rigid_quarter_period():
@@ -97,9 +97,9 @@ def test_steady_rolling(name, tilt, precession, spin):
 @pytest.mark.parametrize(("name", "tilt", "precession", "spin"), STEADY)
 def test_steady_rolling_is_one_of_the_rigid_body(name, tilt, precession, spin):
     """The numbers of the table keep their lean in the rigid body's equations of motion."""
-    found = rolling(body(name), tilt, precession, spin, 1.0).sol(np.linspace(0.0, 1.0, 11))
-    np.testing.assert_allclose(found[0], tilt, rtol=0, atol=2e-6)
-    np.testing.assert_allclose(found[1], precession * np.linspace(0.0, 1.0, 11), rtol=0, atol=1e-4)
+    states = rolling(body(name), tilt, precession, spin, 1.0).sol(np.linspace(0.0, 1.0, 11))
+    np.testing.assert_allclose(states[0], tilt, rtol=0, atol=2e-6)
+    np.testing.assert_allclose(states[1], precession * np.linspace(0.0, 1.0, 11), rtol=0, atol=1e-4)
 
 
 def test_rigid_rolling_meets_the_independent_solution():
@@ -133,11 +133,11 @@ def test_released_almost_in_a_plane_a_round_column_rolls_round_its_rim(precessio
     """No impact: it comes back to the same tilt past the other side; towards 3.193840 rad as the lateral rate goes to 0."""
     times, axes = released(round_column(stiffness=5e12), wobble(0.1, precession), 1.6, pivot_friction=0.0)
     lean = np.hypot(axes[:, 0, 2], axes[:, 1, 2])
-    found = np.unwrap(np.arctan2(axes[:, 1, 2], axes[:, 0, 2]))
+    lean_azimuths = np.unwrap(np.arctan2(axes[:, 1, 2], axes[:, 0, 2]))
     i = int(np.argmax(np.where(times > 1.0, lean, 0.0)))
     near = slice(i - 40, i + 41)
     peak = np.polyfit(times[near] - time, lean[near], 2)
     when = time - peak[1] / (2.0 * peak[0])
     assert when == pytest.approx(time, abs=5e-4)
-    assert np.interp(when, times, found) == pytest.approx(azimuth, abs=1e-3)
+    assert np.interp(when, times, lean_azimuths) == pytest.approx(azimuth, abs=1e-3)
     assert lean[i] == pytest.approx(math.sin(0.1), rel=1e-4)

@@ -82,9 +82,9 @@ def test_soft_joints_overturn_with_less_energy_in_the_plane_too(points, stiffnes
 def test_a_drum_on_another_one_has_a_margin_to_walk():
     """Wobbling it walks at no cost, and comes nearer to its edge: the barrier of joints between drums is of a narrower
     support, in space; a column of one drum has its whole support."""
-    one, two = round_column(1), round_column(2)
+    monolith, two = round_column(1), round_column(2)
     still = np.zeros((2, 2))
-    assert flat_barrier(one, still[:1], walks=True) == flat_barrier(one, still[:1])
+    assert flat_barrier(monolith, still[:1], walks=True) == flat_barrier(monolith, still[:1])
     # on a foot so wide that the upper joint governs
     wide = two.replace(drums=(dataclasses.replace(two.drums[0], bottom_width=3.0), two.drums[1]))
     mass, half = wide.drums[1].mass, 0.5 * wide.drums[1].bottom_width
@@ -182,9 +182,9 @@ def test_twists_count_full_turns():
 
 def test_a_found_lean_is_not_a_rotation_of_the_run():
     lean = AsFound((FoundDrum(2, tilt=1.5, tilt_azimuth=30.0),))
-    found = simulate(round_column(3).replace(as_found=lean), Motion(0.1, np.zeros(3)), DistinctElement3D())
-    assert found.peak_rotation < 1e-6
-    assert found.measures.space.peak_tilt == pytest.approx(math.radians(1.5), rel=1e-2)
+    response = simulate(round_column(3).replace(as_found=lean), Motion(0.1, np.zeros(3)), DistinctElement3D())
+    assert response.peak_rotation < 1e-6
+    assert response.measures.space.peak_tilt == pytest.approx(math.radians(1.5), rel=1e-2)
 
 
 @pytest.mark.parametrize("drums", [1, 3])

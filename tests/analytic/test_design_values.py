@@ -24,21 +24,22 @@ DOWELLED = BARE.replace(links=(DOWEL,), name="dowelled")
 
 
 @pytest.fixture(scope="module")
-def found():
+def comparison():
     motions = [st.ricker(frequency, st.g) for frequency in (0.3, 0.4, 0.5)]
     states = {"as built": BARE, "dowelled": DOWELLED}
     return st.compare_states(states, motions, st.DistinctElement2D(), [0.2, 0.3], samples=200, threads=1)
 
 
-def test_a_dowel_bears_the_push_that_friction_leaves(found):
+def test_a_dowel_bears_the_push_that_friction_leaves(comparison):
     """V = m (a − μ g), slip V/k, of slow pulses on a dowel of 32 Hz: inertia adds below 0.1 %, and 1 % is left for what the
     joint's stiffness rings with as it begins to slip."""
-    values = st.design_values(found)
+    values = st.design_values(comparison)
     assert set(values["state"]) == {"dowelled"}
     weight = BARE.mass * st.g
     for level in (0.2, 0.3):
         force, slip = (
-            values[(values["level"] == level) & (values["quantity"] == one)].iloc[0] for one in ("shear force", "slip")
+            values[(values["level"] == level) & (values["quantity"] == quantity)].iloc[0]
+            for quantity in ("shear force", "slip")
         )
         expected = (level - 0.1) * weight
         assert force["value_84"] == pytest.approx(expected, rel=0.01)
@@ -49,26 +50,26 @@ def test_a_dowel_bears_the_push_that_friction_leaves(found):
         assert (force["high_84"], slip["high_84"]) == (1e4, math.inf)
 
 
-def test_the_stone_limits_a_dowel_that_bears_more(found):
+def test_the_stone_limits_a_dowel_that_bears_more(comparison):
     """A dowel of 60 mm near the edge: what EN 1992-4 leaves the stone is its capacity, and a slip has that of the dowel."""
     size = {"diameter": 0.06, "embedment": 0.2, "material": "titanium"}
     near = BARE.replace(links=(st.Dowel(joint=1, at=(0.4, 0.0), **size),), name="dowelled")
     (link,) = near.placed_links
     assert link.stone.shear == link.shear_capacity < link.alone.shear_capacity
-    values = values_of_runs({"dowelled": near}, found.table[found.table["state"] == "dowelled"])
-    forces, slips = (values[values["quantity"] == one] for one in ("shear force", "slip"))
+    values = values_of_runs({"dowelled": near}, comparison.table[comparison.table["state"] == "dowelled"])
+    forces, slips = (values[values["quantity"] == quantity] for quantity in ("shear force", "slip"))
     assert set(forces["limited_by"]) == {"stone"}
     assert set(slips["limited_by"]) == {"link"}
     assert forces["use_value_84"].tolist() == (forces["value_84"] / link.stone.shear).tolist()
     assert slips["capacity"].tolist() == [link.ultimate_slip] * len(slips)
 
 
-def test_what_collapses_is_lost_or_undecided_exceeds_every_slip(found):
+def test_what_collapses_is_lost_or_undecided_exceeds_every_slip(comparison):
     """Of three runs of 0.3 g one collapses, one is undecided: by the rules, with the peaks as they are."""
-    table = found.table.copy()
+    table = comparison.table.copy()
     mine = table.index[(table["state"] == "dowelled") & (table["im"] == 0.3)]
     table.loc[mine[1], "verdict"], table.loc[mine[2], "verdict"] = "collapsed", "undecided"
-    values = st.design_values(dataclasses.replace(found, table=table))
+    values = st.design_values(dataclasses.replace(comparison, table=table))
     force, slip = (
         values[(values["level"] == 0.3) & (values["quantity"] == q)].iloc[0] for q in ("shear force", "slip")
     )
@@ -79,7 +80,7 @@ def test_what_collapses_is_lost_or_undecided_exceeds_every_slip(found):
     assert force["value_84"] == 1e4
     assert force["use_value_84"] == 1.0
     table.loc[mine, "verdict"] = "failed"
-    assert set(st.design_values(dataclasses.replace(found, table=table))["level"]) == {0.2}
+    assert set(st.design_values(dataclasses.replace(comparison, table=table))["level"]) == {0.2}
 
 
 @pytest.mark.parametrize("number", [20, 21, 72, 73])
@@ -91,9 +92,9 @@ def test_fractile_and_interval_by_counting(number):
         value, low, high = fractile(x, x, np.arange(number), share)
         assert value == np.quantile(x, share, method="inverted_cdf")
         counts = np.arange(1, number + 1)  # of the records up to a value, which is the value itself
-        held, above = (counts / number - share) ** 2 <= z2 * share * (1.0 - share) / number, counts / number > share
-        assert low == counts[held | above][0]
-        assert high == min(counts[~held & above], default=math.inf)
+        inside, above = (counts / number - share) ** 2 <= z2 * share * (1.0 - share) / number, counts / number > share
+        assert low == counts[inside | above][0]
+        assert high == min(counts[~inside & above], default=math.inf)
     assert math.isfinite(fractile(x, x, np.arange(number), 0.84)[2]) == (number >= 21)
     assert math.isfinite(fractile(x, x, np.arange(number), 0.95)[2]) == (number >= 73)
 
@@ -105,21 +106,23 @@ def test_twins_of_a_record_count_as_one():
     assert fractile(x[owner], x[owner], owner, 0.84) == fractile(x, x, np.arange(30), 0.84)
 
 
-def test_values_are_told_at_the_highest_level_at_which_few_collapse(found):
+def test_values_are_told_at_the_highest_level_at_which_few_collapse(comparison):
     """All three runs of 0.3 g collapse: 0.2 g is told, unless another level is asked for. Links alike keep their order."""
-    table = found.table.copy()
+    table = comparison.table.copy()
     table.loc[(table["state"] == "dowelled") & (table["im"] == 0.3), "verdict"] = "collapsed"
-    fallen = dataclasses.replace(found, table=table)
-    for level, told in ((None, 0.2), (0.3, 0.3)):
+    fallen = dataclasses.replace(comparison, table=table)
+    for level, expected in ((None, 0.2), (0.3, 0.3)):
         values = st.design_values(fallen, level=level)
         assert set(values["level"]) == {0.2, 0.3}  # every one is in the table
         worst = worst_of(values)
-        assert set(worst["level"]) == {told}
-        assert np.isfinite(worst["value_84"]).all() == (told == 0.2)
-        assert np.isfinite(values.loc[values["told"] & (values["unit"] == "N"), "instant_84_s"]).all() == (told == 0.2)
-    assert set(worst_of(st.design_values(found))["level"]) == {0.3}
+        assert set(worst["level"]) == {expected}
+        assert np.isfinite(worst["value_84"]).all() == (expected == 0.2)
+        assert np.isfinite(values.loc[values["told"] & (values["unit"] == "N"), "instant_84_s"]).all() == (
+            expected == 0.2
+        )
+    assert set(worst_of(st.design_values(comparison))["level"]) == {0.3}
     with pytest.raises(st.InputError, match=r"is 0\.4; allowed is one that was run: 0\.2, 0\.3"):
-        st.design_values(found, level=0.4)
+        st.design_values(comparison, level=0.4)
     names = [f"dowel in joint {k}" for k in range(1, 12)]
     alike = pandas.concat([values[values["unit"] == "N"].assign(link=name, use_value_84=1.0) for name in names])
     assert list(dict.fromkeys(worst_of(alike)["link"])) == names
@@ -131,18 +134,18 @@ def test_values_are_told_at_the_highest_level_at_which_few_collapse(found):
 
 
 def test_the_command_prints_writes_and_reports_them(tmp_path, capsys):
-    bare, dowelled = (write_column(one, tmp_path / f"{one.name}.toml") for one in (BARE, DOWELLED))
+    bare, dowelled = (write_column(column, tmp_path / f"{column.name}.toml") for column in (BARE, DOWELLED))
     out = tmp_path / "out"
-    asked = ["states", "--as-built", str(bare), "--with", str(dowelled), "--pulse", "ricker,0.4Hz,0.2g"]
-    assert call([*asked, "--out", str(out)]) == 0
-    said = capsys.readouterr().out
-    assert "Design values: not exceeded under 84 %" in said
-    assert "the law of the joints is taken as known" in said
-    assert "shear force" in said
+    command = ["states", "--as-built", str(bare), "--with", str(dowelled), "--pulse", "ricker,0.4Hz,0.2g"]
+    assert call([*command, "--out", str(out)]) == 0
+    output = capsys.readouterr().out
+    assert "Design values: not exceeded under 84 %" in output
+    assert "the law of the joints is taken as known" in output
+    assert "shear force" in output
     table = pandas.read_csv(out / "design.csv")
-    told = json.loads((out / "states.json").read_text())["design_values"]
-    assert [one["quantity"] for one in told] == table["quantity"].tolist() == ["shear force", "slip"]
-    assert told[1]["high_84"] is None  # beyond all that was computed
+    rows = json.loads((out / "states.json").read_text())["design_values"]
+    assert [row["quantity"] for row in rows] == table["quantity"].tolist() == ["shear force", "slip"]
+    assert rows[1]["high_84"] is None  # beyond all that was computed
     assert worst_of(table)["quantity"].tolist() == ["shear force", "slip"]
     assert (out / "design.png").is_file()
     project, page = tmp_path / "project.toml", tmp_path / "page.html"
@@ -165,35 +168,35 @@ def test_a_report_tells_how_the_motions_of_design_values_were_scaled(tmp_path):
         "as they are": ["suite", str(dowelled), str(tmp_path / "recs")],
         "models": ["compare", str(dowelled), "--models", "dem2d", "--pulse", "ricker,0.4Hz,0.2g"],
     }
-    for name, asked in commands.items():
-        assert call([*asked, "--out", str(tmp_path / name)]) == 0
-    asked = [str(tmp_path / name) for name in commands]
-    assert call(["report", *asked, "--project", str(project), "--out", str(page)]) == 0
+    for name, arguments in commands.items():
+        assert call([*arguments, "--out", str(tmp_path / name)]) == 0
+    arguments = [str(tmp_path / name) for name in commands]
+    assert call(["report", *arguments, "--project", str(project), "--out", str(page)]) == 0
     front = page.read_text().split("Sources of the results", 1)[0].split("Design values that govern", 1)[1]
     front = front.replace("\N{NO-BREAK SPACE}", " ")
-    told = [re.findall(rf'data-name="{name}">([^<]*)<', front) for name in ("case", "state", "level", "quantity")]
+    cells = [re.findall(rf'data-name="{name}">([^<]*)<', front) for name in ("case", "state", "level", "quantity")]
     quantities = ("shear force", "slip")
-    assert list(zip(*told, strict=True)) == [
-        *(("1", "dowelled", "pga 0.3 g", one) for one in quantities),
-        *(("2", "dowelled", "× 1", one) for one in quantities),
-        *(("3", "dem2d", "pga 0.2 g", one) for one in quantities),
+    assert list(zip(*cells, strict=True)) == [
+        *(("1", "dowelled", "pga 0.3 g", quantity) for quantity in quantities),
+        *(("2", "dowelled", "× 1", quantity) for quantity in quantities),
+        *(("3", "dem2d", "pga 0.2 g", quantity) for quantity in quantities),
     ]
 
 
 def test_a_layer_with_a_spring_needs_the_clearance_of_its_slip():
     layer = st.Layer(joint=1, friction_coefficient=0.08, shear_stiffness=1e5)
     states = {"as built": BARE, "layer": BARE.replace(links=(layer,), name="layer")}
-    found = st.compare_states(
+    comparison = st.compare_states(
         states, [st.ricker(0.5, st.g)], st.DistinctElement2D(), [0.2, 0.3], samples=200, threads=1
     )
-    (told,) = clearances(st.design_values(found)).to_dict("records")
-    table = found.table[(found.table["state"] == "layer") & (found.table["im"] == 0.3)]
-    assert told["value_84"] == table["link_peak_slip_m"].iloc[0][0] > 0.01
-    assert worst_of(st.design_values(found)).empty  # it has no capacity to be used
+    (clearance,) = clearances(st.design_values(comparison)).to_dict("records")
+    table = comparison.table[(comparison.table["state"] == "layer") & (comparison.table["im"] == 0.3)]
+    assert clearance["value_84"] == table["link_peak_slip_m"].iloc[0][0] > 0.01
+    assert worst_of(st.design_values(comparison)).empty  # it has no capacity to be used
 
 
 def test_what_is_no_comparison_of_states_is_refused():
-    with pytest.raises(st.InputError, match="found"):
+    with pytest.raises(st.InputError, match="comparison"):
         st.design_values(BARE)  # pyright: ignore[reportArgumentType]
 
 
@@ -237,8 +240,8 @@ def test_limits_over_records_and_laws_add_by_their_squares_and_one_law_tells_not
     by_law = math.log(q) + middle + far - math.log(known["value_84"])
     expected = math.hypot(by_law, math.log(known["high_84"] / known["value_84"]))
     assert math.log(both["high_84"] / both["value_84"]) == pytest.approx(expected, rel=1e-4)
-    one = values_of_runs({"dowelled": DOWELLED}, runs_of(x, np.ones(60), np.arange(60))).iloc[1]
-    assert (one["low_84"], one["high_84"]) == (0.0, math.inf)
+    single_law = values_of_runs({"dowelled": DOWELLED}, runs_of(x, np.ones(60), np.arange(60))).iloc[1]
+    assert (single_law["low_84"], single_law["high_84"]) == (0.0, math.inf)
 
 
 @pytest.mark.parametrize("azimuth", [30.0, 200.0])
@@ -249,8 +252,8 @@ def test_the_peak_of_a_dowel_acts_with_the_ground_at_its_largest_acceleration(az
     pulse, way = st.ricker(0.4, 0.3 * st.g), math.radians(azimuth)
     shaken = st.Motion(pulse.dt, math.cos(way) * pulse.acceleration, math.sin(way) * pulse.acceleration, name="pulse")
     strong = BARE.replace(links=(dataclasses.replace(DOWEL, shear_capacity=1e5),), name="strong")
-    told = st.suite_table([strong, BARE], [shaken.scaled(0.9), shaken], st.DistinctElement3D(), threads=1)
-    force, slip = told.attrs["design_values"]
+    table = st.suite_table([strong, BARE], [shaken.scaled(0.9), shaken], st.DistinctElement3D(), threads=1)
+    force, slip = table.attrs["design_values"]
     assert force["azimuth_84_deg"] == pytest.approx(azimuth, abs=0.01)
     middle = int(np.argmax(pulse.acceleration)) * pulse.dt
     assert force["instant_84_s"] == pytest.approx(middle, abs=0.05)
@@ -258,30 +261,30 @@ def test_the_peak_of_a_dowel_acts_with_the_ground_at_its_largest_acceleration(az
     assert math.isnan(slip["instant_84_s"])
 
 
-def test_only_a_run_that_stands_or_is_open_tells_an_instant(found):
+def test_only_a_run_that_stands_or_is_open_tells_an_instant(comparison):
     """In the plane the dowel pulls towards x, 0°; where the value is that of a collapse, nothing is told."""
-    values = st.design_values(found)
+    values = st.design_values(comparison)
     forces = values[values["quantity"] == "shear force"].set_index("level")
     assert forces.loc[0.3, "azimuth_84_deg"] == 0.0
-    assert forces.loc[0.3, "record_84"] in set(found.table["record"])
+    assert forces.loc[0.3, "record_84"] in set(comparison.table["record"])
     assert math.isnan(forces.loc[0.2, "instant_84_s"])  # only at the largest level
-    fell = dataclasses.replace(found, table=found.table.assign(verdict="collapsed"))
+    fell = dataclasses.replace(comparison, table=comparison.table.assign(verdict="collapsed"))
     assert set(st.design_values(fell)["record_84"]) == {None}
     assert st.design_values(fell)["instant_84_s"].isna().all()
-    assert st.design_values(found, instants=False)["instant_84_s"].isna().all()
+    assert st.design_values(comparison, instants=False)["instant_84_s"].isna().all()
 
 
 def test_the_instant_of_a_peak_between_recorded_states_is_that_of_the_peak():
     """Recorded shear 1, 3, 2, 2 N, of which 5 N were reached between the third and the fourth state: not at the second."""
     rows = {"shear": [1, 3, 2, 2], "tension": [0] * 4, "slip": [0] * 4, "elongation": [0] * 4}
     rows |= {"angle": [0.0, 0.1, 0.2, 0.3], "peak": [1, 3, 3, 5], "pull": [0] * 4}
-    states = [{"links": np.array(one, dtype=float)[:, None]} for one in zip(*rows.values(), strict=True)]
-    held = link_histories(states)
-    assert held is not None
-    assert held.reached is not None
-    assert held.reached.tolist() == [[3], [0]]
-    assert held.angle is not None
-    assert held.angle[:, 0].tolist() == rows["angle"]
+    states = [{"links": np.array(instant, dtype=float)[:, None]} for instant in zip(*rows.values(), strict=True)]
+    histories = link_histories(states)
+    assert histories is not None
+    assert histories.reached is not None
+    assert histories.reached.tolist() == [[3], [0]]
+    assert histories.angle is not None
+    assert histories.angle[:, 0].tolist() == rows["angle"]
 
 
 def test_a_limit_a_thousand_times_off_is_none():
@@ -291,15 +294,15 @@ def test_a_limit_a_thousand_times_off_is_none():
     assert (slip["value_95"], slip["low_95"], slip["high_95"]) == (2.0 / 1e8, 0.0, math.inf)
 
 
-def test_a_suite_and_models_tell_the_same_values_as_states(tmp_path, capsys, found):
+def test_a_suite_and_models_tell_the_same_values_as_states(tmp_path, capsys, comparison):
     """The same runs through three verbs, bit for bit; one motion leaves the upper limit at the capacity."""
     motions = [st.ricker(frequency, st.g).scaled(0.3) for frequency in (0.3, 0.4, 0.5)]
     model = st.DistinctElement2D()
-    told = st.suite_table([BARE, DOWELLED], motions, model, threads=1).attrs["design_values"]
-    expected = st.design_values(found)
+    rows = st.suite_table([BARE, DOWELLED], motions, model, threads=1).attrs["design_values"]
+    expected = st.design_values(comparison)
     expected = expected[expected["level"] == 0.3]
-    assert [one["value_84"] for one in told] == expected["value_84"].tolist()
-    assert [one["high_84"] for one in told] == expected["high_84"].tolist()
+    assert [row["value_84"] for row in rows] == expected["value_84"].tolist()
+    assert [row["high_84"] for row in rows] == expected["high_84"].tolist()
     models = [model, st.DistinctElement2D(points=3)]
     side = st.design_values(st.compare_models(DOWELLED, motions[0], models, labels=["a", "b"]))
     assert side["state"].tolist() == ["a", "a", "b", "b"]
@@ -325,12 +328,12 @@ def test_the_moat_of_an_isolated_column_in_a_suite_is_its_largest_slip(tmp_path,
     out, page = tmp_path / "out", tmp_path / "page.html"
     assert call([*line, "--out", str(out)]) == 0
     assert "Clearance that layers need [m]: not exceeded" in capsys.readouterr().out
-    (told,) = clearances(pandas.DataFrame(json.loads((out / "suite.json").read_text())["design_values"])).to_dict(
+    (clearance,) = clearances(pandas.DataFrame(json.loads((out / "suite.json").read_text())["design_values"])).to_dict(
         "records"
     )
-    assert (told["runs"], told["records"], told["laws"]) == (4, 1, 0)
+    assert (clearance["runs"], clearance["records"], clearance["laws"]) == (4, 1, 0)
     own = json.loads((out / "suite.json").read_text())["runs"][0]["link_peak_slip_m"][0]
-    assert told["low_84"] <= own <= told["value_84"]
+    assert clearance["low_84"] <= own <= clearance["value_84"]
     assert call(["report", str(out), "--out", str(page)]) == 0
     assert "Clearance that layers need around the foot" in page.read_text()
 
@@ -345,7 +348,7 @@ def test_the_moat_of_an_isolator_is_twice_its_static_slip_under_a_sudden_push():
     layer = st.Layer(joint=1, friction_coefficient=friction, shear_stiffness=stiffness)
     isolated = BARE.replace(links=(layer,), name="isolated")
     motion = st.Motion(0.01, np.full(400, push), name="step")
-    told = st.suite_table([isolated], [motion], st.DistinctElement2D(), threads=1).attrs["design_values"]
-    (moat,) = clearances(pandas.DataFrame(told)).to_dict("records")
+    rows = st.suite_table([isolated], [motion], st.DistinctElement2D(), threads=1).attrs["design_values"]
+    (moat,) = clearances(pandas.DataFrame(rows)).to_dict("records")
     assert moat["value_84"] == pytest.approx(2.0 * (push - friction * st.g) * BARE.mass / stiffness, rel=1e-3)
     assert moat["high_84"] == math.inf  # one record

@@ -10,21 +10,21 @@ from stylobate_studies.experiments import distributions as d
 
 def test_the_difference_of_shares_has_the_limits_that_newcombe_prints():
     """Newcombe 1998, Statistics in Medicine 17, 873–890, table II, case (a): 56 of 70 and 48 of 80, 0.0524 to 0.3339."""
-    one, other = (np.repeat([1.0, 0.0], (k, n - k)) for k, n in ((48, 80), (56, 70)))
-    found = d.share_difference(one, other[:, None])
-    assert found == pytest.approx((0.2, 0.0524, 0.3339), abs=5e-5)
+    first, other = (np.repeat([1.0, 0.0], (k, n - k)) for k, n in ((48, 80), (56, 70)))
+    difference = d.share_difference(first, other[:, None])
+    assert difference == pytest.approx((0.2, 0.0524, 0.3339), abs=5e-5)
 
 
 def test_shares_of_tests_that_all_stand_leave_open_what_their_number_does():
     """Wilson's limit of none of n is z²/(n + z²)."""
-    found = d.share_difference(np.zeros(6), np.zeros((6, 4)))
-    assert (found.high, found.low) == pytest.approx((3.8415 / 9.8415, -3.8415 / 9.8415), abs=1e-4)
+    difference = d.share_difference(np.zeros(6), np.zeros((6, 4)))
+    assert (difference.high, difference.low) == pytest.approx((3.8415 / 9.8415, -3.8415 / 9.8415), abs=1e-4)
 
 
 def test_distance_of_two_distributions_by_hand():
     """Of 1, 2, 3, 4 and 3, 4, 5, 6 it is a half; the interval is as wide as Massart says."""
-    found = d.distance(np.arange(1.0, 5.0), np.arange(3.0, 7.0)[:, None])
-    assert found.value == 0.5
+    distance = d.distance(np.arange(1.0, 5.0), np.arange(3.0, 7.0)[:, None])
+    assert distance.value == 0.5
     assert d.distance(np.arange(400.0), np.arange(200.0, 600.0)[:, None]).low == pytest.approx(
         0.5 - 2.0 * math.sqrt(math.log(80.0) / 800.0)
     )
@@ -33,13 +33,13 @@ def test_distance_of_two_distributions_by_hand():
 def test_what_falls_exceeds_every_size():
     assert d.median(np.array([1.0, np.inf, np.inf])) == np.inf
     assert math.isnan(d.median_ratio(np.full(12, np.inf), np.full((12, 2), np.inf)).value)
-    found = d.compared("median", np.full(12, np.inf), np.full((12, 2), np.inf), np.full((12, 2), np.inf))
-    assert d.verdict("median", found, 2.0) == "open"
+    difference = d.compared("median", np.full(12, np.inf), np.full((12, 2), np.inf), np.full((12, 2), np.inf))
+    assert d.verdict("median", difference, 2.0) == "open"
 
 
 def test_a_few_tests_say_nothing_of_medians():
-    found = d.median_ratio(np.ones(9), np.ones((9, 1)))
-    assert (found.value, found.low, found.high) == (1.0, 0.0, math.inf)
+    ratio = d.median_ratio(np.ones(9), np.ones((9, 1)))
+    assert (ratio.value, ratio.low, ratio.high) == (1.0, 0.0, math.inf)
 
 
 @pytest.mark.processor
@@ -54,11 +54,11 @@ def test_what_is_alike_is_never_far_apart_and_what_is_not_is_found(score):
     def drawn(shape, size):
         return rng.uniform(size=shape) < 0.25 * size if score == "share" else size * rng.lognormal(0.0, 0.5, shape)
 
-    said = {1.0: [], 2.0: []}
-    for size in said:
+    verdicts = {1.0: [], 2.0: []}
+    for size in verdicts:
         for _ in range(200 if size == 1.0 else 40):
             low = drawn((60, 5), size).astype(float)
-            found = d.compared(score, drawn(60, 1.0).astype(float), low, low)
-            said[size].append(d.verdict(score, found, tolerance))
-    assert said[1.0].count("outside") <= 13
-    assert said[2.0].count("outside") >= 15
+            comparison = d.compared(score, drawn(60, 1.0).astype(float), low, low)
+            verdicts[size].append(d.verdict(score, comparison, tolerance))
+    assert verdicts[1.0].count("outside") <= 13
+    assert verdicts[2.0].count("outside") >= 15

@@ -66,10 +66,10 @@ def test_worn_edges_are_those_that_a_ball_rolls_over_from_within():
     """A box of half widths a opened by r reaches Σ (aᵢ − r) |uᵢ| + r in direction u."""
     half, r = np.array([0.3, 0.25, 0.4]), 0.06
     box = Scan("box", MASS, INERTIA, half * [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-    found = footprint.worn(box, r).vertices
+    vertices = footprint.worn(box, r).vertices
     along = footprint.downwards(np.linspace(0.1, 20.0, 30), 36)
     exact = np.abs(along) @ (half - r) + r
-    reach = footprint.support(found, along)
+    reach = footprint.support(vertices, along)
     assert (reach <= exact + 1e-8).all()
     assert (reach >= exact - 3e-3 * r).all()  # a chord of 7.5° lies 2.1e-3 r within its arc
     assert face(footprint.worn(box, r)) == pytest.approx(4.0 * (half[0] - r) * (half[1] - r), rel=0.01)

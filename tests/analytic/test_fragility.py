@@ -29,7 +29,7 @@ def stripes(rng, records=20, between=0.4, within=0.2, levels=LEVELS):
 
 def with_codes(e, codes):
     return Evidence(
-        e.records, e.im, codes, *(getattr(e, one) for one in ("measure", "unit", "state", "name", "brackets"))
+        e.records, e.im, codes, *(getattr(e, field) for field in ("measure", "unit", "state", "name", "brackets"))
     )
 
 
@@ -51,9 +51,9 @@ def test_maximum_likelihood_is_that_of_a_general_search():
             return -np.log(norm.cdf((high - x[0]) / math.exp(x[1])) - norm.cdf((low - x[0]) / math.exp(x[1]))).sum()
 
         best = minimize(minus, (0.1, -0.5), method="Nelder-Mead", options={"xatol": 1e-8, "fatol": 1e-12})
-        found = lognormal.fit(low, high)
-        assert found.log_median[0] == pytest.approx(best.x[0], abs=1e-6)
-        assert found.beta[0] == pytest.approx(math.exp(best.x[1]), rel=1e-6)
+        fit = lognormal.fit(low, high)
+        assert fit.log_median[0] == pytest.approx(best.x[0], abs=1e-6)
+        assert fit.beta[0] == pytest.approx(math.exp(best.x[1]), rel=1e-6)
 
 
 def test_stripes_are_the_probit_of_statsmodels():
@@ -61,9 +61,9 @@ def test_stripes_are_the_probit_of_statsmodels():
     # 0.6241485142019395 and the dispersion 0.4222109231448291; its own tolerance is 1e-14.
     x, fell = np.array([0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3]), np.array([0, 1, 3, 6, 9, 14, 18, 19])
     y, hit = np.repeat(np.log(x), 20), np.concatenate([np.arange(20) < k for k in fell])
-    found = lognormal.fit(np.where(hit, -np.inf, y), np.where(hit, y, np.inf))
-    assert math.exp(found.log_median[0]) == pytest.approx(0.6241485142019395, rel=1e-9)
-    assert found.beta[0] == pytest.approx(0.4222109231448291, rel=1e-9)
+    fit = lognormal.fit(np.where(hit, -np.inf, y), np.where(hit, y, np.inf))
+    assert math.exp(fit.log_median[0]) == pytest.approx(0.6241485142019395, rel=1e-9)
+    assert fit.beta[0] == pytest.approx(0.4222109231448291, rel=1e-9)
 
 
 def test_weights_are_repetitions_and_samples_are_fitted_one_by_one():
@@ -72,8 +72,8 @@ def test_weights_are_repetitions_and_samples_are_fitted_one_by_one():
     low, high = np.where(hit, -np.inf, y), np.where(hit, y, np.inf)
     weight = np.random.default_rng(6).integers(0, 4, (5, len(y)))
     together = lognormal.fit(low, high, weight)
-    for k, one in enumerate(weight):
-        alone = lognormal.fit(np.repeat(low, one), np.repeat(high, one))
+    for k, repetitions in enumerate(weight):
+        alone = lognormal.fit(np.repeat(low, repetitions), np.repeat(high, repetitions))
         assert together.log_median[k] == pytest.approx(alone.log_median[0], abs=1e-7)
         assert together.beta[k] == pytest.approx(alone.beta[0], rel=1e-6)
 
@@ -89,9 +89,9 @@ def test_runs_that_do_not_overlap_or_are_all_alike():
 
 def test_far_tails_do_not_overflow():
     low, high = np.array([-50.0, 40.0, -np.inf]), np.array([np.inf, 60.0, -30.0])
-    found = lognormal.fit(low, high)
-    assert np.isfinite(found.log_median[0])
-    assert np.isfinite(found.beta[0])
+    fit = lognormal.fit(low, high)
+    assert np.isfinite(fit.log_median[0])
+    assert np.isfinite(fit.beta[0])
     assert log_ndtr(-40.0) < -800.0  # what a plain logarithm of Φ would lose
 
 
@@ -104,21 +104,21 @@ def test_intervals_hold_the_truth_as_often_as_they_say(method, within, monkeypat
     # The long version, 2,000 sets, is in docs/theory/fragility.md.
     monkeypatch.setattr("stylobate.probability.fragility.SETS", 1)
     rng = np.random.default_rng(7)
-    beta, held, medians = math.hypot(0.4, within), np.zeros(2), []
+    beta, hits, medians = math.hypot(0.4, within), np.zeros(2), []
     for k in range(60):
-        found = fragility(stripes(rng, within=within), method=method, samples=200, seed=k)
-        for j, (truth, (low, high)) in enumerate(((1.0, found.median_interval), (beta, found.beta_interval))):
-            held[j] += low <= truth <= high
-        medians.append(found.log_median)
-    assert (held >= 51).all()
+        curve = fragility(stripes(rng, within=within), method=method, samples=200, seed=k)
+        for j, (truth, (low, high)) in enumerate(((1.0, curve.median_interval), (beta, curve.beta_interval))):
+            hits[j] += low <= truth <= high
+        medians.append(curve.log_median)
+    assert (hits >= 51).all()
     assert np.mean(medians) == pytest.approx(0.0, abs=4.0 * 0.11 / math.sqrt(60.0))  # 0.11: their spread
 
 
 def test_runs_of_one_record_are_not_independent():
     # The same runs, taken for independent, promise an interval that is much too narrow.
     e = stripes(np.random.default_rng(8), within=0.1)
-    honest, hopeful = (fragility(e, method="runs", records_are_one=one, seed=1) for one in (False, True))
-    width = [np.diff(np.log(one.median_interval))[0] for one in (honest, hopeful)]
+    honest, hopeful = (fragility(e, method="runs", records_are_one=as_one, seed=1) for as_one in (False, True))
+    width = [np.diff(np.log(curve.median_interval))[0] for curve in (honest, hopeful)]
     assert width[0] > 1.4 * width[1]
     assert hopeful.records == len(e.im)
 
@@ -140,12 +140,12 @@ def test_open_and_failed_runs_count_as_neither():
     e = stripes(np.random.default_rng(10))
     codes = e.codes.copy()
     codes[::17], codes[5::41] = OPEN, FAILED
-    found = fragility(with_codes(e, codes), seed=3)
-    told = codes >= 0
-    y, hit = np.log(e.im[told]), codes[told] == EXCEEDED
+    curve = fragility(with_codes(e, codes), seed=3)
+    decided = codes >= 0
+    y, hit = np.log(e.im[decided]), codes[decided] == EXCEEDED
     alone = lognormal.fit(np.where(hit, -np.inf, y), np.where(hit, y, np.inf))
-    assert found.log_median == pytest.approx(alone.log_median[0], abs=1e-9)
-    s = found.summary()
+    assert curve.log_median == pytest.approx(alone.log_median[0], abs=1e-9)
+    s = curve.summary()
     assert s["undecided"] == np.sum(codes == OPEN)
     assert s["failed"] == np.sum(codes == FAILED)
     assert s["if_open_exceed"]["median"] < s["median"] < s["if_open_do_not"]["median"]
@@ -164,12 +164,12 @@ def test_brackets_end_at_the_first_collapse_whatever_stands_above():
 def test_points_are_shares_of_records_with_wilson_intervals():
     e = stripes(np.random.default_rng(11))
     scaled = Evidence(e.records, e.im * (1.0 + 1e-12 * np.arange(len(e.im))), e.codes, "pgv", "m/s", "collapse", "x")
-    found = fragility(scaled, method="runs")  # levels that differ in their last digits are one
+    curve = fragility(scaled, method="runs")  # levels that differ in their last digits are one
     shares = e.codes.reshape(20, -1).mean(axis=0)
-    assert found.points.share == pytest.approx(shares)
+    assert curve.points.share == pytest.approx(shares)
     low, high = wilson_interval(20 * shares, np.full(8, 20))
-    assert found.points.low == pytest.approx(low)
-    assert found.points.high == pytest.approx(high)
+    assert curve.points.low == pytest.approx(low)
+    assert curve.points.high == pytest.approx(high)
 
 
 def test_wilson_is_that_of_scipy():
@@ -213,9 +213,9 @@ def test_tables_of_others(tmp_path):
 
     path = tmp_path / "runs.csv"
     path.write_text("record,im,collapsed\na,0.5,0\na,1.0,\nb,0.5,1\nb,0.7,true\n")
-    found = evidence(read_table(path), "pgv")
-    assert found.codes.tolist() == [NOT_EXCEEDED, OPEN, EXCEEDED, EXCEEDED]
-    assert (found.measure, found.unit) == ("pgv", "m/s")
+    observations = evidence(read_table(path), "pgv")
+    assert observations.codes.tolist() == [NOT_EXCEEDED, OPEN, EXCEEDED, EXCEEDED]
+    assert (observations.measure, observations.unit) == ("pgv", "m/s")
     with pytest.raises(InputError, match="needs more"):
         evidence(read_table(path), "pgv", "top:0.15d")
     for text, why in (
@@ -260,9 +260,9 @@ def test_a_table_says_what_it_has():
 def test_the_band_and_the_interval_of_the_median_are_one_answer():
     # Two yes/no stripes that nearly separate the records: quantiles as they are and turned round the median differ by most.
     rows = [(f"r{k}", im, fell > k) for im, fell in ((0.2, 0), (0.4, 4), (0.6, 8), (0.8, 9)) for k in range(10)]
-    found = fragility(evidence(pandas.DataFrame(rows, columns=["record", "im", "collapsed"])))
+    curve = fragility(evidence(pandas.DataFrame(rows, columns=["record", "im", "collapsed"])))
     x = np.geomspace(0.2, 0.9, 4001)  # steps of 4e-4
-    low, high = found.interval(x)
-    least, most = found.median_interval
+    low, high = curve.interval(x)
+    least, most = curve.median_interval
     assert x[np.argmax(high >= 0.5)] == pytest.approx(least, rel=1e-3)
     assert x[np.argmax(low > 0.5)] == pytest.approx(most, rel=1e-3)

@@ -31,10 +31,10 @@ def test_single_runs_find_the_edge_of_a_pulse(kind, size, closed):
     width = 5.0 * math.tan(0.16)
     joint = Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_coefficient=5.0)
     column = Column.of_drums([Drum(5.0, width, width, 1600.0)], joint)
-    one = overturning.pulse(kind, size, column.frequency_parameter)
+    pulse = overturning.pulse(kind, size, column.frequency_parameter)
     fell = []
     for factor in (0.999, 1.001):
-        motion = one.scaled(closed(size) * factor * column.slenderness * g)
+        motion = pulse.scaled(closed(size) * factor * column.slenderness * g)
         response = simulate(column, motion, HousnerBlock(linear=True, restitution=0.0), tail=4.0)
         # without impact the block falls on the side it rose to first: −x, counter-clockwise positive
         fell.append(bool(response.collapsed and response.drum_rotation[-1, 0] > column.slenderness))

@@ -149,8 +149,8 @@ def test_a_strength_far_above_the_pressure_changes_nothing(monkeypatch):
     monkeypatch.setattr(interface_law, "compression", LAW)
     for delta, psi in states(200, 5):
         n, e = LAW(delta, psi, -HALF, HALF, KN, KM)
-        found = STRENGTH(delta, psi, -HALF, HALF, KN, KM, 1e-14)
-        assert found == pytest.approx((n, e), rel=1e-7, abs=1e-9)
+        result = STRENGTH(delta, psi, -HALF, HALF, KN, KM, 1e-14)
+        assert result == pytest.approx((n, e), rel=1e-7, abs=1e-9)
 
 
 def test_shear_is_clipped_to_mohr_coulomb():

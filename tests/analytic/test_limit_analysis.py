@@ -28,13 +28,13 @@ def overturning(column: Column) -> tuple[float, int]:
 @pytest.mark.parametrize("name", ["paper-monolithic", "paper-12-drums"])
 def test_the_mechanism_of_overturning_is_a_rigid_rotation_about_the_corner(name, flow):
     column = preset(name)
-    found = limit_analysis(column, flow=flow)
+    limit = limit_analysis(column, flow=flow)
     joint = overturning(column)[1]
-    assert [(item.joint, item.mode) for item in found.active] == [(joint, "rocking right")]
+    assert [(item.joint, item.mode) for item in limit.active] == [(joint, "rocking right")]
     # A rigid rotation about the right corner: ẋ = z θ̇, ż = −(x − d/2) θ̇.
-    turn = -found.mechanism[:, 2]
-    assert np.allclose(found.mechanism[:, 0], turn * column.centroid_heights)
-    assert np.allclose(found.mechanism[:, 1], turn * column.base_width / 2)
+    turn = -limit.mechanism[:, 2]
+    assert np.allclose(limit.mechanism[:, 0], turn * column.centroid_heights)
+    assert np.allclose(limit.mechanism[:, 1], turn * column.base_width / 2)
 
 
 @pytest.mark.parametrize("name", ["paper-monolithic", "paper-12-drums"])
@@ -42,13 +42,13 @@ def test_low_friction_changes_the_mechanism_to_sliding_at_tan_phi(name):
     column = preset(name).with_joint(friction_angle=8.0)
     mu = math.tan(math.radians(8.0))
     for flow, dilatancy in (("non-associated", 0.0), ("associated", mu)):
-        found = limit_analysis(column, flow=flow)
-        assert found.lower == pytest.approx(mu, rel=1e-9)
-        assert found.upper == pytest.approx(mu, rel=1e-9)
-        assert {item.mode for item in found.active} == {"sliding right"}
+        limit = limit_analysis(column, flow=flow)
+        assert limit.lower == pytest.approx(mu, rel=1e-9)
+        assert limit.upper == pytest.approx(mu, rel=1e-9)
+        assert {item.mode for item in limit.active} == {"sliding right"}
         # Every joint reaches its friction at once, and the flow rule decides how the mechanism lifts.
-        assert found.at_limit == tuple(range(1, column.n + 1))
-        moving = found.mechanism[-1]
+        assert limit.at_limit == tuple(range(1, column.n + 1))
+        moving = limit.mechanism[-1]
         assert moving[1] == pytest.approx(dilatancy * moving[0], abs=1e-9)
 
 
@@ -57,27 +57,27 @@ def test_one_slippery_joint_governs():
         height=5.0, bottom_width=0.96, top_width=0.66, drums=6, density=1600.0, joint=JOINT,
         overrides={4: Joint(5e10, 2.5e10, friction_angle=6.0)},
     )  # fmt: skip
-    found = limit_analysis(column)
-    assert found.multiplier == pytest.approx(math.tan(math.radians(6.0)), rel=1e-9)
-    assert found.at_limit == (4,)
-    assert np.allclose(found.mechanism[:3], 0.0, atol=1e-12)
-    assert np.allclose(found.mechanism[3:, 0], 1.0)
+    limit = limit_analysis(column)
+    assert limit.multiplier == pytest.approx(math.tan(math.radians(6.0)), rel=1e-9)
+    assert limit.at_limit == (4,)
+    assert np.allclose(limit.mechanism[:3], 0.0, atol=1e-12)
+    assert np.allclose(limit.mechanism[3:, 0], 1.0)
 
 
 def test_unequal_drums_rock_about_the_narrow_neck():
     drums = [Drum(1.0, 1.2, 1.0, 2000.0), Drum(0.7, 0.5, 0.6, 2200.0), Drum(2.0, 0.8, 0.7, 1800.0)]
     column = Column.of_drums(drums, JOINT)
     expected, joint = overturning(column)
-    found = limit_analysis(column)
+    limit = limit_analysis(column)
     assert joint == 2
-    assert found.multiplier == pytest.approx(expected, rel=1e-9)
-    assert found.governing_joint == joint
+    assert limit.multiplier == pytest.approx(expected, rel=1e-9)
+    assert limit.governing_joint == joint
 
 
 def test_a_load_pattern_moves_the_resultant():
     column = preset("paper-12-drums")
     share = column.masses * column.centroid_heights
-    found = limit_analysis(column, pattern=share)
+    limit = limit_analysis(column, pattern=share)
     force = share / share.sum() * column.joint_weights[0]
     limits = [
         column.joint_weights[i]
@@ -86,8 +86,8 @@ def test_a_load_pattern_moves_the_resultant():
         / float(force[i:] @ (column.centroid_heights[i:] - column.joint_heights[i]))
         for i in range(column.n)
     ]
-    assert found.multiplier == pytest.approx(min(limits), rel=1e-9)
-    assert found.governing_joint == int(np.argmin(limits)) + 1
+    assert limit.multiplier == pytest.approx(min(limits), rel=1e-9)
+    assert limit.governing_joint == int(np.argmin(limits)) + 1
 
 
 def test_quadrilaterals_equal_the_column_and_may_lean():
@@ -99,8 +99,8 @@ def test_quadrilaterals_equal_the_column_and_may_lean():
     assert limit_analysis(stack).multiplier == pytest.approx(limit_analysis(column).multiplier, rel=1e-12)
     # A parallelogram: its centroid stands off the middle by half the lean.
     lean = np.array([[[-0.5, 0.0], [0.5, 0.0], [0.7, 4.0], [-0.3, 4.0]]])
-    found = limit_analysis(stack_of_quadrilaterals(lean, JOINT, density=2000.0))
-    assert found.multiplier == pytest.approx((0.5 - 0.1) / 2.0, rel=1e-9)
+    limit = limit_analysis(stack_of_quadrilaterals(lean, JOINT, density=2000.0))
+    assert limit.multiplier == pytest.approx((0.5 - 0.1) / 2.0, rel=1e-9)
 
 
 def test_the_forces_push_to_the_right_and_the_mirrored_stack_is_the_other_direction():
@@ -119,9 +119,9 @@ def test_the_tilt_is_downhill_to_the_right_and_the_slope_as_found_is_not(degrees
     expected = math.cos(turn) * math.tan(column.slenderness) - math.sin(turn)
     assert limit_analysis(column, base_tilt=degrees).multiplier == pytest.approx(expected, rel=1e-9)
     assert pushover(column, base_tilt=degrees).collapse_multiplier == pytest.approx(expected, rel=1e-3)
-    found = column.replace(as_found=AsFound(base_tilt=degrees))
+    tilted_column = column.replace(as_found=AsFound(base_tilt=degrees))
     weight = gravity_forces(BlockStack.of_column(column), -degrees).sum(axis=0)
-    assert np.allclose(weight[:2], column.mass * gravity_vector(found), rtol=1e-12)
+    assert np.allclose(weight[:2], column.mass * gravity_vector(tilted_column), rtol=1e-12)
 
 
 def test_an_inclined_joint_is_the_one_at_its_limit():

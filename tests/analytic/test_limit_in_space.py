@@ -29,8 +29,8 @@ def column(x, y, name, kind="box", at=0.0, height=4.0):
 
 
 def limits(stones, azimuths, joint=LAW, **others):
-    found = st.limit_directions(st.SpatialAssembly(stones, joint, **others), azimuths)
-    return found.limits
+    analysis = st.limit_directions(st.SpatialAssembly(stones, joint, **others), azimuths)
+    return analysis.limits
 
 
 def portal(kind="box"):
@@ -46,19 +46,19 @@ def podium(kind):
 def test_square_blocks_overturn_at_width_over_height_over_the_larger_cosine(stones):
     """(b/h)/max(|cos|, |sin|): 0.2, 0.2309 and 0.2828; four under a slab that translates alike, whatever it weighs."""
     azimuths = [0.0, 30.0, 45.0, 120.0]
-    for found, azimuth in zip(limits(stones, azimuths), azimuths, strict=True):
+    for direction_limit, azimuth in zip(limits(stones, azimuths), azimuths, strict=True):
         angle = math.radians(azimuth)
         expected = 0.2 / max(abs(math.cos(angle)), abs(math.sin(angle)))
-        assert found.multiplier == pytest.approx(expected, rel=ROUNDING)
-        assert (found.mode, found.upper_bound) == ("rocking", False)
-        assert set(found.moving) == {one.name for one in stones}
+        assert direction_limit.multiplier == pytest.approx(expected, rel=ROUNDING)
+        assert (direction_limit.mode, direction_limit.upper_bound) == ("rocking", False)
+        assert set(direction_limit.moving) == {stone.name for stone in stones}
 
 
 @pytest.mark.parametrize("stones", [[column(0, 0, "one", "drum")], podium("drum")], ids=["drum", "podium"])
 def test_round_columns_overturn_alike_in_every_direction(stones):
-    for found in limits(stones, [0.0, 30.0, 50.0]):
-        assert found.multiplier == pytest.approx(0.2, rel=DISC)
-        assert not found.upper_bound
+    for direction_limit in limits(stones, [0.0, 30.0, 50.0]):
+        assert direction_limit.multiplier == pytest.approx(0.2, rel=DISC)
+        assert not direction_limit.upper_bound
 
 
 def test_a_drum_falls_towards_the_push():
@@ -66,8 +66,8 @@ def test_a_drum_falls_towards_the_push():
     programme = AssemblyProgramme(st.SpatialAssembly([column(0, 0, "one", "drum")], LAW))
     angle = math.radians(30.0)
     live = programme.programme.body_force(np.array([math.cos(angle), math.sin(angle), 0.0]))
-    found = programme.programme.converged(programme.dead, live, programme.programme.capacities)
-    x, y = gentlest(programme.programme, programme.dead, live, found)[0, :2]
+    solution = programme.programme.converged(programme.dead, live, programme.programme.capacities)
+    x, y = gentlest(programme.programme, programme.dead, live, solution)[0, :2]
     assert math.degrees(math.atan2(y, x)) == pytest.approx(30.0, abs=3.76)
 
 
@@ -102,17 +102,17 @@ def test_a_wall_pushed_across_overturns_at_thickness_over_height():
     for course in range(4):
         for k, (x, long) in enumerate([(0.15, 0.3), (0.6, 0.6)] if course % 2 else [(0.3, 0.6), (0.75, 0.3)]):
             stones.append(box((long, 0.15, 0.3), (x, 0.0, 0.3 * course), f"{course}.{k}"))
-    (found,) = limits(stones, [90.0])
-    assert found.multiplier == pytest.approx(0.125, rel=ROUNDING)
+    (direction_limit,) = limits(stones, [90.0])
+    assert direction_limit.multiplier == pytest.approx(0.125, rel=ROUNDING)
 
 
 @pytest.mark.parametrize(("azimuth", "share"), [(0.0, 1.0), (22.5, 1.0), (11.25, math.cos(math.pi / 16.0))])
 def test_a_flat_block_slides_at_its_friction(azimuth, share):
     """μ along the sixteen sides of the cone, between them less by cos(π/16) at most; with cohesion c A/W more."""
     stones = [box((2.0, 2.0, 0.4), (0, 0, 0), "slab")]
-    (found,) = limits(stones, [azimuth], st.Joint(5e9, 2.5e9, friction_coefficient=0.3))
-    assert found.multiplier == pytest.approx(0.3 * share, rel=ROUNDING)
-    assert (found.mode, found.upper_bound) == ("sliding", True)
+    (direction_limit,) = limits(stones, [azimuth], st.Joint(5e9, 2.5e9, friction_coefficient=0.3))
+    assert direction_limit.multiplier == pytest.approx(0.3 * share, rel=ROUNDING)
+    assert (direction_limit.mode, direction_limit.upper_bound) == ("sliding", True)
     (glued,) = limits(stones, [0.0], st.Joint(5e9, 2.5e9, friction_coefficient=0.3, cohesion=1e3))
     assert glued.multiplier == pytest.approx(0.3 + 1e3 * 4.0 / (2700.0 * 1.6 * st.g), rel=1e-5)
 
@@ -135,7 +135,7 @@ def test_slabs_overhang_by_the_harmonic_series(diagonal):
 
 def arch(share, stones=31, radius=3.0):
     """A semicircular arch of voussoirs, a share of its radius thick."""
-    found = []
+    voussoirs = []
     for k in range(stones):
         corners = [
             (q * math.cos(a), y, q * math.sin(a))
@@ -143,8 +143,8 @@ def arch(share, stones=31, radius=3.0):
             for a in (math.pi * k / stones, math.pi * (k + 1) / stones)
             for y in (-0.4, 0.4)
         ]
-        found.append(st.Stone.hull(corners, 2700.0, name=f"stone {k + 1}"))
-    return found
+        voussoirs.append(st.Stone.hull(corners, 2700.0, name=f"stone {k + 1}"))
+    return voussoirs
 
 
 def test_an_arch_stands_from_milankovitchs_thickness_on():
@@ -157,9 +157,9 @@ def test_an_arch_stands_from_milankovitchs_thickness_on():
 def test_an_arch_pushed_across_overturns_as_one_body():
     """Half its width over the height of its centroid; voussoirs are trapezia between chords, so that it is their own."""
     stones = arch(0.2, stones=15)
-    masses, heights = np.array([one.mass for one in stones]), np.array([one.position[2] for one in stones])
-    (found,) = limits(stones, [90.0])
-    assert found.multiplier == pytest.approx(0.4 * masses.sum() / (masses @ heights), rel=ROUNDING)
+    masses, heights = np.array([stone.mass for stone in stones]), np.array([stone.position[2] for stone in stones])
+    (direction_limit,) = limits(stones, [90.0])
+    assert direction_limit.multiplier == pytest.approx(0.4 * masses.sum() / (masses @ heights), rel=ROUNDING)
 
 
 def test_a_wall_held_at_its_top_is_pushed_out_at_mid_height():
@@ -171,15 +171,15 @@ def test_a_wall_held_at_its_top_is_pushed_out_at_mid_height():
         st.Stone.box((0.2, wide, stop), (0.5 * thick + 0.1, 0, high - stop), name="stop", fixed=True),
     ]
     smooth = ("upper", "stop", st.Joint(5e9, 2.5e9, friction_coefficient=0.0))
-    (found,) = limits(stones, [0.0], overrides=[smooth])
-    assert 0.5 * found.multiplier == pytest.approx(2.0 * thick / high, rel=2e-4)  # stop/high of it
+    (direction_limit,) = limits(stones, [0.0], overrides=[smooth])
+    assert 0.5 * direction_limit.multiplier == pytest.approx(2.0 * thick / high, rel=2e-4)  # stop/high of it
 
 
 def test_the_numbers_of_bodies_and_the_direction_of_the_scene_change_nothing():
     """A portal renumbered, and turned by 90 degrees with its push: the last bits may differ, the multiplier not."""
-    one = portal("drum")
-    (level,) = limits(one, [35.0])
-    (other,) = limits(one[::-1], [35.0])
+    stones = portal("drum")
+    (level,) = limits(stones, [35.0])
+    (other,) = limits(stones[::-1], [35.0])
     turn = (math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5))
     turned = [column(0, -1.2, "left", "drum"), column(0, 1.2, "right", "drum")]
     (across,) = limits([*turned, box((3.2, 0.8, 0.6), (0, 0, 4), "beam", orientation=turn)], [125.0])
@@ -227,9 +227,9 @@ def test_polygons_of_the_plane_overturn_about_their_corners():
         (trapezium(0.0, 3.0),),
         tuple(trapezium(i, i + 1.0, 1.0 - 0.1 * i, 0.9 - 0.1 * i, f"block {i}") for i in range(3)),
     ):
-        found = st.limit_directions(st.Assembly(blocks, LAW))
-        assert found.azimuths.tolist() == [0.0, 180.0]
-        np.testing.assert_allclose(found.multipliers, multiplier, rtol=1e-7)
+        analysis = st.limit_directions(st.Assembly(blocks, LAW))
+        assert analysis.azimuths.tolist() == [0.0, 180.0]
+        np.testing.assert_allclose(analysis.multipliers, multiplier, rtol=1e-7)
 
 
 def test_what_is_no_prism_of_the_plane_and_limit_analysis_in_the_plane_are_refused():

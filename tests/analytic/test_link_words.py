@@ -16,7 +16,7 @@ def test_a_link_at_its_capacity_is_not_whole():
     assert sentence_of(bars[:2]) == f"Neither of both bars broke, but the bar 1 was at its capacity. {YIELDS}"
     assert sentence_of(bars) == f"None of 3 bars broke, but 2 were at their capacity, such as the bar 1. {YIELDS}"
     broke = link("bar 4", "bar", broken_at=2.0)
-    said = (
+    sentence = (
         "1 of 2 bars broke, the first at 2.00 s, the bar 4. Of those that did not break, the bar 1 was at its capacity."
     )
-    assert sentence_of([bars[0], broke]) == f"{said} {YIELDS}"
+    assert sentence_of([bars[0], broke]) == f"{sentence} {YIELDS}"

@@ -161,11 +161,11 @@ def test_what_dowels_hold_in_their_holes_is_set_against_a_fall() -> None:
         st.Dowel(joint=1, at=(x, 0.0), shear_stiffness=2e7, shear_capacity=capacity, embedment=0.3) for x in (-0.2, 0.2)
     ]
     pulse = st.Motion(0.01, np.where(np.arange(500) * 0.01 < 1.6, 0.3 * G, 0.0))
-    held = st.simulate(bare.replace(links=dowels), pulse, st.DistinctElement2D())
+    response = st.simulate(bare.replace(links=dowels), pulse, st.DistinctElement2D())
     assert st.simulate(bare, pulse, st.DistinctElement2D()).collapsed
-    assert not held.collapsed
-    assert held.peak_rotation > 0.5
-    assert np.ptp(np.abs(held.histories.drum_rotation[-20:, 0])) < 0.1
+    assert not response.collapsed
+    assert response.peak_rotation > 0.5
+    assert np.ptp(np.abs(response.histories.drum_rotation[-20:, 0])) < 0.1
 
 
 def test_a_brittle_dowel_that_snapped_had_its_capacity() -> None:

@@ -38,9 +38,9 @@ def push(acceleration: float, rise: float, hold: float) -> st.Motion:
 
 def side_by_side(*links: Link) -> st.SpatialAssembly:
     """A box that stays and, beside it along x, one of 1 t that slides freely; both 0.5 m high and 1 m wide."""
-    held = box((1.0, 1.0, 0.5), (0.5, 0.0, 0.0), "held", fixed=True)
+    fixed_box = box((1.0, 1.0, 0.5), (0.5, 0.0, 0.0), "held", fixed=True)
     free = box((1.0, 1.0, 0.5), (1.5, 0.0, 0.0), "free", surface=SMOOTH)
-    return st.SpatialAssembly((held, free), SMOOTH, "pair", gravity=G, links=links)
+    return st.SpatialAssembly((fixed_box, free), SMOOTH, "pair", gravity=G, links=links)
 
 
 def clamp(**what: float | str) -> Link:
@@ -91,8 +91,8 @@ def test_a_clamp_holds_against_both_senses_behind_its_slack() -> None:
     It comes out of its slack with some speed: the mean of a spring that holds it, over several of its periods of 0.2 s, is
     that of the push as long as it does not fall back into the slack.
     """
-    held, _ = side_by_side().stones
-    apart = held, box((1.0, 1.0, 0.5), (1.55, 0.0, 0.0), "free", surface=SMOOTH)
+    fixed_box, _ = side_by_side().stones
+    apart = fixed_box, box((1.0, 1.0, 0.5), (1.55, 0.0, 0.0), "free", surface=SMOOTH)
     ends = {"between": ("held", "free"), "at": turned((0.85, 0.0, 0.25)), "to": turned((1.2, 0.0, 0.25))}
     link = block_link("clamp", **ends, axial_stiffness=1e6, shear_stiffness=0.0, clearance=1e-4)
     scene = st.SpatialAssembly(apart, SMOOTH, "gap", gravity=G, links=(link,))
@@ -182,9 +182,9 @@ def test_the_limit_of_a_dowelled_slab_is_friction_and_capacity_over_weight() -> 
     scene = st.SpatialAssembly(stones, joint, "slab", gravity=G, links=(dowel,))
     exact = 0.2 + 2e3 / (stones[1].mass * G)
     for azimuth in (0.0, 13.0, 90.0):
-        found = limit(scene, azimuth)
-        assert 0.98 * exact < found.multiplier < 1.0001 * exact
-        assert (found.mode, found.links[0].action, found.links[0].yields) == ("sliding", "shear", True)
+        result = limit(scene, azimuth)
+        assert 0.98 * exact < result.multiplier < 1.0001 * exact
+        assert (result.mode, result.links[0].action, result.links[0].yields) == ("sliding", "shear", True)
 
 
 def test_the_limit_of_a_tied_box_is_weight_and_tie_about_its_toe() -> None:
@@ -219,15 +219,15 @@ def test_the_limit_of_a_clamped_pair_is_that_of_its_clamp_up_to_one_block(share)
 
 def test_a_clamp_pulls_what_slides_and_holds_apart_what_is_pressed() -> None:
     """λ W = T_c in both senses, of a box without friction beside a wall, which it does not touch."""
-    held, _ = side_by_side().stones
+    fixed_box, _ = side_by_side().stones
     free = box((1.0, 1.0, 0.5), (1.55, 0.0, 0.0), "free", surface=SMOOTH)
     ends = {"between": ("held", "free"), "at": turned((0.85, 0.0, 0.25)), "to": turned((1.2, 0.0, 0.25))}
     link = block_link("clamp", **ends, axial_stiffness=1e6, axial_capacity=2e3, shear_stiffness=0.0)
-    scene = st.SpatialAssembly((held, free), SMOOTH, "pair", gravity=G, links=(link,))
+    scene = st.SpatialAssembly((fixed_box, free), SMOOTH, "pair", gravity=G, links=(link,))
     for azimuth, action in ((0.0, "closing"), (180.0, "apart")):
-        found = limit(scene, azimuth)
-        assert found.multiplier == pytest.approx(2e3 / (free.mass * G), rel=1e-6)
-        assert [one.action for one in found.links if one.yields] == [action]
+        result = limit(scene, azimuth)
+        assert result.multiplier == pytest.approx(2e3 / (free.mass * G), rel=1e-6)
+        assert [link.action for link in result.links if link.yields] == [action]
 
 
 def test_the_limit_of_a_box_that_hangs_tells_what_its_bar_must_hold() -> None:
@@ -242,9 +242,9 @@ def test_the_limit_of_a_box_that_hangs_tells_what_its_bar_must_hold() -> None:
         "shear_capacity": 0.5 * weight,
     }
     bar = block_link("bar", ("hung", "ceiling"), **made)
-    found = limit(st.SpatialAssembly((ceiling, hung), SMOOTH, "hung", gravity=G, links=(bar,)))
-    assert found.multiplier == pytest.approx(0.5, rel=0.02)
-    shear, closing = found.links
+    result = limit(st.SpatialAssembly((ceiling, hung), SMOOTH, "hung", gravity=G, links=(bar,)))
+    assert result.multiplier == pytest.approx(0.5, rel=0.02)
+    shear, closing = result.links
     assert shear.yields
     assert not closing.idle
-    assert closing.force == pytest.approx(weight * (1.0 + found.multiplier * 0.25 / 0.5), rel=5e-3)
+    assert closing.force == pytest.approx(weight * (1.0 + result.multiplier * 0.25 / 0.5), rel=5e-3)

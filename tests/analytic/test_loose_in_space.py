@@ -94,9 +94,9 @@ def test_a_drum_rolls_over_an_edge():
     lane = Lane(ground(), block, drum, step=8e-6, kn=5e12, restitution=0.5)
     _, seen = lane.run(1.4, lambda: (lane.contact(1, 2), *lane.place(2), *lane.velocity(2)))
     area, x, _, z, *v = np.array(seen).T
-    left = np.argmax((area == 0.0) & (x > 0.05))
-    assert math.degrees(math.atan2(x[left], z[left] - 2.0)) == pytest.approx(53.193, abs=0.5)
-    assert math.hypot(v[0][left], v[2][left]) == pytest.approx(1.5333, rel=0.01)
+    departure = np.argmax((area == 0.0) & (x > 0.05))
+    assert math.degrees(math.atan2(x[departure], z[departure] - 2.0)) == pytest.approx(53.193, abs=0.5)
+    assert math.hypot(v[0][departure], v[2][departure]) == pytest.approx(1.5333, rel=0.01)
     assert x[np.argmax(z < RADIUS + 1e-3)] == pytest.approx(0.7795, rel=0.01)
 
 
@@ -190,7 +190,7 @@ def test_a_monolith_rocks(shape, joined):
     about = (0.8**2 + 16.0) / 12.0 if shape == "square" else half**2 / 4.0 + 16.0 / 12.0
     p2 = G * arm / (about + arm**2)
     crossed = lambda _, y: y[0]  # noqa: E731
-    found = solve_ivp(
+    solution = solve_ivp(
         lambda _, y: [y[1], -p2 * math.sin(math.atan(0.2) - y[0])],
         [0, 2],
         [tilt, 0.0],
@@ -198,7 +198,7 @@ def test_a_monolith_rocks(shape, joined):
         rtol=1e-10,
         atol=1e-12,
     )
-    assert quarter(times, lean) == pytest.approx(found.t_events[0][0], rel=1e-4 if joined else 2e-3)
+    assert quarter(times, lean) == pytest.approx(solution.t_events[0][0], rel=1e-4 if joined else 2e-3)
 
 
 @pytest.mark.parametrize(("share", "exact"), [(0.25, 0.45727829), (0.5, 0.75647293)])

@@ -24,12 +24,12 @@ def block(slenderness: float, joint: st.Joint = JOINT, height: float = 4.0, sect
 def left_by_first_impact(column: st.Column, model) -> float:
     """Energy at the first extreme after the first impact over that at the release, from the heights of the centroid."""
     tilt = 0.5 * column.slenderness
-    found = st.simulate(column, STILL, model, start=st.Start(tilt), output_interval=0.002)
-    top = found.histories.top if found.histories.top.ndim == 1 else found.histories.top[:, 0]
+    response = st.simulate(column, STILL, model, start=st.Start(tilt), output_interval=0.002)
+    top = response.histories.top if response.histories.top.ndim == 1 else response.histories.top[:, 0]
     lean = np.arcsin(np.clip(top / math.hypot(column.height, 0.0), -1.0, 1.0))
     crossed = int(np.argmax(lean < 0.0))
     peak = -float(lean[crossed : crossed + int(np.argmax(lean[crossed:] > 0.0)) or None].min())
-    rise = [math.cos(column.slenderness - one) - math.cos(column.slenderness) for one in (peak, tilt)]
+    rise = [math.cos(column.slenderness - angle) - math.cos(column.slenderness) for angle in (peak, tilt)]
     return rise[0] / rise[1]
 
 
@@ -54,12 +54,12 @@ def alone(kind: str, slenderness: float) -> st.Column:
     return st.Specimen(mass, mass / 3.0 * (half @ half - half**2), corners, "block", JOINT)
 
 
-def kept_at_impacts(found, slenderness: float) -> np.ndarray:
+def kept_at_impacts(response, slenderness: float) -> np.ndarray:
     """Energy of free rocking after each impact over that before it, from the extremes of the tilt after 1.2 s."""
-    axis = found.body_axis[found.histories.time > 1.2, -1]
+    axis = response.body_axis[response.histories.time > 1.2, -1]
     lean = np.arctan2(axis[:, 0], axis[:, 2])
     swings = np.split(lean, 1 + np.flatnonzero(np.diff(np.sign(lean))))[1:5]
-    rise = [math.cos(slenderness - np.abs(one).max()) - math.cos(slenderness) for one in swings]
+    rise = [math.cos(slenderness - np.abs(swing).max()) - math.cos(slenderness) for swing in swings]
     return np.array(rise[1:]) / rise[:-1]
 
 
@@ -71,13 +71,13 @@ def test_so_does_one_of_a_free_block_in_every_engine(kind):
     model = st.DistinctElement2D if kind == "assembly" else st.DistinctElement3D
     housner = (1.0 - 1.5 * math.sin(slenderness) ** 2) ** 2
     for losses, least, most in (("none", 1.05, 1.2), ("stone", 0.98, 1.02)):
-        found = st.simulate(alone(kind, slenderness), push, model(losses=losses), tail=4.0, output_interval=0.002)
-        left = kept_at_impacts(found, slenderness) / housner
-        assert least < left.min() <= left.max() < most
-        assert abs(found.energy_imbalance) < 0.02
-    assert found.provenance["steps_over_undamped"] > 1.5
-    assert found.summary()["losses"] == "stone"
-    assert found.histories.energy["viscous"][-1] > 0.0
+        response = st.simulate(alone(kind, slenderness), push, model(losses=losses), tail=4.0, output_interval=0.002)
+        ratio = kept_at_impacts(response, slenderness) / housner
+        assert least < ratio.min() <= ratio.max() < most
+        assert abs(response.energy_imbalance) < 0.02
+    assert response.provenance["steps_over_undamped"] > 1.5
+    assert response.summary()["losses"] == "stone"
+    assert response.histories.energy["viscous"][-1] > 0.0
 
 
 def portal(beam: float = 0.6):
@@ -114,8 +114,8 @@ def test_a_column_of_drums_has_the_damping_of_one_body_however_it_is_written_dow
     )
     model = st.DistinctElement2D(losses="stone")
     assembly, column = st.Assembly(drums, JOINT), block(0.25)
-    assert one_body(column).mass == pytest.approx(sum(one.mass for one in assembly.blocks))
-    damping = [model.acting(one).stiffness_damping for one in (assembly, column)]
+    assert one_body(column).mass == pytest.approx(sum(drum.mass for drum in assembly.blocks))
+    damping = [model.acting(structure).stiffness_damping for structure in (assembly, column)]
     assert damping[0] == pytest.approx(damping[1], rel=0.01)
     assert damping[1] > 1e-5
 
@@ -167,7 +167,7 @@ def test_none_is_the_default_and_names_what_acted():
 
 
 @pytest.mark.parametrize(
-    ("make", "said"),
+    ("make", "message"),
     [
         (lambda: st.DistinctElement3D(losses="marble"), "losses"),
         (lambda: st.DistinctElement2D(losses="stone", stiffness_damping=1e-4), "both given"),
@@ -175,8 +175,8 @@ def test_none_is_the_default_and_names_what_acted():
         (lambda: st.DistinctElement3D(losses="stone", restitution=0.9), "both given"),
     ],
 )
-def test_what_contradicts_is_refused(make, said):
-    with pytest.raises(st.InputError, match=said):
+def test_what_contradicts_is_refused(make, message):
+    with pytest.raises(st.InputError, match=message):
         make()
 
 
@@ -210,20 +210,20 @@ def test_a_wobble_loses_what_rolling_and_the_dashpots_of_its_toe_take(losses):
     Friction takes less than 1 % of what is there in a second.
     """
     column = round_column(1)
-    found = st.simulate(
+    response = st.simulate(
         column, STILL, st.DistinctElement3D(**losses), start=rolling(column, 0.1), output_interval=0.005
     )
-    axis, later = found.body_axis[:, -1], found.time > 0.5
+    axis, later = response.body_axis[:, -1], response.time > 0.5
     tilt = np.arccos(axis[:, 2])
-    rate = np.abs(np.gradient(np.unwrap(np.arctan2(axis[:, 1], axis[:, 0])), found.time))
-    acting = found.summary()["losses_acting"]
+    rate = np.abs(np.gradient(np.unwrap(np.arctan2(axis[:, 1], axis[:, 0])), response.time))
+    acting = response.summary()["losses_acting"]
     beta, c = acting.get("stiffness_damping", 0.0), acting.get("rolling_resistance", 0.0)
     power = column.mass * st.g * 0.5 * rate * np.sin(tilt) * (c * np.cos(tilt) ** 2 + beta * rate)
-    energy = found.histories.energy
-    lost = np.trapezoid(power[later], found.time[later])
+    energy = response.histories.energy
+    lost = np.trapezoid(power[later], response.time[later])
     taken = energy["viscous"][-1] - energy["viscous"][later][0]
     assert 0.985 * lost <= taken <= 1.05 * lost
-    assert 0.0 <= energy["friction"][-1] < 0.01 * found.time[-1] * column.mass * st.g * 0.5 * 0.1
+    assert 0.0 <= energy["friction"][-1] < 0.01 * response.time[-1] * column.mass * st.g * 0.5 * 0.1
     assert (tilt[-1] < 0.095) == (lost > 100.0)
 
 
@@ -232,16 +232,16 @@ def test_a_wobble_of_stone_dies_away_as_node_by_node(share):
     """Released at 0.1 rad with a share of the rate of a steady wobble: largest tilt of the fifth second, to 2 %."""
     column, beta, toe = round_column(1), 1.6e-3, 0.074
     start = rolling(column, 0.1)
-    spin = tuple(share * one for one in start.angular_velocity)
+    spin = tuple(share * component for component in start.angular_velocity)
     model = st.DistinctElement3D(stiffness_damping=beta)
-    found = st.simulate(column, st.Motion(0.01, np.zeros(501)), model, start=st.Start(0.1, 0.0, spin))
+    response = st.simulate(column, st.Motion(0.01, np.zeros(501)), model, start=st.Start(0.1, 0.0, spin))
     down, axis = np.array([math.cos(0.1), 0.0, -math.sin(0.1)]), np.array([math.sin(0.1), 0.0, math.cos(0.1)])
     seen = coulomb_nodes.run(
         coulomb_nodes.drum(coulomb_nodes.disc(1.0, 512), 1.0, 4.0, 2700.0), 5.0, 2.5e-5, kn=5e10, beta=beta, spin=spin,
         place=2.0 * axis + (0.0, 0.0, 0.5 * math.sin(0.1) * math.cos(toe)),
         axes=np.stack([down, [0.0, 1.0, 0.0], axis], axis=1), velocity=-np.cross(spin, 0.5 * down - 2.0 * axis),
     )  # fmt: skip
-    tilt = np.arccos(found.body_axis[:, -1, 2])[found.time > 4.0].max()
+    tilt = np.arccos(response.body_axis[:, -1, 2])[response.time > 4.0].max()
     assert tilt == pytest.approx(seen.tilt[seen.time > 4.0].max(), rel=0.02)
     assert tilt < 0.096
 
@@ -249,7 +249,7 @@ def test_a_wobble_of_stone_dies_away_as_node_by_node(share):
 def shaken_across(strength: float, across: float, rate: float) -> st.Motion:
     """A sine of 1 Hz along x, and across it a share of it of another rate [Hz], 8 s."""
     time = np.arange(0.0, 8.001, 0.005)
-    along, aside = (strength * st.g * np.sin(2.0 * np.pi * one * time) for one in (1.0, rate))
+    along, aside = (strength * st.g * np.sin(2.0 * np.pi * frequency * time) for frequency in (1.0, rate))
     return st.Motion(0.005, along, across * aside)
 
 
@@ -297,21 +297,21 @@ def test_a_stack_of_stone_keeps_as_much_of_its_velocity_at_every_impact(drums, l
     column = st.Column.tapered(
         height=4.0, bottom_width=0.8, top_width=0.8, density=2700.0, depth=0.8, drums=drums, joint=JOINT, name="stack"
     )
-    found = st.simulate(
+    response = st.simulate(
         column, STILL, st.DistinctElement2D(losses="stone"), start=st.Start(tilt), output_interval=0.002, tail=2.0
     )
-    lean = np.arctan2(found.body_axis[:, -drums:, 0], found.body_axis[:, -drums:, -1]).mean(axis=1)
+    lean = np.arctan2(response.body_axis[:, -drums:, 0], response.body_axis[:, -drums:, -1]).mean(axis=1)
     swings = np.split(np.arange(len(lean)), 1 + np.flatnonzero(np.diff(np.sign(lean))))
-    extremes = [one[np.argmax(np.abs(lean[one]))] for one in swings if len(one) > 60][:7]
-    energy = found.histories.energy
+    extremes = [swing[np.argmax(np.abs(lean[swing]))] for swing in swings if len(swing) > 60][:7]
+    energy = response.histories.energy
     whole = energy["kinetic"] + energy["gravitational"] + energy["elastic"]
     alpha = math.atan(0.2)
     fall = column.mass * st.g * math.hypot(2.0, 0.4) * (math.cos(alpha - tilt) - math.cos(alpha))
-    left = (whole - whole[1] + fall)[extremes]
-    kept = np.sqrt(left[1:] / left[:-1]) / (1.0 - 1.5 * math.sin(alpha) ** 2)
+    energies = (whole - whole[1] + fall)[extremes]
+    kept = np.sqrt(energies[1:] / energies[:-1]) / (1.0 - 1.5 * math.sin(alpha) ** 2)
     assert len(kept) >= 5
     assert least < kept.min() <= kept.max() < most
-    assert (energy["kinetic"][extremes][1:] < 0.01 * left[1:]).all()  # it does not rattle
+    assert (energy["kinetic"][extremes][1:] < 0.01 * energies[1:]).all()  # it does not rattle
 
 
 @pytest.mark.parametrize(
@@ -324,6 +324,6 @@ def test_a_stack_of_stone_keeps_as_much_of_its_velocity_at_every_impact(drums, l
 )
 def test_the_ledger_closes_with_every_loss(how):
     """Input = kinetic + gravitational + elastic + friction + viscous, to 1 % of the largest term (Eq. V2; second order)."""
-    found = st.simulate(round_column(2), shaken_in_two_directions(3.0), st.DistinctElement3D(**how))
-    assert abs(found.energy_imbalance) < 0.01
-    assert found.histories.energy["viscous"][-1] > 0.0
+    response = st.simulate(round_column(2), shaken_in_two_directions(3.0), st.DistinctElement3D(**how))
+    assert abs(response.energy_imbalance) < 0.01
+    assert response.histories.energy["viscous"][-1] > 0.0

@@ -28,8 +28,8 @@ def column_of(tmp_path, name="limestone", more=""):
 
 
 def test_every_number_lies_in_its_range_and_has_a_source():
-    for one in MATERIALS.values():
-        for quantity in one.quantities.values():
+    for substance in MATERIALS.values():
+        for quantity in substance.quantities.values():
             assert quantity.low <= quantity.value <= quantity.high
             assert quantity.source in bibliography()
             assert quantity.note
@@ -82,7 +82,7 @@ def test_a_column_with_a_material_is_written_and_read_back(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "more", "said"),
+    ("name", "more", "message"),
     [
         ("Pentelic marble", "", "there is no material 'Pentelic marble'; the nearest are 'marble, dry' ("),
         ("Pentelic marbel worn", "", "the nearest are 'marble, worn' ("),
@@ -93,19 +93,19 @@ def test_a_column_with_a_material_is_written_and_read_back(tmp_path):
         ("marble, mortared", "", "no normal_stiffness of 'marble, mortared' is published"),
     ],
 )
-def test_what_is_unknown_is_said_in_one_sentence(tmp_path, name, more, said):
+def test_what_is_unknown_is_said_in_one_sentence(tmp_path, name, more, message):
     with pytest.raises(st.InputError, match=r"column.toml: ") as refused:
         column_of(tmp_path, name, more)
-    assert said in str(refused.value)
+    assert message in str(refused.value)
 
 
 def test_the_command_says_value_range_and_source(capsys):
     assert call(["materials", "limestone", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)["materials"][0]
-    density = found["density"]
+    limestone = json.loads(capsys.readouterr().out)["materials"][0]
+    density = limestone["density"]
     # 20 and 29 kN/m³ over 9.81 m/s²
     assert (density["value"], density["low"], density["high"]) == (2500.0, 2039, 2956)
     assert (density["source"], density["cited"]) == ("en1991", "EN 1991-1-1:2002")
-    assert found["not_published"] == []
+    assert limestone["not_published"] == []
     assert call(["materials", "tuf"]) == 2
     assert "'tuff, dry'" in capsys.readouterr().err

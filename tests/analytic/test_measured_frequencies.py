@@ -21,47 +21,47 @@ def column(bending: float = 1e10, shear: float = 2e9, drums: int = 3) -> st.Colu
 
 def survey(spread: float, stream=None, **stiffness) -> list[Measured]:
     """First and second bending and torsion of such a column, as measured with an error of that standard deviation."""
-    found = st.modes(column(**stiffness), MODEL)
-    true = {("bending", 1): found.bending[0], ("bending", 2): found.bending[1], ("torsion", 1): found.torsion[0]}
+    modes = st.modes(column(**stiffness), MODEL)
+    true = {("bending", 1): modes.bending[0], ("bending", 2): modes.bending[1], ("torsion", 1): modes.torsion[0]}
     error = (lambda: 0.0) if stream is None else (lambda: math.log1p(spread) * stream.standard_normal())
     return [Measured(float(f) * math.exp(error()), spread, kind, number) for (kind, number), f in true.items()]
 
 
 def test_what_is_measured_without_error_is_found():
-    found = st.joints_from_frequencies(column(1e9, 1e9), survey(0.01), MODEL, None)
-    assert found.bending.median == pytest.approx(1e10, rel=0.005)
-    assert found.shear.median == pytest.approx(2e9, rel=0.005)
-    assert found.bending.low < 1e10 < found.bending.high
-    assert found.inferred_column.joints[1].normal_stiffness == pytest.approx(5e9, rel=0.005)
-    assert found.best["bending 1"] == pytest.approx(survey(0.01)[0].frequency, rel=2e-3)
+    estimate = st.joints_from_frequencies(column(1e9, 1e9), survey(0.01), MODEL, None)
+    assert estimate.bending.median == pytest.approx(1e10, rel=0.005)
+    assert estimate.shear.median == pytest.approx(2e9, rel=0.005)
+    assert estimate.bending.low < 1e10 < estimate.bending.high
+    assert estimate.inferred_column.joints[1].normal_stiffness == pytest.approx(5e9, rel=0.005)
+    assert estimate.best["bending 1"] == pytest.approx(survey(0.01)[0].frequency, rel=2e-3)
 
 
 def test_torsion_alone_tells_of_shear_as_a_square():
     """ω² is k_s times a number on rigid ground: ±x of the frequency is ±2x of k_s, and 95 % are 1.96 of them, to 1 %."""
     torsion = survey(0.03)[2]
-    found = st.joints_from_frequencies(column(), [torsion], MODEL, None)
+    estimate = st.joints_from_frequencies(column(), [torsion], MODEL, None)
     ends = [2e9 * math.exp(2.0 * 1.959964 * sign * math.log1p(0.03)) for sign in (-1.0, 1.0)]
-    assert (found.shear.low, found.shear.high) == pytest.approx(ends, rel=0.01)
-    assert found.shear.median == pytest.approx(2e9, rel=0.005)
-    assert found.bending == (None, None, None)
-    assert "k_b/J_A stays open on both sides" in found.open_words[0]
-    assert found.inferred_column is None
-    assert found.scatter is None
+    assert (estimate.shear.low, estimate.shear.high) == pytest.approx(ends, rel=0.01)
+    assert estimate.shear.median == pytest.approx(2e9, rel=0.005)
+    assert estimate.bending == (None, None, None)
+    assert "k_b/J_A stays open on both sides" in estimate.open_words[0]
+    assert estimate.inferred_column is None
+    assert estimate.scatter is None
 
 
 def test_the_first_frequency_gives_lower_bounds_alone():
     """Rigid joints in bending would give it by slip, and rigid ones in shear by bending."""
-    found = st.joints_from_frequencies(column(), survey(0.03)[:1], MODEL, None)
-    assert found.bending.high is found.shear.high is found.bending.median is None
-    assert found.bending.low < 1e10
-    assert found.shear.low < 2e9
-    sides = found.bounded_by["joint_bending_stiffness"]
+    estimate = st.joints_from_frequencies(column(), survey(0.03)[:1], MODEL, None)
+    assert estimate.bending.high is estimate.shear.high is estimate.bending.median is None
+    assert estimate.bending.low < 1e10
+    assert estimate.shear.low < 2e9
+    sides = estimate.bounded_by["joint_bending_stiffness"]
     assert sides == {"low": "bending 1", "high": None}
 
 
 def test_soft_ground_leaves_room_for_stiffer_joints():
     """What the ground yields the joints need not: both ends go up, and the interval is wider."""
-    frequencies = [Measured(one.frequency, 0.03, one.kind, one.number) for one in survey(0.03)]
+    frequencies = [Measured(measured.frequency, 0.03, measured.kind, measured.number) for measured in survey(0.03)]
     rigid = st.joints_from_frequencies(column(), frequencies, MODEL, None)
     ground = st.joints_from_frequencies(
         column(), frequencies, MODEL, parse_ground("vs=200:600m/s,half_width=1.5m"), draws=16
@@ -79,11 +79,11 @@ def test_a_block_on_the_ground_rocks_as_gazetas_says():
     stiff = ground.stiffness(np.zeros((1, 3)))
     modulus = 1800.0 * 200.0**2
     assert stiff[0, [0, 3]] == pytest.approx([9.0 * modulus / 1.7, 3.6 * modulus / 0.7], rel=1e-12)
-    one = column(drums=1)
-    squares = _Family(one, MODEL).squares("bending", (1, 2), np.array([1e14]), np.array([1e14]), stiff)[0]
-    drum = one.drums[0]
+    block = column(drums=1)
+    squares = _Family(block, MODEL).squares("bending", (1, 2), np.array([1e14]), np.array([1e14]), stiff)[0]
+    drum = block.drums[0]
     m, i, h = drum.mass, drum.inertia, drum.centroid_height
-    kx, kappa = stiff[0, 0], stiff[0, 3] - m * one.gravity * h
+    kx, kappa = stiff[0, 0], stiff[0, 3] - m * block.gravity * h
     want = np.sort(np.roots([m * i, -(kx * i + m * (kx * h * h + kappa)), kx * kappa]))
     assert squares == pytest.approx(want, rel=1e-3)
 
@@ -92,22 +92,22 @@ def test_surveys_cover_what_is_true():
     """40 synthetic surveys with stiffnesses drawn evenly over two orders of magnitude: of 80 intervals of 95 % at
     least 70 hold what is true (fewer come by chance once in 1000; 200 surveys held 95 %, see the page on measured
     columns)."""
-    stream, held = np.random.default_rng(7), 0
+    stream, hits = np.random.default_rng(7), 0
     for _ in range(40):
         bending, shear = 10.0 ** stream.uniform(9.0, 11.0), 10.0 ** stream.uniform(8.5, 10.5)
-        found = st.joints_from_frequencies(column(drums=2), survey_of_two(stream, bending, shear), MODEL, None)
-        for true, interval in ((bending, found.bending), (shear, found.shear)):
-            held += (interval.low is None or interval.low <= true) and (interval.high is None or true <= interval.high)
-    assert held >= 70
+        estimate = st.joints_from_frequencies(column(drums=2), survey_of_two(stream, bending, shear), MODEL, None)
+        for true, interval in ((bending, estimate.bending), (shear, estimate.shear)):
+            hits += (interval.low is None or interval.low <= true) and (interval.high is None or true <= interval.high)
+    assert hits >= 70
 
 
 def survey_of_two(stream, bending: float, shear: float) -> list[Measured]:
     """As :func:`survey` of two drums."""
-    found = st.modes(column(bending, shear, 2), MODEL)
+    modes = st.modes(column(bending, shear, 2), MODEL)
     true = (
-        ("bending", 1, 0.03, found.bending[0]),
-        ("bending", 2, 0.06, found.bending[1]),
-        ("torsion", 1, 0.06, found.torsion[0]),
+        ("bending", 1, 0.03, modes.bending[0]),
+        ("bending", 2, 0.06, modes.bending[1]),
+        ("torsion", 1, 0.06, modes.torsion[0]),
     )
     return [
         Measured(float(f) * math.exp(math.log1p(s) * stream.standard_normal()), s, kind, number)
@@ -119,15 +119,15 @@ def survey_of_two(stream, bending: float, shear: float) -> list[Measured]:
 
 
 def test_frequencies_as_typed():
-    found = parse_measured("6.5Hz±6%, 1.27 Hz +- 3%,torsion 9.0Hz±0.5Hz")
-    assert [one.name for one in found] == ["bending 1", "bending 2", "torsion 1"]
-    assert found[0] == Measured(1.27, 0.03)
-    assert found[2].spread == pytest.approx(0.5 / 9.0)
+    frequencies = parse_measured("6.5Hz±6%, 1.27 Hz +- 3%,torsion 9.0Hz±0.5Hz")
+    assert [frequency.name for frequency in frequencies] == ["bending 1", "bending 2", "torsion 1"]
+    assert frequencies[0] == Measured(1.27, 0.03)
+    assert frequencies[2].spread == pytest.approx(0.5 / 9.0)
     assert parse_measured("bending 2 6.5Hz±6%")[0].number == 2
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("1.27Hz", "has no spread; give its standard deviation"),
         ("1.27±3%", "is without a unit; give it in Hz"),
@@ -142,14 +142,14 @@ def test_frequencies_as_typed():
         ("1.27Hz±80%", "allowed is"),
     ],
 )
-def test_frequencies_typed_otherwise_are_refused(text, said):
-    with pytest.raises(InputError, match=said) as error:
+def test_frequencies_typed_otherwise_are_refused(text, message):
+    with pytest.raises(InputError, match=message) as error:
         parse_measured(text)
     assert error.value.field == "measured"
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("soft", "allowed is rigid, or vs=300m/s"),
         ("vs=300,half_width=4m", "write it with its unit"),
@@ -158,8 +158,8 @@ def test_frequencies_typed_otherwise_are_refused(text, said):
         ("vs=3m/s,half_width=4m", r"allowed is \[30, 4000\] m/s"),
     ],
 )
-def test_ground_typed_otherwise_is_refused(text, said):
-    with pytest.raises(InputError, match=said):
+def test_ground_typed_otherwise_is_refused(text, message):
+    with pytest.raises(InputError, match=message):
         parse_ground(text)
     assert parse_ground("rigid") is None
     assert parse_ground("vs=200:400m/s,half_width=4m,poisson=0.4").poisson == (0.4, 0.4)

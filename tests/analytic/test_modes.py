@@ -42,26 +42,26 @@ def test_one_drum_is_a_quadratic_in_the_square_of_the_frequency(law, section, sh
     kx = JOINT.shear_stiffness * float(column.joint_areas[0])
     kappa = share * JOINT.normal_stiffness * float(column.joint_second_moments[0]) - m * column.gravity * h
     squares = np.sort(np.roots([m * i, -(kx * i + m * (kx * h * h + kappa)), kx * kappa]))
-    found = st.modes(column, MODELS[law])
-    assert found.bending == pytest.approx(np.sqrt(squares) / (2.0 * np.pi), rel=1e-10)
-    assert found.joint_bending_stiffness == pytest.approx([share * JOINT.normal_stiffness], rel=1e-12)
+    modes = st.modes(column, MODELS[law])
+    assert modes.bending == pytest.approx(np.sqrt(squares) / (2.0 * np.pi), rel=1e-10)
+    assert modes.joint_bending_stiffness == pytest.approx([share * JOINT.normal_stiffness], rel=1e-12)
 
 
 @pytest.mark.parametrize("n", [1, 2, 5, 12])
 def test_equal_cylinders_twist_and_bounce_as_a_chain(n):
     """ω_i = 2 √(k/m) sin[(2i − 1) π/(2 (2n + 1))]: to 1e-10, of torsion with 2 k_s J over the axial inertia."""
     column = cylinder(n)
-    found = st.modes(column, MODELS["rim"])
+    modes = st.modes(column, MODELS["rim"])
     sines = 2.0 * np.sin((2.0 * np.arange(1, n + 1) - 1.0) * np.pi / (2.0 * (2.0 * n + 1.0))) / (2.0 * np.pi)
     drum, area, second = column.drums[0], float(column.joint_areas[0]), float(column.joint_second_moments[0])
-    assert found.axial == pytest.approx(sines * math.sqrt(1e10 * area / drum.mass), rel=1e-10)
-    assert found.torsion == pytest.approx(sines * math.sqrt(2.0 * 5e9 * second / drum.axial_inertia), rel=1e-10)
+    assert modes.axial == pytest.approx(sines * math.sqrt(1e10 * area / drum.mass), rel=1e-10)
+    assert modes.torsion == pytest.approx(sines * math.sqrt(2.0 * 5e9 * second / drum.axial_inertia), rel=1e-10)
 
 
 def test_many_drums_are_a_beam_of_timoshenko():
     """E = k_b h/J_A, κG = k_s h, without gravity to speak of: 1.96426371 Hz (transfer matrix); 80 drums are within
     1.3 %, and the rest goes by 1/n."""
-    found = []
+    frequencies = []
     for n in (40, 80):
         h = 20.0 / n
         law = st.Joint(2e10 / h, 5e9 / h, 35.0)
@@ -75,8 +75,8 @@ def test_many_drums_are_a_beam_of_timoshenko():
             section="circular",
             gravity=0.01,
         )
-        found.append(float(st.modes(column, MODELS["bed"]).bending[0]))
-    assert 2.0 * found[1] - found[0] == pytest.approx(1.96426371, rel=1e-3)
+        frequencies.append(float(st.modes(column, MODELS["bed"]).bending[0]))
+    assert 2.0 * frequencies[1] - frequencies[0] == pytest.approx(1.96426371, rel=1e-3)
 
 
 def test_corners_of_a_slab_bend_by_their_lever_in_both_planes_and_in_torsion():
@@ -89,22 +89,22 @@ def test_corners_of_a_slab_bend_by_their_lever_in_both_planes_and_in_torsion():
         kappa = 1e10 * area * width**2 / 4.0 - m * column.gravity * h
         squares = np.roots([m * inertia, -(kx * inertia + m * (kx * h * h + kappa)), kx * kappa])
         want += list(np.sqrt(squares) / (2.0 * np.pi))
-    found = st.modes(column, MODELS["rim"])
-    assert found.bending == pytest.approx(np.sort(want), rel=1e-10)
-    assert {mode.azimuth for mode in found.of("bending")} == {0.0, 90.0}
+    modes = st.modes(column, MODELS["rim"])
+    assert modes.bending == pytest.approx(np.sort(want), rel=1e-10)
+    assert {mode.azimuth for mode in modes.of("bending")} == {0.0, 90.0}
     twist = math.sqrt(kx * (1.11**2 + 0.6**2) / 4.0 / drum.axial_inertia) / (2.0 * math.pi)
-    assert found.torsion == pytest.approx([twist], rel=1e-10)
+    assert modes.torsion == pytest.approx([twist], rel=1e-10)
 
 
 def test_rings_carry_where_they_are():
     """J of a ring; the rest of the face has no springs."""
     ring = tapered(1, st.Joint(1e10, 5e9, 35.0, ring_width=0.2))
-    whole, found = st.modes(tapered(1), MODELS["bed"]), st.modes(ring, MODELS["bed"])
-    assert found.joint_bending_stiffness == pytest.approx([1e10], rel=1e-12)
+    whole, ring_modes = st.modes(tapered(1), MODELS["bed"]), st.modes(ring, MODELS["bed"])
+    assert ring_modes.joint_bending_stiffness == pytest.approx([1e10], rel=1e-12)
     inner = 1.0 - 0.2 / 0.555
     share = (1.0 - inner**4) * float(tapered(1).joint_second_moments[0])
     assert float(ring.joint_second_moments[0]) == pytest.approx(share, rel=1e-12)
-    assert found.bending[0] < whole.bending[0]
+    assert ring_modes.bending[0] < whole.bending[0]
 
 
 # -- the table ---------------------------------------------------------------------------------------------------------
@@ -112,7 +112,7 @@ def test_rings_carry_where_they_are():
 
 def _column_of(row: dict[str, str]) -> tuple[st.Column, str] | None:
     given = {
-        key.strip(): value.strip() for key, _, value in (one.partition("=") for one in row["parameters"].split(";"))
+        key.strip(): value.strip() for key, _, value in (pair.partition("=") for pair in row["parameters"].split(";"))
     }
     case, law = row["case"], given.get("law", "points")
     if case.startswith("preset"):
@@ -127,8 +127,8 @@ def _column_of(row: dict[str, str]) -> tuple[st.Column, str] | None:
     else:
         size = {"height": float(given["H"]), "bottom_width": float(given["d0"]), "top_width": float(given["d1"])}
     n = int(given.get("n", 12 if "softened" in case else 1))
-    left = float(given.get("stiffness_left", 1.0))
-    soft = {int(given["joint"]): st.Joint(left * kn, left * ks, 35.0)} if "joint" in given else None
+    share = float(given.get("stiffness_left", 1.0))
+    soft = {int(given["joint"]): st.Joint(share * kn, share * ks, 35.0)} if "joint" in given else None
     section = given.get("section", "circular")
     return (
         st.Column.tapered(
@@ -166,8 +166,8 @@ def test_a_table_from_outside_is_met():
 def test_a_column_hardly_found_otherwise_vibrates_as_built(law, section):
     """Offsets of a hundredth of a millimetre leave the frequencies to 1e-4, by the whole way of columns as found."""
     column = tapered(3, section=section)
-    found = column.replace(as_found=st.AsFound((st.FoundDrum(2, offset=1e-5), st.FoundDrum(3, offset=-1e-5))))
-    built, moved = st.modes(column, MODELS[law]), st.modes(found, MODELS[law])
+    moved_column = column.replace(as_found=st.AsFound((st.FoundDrum(2, offset=1e-5), st.FoundDrum(3, offset=-1e-5))))
+    built, moved = st.modes(column, MODELS[law]), st.modes(moved_column, MODELS[law])
     assert moved.bending[:2] == pytest.approx(
         np.sort(np.concatenate((built.bending, built.bending)))[:2]
         if section == "circular" and law != "points"
@@ -189,17 +189,17 @@ def test_directions_of_a_round_column_found_askew_are_apart_by_a_right_angle():
 def test_a_turned_column_vibrates_as_before():
     """Property: offsets and tilts turned by 40 degrees together leave all frequencies to 1e-6, and turn the directions."""
 
-    def found(turn):
+    def turned_modes(turn):
         drums = (
             st.FoundDrum(2, offset=0.06, offset_azimuth=10.0 + turn, tilt=0.4, tilt_azimuth=100.0 + turn),
             st.FoundDrum(3, offset=0.03, offset_azimuth=200.0 + turn),
         )
         return st.modes(tapered(3).replace(as_found=st.AsFound(drums)), MODELS["rim"])
 
-    one, other = found(0.0), found(40.0)
-    assert other.bending == pytest.approx(one.bending, rel=1e-4)
-    assert other.torsion == pytest.approx(one.torsion, rel=1e-4)
-    turned = (other.of("bending")[0].azimuth - one.of("bending")[0].azimuth) % 180.0
+    unturned, other = turned_modes(0.0), turned_modes(40.0)
+    assert other.bending == pytest.approx(unturned.bending, rel=1e-4)
+    assert other.torsion == pytest.approx(unturned.torsion, rel=1e-4)
+    turned = (other.of("bending")[0].azimuth - unturned.of("bending")[0].azimuth) % 180.0
     assert turned == pytest.approx(40.0, abs=0.5)
 
 
@@ -213,9 +213,9 @@ def test_a_dowel_adds_its_stiffness_to_that_of_the_joint():
         st.modes(beside, MODELS["rim"]).bending, rel=1e-10
     )
     slack = tapered(1).replace(links=(st.Dowel(joint=1, shear_stiffness=stiff, diameter=0.05, clearance=0.002),))
-    found = st.modes(slack, MODELS["rim"])
-    assert found.bending == pytest.approx(st.modes(tapered(1), MODELS["rim"]).bending, rel=1e-12)
-    assert "clearance" in found.standing.left_out[0]
+    modes = st.modes(slack, MODELS["rim"])
+    assert modes.bending == pytest.approx(st.modes(tapered(1), MODELS["rim"]).bending, rel=1e-12)
+    assert "clearance" in modes.standing.left_out[0]
 
 
 def test_a_pretensioned_core_presses_its_joint_and_pulls_it_back():
@@ -246,7 +246,7 @@ def test_a_weight_on_top_lowers_and_softer_joints_lower():
 def test_drops_of_half_a_joint_in_twelve():
     """f1 −10.6, −5.9, −2.1, −0.3 % and f2 −7.4, −1.6, −6.1, −2.9 % for joints 1, 4, 7, 10."""
     rows = frequency_drops(st.modes(tapered(12), MODELS["rim"]), 0.5, 2)
-    drops = [[round(100.0 * one["drop"], 1) for one in rows[j]["drops"][:2]] for j in (0, 3, 6, 9)]
+    drops = [[round(100.0 * drop["drop"], 1) for drop in rows[j]["drops"][:2]] for j in (0, 3, 6, 9)]
     assert np.array(drops) == pytest.approx(
         np.array([[-10.6, -7.4], [-5.9, -1.6], [-2.1, -6.1], [-0.3, -2.9]]), abs=0.06
     )
@@ -259,7 +259,7 @@ def test_a_softer_joint_raises_no_frequency_where_kinds_mix(offset):
     built = st.Column((st.Drum(1.0, 1.0, 1.0, 2500.0),) * 2, (st.Joint(1e9, 5e8, 35.0),) * 2)
     column = built.replace(as_found=st.AsFound(drums=(st.FoundDrum(2, offset=offset),)))
     for row, as_built in zip(
-        *(frequency_drops(st.modes(one, st.DistinctElement2D()), 0.5, 9) for one in (column, built))
+        *(frequency_drops(st.modes(structure, st.DistinctElement2D()), 0.5, 9) for structure in (column, built))
     ):
         drops = np.array([mode["drop"] for mode in row["drops"]])
         assert len(drops) == 6
@@ -271,13 +271,13 @@ def test_a_softer_joint_raises_no_frequency_where_kinds_mix(offset):
 
 def test_a_mode_holds_until_its_first_edge_has_risen():
     """One drum on a bed: the edge is closed by N/(k_n A) and rises by R times the rotation."""
-    found = st.modes(tapered(1), MODELS["bed"]).of("bending")[0]
+    mode = st.modes(tapered(1), MODELS["bed"]).of("bending")[0]
     column = tapered(1)
     closure = float(column.joint_weights[0] / (1e10 * column.joint_areas[0]))
-    turn = float(found.shape[1, 4])
-    assert found.holds_to == pytest.approx(closure / (0.555 * abs(turn)), rel=1e-9)
-    assert found.limited_by == "joint 1 opens"
-    assert found.shape[1, 0] + (5.95 - column.drums[0].centroid_height) * turn == pytest.approx(1.0, rel=1e-9)
+    turn = float(mode.shape[1, 4])
+    assert mode.holds_to == pytest.approx(closure / (0.555 * abs(turn)), rel=1e-9)
+    assert mode.limited_by == "joint 1 opens"
+    assert mode.shape[1, 0] + (5.95 - column.drums[0].centroid_height) * turn == pytest.approx(1.0, rel=1e-9)
 
 
 def test_joints_stiffer_than_stone_are_doubted():
@@ -303,10 +303,10 @@ def test_a_stack_of_blocks_is_the_column():
         )
         z += drum.height
     stack = st.SpatialAssembly(tuple(drums), JOINT, gravity=9.81)
-    built, found = st.modes(tapered(2), MODELS["rim"]), st.modes(stack, MODELS["rim"])
-    assert found.bending[:4] == pytest.approx(np.repeat(built.bending[:2], 2), rel=1e-5)
-    assert found.torsion[0] == pytest.approx(built.torsion[0], rel=1e-5)
-    assert found.axial[0] == pytest.approx(built.axial[0], rel=1e-5)
+    built, stack_modes = st.modes(tapered(2), MODELS["rim"]), st.modes(stack, MODELS["rim"])
+    assert stack_modes.bending[:4] == pytest.approx(np.repeat(built.bending[:2], 2), rel=1e-5)
+    assert stack_modes.torsion[0] == pytest.approx(built.torsion[0], rel=1e-5)
+    assert stack_modes.axial[0] == pytest.approx(built.axial[0], rel=1e-5)
 
 
 def test_a_portal_in_the_plane_sways_between_rigid_and_hinged():
@@ -315,11 +315,11 @@ def test_a_portal_in_the_plane_sways_between_rigid_and_hinged():
     joint = st.Joint(1e9, 5e8, 35.0)
     posts = [st.Block([(x, 0), (x + 0.6, 0), (x + 0.6, 3), (x, 3)], 2600.0, f"post {x}") for x in (0.0, 2.4)]
     lintel = st.Block([(0, 3), (3, 3), (3, 3.5), (0, 3.5)], 2600.0, "lintel")
-    found = st.modes(st.Assembly((*posts, lintel), joint), MODELS["points"])
+    modes = st.modes(st.Assembly((*posts, lintel), joint), MODELS["points"])
     alone = st.modes(st.Assembly((posts[0],), joint), MODELS["points"])
-    assert 0.3 * alone.bending[0] < found.bending[0] < alone.bending[0]
-    assert found.of("bending")[0].azimuth == 0.0
-    assert len(found.modes) == 9
+    assert 0.3 * alone.bending[0] < modes.bending[0] < alone.bending[0]
+    assert modes.of("bending")[0].azimuth == 0.0
+    assert len(modes.modes) == 9
 
 
 # -- refused -----------------------------------------------------------------------------------------------------------
@@ -327,8 +327,10 @@ def test_a_portal_in_the_plane_sways_between_rigid_and_hinged():
 
 def test_a_column_open_at_rest_is_refused_with_the_place():
     column = tapered(2).replace(as_found=st.AsFound((st.FoundDrum(2, offset=0.4),)))
-    said = r"joint 1 of 'column' is open at rest: the weight above passes \d+ mm beside its middle, and it stays closed"
-    with pytest.raises(InputError, match=said):
+    message = (
+        r"joint 1 of 'column' is open at rest: the weight above passes \d+ mm beside its middle, and it stays closed"
+    )
+    with pytest.raises(InputError, match=message):
         st.modes(column, MODELS["bed"])
 
 

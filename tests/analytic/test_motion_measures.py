@@ -138,9 +138,9 @@ def test_measures_of_a_long_harmonic():
 def test_rocking_measures():
     alpha, p = 0.2, 1.7
     motion = harmonic(1.0, 2.0 * g * alpha, 10.0)
-    found = rocking_measures(motion, alpha, p)
-    assert found["pga_over_g_tan_alpha"] == pytest.approx(2.0, rel=1e-5)
-    assert found["uniform_duration_s"] == pytest.approx(
+    measures = rocking_measures(motion, alpha, p)
+    assert measures["pga_over_g_tan_alpha"] == pytest.approx(2.0, rel=1e-5)
+    assert measures["uniform_duration_s"] == pytest.approx(
         10.0 * 2.0 / 3.0, rel=1e-5
     )  # |sin| > 1/2 two thirds of the time
     pulse = rocking_measures(ricker(0.8, 5.0, 20.0), alpha, p)
@@ -152,11 +152,11 @@ def test_rocking_measures():
 def test_a_ricker_pulse_is_found_in_noise(antisymmetric, frequency):
     pulse = ricker(frequency, 4.0, 20.0, antisymmetric=antisymmetric)
     noise = np.random.default_rng(1).normal(size=pulse.steps) * 0.5
-    found = pulse_match(Motion(pulse.dt, pulse.acceleration + noise))
-    assert found.period == pytest.approx(1.0 / frequency, rel=0.02)
-    assert found.amplitude == pytest.approx(4.0, rel=0.03)
-    assert found.time == pytest.approx(1.5 / frequency, abs=0.07 / frequency)
-    assert found.kind == ("antisymmetric" if antisymmetric else "symmetric")
+    match = pulse_match(Motion(pulse.dt, pulse.acceleration + noise))
+    assert match.period == pytest.approx(1.0 / frequency, rel=0.02)
+    assert match.amplitude == pytest.approx(4.0, rel=0.03)
+    assert match.time == pytest.approx(1.5 / frequency, abs=0.07 / frequency)
+    assert match.kind == ("antisymmetric" if antisymmetric else "symmetric")
 
 
 def test_directions():
@@ -165,9 +165,9 @@ def test_directions():
     a = rng.normal(size=2000)
     motion = Motion(0.01, a * math.cos(math.pi / 6), a * math.sin(math.pi / 6))
     peak = np.abs(a).max()
-    found = rotated_pga(motion)
-    assert found[100.0] == pytest.approx(peak, rel=1e-12)
-    assert found[50.0] == pytest.approx(peak * math.cos(math.pi / 4), rel=0.02)
+    peaks = rotated_pga(motion)
+    assert peaks[100.0] == pytest.approx(peak, rel=1e-12)
+    assert peaks[50.0] == pytest.approx(peak * math.cos(math.pi / 4), rel=0.02)
     spectrum = rotated_spectrum(motion, periods=[0.5, 1.0])
     along = response_spectrum(Motion(0.01, a), [0.5, 1.0]).psa
     assert spectrum[100.0] == pytest.approx(along, rel=6e-4)  # as close as states lie on a period
@@ -201,7 +201,7 @@ def test_a_displacement_that_double_integration_leaves_is_told_with_its_size():
     assert displacement_drift(offset, "y") == pytest.approx(10.0 / (2.0 * np.pi), rel=1e-3)
     with pytest.warns(OutOfRangeWarning) as seen:
         warn_of_drift(offset)
-    assert [str(one.message)[:44] for one in seen] == [
+    assert [str(warning.message)[:44] for warning in seen] == [
         f"{offset.name}: the peak displacement of component {axis}"[:44] for axis in "xy"
     ]
     assert "1 m stand at the end" in str(seen[0].message)
@@ -244,8 +244,8 @@ def test_no_conditioning_is_named_that_takes_the_shaking_or_is_longer_than_the_r
     shaking = 0.8 * np.sin(6.0 * np.pi * time) * np.exp(-(((time - 12.0) / 3.0) ** 2))
     values = np.gradient(fling, 0.01) + shaking
     own = float(np.abs(integrate(values, 0.01)).max())
-    taken = {one: np.abs(integrate(cured(Motion(0.01, values), one).samples, 0.01)).max() for one in CURES}
-    assert min(own / taken[one] for one in CURES if one != "demean") > 1.0 / KEPT_VELOCITY
+    taken = {cure: np.abs(integrate(cured(Motion(0.01, values), cure).samples, 0.01)).max() for cure in CURES}
+    assert min(own / taken[cure] for cure in CURES if cure != "demean") > 1.0 / KEPT_VELOCITY
     assert drift_of(values, 0.01) != 0.0
     assert cures_of(values, 0.01) == {}
     short = (shaking + 0.003 * time)[800:1700]  # nine seconds, which a filter of ten does not see
@@ -266,8 +266,8 @@ def test_a_combination_is_named_where_it_does_better_than_any_single_step():
     record = drifting(0.12)
     named = str(cure_of(record))
     assert named == f"demean{THEN}highpass=0.1Hz"
-    left = {one: np.abs(displacement(cured(record, one).samples, 0.01)).max() for one in CURES}
-    assert left[named] < 0.5 * min(size for one, size in left.items() if THEN not in one)
+    drifts = {cure: np.abs(displacement(cured(record, cure).samples, 0.01)).max() for cure in CURES}
+    assert drifts[named] < 0.5 * min(size for cure, size in drifts.items() if THEN not in cure)
     assert displacement_drift(cured(record, named)) == 0.0
     with pytest.warns(OutOfRangeWarning, match=r"\(`condition='demean'`, then `condition='highpass=0.1Hz'`\)"):
         warn_of_drift(record)
@@ -289,9 +289,9 @@ def test_the_velocity_of_a_record_that_drifts_is_told_with_what_it_is_without():
     record = drifting(0.02)
     with pytest.warns(OutOfRangeWarning, match="r: the peak velocity of component x, .* m stand at the end") as seen:
         warn_of_velocity(record)
-    left = re.search(r"leaves (\S+) m/s", str(seen[0].message))
-    assert left is not None
-    assert float(left[1]) == pytest.approx(3.0 / (6.0 * np.pi), rel=0.05)
+    match = re.search(r"leaves (\S+) m/s", str(seen[0].message))
+    assert match is not None
+    assert float(match[1]) == pytest.approx(3.0 / (6.0 * np.pi), rel=0.05)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warn_of_velocity(cured(record, str(cure_of(record))))
@@ -310,9 +310,9 @@ def test_el_centro_is_not_told_a_baseline_that_leaves_it_moving():
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_the_summary_is_plain_values(size, count):
     waves = [size * np.sin(np.linspace(0.0, 20.0 + i, 800)) for i in range(count)]
-    found = motion_summary(Motion(0.01, *waves))
-    text = json.dumps(found, allow_nan=False)
+    summary = motion_summary(Motion(0.01, *waves))
+    text = json.dumps(summary, allow_nan=False)
     assert json.loads(text)["pga_g"]["x"] == pytest.approx(np.abs(waves[0]).max() / g)
-    assert list(found["pgv_m_s"]) == list("xyz")[:count]
-    assert ("pga_rotd100_g" in found) == (count > 1)
-    assert ("psa_5_percent_g" in found) == (size > 0.0)
+    assert list(summary["pgv_m_s"]) == list("xyz")[:count]
+    assert ("pga_rotd100_g" in summary) == (count > 1)
+    assert ("psa_5_percent_g" in summary) == (size > 0.0)

@@ -41,7 +41,7 @@ def test_stiff_joints_rock_as_rigid_ones(law, power):
 
     From 1e12 to 1e15 N/m³ to 2 % of the power; from springs of corners exactly. (Swings in space were found to go by −0.43.)
     """
-    missing = [1.0 - one.acceleration / one.rigid for one in (opens(kn, law) for kn in (1e12, 1e15))]
+    missing = [1.0 - result.acceleration / result.rigid for result in (opens(kn, law) for kn in (1e12, 1e15))]
     assert np.log10(missing[1] / missing[0]) / 3.0 == pytest.approx(power, rel=0.02)
     assert opens(5e10, law).rigid == pytest.approx(column().gravity / 4.0, rel=1e-12)
 
@@ -56,10 +56,12 @@ def test_a_rim_rocks_where_it_was_found_to():
 
 def test_a_run_says_it_and_doubts_wide_toes():
     shaking = st.harmonic(1.0, 0.1 * st.g, 0.2)
-    told = st.simulate(column(), shaking, st.DistinctElement3D()).summary()
-    assert told["opening_acceleration_rigid_g"] == pytest.approx(0.25 * column().gravity / st.g)
-    assert told["opening_acceleration_g"] == pytest.approx(0.985 * told["opening_acceleration_rigid_g"], rel=0.002)
-    assert told["toe_over_width"] < 0.05
+    summary = st.simulate(column(), shaking, st.DistinctElement3D()).summary()
+    assert summary["opening_acceleration_rigid_g"] == pytest.approx(0.25 * column().gravity / st.g)
+    assert summary["opening_acceleration_g"] == pytest.approx(
+        0.985 * summary["opening_acceleration_rigid_g"], rel=0.002
+    )
+    assert summary["toe_over_width"] < 0.05
     soft = st.simulate(column(1e9), shaking, st.DistinctElement3D())
     assert soft.summary()["toe_over_width"] > 0.05
     from stylobate.response.words import opening_words
@@ -85,8 +87,8 @@ def alone(kn: float, law: str) -> float:
 def test_nineteen_soft_joints_bear_less_than_that_of_the_base_alone(law, kn, high):
     """The column of Marcus Aurelius: told too high by so much where its base joint alone was soft, to 0.002."""
     stone = st.preset("marcus-aurelius")
-    found = opening(stone, np.full(stone.n, kn), law)
-    assert alone(kn, law) * st.g / found.acceleration - 1.0 == pytest.approx(high, abs=0.002)
+    result = opening(stone, np.full(stone.n, kn), law)
+    assert alone(kn, law) * st.g / result.acceleration - 1.0 == pytest.approx(high, abs=0.002)
 
 
 def test_the_engine_falls_where_the_chain_does():
@@ -98,22 +100,22 @@ def test_the_engine_falls_where_the_chain_does():
 @pytest.mark.parametrize("law", ["rim", "bed", "corners"])
 def test_a_monolith_is_its_one_joint(law):
     """The path of one joint is the closed form: to 1e-5."""
-    one = column(3e9, "rectangular" if law == "corners" else "circular")
-    found = opening(one, np.array([3e9]), law)
-    weight, half, height = float(one.joint_weights[0]), 0.5, one.centroid_height
+    monolith = column(3e9, "rectangular" if law == "corners" else "circular")
+    result = opening(monolith, np.array([3e9]), law)
+    weight, half, height = float(monolith.joint_weights[0]), 0.5, monolith.centroid_height
     if law == "corners":
-        borne = half - height * weight / (3e9 * float(one.joint_areas[0]) * half)
+        borne = half - height * weight / (3e9 * float(monolith.joint_areas[0]) * half)
     else:
         force, lever = {"rim": on_rims, "bed": on_beds}[law]()
         borne = float((half * lever - height * weight / (3e9 * half**3) / force).max())
-    assert found.acceleration == pytest.approx(one.gravity * borne / height, rel=1e-5)
+    assert result.acceleration == pytest.approx(monolith.gravity * borne / height, rel=1e-5)
 
 
 def test_many_drums_of_two_points_give_way_where_the_first_corners_have_opened():
     """All in one linear system: capacity is where N d/2 is used up, with the lean of every joint below and above in it."""
     stone = st.preset("paper-12-drums")
     kn = np.full(stone.n, 1e9)
-    found = opening(stone, kn, "corners")
+    result = opening(stone, kn, "corners")
     mass, height = stone.parts_above
     above, half = mass * height, 0.5 * stone.joint_widths
     order = np.arange(stone.n)
@@ -121,8 +123,8 @@ def test_many_drums_of_two_points_give_way_where_the_first_corners_have_opened()
     stiff = np.diag(kn * stone.joint_areas * half**2)
     borne = stone.joint_weights * half
     turns = np.linalg.solve(stiff - leaning, above)
-    assert found.acceleration == pytest.approx(float((borne / (stiff @ turns)).min()), rel=1e-9)
-    assert found.acceleration < found.rigid
+    assert result.acceleration == pytest.approx(float((borne / (stiff @ turns)).min()), rel=1e-9)
+    assert result.acceleration < result.rigid
 
 
 def pushed(kn: float, law: str, model, share: float) -> st.Response:

@@ -14,11 +14,11 @@ SPACE = st.DistinctElement3D()
 
 
 @pytest.fixture(scope="module")
-def found():
+def companions():
     return st.other_laws(st.simulate(ROUND, MOTION, SPACE), MOTION, SPACE, st.Campaign(threads=1))
 
 
-def test_verdicts_are_those_of_the_models_with_these_laws(found):
+def test_verdicts_are_those_of_the_models_with_these_laws(companions):
     """Each companion is the column under a model that says the same: its rows are those of single runs."""
     stone = {"stiffness_damping": 3e-4, "rolling_resistance": 0.003}
     same = {
@@ -26,13 +26,13 @@ def test_verdicts_are_those_of_the_models_with_these_laws(found):
         "on beds, undamped": st.DistinctElement3D(law="bed"),
         "on beds, damped as stone": st.DistinctElement3D(law="bed", **stone),
     }
-    assert set(found.verdicts) == {*same, "stiffer joints", "softer joints"}
+    assert set(companions.verdicts) == {*same, "stiffer joints", "softer joints"}
     for words, model in same.items():
         alone = st.simulate(ROUND, MOTION, model, until_decided=True).measures.row()
-        assert found.verdicts[words] == v.verdict(alone)
+        assert companions.verdicts[words] == v.verdict(alone)
     soft = st.Joint(JOINT.normal_stiffness / FACTOR, JOINT.shear_stiffness / FACTOR, friction_coefficient=0.7)
     alone = st.simulate(ROUND.replace(joints=soft), MOTION, SPACE, until_decided=True).measures.row()
-    assert found.verdicts["softer joints"] == v.verdict(alone)
+    assert companions.verdicts["softer joints"] == v.verdict(alone)
 
 
 def test_a_factor_is_one_standard_deviation_of_a_variation_of_100_percent():

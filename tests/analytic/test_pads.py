@@ -99,7 +99,7 @@ def test_a_pad_holds_nothing_in_tension() -> None:
     stood = slender.replace(links=[st.Pad(joint=1, thickness=0.003, material="lead")])
     assert limit_analysis(stood).multiplier == pytest.approx(limit_analysis(slender).multiplier, rel=1e-9)
     pulse = st.cosine_pulse(frequency=1.0, amplitude=4.0)
-    bare, padded = (st.simulate(one, pulse, st.DistinctElement2D()) for one in (slender, stood))
+    bare, padded = (st.simulate(column, pulse, st.DistinctElement2D()) for column in (slender, stood))
     assert bare.peak_rotation > 0.01
     assert padded.peak_rotation == pytest.approx(bare.peak_rotation, rel=0.02)
 

@@ -82,9 +82,9 @@ def test_a_dowel_out_of_its_hole_is_not_bent(model):
         body["x"][1, 0] += 0.03
         forces = block.records.kernel.forces if model.axes == "xyz" else block.records.kernel.gather
         forces(block.records.state)
-        one = links_of(block)
-        assert (one["out"][0, 0], one["on"][0, 0]) == (out, out)
-        assert one["fx"][0, 0] == 0.0
+        links = links_of(block)
+        assert (links["out"][0, 0], links["on"][0, 0]) == (out, out)
+        assert links["fx"][0, 0] == 0.0
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
@@ -103,7 +103,7 @@ def test_wood_is_as_strong_in_tension_as_its_standard_says():
     column = st.Column.of_drums([st.Drum(2.0, 0.5, 0.5, 2500.0)], JOINT)
     tie = st.Tie(at=(0.3, 0.0), diameter=0.1, material="wood")
     bar = st.Bar(joint=1, diameter=0.01, embedment=0.5, material="wood")
-    strong = [one.axial_capacity for one in column.replace(links=[tie, bar]).placed_links]
+    strong = [link.axial_capacity for link in column.replace(links=[tie, bar]).placed_links]
     assert strong == pytest.approx([18e6 * np.pi * 0.1**2 / 4.0, 18e6 * np.pi * 0.01**2 / 4.0])
 
 
@@ -111,10 +111,10 @@ def test_wood_is_as_strong_in_tension_as_its_standard_says():
 def test_a_column_that_only_its_pretension_holds_up_is_computed(model):
     """The weight of the upper drum passes 50 mm beyond its joint; the core presses it back. All of its joints counts."""
     drum = st.Drum(1.0, 0.5, 0.5, 2500.0, depth=0.5)
-    held = st.Core(at=(0.15, 0.0), to=(-0.15, 0.0), axial_stiffness=1e7, pretension=6e4)
-    found = st.AsFound((st.FoundDrum(2, offset=0.3),))
+    stressed_core = st.Core(at=(0.15, 0.0), to=(-0.15, 0.0), axial_stiffness=1e7, pretension=6e4)
+    as_found = st.AsFound((st.FoundDrum(2, offset=0.3),))
     joint = st.Joint(1e10, 5e9, friction_coefficient=0.7)
-    column = st.Column.of_drums([drum, drum], joint).replace(links=(held,), as_found=found)
+    column = st.Column.of_drums([drum, drum], joint).replace(links=(stressed_core,), as_found=as_found)
     response = st.simulate(column, st.Motion(0.01, np.zeros(11)), model)
     assert response.outcome is st.Outcome.AT_REST
     assert not response.decided

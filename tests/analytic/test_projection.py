@@ -33,29 +33,29 @@ FOUND = AsFound(
 def test_a_chipped_round_face_is_cut_by_the_plane(azimuth):
     """A chord at 0.4 m from the middle of a disc of 0.5 m, towards 30°: 0.4/cos(α − 30°) where that is less than 0.5."""
     column = BLOCK.replace(as_found=AsFound((FoundDrum(1, chip_right=0.1, chip_azimuth=30.0),)))
-    found = project(column, azimuth)
-    one = found.column.as_found.of(1)
+    projection = project(column, azimuth)
+    drum = projection.column.as_found.of(1)
     reach = {1.0: 0.5, -1.0: 0.5}
     toward = math.cos(math.radians(azimuth - 30.0))
     reach[math.copysign(1.0, toward)] = min(0.5, 0.4 / abs(toward))
-    assert (one.chip_left, one.chip_right) == pytest.approx((0.5 - reach[-1.0], 0.5 - reach[1.0]), abs=1e-12)
-    assert bool(found.lost) == (azimuth != 30.0)
+    assert (drum.chip_left, drum.chip_right) == pytest.approx((0.5 - reach[-1.0], 0.5 - reach[1.0]), abs=1e-12)
+    assert bool(projection.lost) == (azimuth != 30.0)
     # it overturns where the plane leaves the face: λ = reach over the height of the centroid
-    assert limit_analysis(found.column).multiplier == pytest.approx(reach[1.0] / 2.0, rel=1e-9)
-    assert limit_analysis(found.column, direction=180.0).multiplier == pytest.approx(reach[-1.0] / 2.0, rel=1e-9)
+    assert limit_analysis(projection.column).multiplier == pytest.approx(reach[1.0] / 2.0, rel=1e-9)
+    assert limit_analysis(projection.column, direction=180.0).multiplier == pytest.approx(reach[-1.0] / 2.0, rel=1e-9)
 
 
 def test_offsets_leans_and_the_slope_keep_their_parts_along_the_plane():
-    found = project(STACK.replace(as_found=FOUND), 30.0)
-    third = found.column.as_found.of(3)
+    projection = project(STACK.replace(as_found=FOUND), 30.0)
+    third = projection.column.as_found.of(3)
     assert third.offset == pytest.approx(0.05 * math.cos(math.radians(90.0)), abs=1e-15)
     assert math.tan(math.radians(third.tilt)) == pytest.approx(
         math.tan(math.radians(-0.4)) * math.cos(math.radians(30.0)), rel=1e-12
     )
     slope = math.tan(math.radians(0.5)) * math.cos(math.radians(7.0))
-    assert math.tan(math.radians(found.column.as_found.base_tilt)) == pytest.approx(slope, rel=1e-12)
-    assert found.column.as_found.in_plane
-    told = "; ".join(found.lost)
+    assert math.tan(math.radians(projection.column.as_found.base_tilt)) == pytest.approx(slope, rel=1e-12)
+    assert projection.column.as_found.in_plane
+    text = "; ".join(projection.lost)
     for words in (
         "offsets across of up to 50 mm (drum 3)",
         "leans across of up to 0.2° (drum 3)",
@@ -63,7 +63,7 @@ def test_offsets_leans_and_the_slope_keep_their_parts_along_the_plane():
         "slope of the base across, 0.0609°",
         "of the chips of drum 1, 20 mm and 100 mm deep, the plane shows ",
     ):
-        assert words in told
+        assert words in text
 
 
 @pytest.mark.parametrize("azimuth", np.arange(0.0, 360.0, 40.0))
@@ -95,12 +95,12 @@ def test_links_keep_their_places_along_the_plane_and_beside_it():
 
 
 def test_a_column_in_the_plane_stays_and_the_other_way_round_is_its_mirror():
-    found = AsFound((FoundDrum(2, offset=0.03, tilt=0.3), FoundDrum(1, chip_right=0.08)), 0.4)
-    column = STACK.replace(as_found=found)
+    as_found = AsFound((FoundDrum(2, offset=0.03, tilt=0.3), FoundDrum(1, chip_right=0.08)), 0.4)
+    column = STACK.replace(as_found=as_found)
     with pytest.warns(st.OutOfRangeWarning, match="nothing of it lies across"):
         same = projected(column, 0.0)
     for number in (1, 2):
-        kept, built = same.as_found.of(number), found.of(number)
+        kept, built = same.as_found.of(number), as_found.of(number)
         assert (kept.offset, kept.tilt) == pytest.approx((built.offset, built.tilt), rel=1e-12)
         assert (kept.chip_left, kept.chip_right) == pytest.approx((built.chip_left, built.chip_right), abs=1e-9)
     mirror = project(column, 180.0).column

@@ -107,7 +107,7 @@ def test_linear_interpolation_is_close_to_the_sine():
 
 
 @pytest.mark.parametrize(
-    ("pulse", "arguments", "said"),
+    ("pulse", "arguments", "message"),
     [
         (half_sine_pulse, (0.0, 1.0), "frequency"),
         (half_sine_pulse, (1.0, math.nan), "amplitude"),
@@ -116,6 +116,6 @@ def test_linear_interpolation_is_close_to_the_sine():
         (harmonic, (1000.0, 1.0, 9000.0), "shorter duration"),
     ],
 )
-def test_impossible_pulses_are_refused(pulse, arguments, said):
-    with pytest.raises(InputError, match=said):
+def test_impossible_pulses_are_refused(pulse, arguments, message):
+    with pytest.raises(InputError, match=message):
         pulse(*arguments)

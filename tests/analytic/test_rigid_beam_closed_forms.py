@@ -130,8 +130,8 @@ def test_constant_pulse_overturns_the_beam_with_housners_law(pt):
     for factor in (0.995, 0.998, 1.002, 1.005):
         motions.append(Motion(pt / p / 1000, np.ones(1001), factor=ratio * factor * alpha * g))
     cases = [Case(column, motion) for motion in motions]
-    found = dict(run_cases(cases, model, tail=3.0, threads=1))
-    assert [found[i].collapsed for i in range(4)] == [False, False, True, True]
+    results = dict(run_cases(cases, model, tail=3.0, threads=1))
+    assert [results[i].collapsed for i in range(4)] == [False, False, True, True]
 
 
 @pytest.mark.parametrize("second_order", ["geometric", "law"])
@@ -150,8 +150,8 @@ def test_housners_law_lifts_off_at_the_true_acceleration(second_order, slope):
         assert (single.peak_rotation > 0.0) == (batch.peak_rotation > 0.0) == lifts
     motion, time = Motion(0.001, np.full(21, 1.5 * limit)), 0.02
     expected = 0.5 * (0.5 * column.mass * limit * 2.0) / float(BeamMatrices(column).mass[0, 0]) * time**2
-    for found in (simulate(column, motion, model), dict(run_cases([Case(column, motion)], model, threads=1))[0]):
-        assert found.peak_rotation == pytest.approx(expected, rel=2e-3)
+    for measures in (simulate(column, motion, model), dict(run_cases([Case(column, motion)], model, threads=1))[0]):
+        assert measures.peak_rotation == pytest.approx(expected, rel=2e-3)
 
 
 @pytest.mark.parametrize("solver", ["fixed", "adaptive"])
@@ -177,8 +177,8 @@ def test_no_sliding_is_the_limit_of_high_friction_and_shear_stiffness():
     differences = []
     for stiffness in (1e10, 1e12):
         rough = column.with_joint(friction_coefficient=1e5, shear_stiffness=stiffness)
-        found = simulate(rough, motion, RigidBeam(sliding=True)).peak_top_displacement
-        differences.append(abs(found / expected - 1.0))
+        displacement = simulate(rough, motion, RigidBeam(sliding=True)).peak_top_displacement
+        differences.append(abs(displacement / expected - 1.0))
     assert expected > 0.02
     assert differences[1] < 2e-4
     assert differences[1] < differences[0]

@@ -27,12 +27,12 @@ def prism(drums: int, joint: Joint = STIFF, width: float = 1.0, **settings) -> C
 
 def test_room_on_the_contacts_of_slid_drums():
     # Four equal prisms, 1 m wide. The third has slid by 0.3 m and the fourth by 0.4 m on it; the base takes nothing away.
-    left = room(prism(4), np.array([5.0, 0.0, 0.3, 0.4]))
+    margins = room(prism(4), np.array([5.0, 0.0, 0.3, 0.4]))
     above_three = 0.4 / 2.0  # centroid of drums 3 and 4 over drum 3
     above_two = (2.0 * 0.3 + 0.4) / 3.0
     above_one = (2.0 * 0.3 + 0.4) / 4.0
-    assert left == pytest.approx([0.5 - above_one, 0.5 - above_two, 0.2 - above_three, 0.1])
-    assert room(prism(4), -np.array([5.0, 0.0, 0.3, 0.4])) == pytest.approx(left)
+    assert margins == pytest.approx([0.5 - above_one, 0.5 - above_two, 0.2 - above_three, 0.1])
+    assert room(prism(4), -np.array([5.0, 0.0, 0.3, 0.4])) == pytest.approx(margins)
     # A narrow drum on a wide one slides 0.2 m before the contact gets shorter.
     stepped = Column.of_drums([Drum(1.0, 1.0, 1.0, 2000.0), Drum(1.0, 0.6, 0.6, 2000.0)], STIFF)
     for slip, free in ((0.2, 0.3), (0.25, 0.25), (0.5, 0.0), (0.6, -0.1)):
@@ -97,9 +97,9 @@ def test_a_soft_block_let_go_beyond_its_summit_falls(second_order, solver):
     assert summit < 0.98 * passes.angles[-1, 0]
     for share, falls in ((0.98, False), (1.01, True)):
         model = RigidBeam(second_order=second_order, initial_rotation=share * summit)
-        found = run_as(solver, column, ZERO, model)
-        assert (found.outcome is Outcome.COLLAPSED) == falls
-        assert found.decided
+        response = run_as(solver, column, ZERO, model)
+        assert (response.outcome is Outcome.COLLAPSED) == falls
+        assert response.decided
         assert (run_as(solver, column, ZERO, model, tail=4.0).outcome is Outcome.COLLAPSED) == falls
 
 
@@ -109,33 +109,33 @@ def test_a_column_that_slid_on_its_base_stands():
         joint=Joint(5e9, 2.5e9, friction_coefficient=0.05),
     )  # fmt: skip
     push = Motion(0.005, np.full(201, 0.14 * g))
-    found = simulate(column, push, RigidBeam(sliding=True, stiffness_damping=1e-4), tail=2.0)
-    assert found.residual_joint_slip > column.base_width
-    assert found.outcome is Outcome.DISPLACED
-    assert found.decided
+    response = simulate(column, push, RigidBeam(sliding=True, stiffness_damping=1e-4), tail=2.0)
+    assert response.residual_joint_slip > column.base_width
+    assert response.outcome is Outcome.DISPLACED
+    assert response.decided
 
 
 def test_laws_in_rotations_of_single_drums_decide_only_what_stays_closed():
     # Their moments have no potential, so no barrier can be named: a joint that has opened may open again.
     column, model = preset("paper-12-drums"), RigidBeam.paper(stiffness_damping=1e-5)
     motions = [harmonic(f, a * g, 3.0 / f) for f in (1.0, 2.0) for a in (0.1, 0.15, 0.25, 0.3, 0.35)]
-    found = simulate_many(column, motions, model, threads=1)
-    stands = ~found.collapsed
-    assert (found.decided & stands & (found.outcome == "at_rest")).sum() >= 4
-    assert not (found.decided & stands & (found.outcome == "rocked")).any()
-    assert (stands & (found.outcome == "rocked")).any()
+    table = simulate_many(column, motions, model, threads=1)
+    stands = ~table.collapsed
+    assert (table.decided & stands & (table.outcome == "at_rest")).sum() >= 4
+    assert not (table.decided & stands & (table.outcome == "rocked")).any()
+    assert (stands & (table.outcome == "rocked")).any()
     # One drum turns as its joint does, and has a potential.
-    one = simulate(preset("paper-monolithic"), harmonic(1.0, 0.2 * g, 3.0), RigidBeam.paper())
-    assert one.outcome is Outcome.ROCKED
-    assert one.decided
+    response = simulate(preset("paper-monolithic"), harmonic(1.0, 0.2 * g, 3.0), RigidBeam.paper())
+    assert response.outcome is Outcome.ROCKED
+    assert response.decided
 
 
 def test_a_closed_column_that_flutters_is_refused():
     # Many stocky drums whose laws are in single rotations have complex modes: the smallest vibration grows.
     quiet = harmonic(1.0, 1e-4 * g, 1.0)
-    found = simulate(preset("paper-12-drums"), quiet, RigidBeam(rotation="absolute"))
-    assert found.outcome is Outcome.AT_REST
-    assert found.decided
+    response = simulate(preset("paper-12-drums"), quiet, RigidBeam(rotation="absolute"))
+    assert response.outcome is Outcome.AT_REST
+    assert response.decided
     stocky = prism(12, width=2.0)
     with pytest.raises(InputError, match="rotation=relative"):
         simulate(stocky, quiet, RigidBeam(rotation="absolute"))
@@ -153,7 +153,7 @@ def test_flutter_is_told_by_values_not_by_the_type_of_an_array(monkeypatch):
 
     model, quiet = RigidBeam(rotation="absolute"), harmonic(1.0, 1e-4 * g, 1.0)
     monkeypatch.setattr(np.linalg, "eig", complex_eig)
-    found = simulate(preset("paper-12-drums"), quiet, model)
-    assert (found.outcome, found.decided) == (Outcome.AT_REST, True)
+    response = simulate(preset("paper-12-drums"), quiet, model)
+    assert (response.outcome, response.decided) == (Outcome.AT_REST, True)
     with pytest.raises(InputError, match="rotation=relative"):
         simulate(prism(12, width=2.0), quiet, model)

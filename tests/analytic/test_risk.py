@@ -30,28 +30,28 @@ def test_a_power_law_has_a_closed_form(curve, points):
     # k₀ θ^−k exp(k²β²/2) (Cornell et al. 2002); the curve is straight in logarithms, so that its points do not matter.
     k0, k = 1e-3, 2.5
     x = np.geomspace(1e-4, 1e4, points)
-    found = risk(curve, Hazard(x, k0 * x**-k, "m/s", "power law", "PGV"))
+    collapse_risk = risk(curve, Hazard(x, k0 * x**-k, "m/s", "power law", "PGV"))
     exact = k0 * math.exp(-k * curve.log_median + 0.5 * (k * curve.beta) ** 2)
-    assert found.rate == pytest.approx(exact, rel=1e-10)
-    assert found.parts.sum() == pytest.approx(found.rate, rel=1e-12)
-    assert found.low < found.rate < found.high
-    assert found.warnings == []
+    assert collapse_risk.rate == pytest.approx(exact, rel=1e-10)
+    assert collapse_risk.parts.sum() == pytest.approx(collapse_risk.rate, rel=1e-12)
+    assert collapse_risk.low < collapse_risk.rate < collapse_risk.high
+    assert collapse_risk.warnings == []
 
 
 def test_any_curve_is_the_integral(curve):
     # ∫ λ(x) dP(x) by quadrature, straight between the points in logarithms; beyond the last one the probability stays.
     x, rate = np.array([0.05, 0.2, 0.6, 1.5]), np.array([0.2, 0.03, 0.002, 0.0001])
-    found = risk(curve, Hazard(x, rate, "m/s", "four points"))
+    collapse_risk = risk(curve, Hazard(x, rate, "m/s", "four points"))
     y = np.log(x)
 
     def integrand(z):
         return math.exp(np.interp(z, y, np.log(rate))) * norm.pdf((z - curve.log_median) / curve.beta) / curve.beta
 
     inside = sum(quad(integrand, a, b, epsabs=1e-14)[0] for a, b in itertools.pairwise(y))
-    first, last = (norm.cdf((one - curve.log_median) / curve.beta) for one in (y[0], y[-1]))
-    assert found.rate == pytest.approx(inside + rate[0] * first, rel=1e-9)
-    assert found.beyond == pytest.approx(rate[-1] * (1.0 - last), rel=1e-9)
-    assert len(found.edges) == len(found.parts) + 1
+    first, last = (norm.cdf((end - curve.log_median) / curve.beta) for end in (y[0], y[-1]))
+    assert collapse_risk.rate == pytest.approx(inside + rate[0] * first, rel=1e-9)
+    assert collapse_risk.beyond == pytest.approx(rate[-1] * (1.0 - last), rel=1e-9)
+    assert len(collapse_risk.edges) == len(collapse_risk.parts) + 1
 
 
 def test_the_ends_of_a_hazard_curve_are_said(curve):
@@ -77,8 +77,8 @@ def test_where_a_hazard_curve_begins_is_in_the_interval(curve):
     assert late.rate + late.weaker == pytest.approx(exact, rel=1e-3)
     assert late.rate < 0.8 * exact
     assert late.low < exact < late.high
-    assert [one for one in late.warnings if "begins at 0.8 m/s; weaker shaking" in one]
-    assert not [one for one in whole.warnings if "begins at" in one]
+    assert [warning for warning in late.warnings if "begins at 0.8 m/s; weaker shaking" in warning]
+    assert not [warning for warning in whole.warnings if "begins at" in warning]
 
 
 def test_runs_that_the_curve_leaves_out_are_told_with_the_rate(curve):
@@ -87,10 +87,10 @@ def test_runs_that_the_curve_leaves_out_are_told_with_the_rate(curve):
     codes[10:13], codes[20] = OPEN, FAILED
     open_ = fragility(dataclasses.replace(curve.evidence, codes=codes), samples=200)
     x = np.geomspace(0.01, 10.0, 9)
-    found = risk(open_, Hazard(x, 1e-3 * x**-2.0, "m/s", "a", "PGV"))
-    most, least = found.extremes
+    collapse_risk = risk(open_, Hazard(x, 1e-3 * x**-2.0, "m/s", "a", "PGV"))
+    most, least = collapse_risk.extremes
     assert least < most
-    assert found.warnings == [
+    assert collapse_risk.warnings == [
         f"3 undecided and 1 failed of {len(codes)} runs: counted as collapse the annual rate by a is {most:.3g}, counted as "
         f"none {least:.3g}; the curve leaves them out, its interval holds both."
     ]
@@ -101,25 +101,33 @@ def test_the_interval_of_a_rate_holds_those_of_both_ends_of_open_runs(curve):
     middle = (curve.evidence.im > 0.5) & (curve.evidence.im < 2.0) & np.isin(curve.evidence.records, ["r0", "r1", "r2"])
     open_ = dataclasses.replace(curve.evidence, codes=np.where(middle, OPEN, curve.evidence.codes))
     hazard = Hazard(x := np.geomspace(0.01, 10.0, 9), 1e-3 * x**-2.0, "m/s", "a", "PGV")
-    told = fragility(open_, samples=200)
-    found = risk(told, hazard)
-    most, least = (risk(one, hazard) for one in told.ends)
-    assert (most.rate, least.rate) == pytest.approx(found.extremes)
+    open_curve = fragility(open_, samples=200)
+    collapse_risk = risk(open_curve, hazard)
+    most, least = (risk(extreme_curve, hazard) for extreme_curve in open_curve.ends)
+    assert (most.rate, least.rate) == pytest.approx(collapse_risk.extremes)
     assert (
-        0.0 < found.low == least.low < least.rate < found.rate < most.rate < most.high - most.beyond < found.high < 1.0
+        0.0
+        < collapse_risk.low
+        == least.low
+        < least.rate
+        < collapse_risk.rate
+        < most.rate
+        < most.high - most.beyond
+        < collapse_risk.high
+        < 1.0
     )
-    alone = risk(dataclasses.replace(told, ends=()), hazard)
-    assert found.low < 0.98 * alone.low
-    assert found.high > 1.02 * alone.high
-    nothing = risk(dataclasses.replace(told, ends=(None, None)), hazard)  # neither end makes a curve
+    alone = risk(dataclasses.replace(open_curve, ends=()), hazard)
+    assert collapse_risk.low < 0.98 * alone.low
+    assert collapse_risk.high > 1.02 * alone.high
+    nothing = risk(dataclasses.replace(open_curve, ends=(None, None)), hazard)  # neither end makes a curve
     assert (nothing.low, nothing.high) == (0.0, math.inf)  # nor does anything limit what weaker shaking adds
 
 
 def test_hazards_of_one_name_are_refused(curve):
     survival = pytest.importorskip("stylobate_ruins.survival").survival
-    one = Hazard(np.geomspace(0.01, 10.0, 9), 1e-4 * np.geomspace(0.01, 10.0, 9) ** -2.0, "m/s", "site.csv", "PGV")
+    hazard = Hazard(np.geomspace(0.01, 10.0, 9), 1e-4 * np.geomspace(0.01, 10.0, 9) ** -2.0, "m/s", "site.csv", "PGV")
     with pytest.raises(InputError, match=r"two hazard curves are called 'site\.csv'"):
-        survival(curve, 2400.0, [one, one])
+        survival(curve, 2400.0, [hazard, hazard])
 
 
 def test_survival(curve):
@@ -127,13 +135,13 @@ def test_survival(curve):
     survival = pytest.importorskip("stylobate_ruins.survival").survival
     x = np.geomspace(0.01, 10.0, 9)
     hazards = [Hazard(x, k0 * x**-2.0, "m/s", name) for name, k0 in (("a", 1e-4), ("b", 1e-3))]
-    found = survival(curve, 2400.0, hazards)
-    rates = np.array([one.rate for one in found.risks])
-    assert found.probability == pytest.approx(np.exp(-2400.0 * rates))
-    s = found.summary()
+    result = survival(curve, 2400.0, hazards)
+    rates = np.array([hazard_risk.rate for hazard_risk in result.risks])
+    assert result.probability == pytest.approx(np.exp(-2400.0 * rates))
+    s = result.summary()
     assert s["survival_probability"] == pytest.approx(dict(zip("ab", np.exp(-2400.0 * rates))))
     assert s["hazards"][1]["relative_likelihood"] == pytest.approx(math.exp(-2400.0 * (rates[1] - rates[0])))
-    assert sum(one["weight"] for one in s["hazards"]) == pytest.approx(1.0)
+    assert sum(hazard["weight"] for hazard in s["hazards"]) == pytest.approx(1.0)
     for text in ("2400", "-1y", "0y", "ages"):
         with pytest.raises(InputError, match="age"):
             parse_age(text)
@@ -143,8 +151,8 @@ def test_survival(curve):
 def test_our_own_hazard_files(tmp_path):
     path = tmp_path / "h.csv"
     path.write_text("# Somewhere, 2013\nim_m_s,annual_rate\n0.5,0.001\n0.1,0.02\n2.0,0\n")
-    found = read_hazard(path)
-    assert (found.unit, found.im.tolist(), found.rate.tolist()) == ("m/s", [0.1, 0.5], [0.02, 0.001])
+    hazard = read_hazard(path)
+    assert (hazard.unit, hazard.im.tolist(), hazard.rate.tolist()) == ("m/s", [0.1, 0.5], [0.02, 0.001])
     for text, why in (
         ("im_g,annual_rate\n0.1,0.01\n0.2,0.02\n", "rises"),
         ("im_g,annual_rate\n0.1,0.01\n0.2,0\n0.4,0.0001\n", "rises from 0 a year at 0.2 g to 0.0001 at 0.4"),
@@ -173,10 +181,10 @@ def test_hazard_curves_that_openquake_exports(tmp_path):
     path.write_text(OPENQUAKE.format(imt="PGA", first="1.0"))
     with pytest.raises(InputError, match="2 sites"):
         read_hazard(path)
-    found = read_hazard(path, (22.0, 37.4))  # a certain exceedance has no rate
-    assert (found.unit, found.imt) == ("g", "PGA")
-    assert found.im.tolist() == [0.2, 0.4]
-    assert found.rate == pytest.approx(-np.log(1.0 - np.array([0.2, 0.05])) / 50.0)
+    hazard = read_hazard(path, (22.0, 37.4))  # a certain exceedance has no rate
+    assert (hazard.unit, hazard.imt) == ("g", "PGA")
+    assert hazard.im.tolist() == [0.2, 0.4]
+    assert hazard.rate == pytest.approx(-np.log(1.0 - np.array([0.2, 0.05])) / 50.0)
     path.write_text(OPENQUAKE.format(imt="PGV", first="4.0E-01"))
     assert read_hazard(path, (22.0, 37.4)).im.tolist() == pytest.approx([0.001, 0.002, 0.004])
     path.write_text(OPENQUAKE.format(imt="SA(1.0)", first="4.0E-01").replace("investigation_time", "time"))
@@ -217,12 +225,12 @@ def test_what_a_hazard_curve_is_of_its_logic_tree_is_told(curve, tmp_path):
         hazard = read_hazard(path)
         assert hazard.statistic == statistic
         x = np.geomspace(0.02, 3.0, 12)
-        found = risk(curve, dataclasses.replace(hazard, im=x, rate=1e-3 * x**-2))
-        assert found.summary()["hazard_statistic"] == (statistic or None)
-        assert (f"The hazard curve is the {statistic}." in found.sentence) == bool(statistic)
-        assert survival(found.fragility, 100.0, [found.hazard]).summary()["hazards"][0]["hazard_statistic"] == (
-            statistic or None
-        )
+        collapse_risk = risk(curve, dataclasses.replace(hazard, im=x, rate=1e-3 * x**-2))
+        assert collapse_risk.summary()["hazard_statistic"] == (statistic or None)
+        assert (f"The hazard curve is the {statistic}." in collapse_risk.sentence) == bool(statistic)
+        assert survival(collapse_risk.fragility, 100.0, [collapse_risk.hazard]).summary()["hazards"][0][
+            "hazard_statistic"
+        ] == (statistic or None)
     named = tmp_path / "hazard_curve-rlz-002-PGV_1.csv"
     named.write_text(one_site("x"))
     assert read_hazard(named).statistic == "realisation 2"

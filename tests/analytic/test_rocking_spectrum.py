@@ -25,10 +25,10 @@ def test_blocks_have_the_size_and_slenderness_they_are_named_for():
 def test_blocks_stay_closed_below_their_uplift_acceleration():
     alphas = np.array([0.1, 0.2, 0.3])
     motion = half_sine_pulse(1.0, g * math.tan(0.2) * 1.001, 5.0)
-    found = rocking_spectrum(motion, [1.0, 3.0], alphas, threads=1)
-    assert (found.peak_rotation[:, 2] == 0.0).all()
-    assert (found.peak_rotation[:, :2] > 0.0).all()
-    assert found.decided.all()
+    spectrum = rocking_spectrum(motion, [1.0, 3.0], alphas, threads=1)
+    assert (spectrum.peak_rotation[:, 2] == 0.0).all()
+    assert (spectrum.peak_rotation[:, :2] > 0.0).all()
+    assert spectrum.decided.all()
 
 
 @pytest.mark.parametrize("ratio", [1.0, 2.0, 4.0])
@@ -37,16 +37,16 @@ def test_the_half_sine_threshold_of_slender_blocks(ratio):
     threshold = half_sine(ratio)
     p = 2.0
     motion = half_sine_pulse(ratio * p / (2.0 * math.pi), g * 0.03 * threshold, 12.0)
-    found = rocking_spectrum(motion, [p], [0.03 * 0.985, 0.03 * 1.015], restitution=0.9, threads=1)
-    assert found.collapsed[0].tolist() == [True, False]
+    spectrum = rocking_spectrum(motion, [p], [0.03 * 0.985, 0.03 * 1.015], restitution=0.9, threads=1)
+    assert spectrum.collapsed[0].tolist() == [True, False]
 
 
 def test_a_cell_is_the_single_run():
     rng = np.random.default_rng(8)
     motion = Motion(0.01, np.convolve(rng.normal(size=1500), np.hanning(40), "same") * 0.8)
-    found = rocking_spectrum(motion, [1.5], [0.2], threads=1)
+    spectrum = rocking_spectrum(motion, [1.5], [0.2], threads=1)
     single = simulate(rocking_block(1.5, 0.2), motion, HousnerBlock())
-    assert found.peak_rotation[0, 0] == pytest.approx(single.peak_rotation, rel=0.02)
+    assert spectrum.peak_rotation[0, 0] == pytest.approx(single.peak_rotation, rel=0.02)
 
 
 def test_impossible_grids_are_refused():

@@ -17,10 +17,10 @@ from stylobate.motion import Motion
 AZIMUTH = 30.0
 
 
-def chipped(chip=0.08, azimuth=AZIMUTH, column=None, **found):
+def chipped(chip=0.08, azimuth=AZIMUTH, column=None, **fields):
     """A column whose lowest drum has lost a segment."""
-    one = st.FoundDrum(1, chip_right=chip, chip_azimuth=azimuth, **found)
-    return (column or round_column()).replace(as_found=st.AsFound((one,)))
+    drum = st.FoundDrum(1, chip_right=chip, chip_azimuth=azimuth, **fields)
+    return (column or round_column()).replace(as_found=st.AsFound((drum,)))
 
 
 def block_of(column, options=None, **model):
@@ -121,11 +121,11 @@ def test_the_law_is_that_of_points_round_the_rim():
     loaded = 0
     for lane, (rl, chip, c, n, e) in enumerate(poses):
         force, moment = by_quadrature(ru, rl, chip, c, n, e)
-        held = block.records.load["f"][1, :, lane] / kn
+        actual_force = block.records.load["f"][1, :, lane] / kn
         # the moment on the lower drum, about its centroid: from the middle of its upper face
-        turned = -block.records.load["lo"][1, :, lane] / kn - np.cross((0.0, 0.0, ht), held)
+        turned = -block.records.load["lo"][1, :, lane] / kn - np.cross((0.0, 0.0, ht), actual_force)
         scale = max(np.linalg.norm(force), 1e-9)
-        assert np.abs(held - force).max() < 1e-3 * scale, lane
+        assert np.abs(actual_force - force).max() < 1e-3 * scale, lane
         assert np.abs(turned - moment).max() < 1e-3 * scale * ru, lane
         loaded += np.linalg.norm(force) > 0.0
     assert loaded > 12
@@ -152,8 +152,8 @@ def pushed(column, azimuths, levels):
     """Largest rotation [rad] under a ground that slowly takes up each acceleration [g]: the column turns to an azimuth."""
     rise = np.concatenate((np.linspace(0.0, 1.0, 100), np.ones(100))) * -st.g
     motions = [
-        Motion(0.01, level * rise * math.cos(math.radians(one)), level * rise * math.sin(math.radians(one)))
-        for one, level in zip(azimuths, levels, strict=True)
+        Motion(0.01, level * rise * math.cos(math.radians(azimuth)), level * rise * math.sin(math.radians(azimuth)))
+        for azimuth, level in zip(azimuths, levels, strict=True)
     ]
     return st.simulate_many([column] * len(motions), motions, DistinctElement3D())["peak_rotation_rad"].to_numpy()
 
@@ -185,11 +185,11 @@ def places(column, motion):
     block = block_of(column, RunOptions(until_end=True))
     block.load(0, Case(column, motion))
     assert block.residual_acceleration(0) < 1e-6
-    found = []
+    centroids = []
     while not block.is_over(0):
         block.advance(1)
-        found.append(np.array([block.records.body[name][1:, 0] for name in "xyz"]))
-    return np.array(found)
+        centroids.append(np.array([block.records.body[name][1:, 0] for name in "xyz"]))
+    return np.array(centroids)
 
 
 def test_turned_mirrored_and_all_but_whole():
@@ -244,7 +244,7 @@ def stiffness(column):
             for a, axis in enumerate("ijk"):
                 block.records.body[axis + name][1, lane] = axes[b, a]
     block.records.kernel.forces(block.records.state)
-    held = np.array(
+    loads = np.array(
         [
             (
                 block.records.load["f"][0, 2, lane],
@@ -254,7 +254,7 @@ def stiffness(column):
             for lane in range(4)
         ]
     )
-    return (held[1:] - held[0]).T / 1e-7
+    return (loads[1:] - loads[0]).T / 1e-7
 
 
 def test_what_a_chip_leaves_is_nowhere_stiffer_than_the_whole_face():

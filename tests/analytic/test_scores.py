@@ -20,10 +20,10 @@ def test_matthews_of_a_table_by_hand():
 def test_score_counts_what_it_says():
     observed, computed = np.array([1, 1, 0, 0], dtype=bool), np.array([1, 0, 0, 1], dtype=bool)
     hard, chance = np.array([True, True, False, False]), np.array([0.9, 0.4, 0.0, 0.5])
-    found = scores.score(observed, computed, hard, chance)
-    assert (found["accuracy"], found["hard_accuracy"], found["hard_tests"]) == (0.5, 0.5, 2)
-    assert found["predicted_over_observed"] == 1.0
-    assert found["brier"] == pytest.approx((0.01 + 0.36 + 0.0 + 0.25) / 4)
+    score = scores.score(observed, computed, hard, chance)
+    assert (score["accuracy"], score["hard_accuracy"], score["hard_tests"]) == (0.5, 0.5, 2)
+    assert score["predicted_over_observed"] == 1.0
+    assert score["brier"] == pytest.approx((0.01 + 0.36 + 0.0 + 0.25) / 4)
     assert scores.score(observed, computed, hard, None)["brier"] is None
 
 
@@ -40,8 +40,8 @@ def test_a_fragility_curve_is_found_again():
 def test_an_interval_holds_its_median():
     rng = np.random.default_rng(1)
     pgv = np.exp(rng.uniform(-2.0, 0.0, 60))
-    found = scores.with_interval(pgv, pgv > 0.4 * np.exp(rng.normal(0.0, 0.3, 60)))
-    assert found["median_low"] < found["median"] < found["median_high"]
+    interval = scores.with_interval(pgv, pgv > 0.4 * np.exp(rng.normal(0.0, 0.3, 60)))
+    assert interval["median_low"] < interval["median"] < interval["median_high"]
 
 
 def test_reliability_of_what_is_reliable():

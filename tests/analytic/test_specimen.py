@@ -30,22 +30,22 @@ def box(a=SIDE, b=SIDE, h=HEIGHT, turned=0.0):
 def boulder(seed=3, points=60):
     """A convex body with a flat foot and principal axes that are askew."""
     rng = np.random.default_rng(seed)
-    found = rng.normal(size=(points, 3))
-    found *= 0.4 / np.linalg.norm(found, axis=1)[:, None]
-    found[:, 2] *= 1.6
-    found[:, 2] = np.maximum(found[:, 2], -0.45)
+    vertices = rng.normal(size=(points, 3))
+    vertices *= 0.4 / np.linalg.norm(vertices, axis=1)[:, None]
+    vertices[:, 2] *= 1.6
+    vertices[:, 2] = np.maximum(vertices[:, 2], -0.45)
     inertia = np.array([[21.3, -1.5, -2.0], [-1.5, 18.6, -0.8], [-2.0, -0.8, 16.3]])
-    return st.Specimen(350.0, inertia, found, "boulder", JOINT)
+    return st.Specimen(350.0, inertia, vertices, "boulder", JOINT)
 
 
 def path(structure, motion, model):
     block = engine_for(model, structure).block(RunOptions(until_end=True))
     block.load(0, Case(structure, motion))
-    found = [np.array([block.records.body[c][1, 0] for c in "xyz"])]
+    centroids = [np.array([block.records.body[c][1, 0] for c in "xyz"])]
     while not block.is_over(0):
         block.advance(1)
-        found.append(np.array([block.records.body[c][1, 0] for c in "xyz"]))
-    return np.array(found), block
+        centroids.append(np.array([block.records.body[c][1, 0] for c in "xyz"]))
+    return np.array(centroids), block
 
 
 def shaken(a, b, duration=1.0, dt=1e-3):
@@ -60,11 +60,11 @@ def test_a_box_is_the_rectangular_column(depth, limit):
         height=HEIGHT, bottom_width=SIDE, top_width=SIDE, drums=1, density=DENSITY, joint=JOINT, depth=depth
     )
     motion, body = shaken(0.2, 0.1, 0.5), box(SIDE, depth)
-    step = 0.4 * min(engine_for(st.DistinctElement3D(), one).stable_step for one in (column, body))
+    step = 0.4 * min(engine_for(st.DistinctElement3D(), structure).stable_step for structure in (column, body))
     model = st.DistinctElement3D(time_step=step)
-    one, other = path(column, motion, model)[0], path(body, motion, model)[0]
-    assert np.abs(one[:, :2]).max() > 1e-4
-    assert np.abs(one - other).max() < limit
+    column_path, box_path = path(column, motion, model)[0], path(body, motion, model)[0]
+    assert np.abs(column_path[:, :2]).max() > 1e-4
+    assert np.abs(column_path - box_path).max() < limit
 
 
 def test_turning_body_and_motion_turns_the_response():
@@ -72,10 +72,10 @@ def test_turning_body_and_motion_turns_the_response():
     c, s = math.cos(angle), math.sin(angle)
     x, y = motion.samples, motion.y_samples
     turned = st.Motion(motion.dt, c * x - s * y, ay=s * x + c * y)
-    one, _ = path(box(b=0.5), motion, st.DistinctElement3D())
+    centroids, _ = path(box(b=0.5), motion, st.DistinctElement3D())
     other, _ = path(box(b=0.5, turned=angle), turned, st.DistinctElement3D())
     back = np.stack((c * other[:, 0] + s * other[:, 1], c * other[:, 1] - s * other[:, 0], other[:, 2]), axis=1)
-    assert np.abs(one - back).max() < 1e-10
+    assert np.abs(centroids - back).max() < 1e-10
 
 
 def test_it_starts_in_equilibrium_and_stays():
@@ -117,7 +117,7 @@ def test_static_threshold_of_a_tripod():
         t = np.arange(6001) * 1e-3
         push = st.Motion(1e-3, share * limit * np.minimum(t / 2.0, 1.0))  # the body leans to −x, over an edge
         outcomes.append(st.simulate(body, push, st.DistinctElement3D(stiffness_damping=1e-4)))
-    assert [one.outcome == st.Outcome.COLLAPSED for one in outcomes] == [False, True]
+    assert [response.outcome == st.Outcome.COLLAPSED for response in outcomes] == [False, True]
     assert outcomes[1].measures.collapse.azimuth == pytest.approx(math.pi, abs=0.02)
     assert "beyond 45°" in outcomes[1].measures.reason
 

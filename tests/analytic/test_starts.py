@@ -26,17 +26,17 @@ def test_time_from_release_to_upright_in_the_plane(share, quarter, azimuth):
     # rigid body about its corner, integrated; the corner gives by 1e-4 of itself at this stiffness
     column = round_column(stiffness=5e12)
     start = st.Start(share * column.slenderness, azimuth)
-    found = st.simulate(column, STILL, st.DistinctElement2D(), start=start, output_interval=1e-3)
-    lean = -found.drum_rotation[:, 0] * math.cos(azimuth)
+    response = st.simulate(column, STILL, st.DistinctElement2D(), start=start, output_interval=1e-3)
+    lean = -response.drum_rotation[:, 0] * math.cos(azimuth)
     assert lean[0] == pytest.approx(start.tilt, rel=1e-12)
     i = int(np.argmax(lean < 0.0))
-    at = np.interp(0.0, lean[[i, i - 1]], found.time[[i, i - 1]])
+    at = np.interp(0.0, lean[[i, i - 1]], response.time[[i, i - 1]])
     assert at == pytest.approx(quarter, rel=1.5e-4)
     # what the pose holds is conserved until the edge strikes
-    held = np.sum([np.asarray(found.energy[one]) for one in ("kinetic", "gravitational", "elastic")], axis=0)
-    assert np.abs(held[: i - 1]).max() < 1.0
+    energy = np.sum([np.asarray(response.energy[term]) for term in ("kinetic", "gravitational", "elastic")], axis=0)
+    assert np.abs(energy[: i - 1]).max() < 1.0
     top = column.height * math.sin(start.tilt) + 0.48 * (1.0 - math.cos(start.tilt))
-    assert found.top_displacement[0] * math.cos(azimuth) == pytest.approx(top, abs=1e-4)
+    assert response.top_displacement[0] * math.cos(azimuth) == pytest.approx(top, abs=1e-4)
 
 
 @pytest.mark.parametrize(("drums", "limit"), [(1, 1e-10), (3, 1e-8)])  # rounding, and what it becomes as joints rattle
@@ -49,7 +49,7 @@ def test_the_plane_and_its_twin_start_alike(drums, limit, rate):
     assert np.abs(plane.top_displacement - twin.top_displacement[:, 0])[soon].max() < limit
     assert plane.top_displacement[0] < -0.2
     assert plane.decided == twin.decided
-    energies = [one.measures.energy_imbalance for one in (plane, twin)]
+    energies = [response.measures.energy_imbalance for response in (plane, twin)]
     assert max(energies) < 1e-2
 
 
@@ -57,11 +57,11 @@ def test_a_start_on_its_way_over_falls_and_one_held_back_does_not():
     column, model = prism(), st.DistinctElement2D()
     over = 1.02 * column.slenderness
     fallen = st.simulate(column, STILL, model, start=st.Start(over), tail=5.0)
-    held = st.simulate(column, STILL, model, start=st.Start(over, 0.0, (0.0, -0.05, 0.0)), tail=5.0)
+    restrained = st.simulate(column, STILL, model, start=st.Start(over, 0.0, (0.0, -0.05, 0.0)), tail=5.0)
     assert fallen.collapsed
     assert fallen.measures.collapse is not None
     assert fallen.measures.collapse.side == "right"
-    assert not held.collapsed
+    assert not restrained.collapsed
     outward = st.Start(0.98 * column.slenderness, 0.0, (0.0, 0.1, 0.0))
     on_its_way = st.simulate(column, st.Motion(0.01, np.zeros(2)), model, start=outward)
     assert not on_its_way.collapsed
@@ -70,11 +70,11 @@ def test_a_start_on_its_way_over_falls_and_one_held_back_does_not():
 
 def test_a_release_that_is_followed_to_the_ground():
     column = prism(2)
-    found = st.simulate(
+    response = st.simulate(
         column, STILL, st.DistinctElement2D(), start=st.Start(1.02 * column.slenderness), until_rest=True
     )
-    assert found.collapsed
-    assert np.degrees(np.abs(found.drum_rotation[-1])).min() > 80.0
+    assert response.collapsed
+    assert np.degrees(np.abs(response.drum_rotation[-1])).min() > 80.0
 
 
 def test_starts_that_cannot_be_are_refused_in_one_sentence():

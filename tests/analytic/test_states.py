@@ -30,14 +30,14 @@ def block(width):
 
 
 @pytest.fixture(scope="module")
-def found():
+def comparison():
     motions = [st.ricker(frequency, st.g) for frequency in np.linspace(0.6, 1.5, 10)]
     states = {"as built": block(0.6), "the same": block(0.6), "wider": block(0.9)}
     return compare_states(states, motions, st.DistinctElement2D(), [0.3, 0.5, 0.8], samples=200, threads=1)
 
 
-def test_a_state_compared_with_itself_differs_by_nothing(found):
-    same = found.differences[0]
+def test_a_state_compared_with_itself_differs_by_nothing(comparison):
+    same = comparison.differences[0]
     assert (same.saved, same.harmed, same.pairs) == (0, 0, 30)
     # and by what ten records at three levels cannot show: a share z²/(10 + z²) of them at one level
     most = 1.96**2 / (10.0 + 1.96**2)
@@ -48,13 +48,13 @@ def test_a_state_compared_with_itself_differs_by_nothing(found):
     assert "not shown to be stronger than “as built”" in same.sentence
 
 
-def test_differences_are_those_of_the_pairs(found):
-    table = found.table
+def test_differences_are_those_of_the_pairs(comparison):
+    table = comparison.table
     fell = {
         label: table[table["state"] == label].set_index(["motion", "im"])["collapsed"].astype(int)
-        for label in found.labels
+        for label in comparison.labels
     }
-    wider = found.differences[1]
+    wider = comparison.differences[1]
     change = fell["wider"] - fell["as built"]
     assert wider.share == pytest.approx(change.mean())
     assert (wider.saved, wider.harmed) == ((change == -1).sum(), (change == 1).sum())
@@ -63,45 +63,45 @@ def test_differences_are_those_of_the_pairs(found):
     assert wider.ratio_low < wider.ratio
     assert wider.ratio > 1.0
     assert wider.sentence.startswith("“wider”: stronger than “as built” against collapse, under these motions.")
-    assert [(one.label, one.runs) for one in found.shares] == [(label, 30) for label in found.labels]
+    assert [(share.label, share.runs) for share in comparison.shares] == [(label, 30) for label in comparison.labels]
 
 
-def test_the_picture_shows_curves_and_differences(found):
-    figure = plots.draw_states(found)
+def test_the_picture_shows_curves_and_differences(comparison):
+    figure = plots.draw_states(comparison)
     curves, bars = figure.axes
     assert len(curves.get_lines()) >= 3
     low, high = bars.get_xlim()
     assert low < 0.0 < high  # both sides of zero are there, and named
-    assert [one.get_text().strip() for one in bars.texts] == ["← stronger", "weaker →"]
-    assert [one.get_text() for one in bars.get_yticklabels()] == ["the same", "wider"]
+    assert [text.get_text().strip() for text in bars.texts] == ["← stronger", "weaker →"]
+    assert [label.get_text() for label in bars.get_yticklabels()] == ["the same", "wider"]
 
 
-def test_without_a_curve_the_differences_stand_alone(found):
+def test_without_a_curve_the_differences_stand_alone(comparison):
     """Of few records nothing is fitted: no empty frame, and the legend outside of the axes."""
-    figure = plots.draw_states(dataclasses.replace(found, curves=tuple(None for _ in found.curves)))
+    figure = plots.draw_states(dataclasses.replace(comparison, curves=tuple(None for _ in comparison.curves)))
     (bars,) = figure.axes
     assert bars.get_legend() is None
     assert "percentage points" in bars.get_xlabel()
 
 
 def test_the_command(tmp_path, capsys):
-    one, other = (write_column(block(width), tmp_path / f"{width}.toml") for width in (0.6, 0.9))
-    base = ["states", "--as-built", str(one), "--with", str(other)]
+    narrow, wide = (write_column(block(width), tmp_path / f"{width}.toml") for width in (0.6, 0.9))
+    base = ["states", "--as-built", str(narrow), "--with", str(wide)]
     records = ["--motion", "sample:el-centro-1940"]  # or as arguments
     assert (
         call([*base, *records, "--im", "pga", "--levels", "0.4g:1.2g:2", "--json", "--out", str(tmp_path / "out")]) == 0
     )
-    said = json.loads(capsys.readouterr().out)
-    assert [one["label"] for one in said["states"]] == ["as built", "0.9"]
-    assert said["states"][0]["fragility"] is None  # one record makes no curve
-    assert said["differences"][0]["pairs"] == 2
-    names = {one.name for one in (tmp_path / "out").iterdir()}
+    output = json.loads(capsys.readouterr().out)
+    assert [state["label"] for state in output["states"]] == ["as built", "0.9"]
+    assert output["states"][0]["fragility"] is None  # one record makes no curve
+    assert output["differences"][0]["pairs"] == 2
+    names = {path.name for path in (tmp_path / "out").iterdir()}
     assert {"states.csv", "links.csv", "states.png", "states.json", "asked-states.json"} <= names
-    assert said["doubt"] == ""
+    assert output["doubt"] == ""
     assert call([*base, "--pulse", "ricker,1Hz,0.2g"]) == 0  # one motion, which is no file
-    said = capsys.readouterr().out
-    assert "under 1 record and worse in 0; nothing is concluded from fewer than 10 records)" in said
-    assert [line.split()[-2:] for line in said.splitlines() if line.strip().startswith("0.9")][-1] == ["%", "-"]
+    output = capsys.readouterr().out
+    assert "under 1 record and worse in 0; nothing is concluded from fewer than 10 records)" in output
+    assert [line.split()[-2:] for line in output.splitlines() if line.strip().startswith("0.9")][-1] == ["%", "-"]
 
 
 def test_how_columns_of_a_material_scatter_is_kept(tmp_path):
@@ -111,10 +111,10 @@ def test_how_columns_of_a_material_scatter_is_kept(tmp_path):
     drum = st.Drum(3.0, 0.6, 0.6, stone.density.value)
     column = st.Column.of_drums([drum], joint).replace(material="marble, worn")
     file = str(write_column(column, tmp_path / "stone.toml"))
-    asked = ["--model", "housner", "--pulse", "ricker,1Hz,0.2g", "--replicates", "2", "--out", str(tmp_path / "out")]
+    options = ["--model", "housner", "--pulse", "ricker,1Hz,0.2g", "--replicates", "2", "--out", str(tmp_path / "out")]
     assert usual_scatter(column) != st.Scatter()
     for other, words in ((file, "{stone}"), ("paper-monolithic", "as built: {stone}; paper-monolithic: {usual}")):
-        assert call(["states", "--as-built", file, "--with", other, *asked]) == 0
+        assert call(["states", "--as-built", file, "--with", other, *options]) == 0
         kept = json.loads((tmp_path / "out" / "asked-states.json").read_text())["options"]["scatter"]
         assert kept == words.format(stone=usual_scatter(column).describe(), usual=st.Scatter().describe())
 
@@ -150,7 +150,7 @@ def test_the_ratio_of_medians_is_that_of_the_runs_that_both_states_know():
     gone = np.where((capacity < 0.9) & (im > 0.4), OPEN, (im > 2.0 * capacity).astype(np.int8))
     other = Evidence(records, im, gone, "im", "-", "collapse", "other")
     both = Evidence(records, im, np.where(gone == OPEN, OPEN, codes), "im", "-", "collapse", "first")
-    curves = [fragility(one, samples=200) for one in (first, other, both)]
+    curves = [fragility(evidence, samples=200) for evidence in (first, other, both)]
     ratio = _difference(first, other, curves[0], curves[1], 200, 0, 0.95).ratio
     assert ratio == pytest.approx(curves[1].median / curves[2].median, rel=1e-9)
     assert ratio != pytest.approx(curves[1].median / curves[0].median, rel=1e-3)
@@ -160,18 +160,22 @@ def test_the_ratio_of_medians_holds_what_wide_levels_leave_open():
     """8 of 12 records collapse at 1.5 g, none at 1 g: the median lies between, and its ratio holds all of that."""
 
     def compared(levels):
-        told = []
+        states = []
         for name, capacity in (("first", np.linspace(1.1, 1.69, 12)), ("other", np.linspace(0.95, 1.46, 12))):
             codes = (np.array(levels) >= capacity[:, None]).astype(np.int8).ravel()
             records = np.repeat(np.array([f"r{k:02}" for k in range(12)], dtype=object), len(levels))
-            told.append(Evidence(records, np.tile(levels, 12), codes, "pga", "g", "collapse", name))
-        return _difference(*told, *(fragility(one, samples=100) for one in told), 100, 0, 0.95)
+            states.append(Evidence(records, np.tile(levels, 12), codes, "pga", "g", "collapse", name))
+        return _difference(*states, *(fragility(state, samples=100) for state in states), 100, 0, 0.95)
 
     designs = ([0.5, 1.0, 1.5, 2.0], [0.9 + 0.1 * k for k in range(9)], [0.6, 0.9, 1.2, 1.5, 1.8], [0.75, 1.25, 1.75])
-    found = [compared(one) for one in designs]
-    assert max(one.ratio_low for one in found) < min(one.ratio_high for one in found)
-    for one in found:
-        assert one.ratio_low < 1.205 / 1.395 < one.ratio_high  # the true medians, in the middle of each dozen
+    differences = [compared(levels) for levels in designs]
+    assert max(difference.ratio_low for difference in differences) < min(
+        difference.ratio_high for difference in differences
+    )
+    for difference in differences:
+        assert (
+            difference.ratio_low < 1.205 / 1.395 < difference.ratio_high
+        )  # the true medians, in the middle of each dozen
 
 
 def test_medians_are_compared_where_runs_show_both_and_else_what_is_missing_is_said():
@@ -179,23 +183,23 @@ def test_medians_are_compared_where_runs_show_both_and_else_what_is_missing_is_s
     levels = np.linspace(0.1, 0.6, 6)
     im, records = np.tile(levels, 10), np.repeat([f"r{k}" for k in range(10)], 6).astype(object)
 
-    def told(name, capacity):
+    def evidence_of(name, capacity):
         return Evidence(records, im, (im > np.repeat(capacity, 6)).astype(np.int8), "pga", "g", "collapse", name)
 
-    many = told("as found", np.linspace(0.25, 0.55, 10))
-    one = told("core", [0.55, *[0.7] * 9])
-    half = told("core", [*np.linspace(0.35, 0.55, 4), *[0.7] * 6])
+    many = evidence_of("as found", np.linspace(0.25, 0.55, 10))
+    single = evidence_of("core", [0.55, *[0.7] * 9])
+    half = evidence_of("core", [*np.linspace(0.35, 0.55, 4), *[0.7] * 6])
     curve = fragility(many, samples=100)
     for other, missing in (
-        (one, "1 of 60 runs of “core” collapse, and a median needs at least 5 of them; give larger intensities"),
+        (single, "1 of 60 runs of “core” collapse, and a median needs at least 5 of them; give larger intensities"),
         (half, "the median of “core” lies above 0.6 g, where nothing was run; give larger intensities"),
     ):
         rest = fragility(other, samples=100)
         assert rest.median > levels[-1]
-        found = with_undecided(many, other, curve, rest, 100, 0, 0.95)
-        assert math.isnan(found.ratio)
-        assert found.basis.startswith(f"Medians are not compared: {missing}.")
-        assert "higher" not in found.sentence
+        difference = with_undecided(many, other, curve, rest, 100, 0, 0.95)
+        assert math.isnan(difference.ratio)
+        assert difference.basis.startswith(f"Medians are not compared: {missing}.")
+        assert "higher" not in difference.sentence
         assert rest.span == (levels[0], levels[-1])
         assert max(rest.drawn()["im"]) == pytest.approx(levels[-1])
         (axes,) = plots.draw_fragility([curve, rest]).axes[:1]
@@ -206,7 +210,7 @@ def test_medians_are_compared_where_runs_show_both_and_else_what_is_missing_is_s
 def test_the_comparison_is_printed_before_design_values_are_computed(tmp_path, monkeypatch, capsys):
     """A design value takes the governing runs once more; whoever waits reads the answer in the meantime."""
     column = block(0.6)
-    bare, linked = (write_column(one, tmp_path / f"{name}.toml") for one, name in (
+    bare, linked = (write_column(structure, tmp_path / f"{name}.toml") for structure, name in (
         (column, "bare"), (column.replace(links=(st.Dowel(joint=1, shear_stiffness=1e8, shear_capacity=1e5),)), "linked"),
     ))  # fmt: skip
     seen = []
@@ -222,11 +226,11 @@ def test_the_comparison_is_printed_before_design_values_are_computed(tmp_path, m
 
 def test_what_a_plane_says_of_round_columns_is_doubted_before_any_advice():
     square = block(0.6)
-    round_ = square.replace(drums=[dataclasses.replace(one, section="circular") for one in square.drums])
-    measures, found = ("as built", "dowels"), ("as built", "as found")
+    round_ = square.replace(drums=[dataclasses.replace(drum, section="circular") for drum in square.drums])
+    measures, conditions = ("as built", "dowels"), ("as built", "as found")
     for model in (st.DistinctElement2D(), st.DistinctElement3D(planar=True)):
         assert "no measure is to be adopted before" in doubt(measures, [round_], model)
-        assert doubt(found, [round_], model).endswith("before relying on it.")
+        assert doubt(conditions, [round_], model).endswith("before relying on it.")
         assert doubt(measures, [square], model) == ""
     assert doubt(measures, [round_], st.DistinctElement3D()) == UNDAMPED_WOBBLE
     assert doubt(measures, [round_], st.DistinctElement3D(stiffness_damping=1e-4)) == ""
@@ -237,8 +241,8 @@ def test_a_median_with_undecided_runs_does_not_stand_as_an_interval(capsys):
     ends = {"if_open_exceed": {"median": 0.8}, "if_open_do_not": {"median": 1.1}}
     curve = {"median": 0.9, "unit": "g", "undecided": 3, "failed": 0, "levels": [0.5, 1.5]} | ends
     (share,) = shares({"as built": np.array([EXCEEDED, OPEN, NOT_EXCEEDED])})
-    told = {"doubt": "", "differences": (), "state": "collapse", "links": ()}
-    describe(SimpleNamespace(**told, shares=[share], curves=[SimpleNamespace(summary=lambda: curve)]))
+    fields = {"doubt": "", "differences": (), "state": "collapse", "links": ()}
+    describe(SimpleNamespace(**fields, shares=[share], curves=[SimpleNamespace(summary=lambda: curve)]))
     text = " ".join(capsys.readouterr().out.split())
     assert "95 % of the share" in text
     assert "median (undecided both ways)" in text

@@ -28,9 +28,9 @@ def test_a_dowelled_block_slides_at_friction_and_capacity_after_its_slack(slack)
     dowel = st.Dowel(joint=1, shear_stiffness=1e8, shear_capacity=5e3, clearance=slack)
     column = with_links(st.Column.of_drums(BLOCK.drums, SMOOTH), dowel)
     expected = 0.1 + 5e3 / WEIGHT
-    found = limit_analysis(column)
-    assert (found.lower, found.upper) == pytest.approx((expected, expected), rel=1e-9)
-    assert [(one.force, one.yields) for one in found.links] == [(pytest.approx(5e3), True)]
+    result = limit_analysis(column)
+    assert (result.lower, result.upper) == pytest.approx((expected, expected), rel=1e-9)
+    assert [(link.force, link.yields) for link in result.links] == [(pytest.approx(5e3), True)]
     path = pushover(column, to=0.01)
     assert path.collapse_multiplier == pytest.approx(expected, rel=1e-6)
     # before the slack is used up friction holds alone
@@ -45,9 +45,9 @@ def test_a_tied_block_overturns_by_hand(at, arm):
     column = with_links(BLOCK, tie)
     # W b + T (b + x) about the right corner; a tie on the side towards which it turns goes slack
     expected = (WEIGHT * 0.5 + (3e4 * arm if arm else 0.0)) / (WEIGHT * 2.0)
-    found = limit_analysis(column)
-    assert found.multiplier == pytest.approx(expected, rel=1e-9)
-    assert found.links[0].yields is bool(arm)
+    result = limit_analysis(column)
+    assert result.multiplier == pytest.approx(expected, rel=1e-9)
+    assert result.links[0].yields is bool(arm)
     path = pushover(column)
     assert path.collapse_multiplier == pytest.approx(expected, rel=2e-3)
     assert path.link_force[path.peak, 0] == pytest.approx(3e4 if arm else 0.0, abs=1.0)
@@ -81,8 +81,8 @@ def test_a_core_and_a_bar_hold_at_their_capacity_in_the_joint_that_gives_way():
     core = with_links(column, st.Core(axial_stiffness=1e8, axial_capacity=5e4, pretension=2e4))
     half, z = 0.5 * column.base_width, column.centroid_height
     expected = (weight * half + 5e4 * half) / (weight * z)
-    found = limit_analysis(core)
-    assert found.multiplier == pytest.approx(expected, rel=1e-9)  # pretension makes no difference to a plastic core
+    result = limit_analysis(core)
+    assert result.multiplier == pytest.approx(expected, rel=1e-9)  # pretension makes no difference to a plastic core
     # a bar in the base alone moves the hinge up to the next joint that is weaker
     barred = with_links(column, st.Bar(joint=1, shear_stiffness=1e9, axial_stiffness=1e9, axial_capacity=1e6))
     assert limit_analysis(barred).governing_joint == 2
@@ -107,12 +107,14 @@ MISSING = 0.15 * WEIGHT
 def test_what_a_dowel_must_hold_by_hand(joint, capacities, least, yields, idle):
     """Of a face of answers the least force, in the plane, in its mirror and in space; 1e-5: ten times what (L4) leaves."""
     places = [(-0.1, 0.0), (0.1, 0.0)]  # in a line with the push: nothing twists
-    dowels = [st.Dowel(at=at, shear_capacity=one, **DOWEL) for at, one in zip(places, capacities, strict=False)]
+    dowels = [
+        st.Dowel(at=at, shear_capacity=capacity, **DOWEL) for at, capacity in zip(places, capacities, strict=False)
+    ]
     column = with_links(st.Column.of_drums(BLOCK.drums, joint), *dowels)
-    for found in (limit_analysis(column), limit_analysis(column, direction=180.0), limit_in_space(column, 0.0)):
-        assert [abs(one.force) for one in found.links] == pytest.approx(least, rel=1e-5, abs=1e-9)
-        assert [one.yields for one in found.links] == yields
-        assert [one.idle for one in found.links] == idle
+    for result in (limit_analysis(column), limit_analysis(column, direction=180.0), limit_in_space(column, 0.0)):
+        assert [abs(link.force) for link in result.links] == pytest.approx(least, rel=1e-5, abs=1e-9)
+        assert [link.yields for link in result.links] == yields
+        assert [link.idle for link in result.links] == idle
 
 
 @pytest.mark.parametrize(
@@ -127,30 +129,30 @@ def test_what_a_dowel_must_hold_by_hand(joint, capacities, least, yields, idle):
 )
 def test_the_most_that_a_dowel_may_hold_by_hand(joint, capacities, largest):
     """Largest force at the multiplier, rocking at 1/4: push, friction and the other dowel against it; 1e-6 beside 1e-9."""
-    dowels = [st.Dowel(shear_capacity=one, **DOWEL) for one in capacities]
+    dowels = [st.Dowel(shear_capacity=capacity, **DOWEL) for capacity in capacities]
     column = with_links(st.Column.of_drums(BLOCK.drums, joint), *dowels)
     for direction in (0.0, 180.0):
-        found = limit_analysis(column, direction=direction)
-        assert found.multiplier == pytest.approx(0.25, rel=1e-9)
-        assert [one.largest for one in found.links] == pytest.approx(largest, rel=1e-6)
-        assert all(abs(one.force) <= one.largest and not one.yields for one in found.links)
+        result = limit_analysis(column, direction=direction)
+        assert result.multiplier == pytest.approx(0.25, rel=1e-9)
+        assert [link.largest for link in result.links] == pytest.approx(largest, rel=1e-6)
+        assert all(abs(link.force) <= link.largest and not link.yields for link in result.links)
 
 
 def test_a_column_that_friction_carries_is_not_said_to_use_its_dowels(tmp_path, capsys):
     """Twelve drums that overturn about the base: no dowel need act, in the plane and round in space."""
     column = st.preset("paper-12-drums")
     column = with_links(column, *(st.Dowel(joint=j, shear_stiffness=1e8, shear_capacity=5488.0) for j in range(2, 13)))
-    assert all(one.idle and not one.yields and one.force == 0.0 for one in limit_analysis(column).links)
+    assert all(link.idle and not link.yields and link.force == 0.0 for link in limit_analysis(column).links)
     file = write_column(column, tmp_path / "dowelled.toml")
     assert call(["limit", str(file)]) == 0
-    said = capsys.readouterr().out
-    assert said.count("need not act (capacity 5488 N)") == 11
+    output = capsys.readouterr().out
+    assert output.count("need not act (capacity 5488 N)") == 11
     # what a joint can take back from a dowel is the push on what lies above, and friction the other way
-    found = limit_analysis(column)
-    load = (found.multiplier + np.array(column.friction)) * np.array(column.joint_weights)
-    assert [one.largest for one in found.links] == pytest.approx(np.minimum(load[1:], 5488.0), rel=1e-6)
-    assert said.count("other answers have up to 5488 N") == 10
-    assert "yields" not in said
+    result = limit_analysis(column)
+    load = (result.multiplier + np.array(column.friction)) * np.array(column.joint_weights)
+    assert [link.largest for link in result.links] == pytest.approx(np.minimum(load[1:], 5488.0), rel=1e-6)
+    assert output.count("other answers have up to 5488 N") == 10
+    assert "yields" not in output
 
 
 def test_a_bar_is_told_by_what_it_does(tmp_path, capsys):
@@ -159,17 +161,17 @@ def test_a_bar_is_told_by_what_it_does(tmp_path, capsys):
     column = with_links(BLOCK, bar)
     assert limit_analysis(column).multiplier == pytest.approx((WEIGHT + 2e4) * 0.5 / (WEIGHT * 2.0), rel=1e-9)
     assert call(["limit", str(write_column(column, tmp_path / "bar.toml"))]) == 0
-    said = capsys.readouterr().out
-    assert "bar in joint 1, shear" in said
-    assert "need not act (capacity 1e+04 N)" in said
-    assert "2e+04 N of 2e+04 N, yields" in said
+    output = capsys.readouterr().out
+    assert "bar in joint 1, shear" in output
+    assert "need not act (capacity 1e+04 N)" in output
+    assert "2e+04 N of 2e+04 N, yields" in output
 
 
 def test_a_layer_lowers_the_friction_and_a_spring_without_capacity_is_no_strength():
     layer = st.Layer(joint=1, friction_coefficient=0.08, shear_stiffness=1e5)
     assert limit_analysis(with_links(BLOCK, layer)).multiplier == pytest.approx(0.08, rel=1e-9)
-    held = st.Layer(joint=1, friction_coefficient=0.08, shear_stiffness=1e5, shear_capacity=4e3)
-    assert limit_analysis(with_links(BLOCK, held)).multiplier == pytest.approx(0.08 + 4e3 / WEIGHT, rel=1e-9)
+    strong_layer = st.Layer(joint=1, friction_coefficient=0.08, shear_stiffness=1e5, shear_capacity=4e3)
+    assert limit_analysis(with_links(BLOCK, strong_layer)).multiplier == pytest.approx(0.08 + 4e3 / WEIGHT, rel=1e-9)
 
 
 def test_a_brittle_dowel_is_gone_after_its_capacity():
@@ -204,8 +206,10 @@ def test_plane_and_space_are_the_same_along_x_with_links(section):
         space = limit_in_space(column, direction)
         assert space.multiplier == pytest.approx(plane.multiplier, rel=1e-6)
         assert (space.joint, space.mode) == (plane.governing_joint, "rocking")
-        held = {one.name: one.force for one in space.links if one.action == "line"}
-        assert held == pytest.approx({one.name: one.force for one in plane.links if one.action == "line"}, rel=1e-4)
+        forces = {link.name: link.force for link in space.links if link.action == "line"}
+        assert forces == pytest.approx(
+            {link.name: link.force for link in plane.links if link.action == "line"}, rel=1e-4
+        )
 
 
 def test_a_round_block_tied_on_two_sides_by_hand():
@@ -220,10 +224,10 @@ def test_a_round_block_tied_on_two_sides_by_hand():
     weight = column.mass * column.gravity
     towards = (weight * radius + pull * (radius + x)) / (weight * 2.0)
     across = (weight + 2.0 * pull) * radius / (weight * 2.0)
-    found = limit_directions(column, [20.0, 200.0, 110.0, 290.0])
-    assert found.multipliers[:4] == pytest.approx([towards, towards, across, across], rel=1e-6)
-    assert [one.yields for one in found.limits[0].links] == [False, True]
-    assert [one.yields for one in found.limits[2].links] == [True, True]
+    result = limit_directions(column, [20.0, 200.0, 110.0, 290.0])
+    assert result.multipliers[:4] == pytest.approx([towards, towards, across, across], rel=1e-6)
+    assert [link.yields for link in result.limits[0].links] == [False, True]
+    assert [link.yields for link in result.limits[2].links] == [True, True]
     # one tie: away from it as without it
     single = limit_directions(with_links(column, ties[0]), [20.0, 200.0])
     assert single.multipliers == pytest.approx([radius / 2.0, towards], rel=1e-6)
@@ -232,9 +236,12 @@ def test_a_round_block_tied_on_two_sides_by_hand():
 def test_the_weakest_direction_is_found_without_all_the_others(monkeypatch):
     """A dowel in joint 2 holds nothing of what joint 1 does: the direction that is weakest without it tells."""
     joint = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)
-    found = (st.FoundDrum(1, chip_right=0.1, chip_azimuth=30.0), st.FoundDrum(2, offset=0.04, offset_azimuth=120.0))
+    found_drums = (
+        st.FoundDrum(1, chip_right=0.1, chip_azimuth=30.0),
+        st.FoundDrum(2, offset=0.04, offset_azimuth=120.0),
+    )
     drums = [st.Drum(1.0, 0.9, 0.8, 2500.0, "circular"), st.Drum(1.0, 0.8, 0.7, 2500.0, "circular")]
-    column = st.Column.of_drums(drums, joint).replace(as_found=st.AsFound(drums=found))
+    column = st.Column.of_drums(drums, joint).replace(as_found=st.AsFound(drums=found_drums))
     solve, solved = SpaceProgramme.solve, []
 
     def counted(self, azimuth, largest=False):
@@ -260,11 +267,11 @@ def test_the_weakest_of_all_directions_lies_between_those_looked_at(links):
     drum = st.Drum(2.0, 1.0, 1.0, 2500.0, "circular")
     column = st.Column.of_drums([drum], ROUGH).replace(as_found=st.AsFound((), 3.0, 37.0), links=links)
     exact = math.tan(math.atan(0.5) - math.radians(3.0))
-    found = limit_directions(column)
-    assert found.all_round
-    assert found.weakest.multiplier == pytest.approx(exact, rel=1e-5)
-    assert found.weakest.azimuth == pytest.approx(217.0, abs=0.5)
-    assert found.multipliers[:24].min() > exact * (1.0 + 2e-4)
+    result = limit_directions(column)
+    assert result.all_round
+    assert result.weakest.multiplier == pytest.approx(exact, rel=1e-5)
+    assert result.weakest.azimuth == pytest.approx(217.0, abs=0.5)
+    assert result.multipliers[:24].min() > exact * (1.0 + 2e-4)
     assert weakest_direction(column).multiplier == pytest.approx(exact, rel=1e-5)
     given = limit_directions(column, [200.0, 230.0])  # less than half way round: these two only
     assert (len(given.limits), given.all_round) == (2, False)
@@ -298,9 +305,9 @@ def test_a_dowelled_block_slides_in_any_direction_at_friction_and_capacity():
         )
 
     for places in ((0.0,), (-0.2, 0.2)):
-        found = limit_directions(dowels(*places), azimuths)
-        assert found.multipliers == pytest.approx(0.1 + len(places) * 5e3 / weight, rel=1e-6)
-        assert {one.mode for one in found.limits} == {"sliding"}
+        result = limit_directions(dowels(*places), azimuths)
+        assert result.multipliers == pytest.approx(0.1 + len(places) * 5e3 / weight, rel=1e-6)
+        assert {limit.mode for limit in result.limits} == {"sliding"}
     # one beside the middle twists the block where the push passes it by: along its own line it does not
     beside = limit_directions(dowels(0.3), [0.0, 90.0]).multipliers
     assert beside[0] == pytest.approx(0.1 + 5e3 / weight, rel=1e-6)
@@ -313,10 +320,10 @@ def test_cohesion_and_what_is_found_stand_in_both_ways_of_limit_analysis_in_spac
     To 1e-4: the programme puts cohesion where the weight acts, statics where the pressure does.
     """
     joint = st.Joint(5e10, 2.5e10, friction_coefficient=0.2, cohesion=5e3)
-    found = (st.FoundDrum(1, tilt=-0.6, tilt_azimuth=20.0), st.FoundDrum(2, offset=0.05, offset_azimuth=80.0))
+    found_drums = (st.FoundDrum(1, tilt=-0.6, tilt_azimuth=20.0), st.FoundDrum(2, offset=0.05, offset_azimuth=80.0))
     for section in ("circular", "rectangular"):
         drums = [st.Drum(1.0, 0.9, 0.8, 2500.0, section), st.Drum(1.0, 0.8, 0.7, 2500.0, section)]
-        column = st.Column.of_drums(drums, joint).replace(as_found=st.AsFound(found, 0.5, 130.0))
+        column = st.Column.of_drums(drums, joint).replace(as_found=st.AsFound(found_drums, 0.5, 130.0))
         idle = st.Core(axial_stiffness=1.0, axial_capacity=1e-6)
         for azimuth in (30.0, 200.0):
             bare = limit_in_space(column, azimuth)
@@ -340,15 +347,15 @@ def test_the_most_that_a_dowel_may_hold_in_space(joint, capacities, share, azimu
     It is looked for to 1e-3.
     """
     drum = st.Drum(4.0, 1.0, 1.0, 2500.0, "rectangular", 1.0)
-    dowels = [st.Dowel(shear_capacity=one, **DOWEL) for one in capacities]
-    (found,) = limit_directions(with_links(st.Column.of_drums([drum], joint), *dowels), [azimuth]).limits
-    assert found.multiplier == pytest.approx(0.25, rel=1e-6)
+    dowels = [st.Dowel(shear_capacity=capacity, **DOWEL) for capacity in capacities]
+    (limit,) = limit_directions(with_links(st.Column.of_drums([drum], joint), *dowels), [azimuth]).limits
+    assert limit.multiplier == pytest.approx(0.25, rel=1e-6)
     most = min(share * WEIGHT + sum(capacities[1:]), capacities[0]) if share else capacities[0]
-    assert found.links[0].largest == pytest.approx(most, rel=2e-3)
+    assert limit.links[0].largest == pytest.approx(most, rel=2e-3)
     if share:
         push = math.cos(math.radians(azimuth)), math.sin(math.radians(azimuth))
-        assert np.dot(found.links[0].towards[:2], push) == pytest.approx(-1.0, abs=1e-3)
-    assert [one.largest for one in found.links[1:]] == pytest.approx(capacities[1:], rel=2e-3)
+        assert np.dot(limit.links[0].towards[:2], push) == pytest.approx(-1.0, abs=1e-3)
+    assert [link.largest for link in limit.links[1:]] == pytest.approx(capacities[1:], rel=2e-3)
 
 
 def test_the_most_that_a_tie_in_space_may_hold():
@@ -366,16 +373,16 @@ def test_the_command_goes_all_round_a_column_with_links(tmp_path, capsys):
     file = write_column(tied, tmp_path / "tied.toml")
     out = tmp_path / "out"
     assert call(["limit", str(file), "--directions", "0:270:4", "--json", "--out", str(out)]) == 0
-    said = json.loads(capsys.readouterr().out)
-    assert [one["links"][0]["yields"] for one in said["directions"][:4]] == [True, True, False, True]
-    assert said["all_round"]
-    assert said["weakest_azimuth_deg"] == 180.0
+    output = json.loads(capsys.readouterr().out)
+    assert [direction["links"][0]["yields"] for direction in output["directions"][:4]] == [True, True, False, True]
+    assert output["all_round"]
+    assert output["weakest_azimuth_deg"] == 180.0
     assert (out / "directions.png").is_file()
     assert call(["limit", str(file), "--directions", "0:270:4"]) == 0
     assert "torsion" not in capsys.readouterr().out
     drum = st.Drum(4.0, 1.0, 1.0, 2500.0, "circular")
     write_column(with_links(st.Column.of_drums([drum], ROUGH), *tied.links), file)
     assert call(["limit", str(file), "--directions", "0:90:2"]) == 0
-    said = capsys.readouterr().out
-    assert "torsion" in said
-    assert "3e+04 N of 3e+04 N, yields" in said
+    output = capsys.readouterr().out
+    assert "torsion" in output
+    assert "3e+04 N of 3e+04 N, yields" in output

@@ -43,7 +43,7 @@ def test_the_smallest_of_bar_anchor_and_stone_by_hand():
     area = math.pi * 0.02**2 / 4.0
     bar = {"joint": 1, "diameter": 0.02, "material": "titanium"}
     each = st.Dowel(**bar, embedment=0.2), st.Bar(**bar, embedment=0.2), st.Bar(**bar, embedment=0.05, bond=1e7)
-    sheared, bonded, coned = (BLOCK.replace(links=(one,)).placed_links[0] for one in each)
+    sheared, bonded, coned = (BLOCK.replace(links=(link,)).placed_links[0] for link in each)
     assert sheared.shear_capacity == pytest.approx(275e6 / math.sqrt(3.0) * area, rel=1e-9)
     assert bonded.axial_capacity == pytest.approx(math.pi * 0.02 * 0.2 * 3e6, rel=1e-9)
     cone = 7.7 * math.sqrt(60.0) * 50.0**1.5
@@ -53,10 +53,11 @@ def test_the_smallest_of_bar_anchor_and_stone_by_hand():
     assert near.shear_capacity == pytest.approx(V_EDGE, rel=1e-9)
     assert (sheared.failure, near.failure) == ("ductile", "brittle")
     limits = [
-        (one.limited_by("shear_capacity"), one.limited_by("axial_capacity")) for one in (sheared, bonded, coned, near)
+        (link.limited_by("shear_capacity"), link.limited_by("axial_capacity"))
+        for link in (sheared, bonded, coned, near)
     ]
     assert limits == [("link", "link"), ("link", "link"), ("link", "stone"), ("stone", "link")]
-    assert [one.governs.split("; ")[-1].split(" (")[0] for one in (sheared, bonded, coned, near)] == [
+    assert [link.governs.split("; ")[-1].split(" (")[0] for link in (sheared, bonded, coned, near)] == [
         "shear of the bar", "bond to the stone", "cone of the stone", "edge of the stone",
     ]  # fmt: skip
 
@@ -78,12 +79,12 @@ def test_a_pretension_beyond_the_cone_is_refused():
 
 
 @pytest.mark.parametrize(
-    "model", [st.DistinctElement2D(), st.DistinctElement3D(), st.RigidBlock()], ids=lambda one: one.name
+    "model", [st.DistinctElement2D(), st.DistinctElement3D(), st.RigidBlock()], ids=lambda model: model.name
 )
 def test_the_stone_breaks_at_its_capacity_and_the_dowel_then_holds_nothing(model):
     """4 % beyond μ m g + V: what slides off keeps a − μ g; a capacity of 80 kN, given, holds the same push."""
     limit = 0.1 * G + V_EDGE / MASS
-    broke, whole = (st.simulate(one, push(1.04 * limit), model) for one in (DOWELLED, STATED))
+    broke, whole = (st.simulate(column, push(1.04 * limit), model) for column in (DOWELLED, STATED))
     (link,), (other,) = broke.measures.links, whole.measures.links
     assert (link.broken, link.limited_by, other.broken, other.limited_by) == (True, "stone", False, "link")
     assert link.peak_shear == pytest.approx(V_EDGE, rel=1e-9)
@@ -137,8 +138,8 @@ def test_links_of_assemblies_are_in_their_stone_and_those_of_a_column_bring_it_a
         st.Assembly(blocks, SMOOTH, "plane", links=[dowel]), st.SpatialAssembly(stones, SMOOTH, "space", links=(aside,)),
         read_assembly(scene), read_assembly(flat),
     ):  # fmt: skip
-        for one in (structure, FROM_DICT[structure.kind](structure.to_dict())):
-            for link in one.placed_links:
+        for assembly in (structure, FROM_DICT[structure.kind](structure.to_dict())):
+            for link in assembly.placed_links:
                 assert link.shear_capacity == pytest.approx(V_EDGE, rel=1e-9)
                 assert (link.failure, link.limited_by("shear_capacity")) == ("brittle", "stone")
 
@@ -147,16 +148,16 @@ def test_the_advice_on_a_dowel_is_that_of_its_stone():
     """Of three slow pulses the bar by itself holds all, the stone none: what was saved is not, and the advice says why."""
     motions = [st.ricker(frequency, 0.1 * G + 1.2 * V_EDGE / MASS) for frequency in (0.3, 0.4, 0.5)]
     states = {"as built": BLOCK, "dowelled": DOWELLED, "stated": STATED}
-    found = st.compare_states(states, motions, st.DistinctElement2D(), state="top:0.01m", samples=200, threads=1)
-    near, far = found.differences
+    comparison = st.compare_states(states, motions, st.DistinctElement2D(), state="top:0.01m", samples=200, threads=1)
+    near, far = comparison.differences
     assert (near.saved, far.saved) == (0, 3)
-    said = "The stone gives way before 1 of 1 links do: their capacity here is that of the stone."
-    assert near.advice.endswith(said)
-    assert said not in far.advice
-    links = found.links.set_index("state")
+    sentence = "The stone gives way before 1 of 1 links do: their capacity here is that of the stone."
+    assert near.advice.endswith(sentence)
+    assert sentence not in far.advice
+    links = comparison.links.set_index("state")
     assert links.loc["dowelled", ["limited_by", "broken"]].tolist() == ["stone", 3]
     assert links.loc["stated", ["limited_by", "broken"]].tolist() == ["link", 0]
-    values = st.design_values(found)
+    values = st.design_values(comparison)
     force = values[values["quantity"] == "shear force"].set_index("state")
     assert force["limited_by"].to_dict() == {"dowelled": "stone", "stated": "link"}
     assert force.loc["dowelled", ["capacity", "use_value_84"]].tolist() == pytest.approx([V_EDGE, 1.0])

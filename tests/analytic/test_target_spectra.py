@@ -27,12 +27,12 @@ def test_a_code_as_typed_is_its_spectrum():
 def test_the_second_generation():
     """prEN 1998-1-1:2019, 5.2.2.2: S_α/2.5 at rest, the plateau, S_β at 1 s, a constant displacement beyond T_D."""
     target = target_spectrum("ec8-2,S_alpha=6m/s2,S_beta=2m/s2,F_alpha=1.35,F_beta=2.25")
-    top, one = 6.0 * 1.35, 2.0 * 2.25
+    top, at_one_second = 6.0 * 1.35, 2.0 * 2.25
     assert target.acceleration(0.0) == pytest.approx(top / 2.5)
     assert target.acceleration(0.3) == pytest.approx(top)
-    assert target.acceleration(1.0) == pytest.approx(one)
+    assert target.acceleration(1.0) == pytest.approx(at_one_second)
     at = target.at(np.array([3.0, 3.5, 4.0]))  # T_D = 1 s + S_β,RP over 1 m/s² = 3 s, on rock
-    assert at * np.array([3.0, 3.5, 4.0]) ** 2 == pytest.approx([one * 3.0] * 3)
+    assert at * np.array([3.0, 3.5, 4.0]) ** 2 == pytest.approx([at_one_second * 3.0] * 3)
     rise = target.at(np.array([0.02, 0.06, 0.1]))  # linear from T_A to T_B = 0.1 s
     assert rise == pytest.approx([top / 2.5, top * 0.7, top])
 
@@ -56,7 +56,7 @@ def test_a_conditional_mean_spectrum(tmp_path):
     target = target_spectrum(f"cms:{table},T=1s,sa=0.6g")
     assert target.acceleration(1.0) == pytest.approx(0.6 * g)
     above = np.log(target.at(t) / (0.3 / np.sqrt(t) * g)) / 0.6
-    epsilon = above / np.array([correlation(float(one), 1.0) for one in t])
+    epsilon = above / np.array([correlation(float(period), 1.0) for period in t])
     assert epsilon == pytest.approx(np.full(7, epsilon[0]))
     assert epsilon[0] == pytest.approx(math.log(2.0) / 0.6, rel=1e-3)  # the median at 1 s is between two rows
     median = target_spectrum(f"cms:{table},T=0.5s,sa={0.3 / math.sqrt(0.5):.17g}g")

@@ -38,12 +38,12 @@ def flown(body, toss, duration, step=1.5e-6):
     while not block.is_over(0):
         block.advance(1)
         block.records.net(0)
-        held = float(block.lane["en"][0, 0])
-        if deepest > 0.0 and held == 0.0:
+        elastic = float(block.lane["en"][0, 0])
+        if deepest > 0.0 and elastic == 0.0:
             break
-        deepest = max(deepest, held)
+        deepest = max(deepest, elastic)
     drum = block.records.body
-    velocity, momentum = (np.array([drum[one + c][1, 0] for c in "xyz"]) for one in "vl")
+    velocity, momentum = (np.array([drum[prefix + c][1, 0] for c in "xyz"]) for prefix in "vl")
     return velocity, momentum, deepest, float(block.lane["visc"][0, 0])
 
 

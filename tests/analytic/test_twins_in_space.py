@@ -35,21 +35,21 @@ PORTAL = scene(
 )
 
 
-def moved(one, other):
-    return np.array([np.subtract(a.position, b.position) for a, b in zip(one.stones, other.stones)])
+def moved(twin, other):
+    return np.array([np.subtract(a.position, b.position) for a, b in zip(twin.stones, other.stones)])
 
 
 def test_a_twin_is_the_same_for_any_number_of_them():
     few, many = (twins_of(PORTAL, st.Scatter(width=0.0, height=0.0), number, 3, space=True) for number in (2, 4))
-    assert [one.digest for one in few] == [one.digest for one in many[:2]]
-    assert len({one.digest for one in many}) == 4
-    assert [len(one.space_joints) for one in many] == [4, 4, 4, 4]
+    assert [twin.digest for twin in few] == [twin.digest for twin in many[:2]]
+    assert len({twin.digest for twin in many}) == 4
+    assert [len(twin.space_joints) for twin in many] == [4, 4, 4, 4]
 
 
 def test_a_stone_has_the_same_deviations_in_every_state_of_what_stands():
     """Without its beam, and numbered otherwise, so that states are compared pair by pair."""
     alone = scene(PORTAL.stones[1], PORTAL.stones[0])
-    for whole, other in zip(*(twins_of(one, st.Scatter(), 3, 0, space=True) for one in (PORTAL, alone))):
+    for whole, other in zip(*(twins_of(assembly, st.Scatter(), 3, 0, space=True) for assembly in (PORTAL, alone))):
         kept = {stone.name: stone.to_dict() for stone in whole.stones}
         assert all(kept[stone.name] == stone.to_dict() for stone in other.stones)
         assert kept["left"]["density"] != kept["right"]["density"]
@@ -97,7 +97,8 @@ def test_offsets_that_do_not_fit_are_halved():
     free = scene(box("a", (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)), box("b", (1.0, 1.0, 1.0), (3.0, 0.0, 0.0)))
     drawn = [share for _, share in drawn_twins(close, size, 12, 0, space=True)]
     near, far = (
-        np.array([moved(twin, one) for twin in twins_of(one, size, 12, 0, space=True)]) for one in (close, free)
+        np.array([moved(twin, assembly) for twin in twins_of(assembly, size, 12, 0, space=True)])
+        for assembly in (close, free)
     )
     share = np.abs(near).max(axis=(1, 2)) / np.abs(far).max(axis=(1, 2))
     assert set(np.round(share, 12)) > {1.0}
@@ -109,7 +110,7 @@ def test_offsets_that_do_not_fit_are_halved():
         "offsets_reduced"
         not in the_twins(st.preset("paper-monolithic"), st.DistinctElement3D(), st.Campaign(replicates=2)).facts
     )
-    assert all(math.isclose(one, 2.0 ** round(math.log2(one))) for one in share if one)
+    assert all(math.isclose(ratio, 2.0 ** round(math.log2(ratio))) for ratio in share if ratio)
 
 
 def row(fell=(), still=True, outcome="collapsed"):
@@ -136,7 +137,7 @@ def test_bodies_over_twins():
     assert words_of_bodies(bodies_over_twins([row(outcome="rocked")])) == ""
     hanging = bodies_over_twins([row(outcome="rocked", still=False), row("a", still=False)])
     assert words_of_bodies(hanging) == "What fell: a in 1 (1 undecided). Fell in none, but undecided: b in 2."
-    assert [one.name for one in not_safe(hanging)] == ["a", "b"]
+    assert [body.name for body in not_safe(hanging)] == ["a", "b"]
     assert only_as_seen(hanging[0].runs).startswith("from 2 runs, fewer than 20, the 90 % region is only that of")
     assert only_as_seen(0) == only_as_seen(20) == ""
     assert bodies_over_twins([{"outcome": "rocked", "decided": True, "collapsed": False}]) == ()
@@ -170,19 +171,19 @@ def test_a_push_of_one_box_onto_another():
         box("pushed", (0.3, 0.6, 1.2), (0.0, 0.0, 0.0)),
         box("hurled", (0.3, 0.3, 0.3), (-0.8, 0.0, 0.85), velocity=(6.0, 0.0, 0.0)),
     )
-    found = st.certainty(
+    certainty = st.certainty(
         scene(*stones, settle=False), st.Motion(0.01, np.zeros(101)), st.DistinctElement3D(), replicates=2, threads=1
     )
-    said = found.summary()
-    assert set(said["fallen"]) == {"pushed", "hurled"}
-    assert said["fallen"] == sorted(said["fallen"], key=lambda name: said["bodies"][name]["fell_at_s"])
-    assert 0.05 < said["struck_at_s"] < 0.12  # 0.5 m at 6 m/s
-    assert said["bodies"]["pushed"]["fall_azimuth_deg"] == pytest.approx(0.0, abs=15.0)
-    assert said["bodies"]["pushed"]["residual_displacement_m"] is None
-    assert found.sentence.count(STRUCK_IN_SPACE) == 1
-    assert "Collapses in 2 of 2 assemblies like this" in found.sentence
-    assert said["certainty"]["bodies"]["pushed"]["fell"] == 2
-    response = found.response
+    summary = certainty.summary()
+    assert set(summary["fallen"]) == {"pushed", "hurled"}
+    assert summary["fallen"] == sorted(summary["fallen"], key=lambda name: summary["bodies"][name]["fell_at_s"])
+    assert 0.05 < summary["struck_at_s"] < 0.12  # 0.5 m at 6 m/s
+    assert summary["bodies"]["pushed"]["fall_azimuth_deg"] == pytest.approx(0.0, abs=15.0)
+    assert summary["bodies"]["pushed"]["residual_displacement_m"] is None
+    assert certainty.sentence.count(STRUCK_IN_SPACE) == 1
+    assert "Collapses in 2 of 2 assemblies like this" in certainty.sentence
+    assert summary["certainty"]["bodies"]["pushed"]["fell"] == 2
+    response = certainty.response
     assert response.body_velocity[0, 2] == pytest.approx([6.0, 0.0, 0.0])
     assert response.body_angular_velocity.shape == response.body_position.shape
     assert response.dims == "xyz"
@@ -191,13 +192,13 @@ def test_a_push_of_one_box_onto_another():
 def test_twins_that_struck_are_cautioned_of_where_the_run_itself_did_not():
     """Nothing moves here, but what is told of a population holds for all of it; slips have their lengths, too."""
     still = st.Motion(0.01, np.zeros(6))
-    found = st.certainty(PORTAL, still, st.DistinctElement3D(), replicates=1, threads=1)
-    said = found.response.summary()
-    assert said["doubt"] == ""
-    assert found.sentence.endswith(STRUCK_IN_SPACE)
-    assert found.summary()["doubt"] == STRUCK_IN_SPACE
-    slips = np.hypot(said["residual_slip_x_m"], said["residual_slip_y_m"])
-    assert said["residual_slip_per_joint_m"] == pytest.approx(slips)
+    certainty = st.certainty(PORTAL, still, st.DistinctElement3D(), replicates=1, threads=1)
+    summary = certainty.response.summary()
+    assert summary["doubt"] == ""
+    assert certainty.sentence.endswith(STRUCK_IN_SPACE)
+    assert certainty.summary()["doubt"] == STRUCK_IN_SPACE
+    slips = np.hypot(summary["residual_slip_x_m"], summary["residual_slip_y_m"])
+    assert summary["residual_slip_per_joint_m"] == pytest.approx(slips)
     assert len(slips) == 4
 
 

@@ -42,7 +42,7 @@ def test_laws_reach_from_the_softest_joints_to_stone():
 
     def common(share: float) -> np.ndarray:
         twins = drawn(3 * 200, unknown_stiffness=share).columns
-        return np.log([one.joints[0].normal_stiffness for one in twins]).reshape(-1, PER_LAW).mean(axis=1)
+        return np.log([twin.joints[0].normal_stiffness for twin in twins]).reshape(-1, PER_LAW).mean(axis=1)
 
     logs = common(1.0)
     span = np.log(5e10 / 1e9)
@@ -55,11 +55,11 @@ def test_laws_reach_from_the_softest_joints_to_stone():
 
 
 def test_half_of_the_laws_carry_otherwise_and_twins_of_one_law_alike():
-    found = drawn(120)
-    laws = np.array([twin.losses.law for twin in found.columns]).reshape(-1, PER_LAW)
+    twins = drawn(120)
+    laws = np.array([twin.losses.law for twin in twins.columns]).reshape(-1, PER_LAW)
     assert np.all(laws == laws[:, :1])
     assert np.mean(laws[:, 0] == "bed") == pytest.approx(0.5, abs=0.08)  # evenly spread: no more than some of 40 off
-    assert len(set(found.groups)) == 40
+    assert len(set(twins.groups)) == 40
 
 
 def test_more_twins_are_the_same_ones_and_more():
@@ -71,10 +71,10 @@ def test_other_parts_stay_as_they_were():
     """Of one seed, sizes, density and friction are those drawn without laws; the common part of stiffness is the law's."""
     none = dict.fromkeys(("stiffness_damping", "rolling_resistance", "law", "unknown_stiffness"), 0.0)
     with_laws, without = drawn(6).columns, drawn(6, **none).columns
-    for one, other in zip(with_laws, without, strict=True):
-        assert one.drums == other.drums
-        assert [joint.tan_phi for joint in one.joints] == [joint.tan_phi for joint in other.joints]
-        assert one.joints != other.joints
+    for twin, other in zip(with_laws, without, strict=True):
+        assert twin.drums == other.drums
+        assert [joint.tan_phi for joint in twin.joints] == [joint.tan_phi for joint in other.joints]
+        assert twin.joints != other.joints
         assert other.losses is None
 
 
@@ -100,7 +100,7 @@ def test_the_limits_are_those_of_a_new_law_by_weighted_draws():
     p = stream.beta(a, b)
     order = np.argsort(p)
     share = np.cumsum(weight[order]) / weight.sum()
-    expected = [float(p[order][np.searchsorted(share, one)]) for one in (0.025, 0.975)]
+    expected = [float(p[order][np.searchsorted(share, quantile)]) for quantile in (0.025, 0.975)]
     assert share_under_another_law(fell, number) == pytest.approx(expected, abs=0.02)
 
 
@@ -117,15 +117,15 @@ def test_the_interval_holds_the_share_of_another_law_where_that_of_the_columns_d
     """200 cases of ten laws of three columns; shares of laws from beta distributions of correlation 0.05 to 0.5 and mean 0.1
     to 0.9, the truth an eleventh. At least 0.9 are held; Wilson's interval of 30 columns holds fewer than 0.7.
     """
-    stream, held = np.random.default_rng(3), np.zeros(2)
+    stream, hits = np.random.default_rng(3), np.zeros(2)
     for _ in range(200):
         r, m = stream.uniform(0.05, 0.5), stream.uniform(0.1, 0.9)
         p = stream.beta(m * (1.0 - r) / r, (1.0 - m) * (1.0 - r) / r, 11)
         fell = stream.binomial(3, p[:10])
         limits = share_under_another_law(fell, [3] * 10), v.wilson_interval(fell.sum(), 30)
-        held += [float(low) <= p[10] <= float(high) for low, high in limits]
-    assert held[0] >= 180
-    assert held[1] < 140
+        hits += [float(low) <= p[10] <= float(high) for low, high in limits]
+    assert hits[0] >= 180
+    assert hits[1] < 140
 
 
 def test_the_sentence_says_which_part_is_the_laws():
@@ -148,26 +148,26 @@ def test_the_sentence_says_which_part_is_the_laws():
         }
         for fell in (True, True, True, False, False, False)
     ]
-    found = Population(twins, tuple(rows))
-    column, both = found.interval_of_columns, found.interval
+    population = Population(twins, tuple(rows))
+    column, both = population.interval_of_columns, population.interval
     assert both[0] < column[0] < column[1] < both[1]
-    assert "by the column alone, the rest by the law of its joints" in found.sentence
-    told = found.summary()
-    assert told["certainty"]["laws"] == 2
-    assert (told["collapse_interval_low"], told["collapse_interval_high"]) == both
-    assert told["certainty"]["interval_of_columns"] == list(column)
-    assert "if the law of its joints were known)" in certainty_sentence(told)
-    assert certainty_section(told) is not None
+    assert "by the column alone, the rest by the law of its joints" in population.sentence
+    summary = population.summary()
+    assert summary["certainty"]["laws"] == 2
+    assert (summary["collapse_interval_low"], summary["collapse_interval_high"]) == both
+    assert summary["certainty"]["interval_of_columns"] == list(column)
+    assert "if the law of its joints were known)" in certainty_sentence(summary)
+    assert certainty_section(summary) is not None
 
 
 def test_the_run_itself_is_the_same_whatever_its_twins_lose():
     """No twin of another law rides along, so that the column's run keeps its bits."""
     shaking = st.harmonic(2.0, 0.4 * st.g, 1.0)
     alone = st.simulate(ROUND, shaking, SPACE)
-    found = certainty(ROUND, shaking, SPACE, replicates=4)
-    assert np.array_equal(alone.histories.top, found.response.histories.top)
-    assert found.population.drawn.groups == (0, 0, 0, 1)
-    assert found.population.counts[v.FAILED] == 0
+    result = certainty(ROUND, shaking, SPACE, replicates=4)
+    assert np.array_equal(alone.histories.top, result.response.histories.top)
+    assert result.population.drawn.groups == (0, 0, 0, 1)
+    assert result.population.counts[v.FAILED] == 0
 
 
 def test_limits_over_many_cells_are_those_of_each():
@@ -196,13 +196,13 @@ def test_every_interval_of_columns_in_space_holds_their_laws(ask):
             known = "collapse_interval_of_columns_low" in table
             return known, table.attrs["twins"][column.name]["scatter"]["law"], table["collapse_interval_high"][0]
         if ask == "critical":
-            found = st.critical_amplitude(
+            result = st.critical_amplitude(
                 column, motion, model, 0.01 * st.g, 0.02 * st.g, 0.01 * st.g, replicates=6, **fields
             )
-            found = found.population
-            return bool(found.drawn.groups), found.drawn.scatter.law, found.interval[1][0]
-        found = st.collapse_probability(column, model, [1.5], [0.01 * st.g], 1.0, replicates=6, **fields)
-        return bool(found.scatter.law), found.scatter.law, found.interval[1][0, 0]
+            result = result.population
+            return bool(result.drawn.groups), result.drawn.scatter.law, result.interval[1][0]
+        result = st.collapse_probability(column, model, [1.5], [0.01 * st.g], 1.0, replicates=6, **fields)
+        return bool(result.scatter.law), result.scatter.law, result.interval[1][0, 0]
 
     vary, law, high = limits()
     assert (vary, law) == (True, 0.5)
@@ -222,19 +222,19 @@ def capacities(rng: np.random.Generator, laws: int, between: float) -> pd.DataFr
     record, twin, level = np.meshgrid(*map(np.arange, (*log.shape, len(levels))), indexing="ij")
     fell = np.log(levels)[level] >= log[record, twin]
     table = {"record": record, "im": levels[level], "collapsed": fell.astype(int), "realisation": twin}
-    return pd.DataFrame({name: one.ravel() for name, one in (table | {LAW: twin // PER_LAW + 1}).items()})
+    return pd.DataFrame({name: values.ravel() for name, values in (table | {LAW: twin // PER_LAW + 1}).items()})
 
 
 def test_median_of_a_fragility_holds_that_of_another_law():
     """Of 40 synthetic truths the 95 % interval holds 38 ± 4 (three standard errors); that of known laws fewer, where laws
     differ nearly as much as records do."""
-    held = alone = 0
+    hits = alone = 0
     for seed in range(40):
         runs = capacities(np.random.default_rng([seed, 5]), 5, 0.3)
-        said = st.fragility(st.evidence(runs), samples=40, seed=seed).summary()
-        held += said["median_low"] <= 1.0 <= said["median_high"]
-        alone += said["median_of_columns_low"] <= 1.0 <= said["median_of_columns_high"]
-    assert held >= 34
+        summary = st.fragility(st.evidence(runs), samples=40, seed=seed).summary()
+        hits += summary["median_low"] <= 1.0 <= summary["median_high"]
+        alone += summary["median_of_columns_low"] <= 1.0 <= summary["median_of_columns_high"]
+    assert hits >= 34
     assert alone < 30
 
 
@@ -252,16 +252,16 @@ def test_too_few_laws_are_said_and_leave_no_limits():
     runs = capacities(np.random.default_rng(0), 1, 0.1)
     curve = st.fragility(st.evidence(runs), samples=60)
     assert curve.median_interval == (0.0, np.inf)
-    assert any("too few to tell" in one for one in curve.warnings)
+    assert any("too few to tell" in warning for warning in curve.warnings)
     assert np.isfinite(curve.of_columns.median_interval).all()
 
 
 def test_analyses_over_records_draw_laws_and_say_which():
     """Runs of an IDA and of a study in space say of which law each is; in the plane none does."""
     motions = [st.harmonic(2.0, 1.0, 0.3).replace(name=name) for name in ("one", "other")]
-    found = st.ida(ROUND, motions, SPACE, "pga", levels=[0.1], replicates=4, tail=0.1)
-    assert found.runs[LAW].tolist() == [1, 1, 1, 2] * 2
-    assert not found.doubt
+    analysis = st.ida(ROUND, motions, SPACE, "pga", levels=[0.1], replicates=4, tail=0.1)
+    assert analysis.runs[LAW].tolist() == [1, 1, 1, 2] * 2
+    assert not analysis.doubt
     assert "Wobbling was not damped" in st.ida(ROUND, motions, SPACE, "pga", levels=[0.1], tail=0.1).doubt
     study = st.Study((ROUND,), motions, [SPACE, st.DistinctElement2D()], (0.1,), "pga", replicates=4, tail=0.1)
     assert study.plan().labels()[LAW].tolist() == [1, 1, 1, 2] * 2 + [0] * 8
@@ -278,6 +278,6 @@ def test_states_of_few_laws_say_so_and_conclude_nothing():
     """Three twins share one law: limits of a difference are those of all that can be, and the reason stands before."""
     motions = [st.harmonic(2.0, 1.0, 0.3).replace(name=f"m{k}") for k in range(2)]
     states = {"as found": ROUND, "other": dataclasses.replace(ROUND, name="other")}
-    found = st.compare_states(states, motions, SPACE, [0.1], "pga", replicates=3, tail=0.1)
-    assert found.doubt.startswith("The twins share 1 law of the joints")
-    assert (found.differences[0].share_low, found.differences[0].share_high) == (-1.0, 1.0)
+    comparison = st.compare_states(states, motions, SPACE, [0.1], "pga", replicates=3, tail=0.1)
+    assert comparison.doubt.startswith("The twins share 1 law of the joints")
+    assert (comparison.differences[0].share_low, comparison.differences[0].share_high) == (-1.0, 1.0)

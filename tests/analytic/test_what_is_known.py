@@ -50,43 +50,43 @@ def test_twins_of_a_record_at_one_level_are_no_further_records():
     ends = ("median_low", "median_high", "beta_low", "beta_high")
     once = runs(np.arange(12)[:, None] % 4 <= 3.0 * LEVELS)
     many = once.only(np.repeat(np.arange(len(once.im)), 20))
-    one, twenty = (fragility(each, samples=200).summary() for each in (once, many))
-    assert [twenty[end] for end in ends] == pytest.approx([one[end] for end in ends], rel=0.02)
+    single, twenty = (fragility(each, samples=200).summary() for each in (once, many))
+    assert [twenty[end] for end in ends] == pytest.approx([single[end] for end in ends], rel=0.02)
     heavy = once.only(np.flatnonzero(np.isin(once.records, ["r00", "r01"]) | (once.im == LEVELS[2])))
-    found = fragility(heavy, samples=200)
-    assert found.equal_records < 0.7 * found.records
-    assert any("a few of its 12 records hold most of the runs" in one for one in found.warnings)
+    curve = fragility(heavy, samples=200)
+    assert curve.equal_records < 0.7 * curve.records
+    assert any("a few of its 12 records hold most of the runs" in warning for warning in curve.warnings)
 
 
 def test_runs_that_stand_above_a_collapse_are_no_run_that_collapses():
     codes = np.tile(LEVELS > 0.5, (12, 1)).astype(np.int8)
     codes[3, -1] = 0
-    said = fragility(runs(codes), method="records", samples=100).sentence
-    assert "between 0.47 and 0.68 m/s; 1 run above that stands again and is left out" in said
-    assert "every run" not in said
+    sentence = fragility(runs(codes), method="records", samples=100).sentence
+    assert "between 0.47 and 0.68 m/s; 1 run above that stands again and is left out" in sentence
+    assert "every run" not in sentence
 
 
 def test_stripes_that_no_run_contradicts_tell_the_bracket():
-    found = fragility(SEPARABLE, samples=100)
-    said = found.summary()
-    assert said["bracket"] == pytest.approx([0.47, 0.68])
-    assert said["median"] == pytest.approx(math.sqrt(0.47 * 0.68))
-    assert said["median_low"] <= 0.47 < 0.68 <= said["median_high"] < 0.75
-    assert (said["beta"], said["beta_low"]) == (None, 0.0)
+    curve = fragility(SEPARABLE, samples=100)
+    summary = curve.summary()
+    assert summary["bracket"] == pytest.approx([0.47, 0.68])
+    assert summary["median"] == pytest.approx(math.sqrt(0.47 * 0.68))
+    assert summary["median_low"] <= 0.47 < 0.68 <= summary["median_high"] < 0.75
+    assert (summary["beta"], summary["beta_low"]) == (None, 0.0)
     # twelve of twelve at both ends: with the larger drop of 12 records, of 3.6, β is at most what makes the likelihood of
     # 24 such runs fall by so much, Φ(ln √(0.68/0.47)/β)^24 = exp(−3.6), farther runs but a little less
-    assert 0.15 < said["beta_high"] < 0.19
-    assert "between 0.47 and 0.68 m/s" in said["sentence"]
-    (warning,) = said["warnings"]
-    assert f"not seen in these runs (it may be up to {said['beta_high']:.2g}, with 95 % confidence)" in warning
+    assert 0.15 < summary["beta_high"] < 0.19
+    assert "between 0.47 and 0.68 m/s" in summary["sentence"]
+    (warning,) = summary["warnings"]
+    assert f"not seen in these runs (it may be up to {summary['beta_high']:.2g}, with 95 % confidence)" in warning
     assert fragility(runs(LEVELS > np.geomspace(0.2, 0.9, 12)[:, None]), samples=40).warnings == []
-    low, high = found.interval(np.array([0.3, 0.57, 1.0]))
+    low, high = curve.interval(np.array([0.3, 0.57, 1.0]))
     assert low[1] < 0.01 < 0.99 < high[1]
     assert high[0] < 0.05 < 0.95 < low[2]
 
 
 @pytest.mark.parametrize(
-    ("asked", "words"),
+    ("options", "words"),
     [
         ({"confidence": 95}, "confidence is 95; allowed is (0, 1)"),
         ({"samples": -3}, "samples` is -3; allowed is a whole number from 40"),
@@ -96,25 +96,25 @@ def test_stripes_that_no_run_contradicts_tell_the_bracket():
         ({"method": "mle"}, "method` is 'mle'; allowed are None, runs, records"),
     ],
 )
-def test_numbers_of_a_bootstrap_are_refused_in_one_sentence(asked, words):
+def test_numbers_of_a_bootstrap_are_refused_in_one_sentence(options, words):
     with pytest.raises(InputError, match=re.escape(words)):
-        fragility(SEPARABLE, **asked)
+        fragility(SEPARABLE, **options)
 
 
 def test_the_risk_of_a_bracket_is_not_that_of_its_middle():
     hazard = Hazard(np.array([0.02, 5.0]), 1e-4 * np.array([0.02, 5.0]) ** -2.0, "m/s", "site")
-    found = risk(fragility(SEPARABLE, samples=100), hazard)
-    assert found.low < hazard.at(0.66) < found.rate < hazard.at(0.48) < found.high
+    estimate = risk(fragility(SEPARABLE, samples=100), hazard)
+    assert estimate.low < hazard.at(0.66) < estimate.rate < hazard.at(0.48) < estimate.high
 
 
 def test_one_intensity_with_both_ends_tells_the_share_there_and_no_dispersion():
     codes = np.tile(LEVELS > 0.47, (12, 1))
     codes[:5, 4] = True
-    said = fragility(runs(codes), samples=100).summary()
-    assert said["bracket"] == pytest.approx([0.47, 0.47])
-    assert said["beta"] is None
-    assert said["median_low"] < 0.47 < said["median_high"]
-    assert said["p_value"] > 0.05
+    summary = fragility(runs(codes), samples=100).summary()
+    assert summary["bracket"] == pytest.approx([0.47, 0.47])
+    assert summary["beta"] is None
+    assert summary["median_low"] < 0.47 < summary["median_high"]
+    assert summary["p_value"] > 0.05
 
 
 @pytest.mark.parametrize(
@@ -137,23 +137,23 @@ def test_what_is_no_fragility_is_refused_with_its_reason(codes, levels, why):
 def test_a_slope_that_may_be_chance_leaves_median_and_dispersion_open():
     # 5 of 12 at 0.4 and 7 of 12 at 0.6: Fisher's exact p is 0.68.
     codes = np.stack((np.arange(12) < 5, np.arange(12) < 7), axis=1)
-    found = fragility(runs(codes, np.array([0.4, 0.6])), samples=100)
-    assert found.beta_interval[1] == math.inf
-    assert found.median_interval == (0.0, math.inf)
-    assert between(*found.median_interval) == "no limits known"
+    curve = fragility(runs(codes, np.array([0.4, 0.6])), samples=100)
+    assert curve.beta_interval[1] == math.inf
+    assert curve.median_interval == (0.0, math.inf)
+    assert between(*curve.median_interval) == "no limits known"
     assert between(0.2, None, "g") == "0.2 g or more"
     assert between(0.0, 0.5, "m/s") == "up to 0.5 m/s"
-    assert np.all(np.isfinite(found.interval(np.array([0.1, 9.0]))))
+    assert np.all(np.isfinite(curve.interval(np.array([0.1, 9.0]))))
 
 
 def test_undecided_runs_that_leave_no_curve_are_told_as_none():
     codes = np.tile(np.where(LEVELS > 0.5, EXCEEDED, 0), (12, 1))
     codes[:, :4] = OPEN
-    said = fragility(runs(codes), samples=50).summary()
-    assert math.isnan(said["if_open_exceed"]["median"]) or said["if_open_exceed"]["median"] == 0.0
-    assert said["if_open_do_not"]["beta"] is None
-    assert (said["median_low"], said["beta_high"]) == (0.0, math.inf)
-    assert said["median_high"] < math.inf
+    summary = fragility(runs(codes), samples=50).summary()
+    assert math.isnan(summary["if_open_exceed"]["median"]) or summary["if_open_exceed"]["median"] == 0.0
+    assert summary["if_open_do_not"]["beta"] is None
+    assert (summary["median_low"], summary["beta_high"]) == (0.0, math.inf)
+    assert summary["median_high"] < math.inf
 
 
 def test_intervals_hold_what_open_runs_may_come_to():
@@ -161,37 +161,39 @@ def test_intervals_hold_what_open_runs_may_come_to():
     codes = np.clip(LEVELS > np.geomspace(0.2, 0.9, 12)[:, None], 0, 1).astype(np.int8)
     codes[6:9, 3:6] = OPEN
     e = runs(codes)
-    found = fragility(e, samples=200)
-    ends = [fragility(replace(e, codes=np.where(e.codes == OPEN, one, e.codes)), samples=200) for one in (EXCEEDED, 0)]
-    low, high = found.median_interval
-    assert low < 1.03 * ends[0].median_interval[0] < ends[0].median < found.median < ends[1].median
+    curve = fragility(e, samples=200)
+    ends = [
+        fragility(replace(e, codes=np.where(e.codes == OPEN, code, e.codes)), samples=200) for code in (EXCEEDED, 0)
+    ]
+    low, high = curve.median_interval
+    assert low < 1.03 * ends[0].median_interval[0] < ends[0].median < curve.median < ends[1].median
     assert ends[1].median < 0.97 * ends[1].median_interval[1] < high
-    below, above = found.interval(np.array([0.4]))
+    below, above = curve.interval(np.array([0.4]))
     assert below[0] < ends[1].probability(np.array([0.4]))[0] < ends[0].probability(np.array([0.4]))[0] < above[0]
-    assert found.points.high == pytest.approx(ends[0].points.high)
-    assert found.points.low == pytest.approx(ends[1].points.low)
-    assert found.points.records.tolist() == [12] * 3 + [9] * 3 + [12] * 2
+    assert curve.points.high == pytest.approx(ends[0].points.high)
+    assert curve.points.low == pytest.approx(ends[1].points.low)
+    assert curve.points.records.tolist() == [12] * 3 + [9] * 3 + [12] * 2
 
 
 def test_intervals_hold_the_truth_where_stripes_nearly_separate(monkeypatch):
     # Dispersion 0.12, steps of 1.5: the bootstrap alone held the median in 6 % of such sets. Of 40 sets 95 % are 38; below
     # 34 with a probability of 0.003. The long version, 2,000 sets, is in docs/theory/fragility.md.
     monkeypatch.setattr("stylobate.probability.fragility.SETS", 1)
-    rng, held = np.random.default_rng(11), np.zeros(2)
+    rng, hits = np.random.default_rng(11), np.zeros(2)
     levels = 1.1 * np.geomspace(1.5**-3, 1.5**2, 6)
     for k in range(40):
-        found = fragility(runs(np.log(levels) >= rng.normal(0.0, 0.12, (12, 1)), levels), samples=40, seed=k)
-        for j, (truth, (low, high)) in enumerate(((1.0, found.median_interval), (0.12, found.beta_interval))):
-            held[j] += low <= truth <= high
-    assert (held >= 34).all()
+        curve = fragility(runs(np.log(levels) >= rng.normal(0.0, 0.12, (12, 1)), levels), samples=40, seed=k)
+        for j, (truth, (low, high)) in enumerate(((1.0, curve.median_interval), (0.12, curve.beta_interval))):
+            hits[j] += low <= truth <= high
+    assert (hits >= 34).all()
 
 
 def test_the_best_curve_of_runs_that_do_not_overlap_is_exact():
     y = np.log(np.array([0.3, 0.5, 0.7, 0.7, 0.9]))
     hit = np.array([False, False, True, True, True])
-    found = lognormal.fit(np.where(hit, -np.inf, y), np.where(hit, y, np.inf))
-    assert found.beta[0] == lognormal.BETAS[0]
-    assert found.log_median[0] == pytest.approx(0.5 * (y[1] + y[2]))
+    fit = lognormal.fit(np.where(hit, -np.inf, y), np.where(hit, y, np.inf))
+    assert fit.beta[0] == lognormal.BETAS[0]
+    assert fit.log_median[0] == pytest.approx(0.5 * (y[1] + y[2]))
 
 
 # -- pairs -------------------------------------------------------------------------------------------------------------
@@ -241,7 +243,7 @@ def test_hazard_that_no_site_has(k0, power, unit, what):
     x = np.array([0.01, 0.1, 1.0, 10.0])
     hazard, curve = Hazard(x, k0 * x**-power, unit, "site.csv"), fragility(SEPARABLE, samples=40)
     if what in ("warned", "plausible"):
-        assert any("3 times a year" in one for one in risk(curve, hazard).warnings) == (what == "warned")
+        assert any("3 times a year" in warning for warning in risk(curve, hazard).warnings) == (what == "warned")
     else:
         with pytest.raises(InputError, match=what):
             risk(curve, hazard)
@@ -265,6 +267,6 @@ def test_return_periods_are_named():
 def test_runs_that_do_not_say_their_intensity_and_a_column_that_falls_all_the_time_are_doubted():
     silent = fragility(replace(SEPARABLE, measure="im", unit="-"), samples=40)
     hazard = Hazard(np.array([0.1, 10.0]), np.array([9.0, 2.0]), "m/s", "site.csv")
-    told = " ".join(risk(silent, hazard).warnings)
-    assert "state the intensity of the runs" in told
-    assert "leaves no such column" in told
+    text = " ".join(risk(silent, hazard).warnings)
+    assert "state the intensity of the runs" in text
+    assert "leaves no such column" in text

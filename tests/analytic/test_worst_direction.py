@@ -7,9 +7,9 @@ from stylobate.verdicts.directions import bearing, compass_of_chances, compass_o
 
 
 def row(azimuth, peak, *, fell=False, **more):
-    found = {"azimuth_deg": azimuth, "reversed": False, "record": "r", "motion": f"r at {azimuth:g}°"}
-    found |= {"outcome": "collapsed" if fell else "rocked", "collapsed": fell, "decided": True}
-    return found | {"peak_top_displacement_m": peak, "collapse_time_s": 1.0 / peak if fell else None} | more
+    fields = {"azimuth_deg": azimuth, "reversed": False, "record": "r", "motion": f"r at {azimuth:g}°"}
+    fields |= {"outcome": "collapsed" if fell else "rocked", "collapsed": fell, "decided": True}
+    return fields | {"peak_top_displacement_m": peak, "collapse_time_s": 1.0 / peak if fell else None} | more
 
 
 def twins(share, undecided=0):
@@ -24,11 +24,11 @@ def legend(compass):
 @pytest.mark.parametrize("compass_of", [compass_of_shares, compass_of_chances])
 def test_ties_of_shares_are_told_apart_by_the_runs(compass_of):
     rows = [row(0.0, 1.0, fell=True), row(30.0, 0.2), row(60.0, 2.0, fell=True), row(90.0, 0.3)]
-    rows = [one | twins(float(one["collapsed"])) for one in rows]
+    rows = [entry | twins(float(entry["collapsed"])) for entry in rows]
     compass = compass_of(rows)
-    found = worst(rows, compass)
-    assert compass.worst == bearing(found) == 60.0  # falls sooner than the other
-    assert harm_words(found, compass) == "Most harm: turned to 60°, r at 60°."
+    worst_row = worst(rows, compass)
+    assert compass.worst == bearing(worst_row) == 60.0  # falls sooner than the other
+    assert harm_words(worst_row, compass) == "Most harm: turned to 60°, r at 60°."
     assert "worst: 60°, 1" in legend(compass)
 
 
@@ -41,15 +41,15 @@ def test_the_worst_run_is_one_from_the_worst_direction():
 
 
 @pytest.mark.parametrize(
-    ("undecided", "said"), [(0, "no direction collapses it"), (2, "no direction surely collapses it")]
+    ("undecided", "sentence"), [(0, "no direction collapses it"), (2, "no direction surely collapses it")]
 )
-def test_where_none_collapses_the_picture_says_so(undecided, said):
+def test_where_none_collapses_the_picture_says_so(undecided, sentence):
     rows = [row(0.0, 0.1) | twins(0.0), row(210.0, 0.2) | twins(0.0, undecided)]
     compass = compass_of_chances(rows)
-    assert said in legend(compass)
+    assert sentence in legend(compass)
     assert not [text for text in legend(compass) if text.startswith("worst")]
     words = harm_words(worst(rows, compass), compass)
-    assert words.startswith(f"N{said[1:]}; it moves most turned to 210°, under r at 210°.")
+    assert words.startswith(f"N{sentence[1:]}; it moves most turned to 210°, under r at 210°.")
     assert ("From 1 of 2 directions runs are undecided and may collapse it" in words) == bool(undecided)
 
 

@@ -17,8 +17,8 @@ def installed(monkeypatch):
     """What is installed of the group, by name and object, for one test."""
 
     def have(**entries):
-        found = [EntryPoint(name, value, added.COMMANDS) for name, value in entries.items()]
-        monkeypatch.setattr(added, "entry_points", lambda group: found if group == added.COMMANDS else [])
+        entry_points = [EntryPoint(name, value, added.COMMANDS) for name, value in entries.items()]
+        monkeypatch.setattr(added, "entry_points", lambda group: entry_points if group == added.COMMANDS else [])
         commands.cache_clear()
 
     yield have
@@ -34,9 +34,9 @@ NAMES = [(package, path) for package in added.PACKAGES for path in package.names
 def test_a_command_that_is_not_installed_is_said_to_be_elsewhere(installed, capsys, package, name):
     installed()
     assert call([name, "--quick"]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith(f"stylobate: {name} is a command of {package.name}, which is not installed here;")
-    assert "make install" in said
+    message = capsys.readouterr().err
+    assert message.startswith(f"stylobate: {name} is a command of {package.name}, which is not installed here;")
+    assert "make install" in message
     assert call(["--help"]) == 0
     assert f"\n  {name} " not in capsys.readouterr().out
 
@@ -105,7 +105,7 @@ def test_a_command_that_cannot_be_had_is_left_out_with_a_warning(
     monkeypatch.syspath_prepend(tmp_path)
     installed(**{name: value})
     assert call(["columns"]) == 0
-    said = capsys.readouterr().err.splitlines()
-    assert said[0].startswith(f"stylobate: warning: the command {name} is left out: ")
-    assert why in said[0]
-    assert len(said) == 1
+    warnings = capsys.readouterr().err.splitlines()
+    assert warnings[0].startswith(f"stylobate: warning: the command {name} is left out: ")
+    assert why in warnings[0]
+    assert len(warnings) == 1

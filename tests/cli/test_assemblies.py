@@ -58,7 +58,7 @@ def command(capsys):
     """Runs a command line that must succeed; returns its JSON object or text, and what it said on standard error."""
 
     def run(*arguments):
-        code = call([str(one) for one in arguments])
+        code = call([str(argument) for argument in arguments])
         out, err = capsys.readouterr()
         assert code == 0, err
         return (json.loads(out) if "--json" in arguments else out), err.splitlines()
@@ -67,9 +67,9 @@ def command(capsys):
 
 
 def test_run_prints_one_json_object(command, portal):
-    result, said = command("run", portal, *SHAKEN, "--json")
+    result, warnings = command("run", portal, *SHAKEN, "--json")
     assert set(result) == KEYS
-    assert said == []
+    assert warnings == []
     assert (result["outcome"], result["collapsed"], result["decided"]) == ("at_rest", False, True)
     assert result["in_equilibrium_as_drawn"] is True
     assert result["collapse_time_s"] is None
@@ -97,7 +97,7 @@ def test_a_folder_of_records(command, portal, tmp_path):
         rows = "\n".join(f"{0.01 * k:.2f},{0.05 * i * np.sin(0.0628 * k):.6f}" for k in range(101))
         (folder / f"r{i}.csv").write_text(f"time_s,ax_g\n{rows}\n")
     result, _ = command("run", portal, *MODEL, "--motion", folder, "--json")
-    peaks = [one["peak_displacement_m"] for one in result["runs"]]
+    peaks = [run["peak_displacement_m"] for run in result["runs"]]
     assert 0.0 < peaks[0] < peaks[1]
 
 
@@ -148,17 +148,17 @@ def test_a_person_is_told(command, portal):
 def test_clockwise_blocks_are_turned_and_said(command, portal):
     plain, _ = command("run", portal, *SHAKEN, "--json")
     portal.write_text(PORTAL.replace(RIGHT, "[[0.9, 3.0], [1.5, 3.0], [1.5, 0.0], [0.9, 0.0]]"))
-    turned, said = command("run", portal, *SHAKEN, "--json")
-    assert said == ["stylobate: warning: the vertices of block 'right' run clockwise; they are turned round."]
+    turned, warnings = command("run", portal, *SHAKEN, "--json")
+    assert warnings == ["stylobate: warning: the vertices of block 'right' run clockwise; they are turned round."]
     assert turned["peak_displacement_m"] == pytest.approx(plain["peak_displacement_m"], rel=1e-9)
 
 
 def test_blocks_in_the_air_fall_and_it_is_said(command, portal):
     portal.write_text(PORTAL.replace(RIGHT, "[[4.0, 1.0], [5.0, 1.0], [5.0, 2.0], [4.0, 2.0]]"))
-    result, said = command("run", portal, *SHAKEN, "--until-rest", "--json")
-    assert said[0] == "stylobate: warning: block 'right' touches nothing: it will fall."
-    assert "'portal' is not in equilibrium as drawn; it moves from the start." in said[1]
-    assert len(said) == 2
+    result, warnings = command("run", portal, *SHAKEN, "--until-rest", "--json")
+    assert warnings[0] == "stylobate: warning: block 'right' touches nothing: it will fall."
+    assert "'portal' is not in equilibrium as drawn; it moves from the start." in warnings[1]
+    assert len(warnings) == 2
     assert result["in_equilibrium_as_drawn"] is False
     assert "right" in result["fallen"]
 
@@ -169,7 +169,7 @@ def refused(capsys, tmp_path):
 
     def run(*arguments):
         seen = {path.name for path in tmp_path.iterdir()}
-        code = call([str(one) for one in arguments])
+        code = call([str(argument) for argument in arguments])
         out, err = capsys.readouterr()
         assert code == 2, err
         assert out == ""
@@ -271,13 +271,13 @@ def test_what_does_not_stand_cannot_settle(portal, capsys, tmp_path):
     ids=lambda arguments: arguments[0],
 )
 def test_commands_for_columns_refuse_assemblies(arguments, refused, portal):
-    message = refused(*(portal if one == "PORTAL" else one for one in arguments))
+    message = refused(*(portal if argument == "PORTAL" else argument for argument in arguments))
     assert "describes an assembly of blocks, and this is for columns; give a preset" in message
 
 
 def test_settings_of_the_model_side_by_side(command, refused, portal, tmp_path):
     """What moves farthest stands for the top of a column."""
-    asked = [
+    arguments = [
         "compare",
         portal,
         "--models",
@@ -287,10 +287,10 @@ def test_settings_of_the_model_side_by_side(command, refused, portal, tmp_path):
         "--out",
         tmp_path / "out",
     ]
-    told, _ = command(*asked, "--json")
-    assert [one["peak_displacement_m"] > 0.01 for one in told["runs"]] == [True, True]
-    said, _ = command(*asked)
-    assert "peak_tilt_rad" not in said  # bodies of their own are in the files
+    answer, _ = command(*arguments, "--json")
+    assert [run["peak_displacement_m"] > 0.01 for run in answer["runs"]] == [True, True]
+    text, _ = command(*arguments)
+    assert "peak_tilt_rad" not in text  # bodies of their own are in the files
     command("report", tmp_path / "out", "--out", tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "Displacement of the body that has moved farthest of each model" in page

@@ -17,7 +17,7 @@ def answered(capsys):
     """What a command prints, and its JSON object where one is asked for."""
 
     def command(*arguments):
-        assert call([str(one) for one in arguments]) == 0
+        assert call([str(argument) for argument in arguments]) == 0
         out, err = capsys.readouterr()
         assert err == ""
         return json.loads(out) if "--json" in arguments else out
@@ -28,7 +28,7 @@ def answered(capsys):
 @pytest.fixture
 def refused(capsys):
     def command(*arguments):
-        assert call([str(one) for one in arguments]) == 2
+        assert call([str(argument) for argument in arguments]) == 2
         out, err = capsys.readouterr()
         assert out == ""
         assert err.count("\n") == 1
@@ -39,25 +39,27 @@ def refused(capsys):
 
 def test_what_stands(answered):
     """Masses by hand: 2700 kg/m³ of 0.8 × 0.7 × 1.0 m of pedestal; the extent is that of what can move."""
-    (told,) = answered("columns", STATUE, "--json")["columns"]
-    assert told["fixed"] == ["ground", "step"]
-    assert [one["name"] for one in told["bodies"]] == ["pedestal", "statue"]
-    assert (told["heaviest"], told["heaviest_mass_kg"]) == ("pedestal", pytest.approx(1512.0))
-    assert (told["joints"], told["height_m"]) == (2, pytest.approx(3.37))
-    assert told["extent_m"] == pytest.approx([0.8, 0.7, 3.12])
-    said = answered("columns", STATUE, FOLDER / "portal.toml", "paper-monolithic")
-    assert "2 that can move, 1 fixed" in said
-    assert said.count("heaviest") == 2
+    (description,) = answered("columns", STATUE, "--json")["columns"]
+    assert description["fixed"] == ["ground", "step"]
+    assert [body["name"] for body in description["bodies"]] == ["pedestal", "statue"]
+    assert (description["heaviest"], description["heaviest_mass_kg"]) == ("pedestal", pytest.approx(1512.0))
+    assert (description["joints"], description["height_m"]) == (2, pytest.approx(3.37))
+    assert description["extent_m"] == pytest.approx([0.8, 0.7, 3.12])
+    text = answered("columns", STATUE, FOLDER / "portal.toml", "paper-monolithic")
+    assert "2 that can move, 1 fixed" in text
+    assert text.count("heaviest") == 2
 
 
 def test_limit_all_round_with_its_pictures_and_its_report(answered, tmp_path):
-    found = answered("limit", PORTAL, "--directions", "0:90:3", "--out", tmp_path / "out", "--json")
-    assert found["weakest_azimuth_deg"] == 90.0
-    assert found["collapse_multiplier_g"] == pytest.approx(0.15805, abs=1e-5)
-    assert [one["multiplier_g"] for one in found["directions"]] == pytest.approx([0.2, 0.2235, 0.15805], abs=1e-4)
-    assert (found["between"], found["moving"]) == (["ground", "left"], ["left", "right", "beam"])
-    assert (found["dims"], found["flow"], found["upper_bound"]) == ("xyz", "associated", False)
-    assert {Path(one).name for one in found["files"]} == {
+    answer = answered("limit", PORTAL, "--directions", "0:90:3", "--out", tmp_path / "out", "--json")
+    assert answer["weakest_azimuth_deg"] == 90.0
+    assert answer["collapse_multiplier_g"] == pytest.approx(0.15805, abs=1e-5)
+    assert [direction["multiplier_g"] for direction in answer["directions"]] == pytest.approx(
+        [0.2, 0.2235, 0.15805], abs=1e-4
+    )
+    assert (answer["between"], answer["moving"]) == (["ground", "left"], ["left", "right", "beam"])
+    assert (answer["dims"], answer["flow"], answer["upper_bound"]) == ("xyz", "associated", False)
+    assert {Path(path).name for path in answer["files"]} == {
         "limit.json", "directions.png", "directions.svg", "asked-limit.json"
     }  # fmt: skip
     answered("report", tmp_path / "out", "--out", tmp_path / "report.html")
@@ -68,11 +70,11 @@ def test_limit_all_round_with_its_pictures_and_its_report(answered, tmp_path):
 
 
 def test_limit_in_words(answered):
-    said = answered("limit", PORTAL, "--directions", "90:90:1")
-    assert "The assembly becomes a mechanism at 0.1581 g, pushed towards 90 degrees." in said
-    assert "joint 1 (between ground and left) rocking" in said
-    assert "all 3 bodies" in said
-    assert "upper bound" not in said
+    text = answered("limit", PORTAL, "--directions", "90:90:1")
+    assert "The assembly becomes a mechanism at 0.1581 g, pushed towards 90 degrees." in text
+    assert "joint 1 (between ground and left) rocking" in text
+    assert "all 3 bodies" in text
+    assert "upper bound" not in text
     askew = answered("limit", FOLDER / "wall_corner.toml", "--directions", "45:45:1")
     assert "stones slide or round faces twist in this mechanism, so that the multiplier is an upper bound" in askew
 
@@ -111,12 +113,12 @@ def test_it_is_shaken_by_dem3d(answered):
     """Which the screen of help names."""
     assert "in space dem3d" in answered("run", "--help")
     run = ("run", STATUE, "--model", "dem3d", "--pulse", "ricker,2Hz,0.3g,1.5s", "--json")
-    found = answered(*run)
-    assert found["outcome"] == "rocked"
+    answer = answered(*run)
+    assert answer["outcome"] == "rocked"
     both = answered(
         *run, "--set", "restitution=0.5", "--set", "stiffness_damping=1e-3"
     )  # of the bed, and of the joints
-    assert both["peak_displacement_m"] < found["peak_displacement_m"]
+    assert both["peak_displacement_m"] < answer["peak_displacement_m"]
 
 
 @pytest.mark.parametrize(
@@ -143,23 +145,23 @@ def test_what_is_not_known_of_it_is_said(refused, arguments, says):
 def test_a_run_without_twins_says_that_it_is_one(answered, tmp_path):
     """Nothing rides along with an assembly: no certainty is made up, and what asks for it is told."""
     pulse = ("--model", "dem3d", "--pulse", "sine,2Hz,0.05g,0.5s")
-    told = answered("run", STATUE, *pulse, "--json")
-    assert told["replicates"] == 0
-    assert "certainty" not in told
-    assert list(told["bodies"]) == ["pedestal", "statue"]
-    assert (told["fallen"], told["doubt"], told["struck_at_s"]) == ([], "", None)
-    assert len(told["residual_slip_x_m"]) == len(told["residual_twist_rad"]) == 2
-    said = answered("run", STATUE, *pulse)
-    assert "one run, of exactly these stones; --replicates 15 runs assemblies like it as well" in said
+    answer = answered("run", STATUE, *pulse, "--json")
+    assert answer["replicates"] == 0
+    assert "certainty" not in answer
+    assert list(answer["bodies"]) == ["pedestal", "statue"]
+    assert (answer["fallen"], answer["doubt"], answer["struck_at_s"]) == ([], "", None)
+    assert len(answer["residual_slip_x_m"]) == len(answer["residual_twist_rad"]) == 2
+    text = answered("run", STATUE, *pulse)
+    assert "one run, of exactly these stones; --replicates 15 runs assemblies like it as well" in text
 
 
 def test_twins_of_an_assembly_and_their_report(answered, tmp_path):
     arguments = ("--model", "dem3d", "--pulse", "sine,2Hz,0.05g,0.5s", "--replicates", "2", "--seed", "1")
-    told = answered("run", STATUE, *arguments, "--out", tmp_path / "out", "--json")
-    assert told["replicates"] == 2
-    assert "assemblies like this" in told["certainty"]["sentence"]
-    assert set(told["certainty"]["bodies"]) == {"pedestal", "statue"}
-    assert {"bodies.csv", "debris.png", "replicates.csv"} <= {Path(one).name for one in told["files"]}
+    answer = answered("run", STATUE, *arguments, "--out", tmp_path / "out", "--json")
+    assert answer["replicates"] == 2
+    assert "assemblies like this" in answer["certainty"]["sentence"]
+    assert set(answer["certainty"]["bodies"]) == {"pedestal", "statue"}
+    assert {"bodies.csv", "debris.png", "replicates.csv"} <= {Path(path).name for path in answer["files"]}
     answered("report", tmp_path / "out", "--out", tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     for words in (
@@ -172,21 +174,21 @@ def test_twins_of_an_assembly_and_their_report(answered, tmp_path):
 
 
 def test_many_runs_carry_the_caution_once(answered, tmp_path):
-    said = answered(
+    text = answered(
         "critical", STATUE, "--model", "dem3d", "--pulse", "sine,2Hz,?g,0.5s", "--from", "0.02g", "--to", "0.04g",
         "--step", "0.02g", "--replicates", "1",
     )  # fmt: skip
-    assert said.count("Assemblies in space are new: where bodies strike one another") == 1
-    assert "assemblies like this" in said
+    assert text.count("Assemblies in space are new: where bodies strike one another") == 1
+    assert "assemblies like this" in text
     record = tmp_path / "weak.csv"
     record.write_text("time_s,ax_g\n" + "\n".join(f"{0.01 * k:.2f},{0.02 * (-1) ** k:g}" for k in range(20)))
-    told = answered("ida", STATUE, record, "--model", "dem3d", "--im", "pga", "--levels", "0.02g:0.03g:2", "--json")
-    assert told["edp"] == "peak_displacement_m"
-    assert told["doubt"].startswith("Assemblies in space are new")
+    answer = answered("ida", STATUE, record, "--model", "dem3d", "--im", "pga", "--levels", "0.02g:0.03g:2", "--json")
+    assert answer["edp"] == "peak_displacement_m"
+    assert answer["doubt"].startswith("Assemblies in space are new")
     states = ("states", record, "--as-built", STATUE, "--with", PORTAL, "--model", "dem3d", "--out", tmp_path / "out")
-    told = answered(*states, "--json")
-    assert told["doubt"].startswith("Assemblies in space are new")
-    assert [one["runs"] for one in told["states"]] == [1, 1]
+    answer = answered(*states, "--json")
+    assert answer["doubt"].startswith("Assemblies in space are new")
+    assert [state["runs"] for state in answer["states"]] == [1, 1]
     answered("report", tmp_path / "out", "--out", tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert page.count("The state “") == 2
@@ -199,17 +201,23 @@ def test_states_and_settings_side_by_side(answered, tmp_path):
     tie = 'kind = "tie"\nbetween = ["left", "right"]\nat = [-0.75, 0.0, 3.0]\nto = [0.75, 0.0, 3.0]\ndiameter = 0.03\n'
     (tmp_path / "tied.toml").write_text(f'{whole}\n[[link]]\n{tie}material = "stainless steel"\n')
     (tmp_path / "columns.toml").write_text(whole[: whole.rindex("[[block]]")])
-    asked = ["states", "--as-built", PORTAL, "--with", tmp_path / "tied.toml", "--with", tmp_path / "columns.toml"]
-    asked += ["--model", "dem3d", "--pulse", "sine,2Hz,0.25g,0.6s", "--state", "peak_displacement_m:0.02m"]
-    told = answered(*asked, "--replicates", "2", "--out", tmp_path / "out", "--json")
-    assert [(one["label"], one["runs"]) for one in told["states"]] == [("as built", 2), ("tied", 2), ("columns", 2)]
-    assert [(one["against"], one["pairs"] + one["undecided"]) for one in told["differences"]] == [("as built", 2)] * 2
-    assert [one["link"] for one in told["links"]] == ["tie between left and right"]
+    arguments = ["states", "--as-built", PORTAL, "--with", tmp_path / "tied.toml", "--with", tmp_path / "columns.toml"]
+    arguments += ["--model", "dem3d", "--pulse", "sine,2Hz,0.25g,0.6s", "--state", "peak_displacement_m:0.02m"]
+    answer = answered(*arguments, "--replicates", "2", "--out", tmp_path / "out", "--json")
+    assert [(state["label"], state["runs"]) for state in answer["states"]] == [
+        ("as built", 2),
+        ("tied", 2),
+        ("columns", 2),
+    ]
+    assert [
+        (difference["against"], difference["pairs"] + difference["undecided"]) for difference in answer["differences"]
+    ] == [("as built", 2)] * 2
+    assert [link["link"] for link in answer["links"]] == ["tie between left and right"]
     answered("report", tmp_path / "out", "--out", tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "the same slightly different columns or assemblies" in page
     two = ["compare", PORTAL, "--models", "dem3d,dem3d:step_factor=0.2", "--pulse", "sine,2Hz,0.25g,0.6s"]
-    peaks = [one["peak_displacement_m"] for one in answered(*two, "--json")["runs"]]
+    peaks = [run["peak_displacement_m"] for run in answered(*two, "--json")["runs"]]
     assert peaks[0] == pytest.approx(peaks[1], rel=0.02)
     assert peaks[0] != peaks[1]
 
@@ -233,13 +241,13 @@ def test_what_a_run_refuses(arguments, words, refused):
 def test_measures_that_need_a_column_are_refused(refused, tmp_path):
     record = tmp_path / "weak.csv"
     record.write_text("time_s,ax_g\n" + "\n".join(f"{0.01 * k:.2f},{0.02 * (-1) ** k:g}" for k in range(20)))
-    said = refused("ida", STATUE, record, "--model", "dem3d", "--im", "pga", "--edp", "peak_top_displacement_m")
-    assert "the runs have no measure 'peak_top_displacement_m'" in said
+    message = refused("ida", STATUE, record, "--model", "dem3d", "--im", "pga", "--edp", "peak_top_displacement_m")
+    assert "the runs have no measure 'peak_top_displacement_m'" in message
 
 
 @pytest.mark.parametrize("model", ["housner", "rigid-beam", "rigid-block", "dem2d"])
 @pytest.mark.parametrize("more", [(), ("--signs=both",), ("--scale=2", "--signs=both")])
 def test_a_model_of_the_plane_is_refused_before_anything_is_forecast(refused, model, more):
     """Of one run and of several alike: their number is nothing that decides who can shake what."""
-    said = refused("run", STATUE, "--model", model, "--harmonic=1Hz,0.1g,1s", *more)
-    assert f"{model} cannot shake 'statue', which is an assembly in space; dem3d can" in said
+    message = refused("run", STATUE, "--model", model, "--harmonic=1Hz,0.1g,1s", *more)
+    assert f"{model} cannot shake 'statue', which is an assembly in space; dem3d can" in message

@@ -20,17 +20,17 @@ def folder(tmp_path):
 
 
 def test_two_columns_and_an_architrave(folder):
-    column, found = st.read_column(folder / "column5.toml"), st.read_assembly(folder / "two_columns.toml")
-    assert [block.name for block in found.blocks][-2:] == ["column 2, drum 5", "architrave"]
+    column, assembly = st.read_column(folder / "column5.toml"), st.read_assembly(folder / "two_columns.toml")
+    assert [block.name for block in assembly.blocks][-2:] == ["column 2, drum 5", "architrave"]
     # five joints in each column, and the architrave on both
-    assert len(found.joints) == 12
-    drums = found.blocks[:5]
+    assert len(assembly.joints) == 12
+    drums = assembly.blocks[:5]
     assert sum(block.properties[0] for block in drums) == pytest.approx(column.mass)
-    assert [block.properties[2] for block in found.blocks[5:10]] == pytest.approx([2.6] * 5)
-    beam = found.blocks[-1]
+    assert [block.properties[2] for block in assembly.blocks[5:10]] == pytest.approx([2.6] * 5)
+    beam = assembly.blocks[-1]
     assert beam.corners.min(axis=0) == pytest.approx((1.3 - 1.7, 4.0))
     assert beam.properties[0] == pytest.approx(column.drums[0].density * 3.4 * 0.5 * 0.6)
-    assert found.joint == column.joints[-1]
+    assert assembly.joint == column.joints[-1]
 
 
 COLONNADE = """
@@ -57,12 +57,12 @@ def test_architraves_that_meet_on_an_axis_share_the_top_of_the_column(folder):
     """Ends by overhang, by length and by names; each rests on its half, and they touch without an overlap."""
     path = folder / "colonnade.toml"
     path.write_text(COLONNADE)
-    found = st.read_assembly(path)
-    beams = found.blocks[-3:]
-    ends = [(one.corners[:, 0].min(), one.corners[:, 0].max()) for one in beams]
-    assert ends == [pytest.approx(one) for one in ((-0.4, 2.3), (2.3, 4.6), (4.6, 7.3))]
-    names = [one.name for one in found.bodies]
-    touching = {frozenset((names[joint.lower], names[joint.upper])) for joint in found.joints}
+    assembly = st.read_assembly(path)
+    beams = assembly.blocks[-3:]
+    ends = [(architrave.corners[:, 0].min(), architrave.corners[:, 0].max()) for architrave in beams]
+    assert ends == [pytest.approx(span) for span in ((-0.4, 2.3), (2.3, 4.6), (4.6, 7.3))]
+    names = [body.name for body in assembly.bodies]
+    touching = {frozenset((names[joint.lower], names[joint.upper])) for joint in assembly.joints}
     for beam, left, right in ((1, 1, 2), (2, 2, 3), (3, 3, 4)):
         for column in (left, right):
             assert {f"architrave {beam}", f"column {column}, drum 5"} in touching
@@ -84,8 +84,8 @@ def test_critical_suite_and_study_take_it(tmp_path, capsys):
     )
     motion = ["--pulse", "rectangular,1.0Hz,?g,2s", "--from", "0.05g", "--to", "1.05g", "--step", "1g"]
     assert call(["critical", str(frame), *motion, "--json", "--out", str(tmp_path / "critical")]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert (found["runs"], found["critical_g"]) == (2, pytest.approx(1.05))
+    answer = json.loads(capsys.readouterr().out)
+    assert (answer["runs"], answer["critical_g"]) == (2, pytest.approx(1.05))
     time = [0.01 * i for i in range(60)]
     record = "".join(f"{t:.2f},{0.05 if 0.1 < t < 0.5 else 0.0}\n" for t in time)
     (tmp_path / "weak.csv").write_text("time_s,ax_g\n" + record)
@@ -98,8 +98,8 @@ def test_critical_suite_and_study_take_it(tmp_path, capsys):
     study = tmp_path / "study.toml"
     study.write_text('column = "frame.toml"\nmodel = "dem2d"\n[motions]\nfiles = ["weak.csv"]\n')
     assert call(["study", "run", str(study), "--out", str(tmp_path / "out"), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["cases"], told["finished"], told["collapsed"]) == (1, 1, 0)
+    counts = json.loads(capsys.readouterr().out)
+    assert (counts["cases"], counts["finished"], counts["collapsed"]) == (1, 1, 0)
 
 
 @pytest.mark.parametrize(
@@ -146,5 +146,5 @@ def test_what_cannot_stand_is_said_in_one_sentence(folder, capsys, change, words
 )
 def test_commands_that_do_not_take_it_say_so(folder, capsys, arguments, words):
     how = ["--pulse", "ricker,1Hz,?g", "--from", "0.1g", "--to", "0.2g"] if arguments[0] == "critical" else []
-    assert call([one.format(file=folder / "two_columns.toml") for one in arguments] + how) == 2
+    assert call([argument.format(file=folder / "two_columns.toml") for argument in arguments] + how) == 2
     assert words in capsys.readouterr().err

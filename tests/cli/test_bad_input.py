@@ -37,7 +37,7 @@ def refused(capsys, tmp_path):
     def run(*arguments):
         folder = tmp_path / "never"
         seen = {path.name for path in tmp_path.iterdir()}
-        code = call([*(str(one) for one in arguments), "--json"])
+        code = call([*(str(argument) for argument in arguments), "--json"])
         out, err = capsys.readouterr()
         assert code == 2, err
         assert out == ""
@@ -283,14 +283,14 @@ def test_what_is_typed_wrong(arguments, words, refused):
         assert word in message, message
 
 
-def write_found(folder, found):
+def write_found(folder, as_found):
     path = folder / "found.toml"
-    path.write_text(COLUMN + "[as_found]\n" + found)
+    path.write_text(COLUMN + "[as_found]\n" + as_found)
     return path
 
 
 @pytest.mark.parametrize(
-    ("found", "words"),
+    ("as_found", "words"),
     [
         ("base_tilt = 12.0\n", ["not in equilibrium", "joint 1", "N m are missing"]),
         ("[[as_found.drum]]\nindex = 3\noffset = 0.1\n", ["given drum 3 as found", "drums 1 to 2"]),
@@ -299,8 +299,8 @@ def write_found(folder, found):
         ("base_tilt = 50.0\n", ["base_tilt is 50", "-45"]),
     ],
 )
-def test_columns_that_cannot_be_as_found(found, words, refused, tmp_path):
-    sentence = refused("run", write_found(tmp_path, found), "--model", "dem2d", "--harmonic", "1Hz,0.1g,1s")
+def test_columns_that_cannot_be_as_found(as_found, words, refused, tmp_path):
+    sentence = refused("run", write_found(tmp_path, as_found), "--model", "dem2d", "--harmonic", "1Hz,0.1g,1s")
     assert all(word in sentence for word in words), sentence
 
 

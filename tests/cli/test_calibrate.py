@@ -32,10 +32,10 @@ def measured(tmp_path_factory):
 def test_a_history_becomes_losses_that_other_commands_take(measured, tmp_path, capsys):
     out, block = tmp_path / "found", str(measured / "block.toml")
     assert call(["calibrate", str(measured / "tilt.csv"), "--column", block, "--out", str(out), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    loss = told["stiffness_damping"]
+    answer = json.loads(capsys.readouterr().out)
+    loss = answer["stiffness_damping"]
     assert loss["low"] < 1e-3 < loss["high"]
-    assert told["restitution"]["low"] < told["restitution"]["value"] < told["restitution"]["high"]
+    assert answer["restitution"]["low"] < answer["restitution"]["value"] < answer["restitution"]["high"]
     names = {"losses.toml", "calibrate.json", "calibration.png", "calibration.svg", "asked-calibrate.json"}
     assert {path.name for path in out.iterdir()} == names | {".stylobate-files"}
     assert call(["run", block, "--harmonic", "1.0Hz,0.3g,2s", "--model", "dem3d", "--losses", str(out / "losses.toml"),
@@ -44,13 +44,13 @@ def test_a_history_becomes_losses_that_other_commands_take(measured, tmp_path, c
     assert ran["losses_acting"]["stiffness_damping"] == pytest.approx(loss["value"], rel=1e-12)
     assert call(["report", str(out), "--out", str(tmp_path / "r.html")]) == 0
     text = (tmp_path / "r.html").read_text(encoding="utf-8").replace("\N{NO-BREAK SPACE}", " ")
-    assert told["sentence"] in text
+    assert answer["sentence"] in text
     assert f"{loss['value']:.4g}" in text
     assert "restitution by successive extremes" in text
 
 
 @pytest.mark.parametrize(
-    ("text", "options", "said"),
+    ("text", "options", "words"),
     [
         ("time_s,tilt_deg\n" + "".join(f"{i / 100},{100 + i % 7}\n" for i in range(50)), [], "allowed is up to 90°"),
         ("time_s,wind_m\n" + "".join(f"{i / 100},{i % 7}\n" for i in range(50)), [], "unknown column 'wind_m'"),
@@ -63,14 +63,14 @@ def test_a_history_becomes_losses_that_other_commands_take(measured, tmp_path, c
         ("nothing\n", [], "holds no columns"),
     ],
 )  # fmt: skip
-def test_what_tells_nothing_ends_in_one_sentence(measured, tmp_path, capsys, text, options, said):
+def test_what_tells_nothing_ends_in_one_sentence(measured, tmp_path, capsys, text, options, words):
     file, out = tmp_path / "history.csv", tmp_path / "out"
     file.write_text(text)
     arguments = ["calibrate", str(file), "--column", str(measured / "block.toml"), "--out", str(out), *options]
     assert call(arguments) == 2
-    told = capsys.readouterr().err
-    assert said in told
-    assert told.count("\n") == 1
+    message = capsys.readouterr().err
+    assert words in message
+    assert message.count("\n") == 1
     assert not out.exists()
 
 
@@ -87,7 +87,7 @@ def test_a_file_of_losses_is_read_as_it_was_written(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "words"),
     [
         ("stylobate_losses = 2\nstiffness_damping = 1e-4\n", "a format that this version does not know"),
         ("stylobate_losses = 1\n", "'stiffness_damping' is missing"),
@@ -96,9 +96,9 @@ def test_a_file_of_losses_is_read_as_it_was_written(tmp_path):
         ("stylobate_losses = 1\nstiffness_damping = 1e-4\nfriction = 0.5\n", "unknown key 'friction'"),
     ],
 )
-def test_what_is_no_file_of_losses_is_refused(tmp_path, text, said):
+def test_what_is_no_file_of_losses_is_refused(tmp_path, text, words):
     (tmp_path / "losses.toml").write_text(text)
-    with pytest.raises(st.InputError, match=said):
+    with pytest.raises(st.InputError, match=words):
         losses_by(str(tmp_path / "losses.toml"))
     with pytest.raises(st.InputError, match="or a file of losses"):
         losses_by("marble")

@@ -20,7 +20,7 @@ from stylobate.response import Response
 from stylobate.simulate import simulate
 
 
-def said(capsys, *arguments, code=0):
+def cite(capsys, *arguments, code=0):
     assert call(["cite", *map(str, arguments)]) == code
     return capsys.readouterr()
 
@@ -38,25 +38,25 @@ def record(tmp_path_factory):
 
 
 def test_a_response_names_model_and_record(capsys, record):
-    text = said(capsys, record).out
+    text = cite(capsys, record).out
     for part in ("stylobate developers", "Housner, G. W. (1963)", "HSES", "NZ", "Waiau", "CC BY"):
         assert part in text
     assert text.strip() == Response.load(record).citation()
 
 
 def test_bibtex_of_a_response_is_read_back(capsys, record):
-    entries = {one.key: one for one in parse(said(capsys, record, "--bibtex").out)}
+    entries = {entry.key: entry for entry in parse(cite(capsys, record, "--bibtex").out)}
     assert set(entries) == {"stylobate", *st.HousnerBlock.references}
     assert entries["housner1963"] == bibliography()["housner1963"]
     assert entries["stylobate"].fields["version"] == st.__version__
 
 
 def test_json_of_a_model_and_files(capsys, tmp_path):
-    found = json.loads(said(capsys, "--model", "dem2d", "--json", "--out", tmp_path / "c").out)
-    assert [one["key"] for one in found["references"]] == ["stylobate", *st.DistinctElement2D.references]
-    assert found["motion"] == {}
-    assert (tmp_path / "c" / "citation.bib").read_text() == found["bibtex"] + "\n"
-    assert (tmp_path / "c" / "citation.txt").read_text() == found["text"] + "\n"
+    answer = json.loads(cite(capsys, "--model", "dem2d", "--json", "--out", tmp_path / "c").out)
+    assert [reference["key"] for reference in answer["references"]] == ["stylobate", *st.DistinctElement2D.references]
+    assert answer["motion"] == {}
+    assert (tmp_path / "c" / "citation.bib").read_text() == answer["bibtex"] + "\n"
+    assert (tmp_path / "c" / "citation.txt").read_text() == answer["text"] + "\n"
 
 
 def test_computed_motions_bring_their_sources():
@@ -74,19 +74,19 @@ def test_an_assembly_names_its_contact(capsys, tmp_path):
     response = simulate(
         of_column(preset("paper-monolithic")), st.harmonic(1.0, 0.01 * st.g, 0.05), st.DistinctElement2D()
     )
-    text = said(capsys, response.save(tmp_path / "assembly.nc")).out
+    text = cite(capsys, response.save(tmp_path / "assembly.nc")).out
     assert text.strip() == response.citation()
     assert bibliography()["feng2004"].text in text
 
 
 def test_a_domain_can_be_cited(capsys, tmp_path):
     domain = st.collapse_domain(preset("paper-monolithic"), st.HousnerBlock(), [1.0], [0.1 * st.g], 1.0)
-    assert "Housner, G. W. (1963)" in said(capsys, domain.save(tmp_path / "domain.nc")).out
+    assert "Housner, G. W. (1963)" in cite(capsys, domain.save(tmp_path / "domain.nc")).out
 
 
 def test_the_package_alone_and_everything(capsys):
-    assert "stylobate developers" in said(capsys).out
-    assert {one.key for one in parse(said(capsys, "--all", "--bibtex").out)} == {"stylobate", *bibliography()}
+    assert "stylobate developers" in cite(capsys).out
+    assert {entry.key for entry in parse(cite(capsys, "--all", "--bibtex").out)} == {"stylobate", *bibliography()}
 
 
 @pytest.mark.parametrize(
@@ -99,17 +99,17 @@ def test_the_package_alone_and_everything(capsys):
     ],
 )
 def test_bad_input_is_one_sentence(capsys, arguments, message):
-    found = said(capsys, *arguments, code=2)
-    assert found.out == ""
-    assert re.fullmatch(rf"stylobate: [^\n]*{re.escape(message)}[^\n]*\n", found.err)
+    captured = cite(capsys, *arguments, code=2)
+    assert captured.out == ""
+    assert re.fullmatch(rf"stylobate: [^\n]*{re.escape(message)}[^\n]*\n", captured.err)
 
 
 def test_a_file_without_provenance_is_refused(capsys, tmp_path):
     file = tmp_path / "text.nc"
     file.write_text("no netCDF")
-    assert "cannot be read as netCDF: it does not begin like one" in said(capsys, file, code=2).err
+    assert "cannot be read as netCDF: it does not begin like one" in cite(capsys, file, code=2).err
     xarray.Dataset({"a": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
-    assert "is no result of this package" in said(capsys, tmp_path / "other.nc", code=2).err
+    assert "is no result of this package" in cite(capsys, tmp_path / "other.nc", code=2).err
 
 
 def test_the_citation_file_agrees_with_the_package():
@@ -119,5 +119,5 @@ def test_the_citation_file_agrees_with_the_package():
     assert project["dynamic"] == ["version"]  # which the build reads where the package does
     assert lines["version"] == st.__version__ == PACKAGE.fields["version"]
     assert lines["title"] == PACKAGE.fields["title"]
-    assert (lines["name"],) == PACKAGE.authors == tuple(one["name"] for one in project["authors"])
+    assert (lines["name"],) == PACKAGE.authors == tuple(author["name"] for author in project["authors"])
     assert lines["license"] == project["license"]

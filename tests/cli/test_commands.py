@@ -24,7 +24,7 @@ def command(capsys):
     """Runs a command line that must succeed; returns its JSON object, or its text without ``--json``."""
 
     def run(*arguments, warned=""):
-        code = call([str(one) for one in arguments])
+        code = call([str(argument) for argument in arguments])
         out, err = capsys.readouterr()
         assert code == 0, err
         assert warned in err if warned else err == ""
@@ -195,7 +195,7 @@ def test_compare_models_under_one_motion_and_over_a_domain(command, tmp_path):
     result = command(
         "compare", "paper-monolithic", "--models", "housner,dem2d", *grid, "--json", "--set", "housner.restitution=0.9"
     )
-    assert [one["cells"] for one in result["domains"]] == [6, 6]
+    assert [domain["cells"] for domain in result["domains"]] == [6, 6]
     (pair,) = result["differences"]
     assert (pair["first"], pair["second"]) == ("housner", "dem2d")
     assert pair["differing"] == pair["only_first_collapses"] + pair["only_second_collapses"]
@@ -253,7 +253,7 @@ def test_motion_tells_what_a_file_holds(command, tmp_path):
 
 def test_columns_lists_presets_and_writes_files_to_start_from(command, tmp_path):
     result = command("columns", "--json", "--out", tmp_path)
-    assert [one["name"] for one in result["columns"]] == list(PRESETS)
+    assert [column["name"] for column in result["columns"]] == list(PRESETS)
     assert result["columns"][0]["uplift_g"] == pytest.approx(0.2046, abs=5e-5)
     for name in PRESETS:
         assert read_column(tmp_path / f"{name}.toml") == preset(name)
@@ -261,12 +261,12 @@ def test_columns_lists_presets_and_writes_files_to_start_from(command, tmp_path)
 
 
 def test_columns_tell_what_is_measured_and_what_is_assumed(command, tmp_path, capsys):
-    told = command("columns", "--catalogue", "--json")["catalogue"]
-    assert [one["name"] for one in told] == list(PRESETS)
-    (one,) = command("columns", "sounion", "--catalogue", "--json")["catalogue"]
-    assert one["measured"] == ["height", "bottom_width", "top_width"]
-    assert one["assumed"] == ["drums", "density"]
-    assert one["figures"]["top_width"]["value"] == 0.79
+    catalogue = command("columns", "--catalogue", "--json")["catalogue"]
+    assert [column["name"] for column in catalogue] == list(PRESETS)
+    (entry,) = command("columns", "sounion", "--catalogue", "--json")["catalogue"]
+    assert entry["measured"] == ["height", "bottom_width", "top_width"]
+    assert entry["assumed"] == ["drums", "density"]
+    assert entry["figures"]["top_width"]["value"] == 0.79
     table = command("columns", "--catalogue")
     assert "12*" in next(line for line in table.splitlines() if line.split()[0] == "sounion")
     shown = command("columns", "sounion")

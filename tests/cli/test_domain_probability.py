@@ -46,8 +46,8 @@ def test_a_person_is_told_how_wide_the_doubt_is(capsys):
 def test_half_step_counts_the_verdicts_that_differ(capsys):
     options = ["--set", "time_step=0.004", "--half-step"]
     assert call([*GRID, *options, "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)["half_step"]
-    assert found["comparable"] >= found["differing"] >= 0
+    half_step = json.loads(capsys.readouterr().out)["half_step"]
+    assert half_step["comparable"] >= half_step["differing"] >= 0
     assert call([*GRID, *options]) == 0
     assert "With half of the time step" in capsys.readouterr().out
 

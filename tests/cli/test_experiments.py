@@ -58,18 +58,18 @@ def run(capsys, *arguments):
 def test_tables_pictures_and_the_keys_that_were_promised(tmp_path, capsys):
     granite(tmp_path)
     out = tmp_path / "out"
-    code, said = run(
+    code, captured = run(
         capsys, tmp_path, "--out", out, "--realisations", "2", "--calibration", "off", "--threads", "1", "--json"
     )
-    assert code == 0, said.err
-    found = json.loads(said.out)
+    assert code == 0, captured.err
+    answer = json.loads(captured.out)
     for name in ("SP1", "SP2"):
-        assert set(found["granite"][name]) >= KEYS
-        assert found["granite"][name]["tests"] == 4
-        assert found["granite"][name]["accuracy"] == 1.0
-    assert found["granite"]["SP1"]["hard_tests"] == 4
-    assert found["granite"]["SP2"]["hard_tests"] == 0
-    assert found["granite"]["SP1"]["brier"] < 0.26
+        assert set(answer["granite"][name]) >= KEYS
+        assert answer["granite"][name]["tests"] == 4
+        assert answer["granite"][name]["accuracy"] == 1.0
+    assert answer["granite"]["SP1"]["hard_tests"] == 4
+    assert answer["granite"]["SP2"]["hard_tests"] == 0
+    assert answer["granite"]["SP1"]["brier"] < 0.26
     for name in ("granite_tests.csv", "granite_verdicts.png", "granite_reliability.svg", "experiments.json"):
         assert (out / name).is_file()
     assert [path.name for path in out.glob("*.sqlite*")] == ["runs.sqlite"]
@@ -107,12 +107,12 @@ def unlisted(specimens, motions, rows):
 )
 def test_what_cannot_be_used_is_one_sentence_and_the_rest_goes_on(tmp_path, capsys, change, sentence, names, tests):
     granite(tmp_path, change)
-    code, said = run(capsys, tmp_path, "--calibration", "off", "--threads", "1", "--json")
-    assert code == 0, said.err
-    found = json.loads(said.out)
-    assert sum(sentence in one for one in found["refused"]) == 1
-    assert {name for name, one in found["granite"].items() if isinstance(one, dict)} == names
-    assert found["granite"]["SP1"]["tests"] == tests
+    code, captured = run(capsys, tmp_path, "--calibration", "off", "--threads", "1", "--json")
+    assert code == 0, captured.err
+    answer = json.loads(captured.out)
+    assert sum(sentence in refusal for refusal in answer["refused"]) == 1
+    assert {name for name, result in answer["granite"].items() if isinstance(result, dict)} == names
+    assert answer["granite"]["SP1"]["tests"] == tests
 
 
 @pytest.mark.parametrize(
@@ -126,10 +126,10 @@ def test_what_cannot_be_used_is_one_sentence_and_the_rest_goes_on(tmp_path, caps
 )
 def test_a_folder_of_no_use_is_refused(tmp_path, capsys, make, sentence):
     make(tmp_path)
-    code, said = run(capsys, tmp_path)
+    code, captured = run(capsys, tmp_path)
     assert code == 2
-    assert sentence in said.err
-    assert "Traceback" not in said.err
+    assert sentence in captured.err
+    assert "Traceback" not in captured.err
 
 
 def test_odd_options_are_refused(tmp_path, capsys):
@@ -139,13 +139,15 @@ def test_odd_options_are_refused(tmp_path, capsys):
 
 def test_it_goes_on_from_its_ledger(tmp_path):
     granite(tmp_path)
-    found, ledger, seen = study.read(tmp_path), tmp_path / "runs.sqlite", []
-    assert found.granite is not None
+    experiments, ledger, seen = study.read(tmp_path), tmp_path / "runs.sqlite", []
+    assert experiments.granite is not None
     from stylobate_studies.experiments import granite as room
 
-    some = room.variants(found.granite, 0, False)
-    first = room.run(found.granite, some, threads=1, ledger=ledger)
-    again = room.run(found.granite, some, threads=1, ledger=ledger, progress=lambda done, total: seen.append(done))
+    variants = room.variants(experiments.granite, 0, False)
+    first = room.run(experiments.granite, variants, threads=1, ledger=ledger)
+    again = room.run(
+        experiments.granite, variants, threads=1, ledger=ledger, progress=lambda done, total: seen.append(done)
+    )
     assert again.equals(first)
     assert seen[-1] == len(first)
 
@@ -182,7 +184,7 @@ def test_faces_and_rotation_vectors():
     for axis in range(3):
         for sign in (-1, 1):
             turn = np.roll(np.eye(3), axis + 1, axis=1)  # body axis `axis` stands upright
-            turn = turn if sign > 0 else turn @ np.diag([1.0 if one != axis else -1.0 for one in range(3)])
+            turn = turn if sign > 0 else turn @ np.diag([1.0 if index != axis else -1.0 for index in range(3)])
             assert cube.face_down(turn) == -sign * (axis + 1)
     vector = np.array([0.3, -0.4, 1.1])
     angle = np.linalg.norm(vector)

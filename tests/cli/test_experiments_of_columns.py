@@ -85,36 +85,36 @@ def run(capsys, *arguments):
     return code, capsys.readouterr()
 
 
-def scored(said):
-    return {one["score"]: one for one in json.loads(said.out)["tested"]["podium"]["scores"]}
+def scored(captured):
+    return {row["score"]: row for row in json.loads(captured.out)["tested"]["podium"]["scores"]}
 
 
 def test_what_was_made_by_the_model_is_within_and_what_is_far_is_outside(tmp_path, capsys):
     out = tmp_path / "out"
-    code, said = run(capsys, folder(tmp_path / "like"), "--out", out, "--threads", "1", "--json")
-    assert code == 0, said.err
-    found = json.loads(said.out)["tested"]["podium"]
-    assert found["tests"] == NUMBER
-    assert found["runs"] == 3 * NUMBER
-    assert found["fixed"]["on"] == "2026-11-01"
-    assert found["fixed"]["realisations"] == 3
-    assert found["changed_since"] is None
-    near = scored(said)
+    code, captured = run(capsys, folder(tmp_path / "like"), "--out", out, "--threads", "1", "--json")
+    assert code == 0, captured.err
+    podium = json.loads(captured.out)["tested"]["podium"]
+    assert podium["tests"] == NUMBER
+    assert podium["runs"] == 3 * NUMBER
+    assert podium["fixed"]["on"] == "2026-11-01"
+    assert podium["fixed"]["realisations"] == 3
+    assert podium["changed_since"] is None
+    near = scored(captured)
     assert near["median"]["low"] <= 1.0 <= near["median"]["high"]
     assert near["share"]["low"] <= 0.0 <= near["share"]["high"]
-    assert "outside" not in {one["verdict"] for one in near.values()}
+    assert "outside" not in {score["verdict"] for score in near.values()}
     for name in ("podium_tests.csv", "podium_scores.csv", "podium_tests.png"):
         assert (out / name).is_file()
-    code, said = run(capsys, folder(tmp_path / "far", size=0.2), "--threads", "1", "--json")
-    assert scored(said)["median"]["verdict"] == "outside"
+    code, captured = run(capsys, folder(tmp_path / "far", size=0.2), "--threads", "1", "--json")
+    assert scored(captured)["median"]["verdict"] == "outside"
 
 
 def test_a_change_of_what_was_fixed_is_told_for_good(tmp_path, capsys):
-    out, one, other = tmp_path / "out", folder(tmp_path / "one"), folder(tmp_path / "other", extra="whole = true")
-    run(capsys, one, "--out", out, "--threads", "1")
-    code, said = run(capsys, other, "--out", out, "--threads", "1")
+    out, first, other = tmp_path / "out", folder(tmp_path / "one"), folder(tmp_path / "other", extra="whole = true")
+    run(capsys, first, "--out", out, "--threads", "1")
+    code, captured = run(capsys, other, "--out", out, "--threads", "1")
     assert code == 0
-    assert "fixed has been changed since" in said.out
+    assert "fixed has been changed since" in captured.out
     assert "fixed has been changed since" in run(capsys, other, "--out", out, "--threads", "1")[1].out
 
 
@@ -131,10 +131,10 @@ def test_a_change_of_what_was_fixed_is_told_for_good(tmp_path, capsys):
     ],
 )
 def test_what_cannot_be_used_is_refused_in_one_sentence(tmp_path, capsys, given, sentence):
-    code, said = run(capsys, folder(tmp_path / "odd", **given))
+    code, captured = run(capsys, folder(tmp_path / "odd", **given))
     assert code == 2
-    assert sentence in said.err
-    assert "Traceback" not in said.err
+    assert sentence in captured.err
+    assert "Traceback" not in captured.err
 
 
 def test_a_test_that_cannot_be_used_is_named_and_the_rest_goes_on(tmp_path, capsys):
@@ -142,9 +142,9 @@ def test_a_test_that_cannot_be_used_is_named_and_the_rest_goes_on(tmp_path, caps
         rows[3]["peak_top_displacement_m"] = "high"
         rows[4]["test"] = rows[5]["test"]
 
-    code, said = run(capsys, folder(tmp_path / "some", change=change), "--threads", "1", "--json")
-    found = json.loads(said.out)
+    code, captured = run(capsys, folder(tmp_path / "some", change=change), "--threads", "1", "--json")
+    answer = json.loads(captured.out)
     assert code == 0
-    assert found["tested"]["podium"]["tests"] == NUMBER - 2
-    assert [one for one in found["refused"] if "which is no finite number" in one]
-    assert [one for one in found["refused"] if "another row has this name" in one]
+    assert answer["tested"]["podium"]["tests"] == NUMBER - 2
+    assert [refusal for refusal in answer["refused"] if "which is no finite number" in refusal]
+    assert [refusal for refusal in answer["refused"] if "another row has this name" in refusal]

@@ -58,7 +58,8 @@ def test_losses_go_with_the_model_wherever_one_is_computed():
     """A command that computes with a model has ``--losses``; not ``cite``, nor ``calibrate``, which finds
     losses, nor ``modes``, in which nothing is lost."""
     names = {
-        name: {flag for one in command.params for flag in one.opts} for name, command in commands().commands.items()
+        name: {flag for parameter in command.params for flag in parameter.opts}
+        for name, command in commands().commands.items()
     }
     computing = {name for name, flags in names.items() if flags & {"--model", "--models"}} - {
         "calibrate",
@@ -88,9 +89,9 @@ def test_states_step_all_of_a_record_where_asked(capsys, folder):
 
 def test_an_ida_takes_both_signs_of_a_record_and_counts_it_once(capsys, folder):
     words = folder / "record.csv", "--model", "rigid-block", "--im", "pga", "--runs", "4", "--signs", "both"
-    found = answer(capsys, "ida", folder / "column.toml", *words)
-    assert [one["motion"] for one in found["capacities"]] == ["record.csv", "record.csv reversed"]
-    assert found["records"] == 1
+    result = answer(capsys, "ida", folder / "column.toml", *words)
+    assert [capacity["motion"] for capacity in result["capacities"]] == ["record.csv", "record.csv reversed"]
+    assert result["records"] == 1
 
 
 def test_options_of_a_group_are_said_alike_wherever_they_are():
@@ -116,17 +117,22 @@ def test_options_of_a_group_are_said_alike_wherever_they_are():
         ("serve", "out"),
     }
     groups = {
-        name: one.default
+        name: field.default
         for kind in (Motions, Following, Population, Execution)
-        for name, one in kind.__dataclass_fields__.items()
+        for name, field in kind.__dataclass_fields__.items()
     }
     shared = 0
     for command, made in commands().commands.items():
-        for one in getattr(made, "params", ()):
-            known = groups.get(one.name)
-            if known is None or (command, one.name) in own or getattr(one, "help", None) is None or one.name == "seed":
+        for option in getattr(made, "params", ()):
+            known = groups.get(option.name)
+            if (
+                known is None
+                or (command, option.name) in own
+                or getattr(option, "help", None) is None
+                or option.name == "seed"
+            ):
                 continue
-            assert one.help == known.help, (command, one.name)
+            assert option.help == known.help, (command, option.name)
             shared += 1
     assert shared > 100
 
@@ -137,11 +143,11 @@ def test_a_request_does_what_its_command_line_does(capsys, folder):
     request |= {"replicates": "0", "whole": True, "pictures": False, "scale": None, "json": True}
     words = ["run", column, "--model=dem2d", "--set=points=2", f"--motion={record}", "--replicates=0", "--whole"]
     assert words_of(request) == [*words, "--no-pictures", "--json"]
-    found = []
+    answers = []
     for do in (lambda: run_request(request), lambda: call(words_of(request))):
         assert do() == 0
-        found.append(json.loads(capsys.readouterr().out) | {"wall_s": 0.0})
-    assert found[0] == found[1]
+        answers.append(json.loads(capsys.readouterr().out) | {"wall_s": 0.0})
+    assert answers[0] == answers[1]
     for wrong, why in (
         ({"modell": "x"}, "run takes no 'modell'"),
         ({"column": None}, "--column is missing; give it"),

@@ -194,20 +194,20 @@ OTHERS = {"serve": "port no-browser out", "draw": "out json threads"}
 @pytest.fixture(scope="module")
 def options():
     """Options of every command."""
-    found, waiting = {}, list(commands().commands.items())
+    flags, waiting = {}, list(commands().commands.items())
     while waiting:
-        name, one = waiting.pop()
-        if hasattr(one, "commands"):
-            waiting += [(f"{name} {inner}", part) for inner, part in one.commands.items()]
+        name, command = waiting.pop()
+        if hasattr(command, "commands"):
+            waiting += [(f"{name} {inner}", part) for inner, part in command.commands.items()]
         else:
-            found[name] = {word for given in one.params for word in (*given.opts, *given.secondary_opts)}
-    return found
+            flags[name] = {word for given in command.params for word in (*given.opts, *given.secondary_opts)}
+    return flags
 
 
 @pytest.mark.parametrize("command", [*OPTIONS, *OTHERS])
 def test_every_command_has_its_options(options, command):
     wanted = OTHERS[command] if command in OTHERS else f"json out threads {OPTIONS[command]}"
-    assert {f"--{one}" for one in wanted.split()} <= options[command]
+    assert {f"--{option}" for option in wanted.split()} <= options[command]
 
 
 @pytest.fixture(scope="module")
@@ -278,9 +278,9 @@ def test_every_json_object_has_its_keys(place, monkeypatch, capsys, line, keys):
     assert out.count("\n") == 1
     answer = json.loads(out)
     for path in keys.split():
-        found = answer
+        value = answer
         for part in path.split(":"):
-            found = found[int(part) if isinstance(found, list) else part]
+            value = value[int(part) if isinstance(value, list) else part]
 
 
 def test_files_may_say_what_they_may_say(place):
@@ -307,7 +307,7 @@ def test_python_has_its_names(place):
     column = st.Column.tapered(height=5.0, bottom_width=0.96, top_width=0.66, drums=1, density=1600.0, joint=joint)
     motion = st.harmonic(frequency=1.0, amplitude=0.3 * st.g, duration=0.2)
     response = st.simulate(column, motion, st.HousnerBlock(restitution=0.9))
-    assert {one.name.lower() for one in st.Outcome} == {"at_rest", "rocked", "displaced", "collapsed", "failed"}
+    assert {outcome.name.lower() for outcome in st.Outcome} == {"at_rest", "rocked", "displaced", "collapsed", "failed"}
     assert response.outcome in st.Outcome
     assert response.peak_top_displacement >= 0.0
     assert response.to_xarray() is not None
@@ -324,7 +324,7 @@ def test_python_has_its_names(place):
     assert st.DistinctElement2D(points=2).name == "dem2d"
     for law in ("rim", "bed"):
         assert st.DistinctElement3D(law=law, pivot_friction=0.5, stiffness_damping=0.0, planar=False).name == "dem3d"
-    assert {st.DistinctElement3D(losses=one).losses for one in ("stone", "none")} == {"stone", "none"}
+    assert {st.DistinctElement3D(losses=losses).losses for losses in ("stone", "none")} == {"stone", "none"}
     assert st.Start(tilt=0.1, azimuth=0.0, angular_velocity=(0.0, 0.0, 0.0)).tilt == 0.1
     assert st.Specimen(
         mass=1.0, inertia=[1.0, 1.0, 1.0], vertices=[[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]

@@ -27,15 +27,15 @@ def test_run_tells_which_links_broke_and_models_without_links_refuse(tmp_path, c
     path.write_text(path.read_text() + DOWELS)
     line = ["run", str(path), "--harmonic", "2Hz,0.4g,0.5s", "--replicates", "1"]
     assert call([*line, "--model", "dem2d", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    broken = [one for one in found["links"] if one["broken_s"] is not None]
-    assert found["links_broken"] == len(broken) == 2
-    assert found["first_link_broken_s"] == min(one["broken_s"] for one in broken) == min(found["link_broken_s"])
-    assert [one["joint"] for one in found["links"]] == [1, 2]
+    answer = json.loads(capsys.readouterr().out)
+    broken = [link for link in answer["links"] if link["broken_s"] is not None]
+    assert answer["links_broken"] == len(broken) == 2
+    assert answer["first_link_broken_s"] == min(link["broken_s"] for link in broken) == min(answer["link_broken_s"])
+    assert [link["joint"] for link in answer["links"]] == [1, 2]
     assert call([*line, "--model", "rigid-beam"]) == 2
-    said = capsys.readouterr().err
-    assert "knows no links" in said
-    assert "Traceback" not in said
+    message = capsys.readouterr().err
+    assert "knows no links" in message
+    assert "Traceback" not in message
 
 
 def test_a_run_until_rest_follows_a_column_with_links_to_the_ground(tmp_path, capsys) -> None:
@@ -43,12 +43,12 @@ def test_a_run_until_rest_follows_a_column_with_links_to_the_ground(tmp_path, ca
     path.write_text(path.read_text() + DOWELS)
     line = ["run", str(path), "--harmonic", "1Hz,1g,1.5s", "--replicates", "1", "--model", "dem2d", "--until-rest"]
     assert call([*line, "--json", "--out", str(tmp_path / "out")]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["outcome"] == "collapsed"
-    assert found["links_broken"] == 2
-    assert max(found["link_broken_s"]) < found["collapse_time_s"]
-    assert found["energy_imbalance"] < 0.01
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["outcome"] == "collapsed"
+    assert answer["links_broken"] == 2
+    assert max(answer["link_broken_s"]) < answer["collapse_time_s"]
+    assert answer["energy_imbalance"] < 0.01
     assert call(line) == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert "2 of 2 dowels broke" in said
-    assert "drums fell" in said
+    output = " ".join(capsys.readouterr().out.split())
+    assert "2 of 2 dowels broke" in output
+    assert "drums fell" in output

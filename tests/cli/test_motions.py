@@ -23,7 +23,7 @@ def command(capsys):
     """Runs a command line that must succeed; returns its JSON object, or its text without ``--json``."""
 
     def run(*arguments):
-        code = call([str(one) for one in arguments])
+        code = call([str(argument) for argument in arguments])
         out, err = capsys.readouterr()
         assert code == 0, err
         assert err == ""
@@ -37,7 +37,7 @@ def refused(capsys):
     """Runs a command line that must be refused; returns its one sentence."""
 
     def run(*arguments):
-        code = call([str(one) for one in arguments])
+        code = call([str(argument) for argument in arguments])
         out, err = capsys.readouterr()
         assert (code, out) == (2, ""), err
         (line,) = err.splitlines()
@@ -54,7 +54,7 @@ def shaking(size=0.4, pace=1.0):
         (ricker(1.3 * pace, 0.6 * size * st.g), 0.0),
         (ricker(3.0, 0.25 * size * st.g), 1.6),
     )
-    parts = [np.interp(time - late, one.time, one.acceleration, left=0.0, right=0.0) for one, late in pulses]
+    parts = [np.interp(time - late, pulse.time, pulse.acceleration, left=0.0, right=0.0) for pulse, late in pulses]
     return st.Motion(0.01, *parts, name="three", metadata={"azimuths": {"x": 30.0, "y": 300.0}})
 
 
@@ -98,13 +98,13 @@ def test_the_rocking_spectrum_is_that_of_python(command, record, tmp_path):
     result = command("spectrum", record, "--kind", "rocking", *grid, "--out", tmp_path / "out", "--json")
     motion = shaking()
     with pytest.warns(OutOfRangeWarning, match="second horizontal component"):
-        found = rocking_spectrum(motion, np.geomspace(1.0, 4.0, 3), np.linspace(0.1, 0.5, 5), threads=1)
-    assert np.array(result["peak_rotation_over_slenderness"]) == pytest.approx(found.ratio, rel=1e-12)
-    assert (result["cells"], result["collapsed_cells"]) == (15, int(found.collapsed.sum()))
+        spectrum = rocking_spectrum(motion, np.geomspace(1.0, 4.0, 3), np.linspace(0.1, 0.5, 5), threads=1)
+    assert np.array(result["peak_rotation_over_slenderness"]) == pytest.approx(spectrum.ratio, rel=1e-12)
+    assert (result["cells"], result["collapsed_cells"]) == (15, int(spectrum.collapsed.sum()))
     assert 0 < result["collapsed_cells"] < 15
     assert result["closed_cells"] == 6  # α = 0.4 and 0.5, whose tangents are beyond the peak of 0.4 g
     assert result["vertical"] is True
-    assert any("second horizontal" in one for one in result["left_out"])
+    assert any("second horizontal" in text for text in result["left_out"])
     with (tmp_path / "out" / "spectrum.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert float(rows[-1]["pga_over_g_tan_alpha"]) == pytest.approx(motion.pga / st.g / math.tan(0.5))
@@ -159,10 +159,10 @@ def test_a_suite_of_two_columns_scaled_and_turned(command, folder, tmp_path):
     assert {round(row["pga_g"], 9) for row in result["runs"]} == {0.25}
     factors = [row["factor"] for row in result["runs"]]
     assert factors[1] < 0.5 < 2.0 < factors[0] == factors[2]  # strong.csv is scaled down, weak.csv up
-    assert [one["factor"] for one in result["inputs"]] == factors[:2]
+    assert [entry["factor"] for entry in result["inputs"]] == factors[:2]
     assert any("multiplied by" in text for text in result["inputs"][0]["processing"])
     assert {row["vertical"] for row in result["runs"]} == {False}
-    assert all(one["azimuth_deg"] == 75.0 for one in result["inputs"])
+    assert all(entry["azimuth_deg"] == 75.0 for entry in result["inputs"])
 
 
 def test_records_that_cannot_be_turned_are_refused_and_the_others_used(command, refused, folder):
@@ -170,8 +170,8 @@ def test_records_that_cannot_be_turned_are_refused_and_the_others_used(command, 
     result = command("suite", "paper-monolithic", folder, "--model", "housner", "--azimuth", "10deg", "--json")
     assert len(result["runs"]) == 2
     assert "one horizontal component" in result["refused"]["unknown.csv"]
-    said = refused("suite", "paper-monolithic", folder / "unknown.csv", "--model", "housner", "--azimuth", "10deg")
-    assert "no record of the suite can be used" in said
+    message = refused("suite", "paper-monolithic", folder / "unknown.csv", "--model", "housner", "--azimuth", "10deg")
+    assert "no record of the suite can be used" in message
 
 
 def test_critical_over_a_folder_of_records(command, folder, tmp_path):
@@ -185,9 +185,9 @@ def test_critical_over_a_folder_of_records(command, folder, tmp_path):
     assert names == results | {"runs.sqlite"}
     # Each record alone has the same answer; of all of them, the lowest counts, and the highest.
     alone = [command(*arguments[:5], folder / row["record"], *grid, "--json") for row in result["records"]]
-    assert [row["critical_g"] for row in result["records"]] == [one["critical_g"] for one in alone]
-    assert result["critical_g"] == min(one["critical_g"] for one in alone)
-    assert result["all_collapse_above_g"] == max(one["all_collapse_above_g"] for one in alone)
+    assert [row["critical_g"] for row in result["records"]] == [answer["critical_g"] for answer in alone]
+    assert result["critical_g"] == min(answer["critical_g"] for answer in alone)
+    assert result["all_collapse_above_g"] == max(answer["all_collapse_above_g"] for answer in alone)
     assert 0.0 <= min(result["share_collapsed"]) < max(result["share_collapsed"]) == 1.0
     assert "strong.csv" in command(*arguments)
 
@@ -207,8 +207,8 @@ def test_run_over_a_folder_of_records(command, folder, tmp_path):
 def test_a_plane_model_says_what_it_leaves_out(command, record):
     both = command(*RUN, "--motion", record, "--json")
     assert both["vertical"] is True
-    (left,) = both["left_out"]
-    assert left == "second horizontal component (azimuth 300°, peak 0.24 g)"
+    (component,) = both["left_out"]
+    assert component == "second horizontal component (azimuth 300°, peak 0.24 g)"
     off = command(*RUN, "--motion", record, "--vertical", "off", "--json")
     assert (len(off["left_out"]), off["vertical"]) == (2, False)
     assert off["left_out"][0] == "vertical component (peak 0.1 g)"  # by wish, and then y by the model
@@ -250,16 +250,16 @@ def test_the_whole_of_a_harmonic_is_turned(command):
 
 def test_one_record_in_several_directions(command, record, tmp_path):
     ways = ["--motion", record, "--azimuths", "75:165:2", "--signs", "both"]
-    found = command(*RUN, *ways, "--out", tmp_path / "out", "--json")
-    assert [run["azimuth_deg"] for run in found["runs"]] == [75.0, 75.0, 165.0, 165.0]
+    result = command(*RUN, *ways, "--out", tmp_path / "out", "--json")
+    assert [run["azimuth_deg"] for run in result["runs"]] == [75.0, 75.0, 165.0, 165.0]
     assert {path.name for path in (tmp_path / "out").glob("three*")} == {
         f"three.csv_at_{angle}{sign}" for angle in (75, 165) for sign in ("", "__reversed")
     }
     once = command(*RUN, "--motion", record, "--azimuth", "75deg", "--json")
-    assert found["runs"][0]["peak_top_displacement_m"] == once["peak_top_displacement_m"]
+    assert result["runs"][0]["peak_top_displacement_m"] == once["peak_top_displacement_m"]
     # reversed is turned by half a turn, but for the rounding of its samples
     turned = command(*RUN, "--motion", record, "--azimuth", "255deg", "--json")["peak_top_displacement_m"]
-    assert found["runs"][1]["peak_top_displacement_m"] == pytest.approx(turned, rel=1e-3)
+    assert result["runs"][1]["peak_top_displacement_m"] == pytest.approx(turned, rel=1e-3)
     grid = ["--from", "0.3g", "--to", "0.9g", "--step", "0.3g", "--json"]
     critical = command("critical", *RUN[1:], *ways[:4], *grid)
     assert len(critical["records"]) == 2
@@ -313,8 +313,8 @@ def test_a_simulated_motion(command):
     expected = st.simulate(preset("paper-monolithic"), motion, st.HousnerBlock())
     assert result["peak_top_displacement_m"] == pytest.approx(expected.peak_top_displacement, rel=1e-9)
     grid = ["--from", "0.3g", "--to", "0.4g", "--step", "0.1g", "--json"]
-    found = command("critical", *RUN[1:], "--synthetic", "greece,5Mw,10km,seed=2", *grid)
-    assert found["runs"] == 3  # with the motion as it is
+    critical = command("critical", *RUN[1:], "--synthetic", "greece,5Mw,10km,seed=2", *grid)
+    assert critical["runs"] == 3  # with the motion as it is
     compared = command("compare", "paper-monolithic", "--models", "housner", "--synthetic", "greece,5Mw,50km", "--json")
     assert compared["runs"][0]["outcome"] == "at_rest"
 
@@ -387,7 +387,7 @@ def test_the_files_of_the_components_make_one_record(command, tmp_path):
 )
 def test_what_cannot_be_done_is_refused(arguments, words, refused, record, folder):
     places = {"RECORD": record, "FOLDER": folder}
-    message = refused(*(places.get(one, one) for one in arguments))
+    message = refused(*(places.get(argument, argument) for argument in arguments))
     for word in words:
         assert word in message, message
 
@@ -419,9 +419,9 @@ def test_what_a_record_does_not_tell_has_no_row(tmp_path, capsys):
     """An azimuth that is not known, and a label that is the axis; those that are known stand."""
     (tmp_path / "own.csv").write_text("time_s,ax_g\n0,0\n0.01,0.1\n0.02,-0.1\n0.03,0\n")
     assert call(["motion", str(tmp_path / "own.csv")]) == 0
-    said = capsys.readouterr().out
-    assert "azimuths" not in said
-    assert "labels" not in said
+    output = capsys.readouterr().out
+    assert "azimuths" not in output
+    assert "labels" not in output
     assert call(["motion", "sample:ridgecrest-2019"]) == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert "azimuths [degrees] x 90, y 0 labels x 90 Deg, y 360 Deg, z Up" in said
+    output = " ".join(capsys.readouterr().out.split())
+    assert "azimuths [degrees] x 90, y 0 labels x 90 Deg, y 360 Deg, z Up" in output

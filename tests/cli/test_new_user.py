@@ -36,25 +36,25 @@ chip_left = 0.05
 
 
 @pytest.fixture
-def said(capsys):
+def output_of(capsys):
     def run(*arguments, code=0):
-        assert call([str(one) for one in arguments]) == code
-        found = capsys.readouterr()
-        return found.out if code == 0 else found.err
+        assert call([str(argument) for argument in arguments]) == code
+        captured = capsys.readouterr()
+        return captured.out if code == 0 else captured.err
 
     return run
 
 
-def test_a_step_without_unit_is_told_how_it_is_written(said, tmp_path):
+def test_a_step_without_unit_is_told_how_it_is_written(output_of, tmp_path):
     record = tmp_path / "record.txt"
     record.write_text("0.0\n0.1\n-0.1\n0.0\n")
-    text = said("motion", record, "--unit", "g", "--dt", "0.02", code=2)
+    text = output_of("motion", record, "--unit", "g", "--dt", "0.02", code=2)
     assert "'0.02' has no unit; write it with one, such as 0.02s." in text
-    assert "such as 5s" in said("run", "paper-monolithic", "--harmonic", "1Hz,0.1g,1s", "--tail", "5", code=2)
+    assert "such as 5s" in output_of("run", "paper-monolithic", "--harmonic", "1Hz,0.1g,1s", "--tail", "5", code=2)
 
 
-def test_amplitudes_are_answered_in_g(said):
-    text = said(
+def test_amplitudes_are_answered_in_g(output_of):
+    text = output_of(
         "critical",
         "paper-monolithic",
         "--model",
@@ -71,40 +71,42 @@ def test_amplitudes_are_answered_in_g(said):
     assert "m/s²" not in text
 
 
-def test_a_model_need_not_be_named(said):
+def test_a_model_need_not_be_named(output_of):
     for arguments in (
         ("run", "paper-monolithic", "--harmonic", "1Hz,0.1g,0.2s"),
         ("critical", "paper-monolithic", "--harmonic", "1Hz,?g,0.2s", "--from", "0.1g", "--to", "0.1g"),
     ):
-        assert json.loads(said(*arguments, "--json"))["model"] == "dem2d"
+        assert json.loads(output_of(*arguments, "--json"))["model"] == "dem2d"
     arguments = ("--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2", "--duration", "0.1s")
-    assert json.loads(said("domain", "paper-monolithic", *arguments, "--json"))["model"] == "dem2d"
+    assert json.loads(output_of("domain", "paper-monolithic", *arguments, "--json"))["model"] == "dem2d"
 
 
 @pytest.mark.parametrize(("text", "value"), [("2MPa", 2e6), ("2e6", 2e6), ("2 N/mm2", 2e6), ("0.002GPa", 2e6)])
-def test_strengths_have_units(said, text, value):
-    found = [
-        json.loads(said("limit", "paper-12-drums", "--compressive-strength", one, "--json"))["collapse_multiplier_g"]
-        for one in (text, f"{value}")
+def test_strengths_have_units(output_of, text, value):
+    multipliers = [
+        json.loads(output_of("limit", "paper-12-drums", "--compressive-strength", strength, "--json"))[
+            "collapse_multiplier_g"
+        ]
+        for strength in (text, f"{value}")
     ]
-    assert found[0] == found[1]
-    assert found[0] < json.loads(said("limit", "paper-12-drums", "--json"))["collapse_multiplier_g"]
+    assert multipliers[0] == multipliers[1]
+    assert multipliers[0] < json.loads(output_of("limit", "paper-12-drums", "--json"))["collapse_multiplier_g"]
 
 
-def test_a_strength_that_is_not_understood_is_told_how_it_is_written(said):
-    assert "'2MPa'" in said("limit", "paper-12-drums", "--compressive-strength", "2 tons", code=2)
+def test_a_strength_that_is_not_understood_is_told_how_it_is_written(output_of):
+    assert "'2MPa'" in output_of("limit", "paper-12-drums", "--compressive-strength", "2 tons", code=2)
 
 
-def test_columns_say_what_is_as_found(said, tmp_path):
+def test_columns_say_what_is_as_found(output_of, tmp_path):
     path = tmp_path / "found.toml"
     path.write_text(FOUND)
-    text = said("columns", path)
+    text = output_of("columns", path)
     assert "slopes by 0.5°" in text
     assert "offset 0.03 m, chipped on the left by 0.05 m" in text
-    found = json.loads(said("columns", path, "--json"))["columns"][0]["as_found"]
-    assert found["base_tilt"] == 0.5
-    assert found["drums"][0]["drum"] == 2
-    assert json.loads(said("columns", "paper-monolithic", "--json"))["columns"][0]["as_found"] is None
+    as_found = json.loads(output_of("columns", path, "--json"))["columns"][0]["as_found"]
+    assert as_found["base_tilt"] == 0.5
+    assert as_found["drums"][0]["drum"] == 2
+    assert json.loads(output_of("columns", "paper-monolithic", "--json"))["columns"][0]["as_found"] is None
 
 
 def test_the_peak_velocity_is_one_number():
@@ -140,14 +142,14 @@ def test_sentences_on_collapse_do_not_contradict_themselves(capsys, collapsed, s
     column, motion = load_column("paper-monolithic"), st.harmonic(1.0, 1.0, 0.1)
     run = st.simulate(column, motion, st.HousnerBlock()).measures.row()
     rows = [
-        run | {"collapsed": bool(one), "outcome": "collapsed" if one else "rocked", "decided": True}
-        for one in collapsed
+        run | {"collapsed": bool(flag), "outcome": "collapsed" if flag else "rocked", "decided": True}
+        for flag in collapsed
     ]
     result = CriticalAmplitude(column, motion, "housner", st.g * np.array([0.1, 0.2, 0.3, 0.4]), rows, 1.0)
     command.describe(result, result.summary(), motion, [])
-    said = capsys.readouterr().out
-    assert sentence in said
-    assert "one alone says little: with 15 replicates" in said
+    output = capsys.readouterr().out
+    assert sentence in output
+    assert "one alone says little: with 15 replicates" in output
 
 
 def test_folders_and_records_whose_names_are_no_text(tmp_path):
@@ -167,8 +169,8 @@ def test_folders_and_records_whose_names_are_no_text(tmp_path):
 @pytest.mark.parametrize(
     "arguments", [("columns", "x" * 5000), ("run", "x" * 300 + ".toml", "--harmonic", "1Hz,0.1g,1s")]
 )
-def test_names_that_no_disk_takes_are_bad_input(said, arguments):
-    text = said(*arguments, code=2)
+def test_names_that_no_disk_takes_are_bad_input(output_of, arguments):
+    text = output_of(*arguments, code=2)
     assert text.startswith("stylobate: ")
     assert len(text.splitlines()) == 1
     assert len(text) < 500

@@ -48,11 +48,11 @@ def counted(monkeypatch):
     real = Rocking.run_many
 
     def run_many(self, cases, options, threads):
-        for one in real(self, cases, options, 1):
+        for result in real(self, cases, options, 1):
             if state["runs"] == state["stop"]:
                 raise KeyboardInterrupt
             state["runs"] += 1
-            yield one
+            yield result
 
     monkeypatch.setattr(Rocking, "run_many", run_many)
     return state
@@ -130,11 +130,11 @@ def test_a_run_goes_on_with_its_twins(several, tmp_path, capsys, monkeypatch):
         return real(*arguments, **options)
 
     def run_many(self, cases, options, threads):
-        for one in real_many(self, cases, options, 1):
+        for result in real_many(self, cases, options, 1):
             if state["twins"] == state["stop"]:
                 raise KeyboardInterrupt
             state["twins"] += 1
-            yield one
+            yield result
 
     monkeypatch.setattr(module, "simulate", simulate)
     monkeypatch.setattr(LaneEngine, "run_many", run_many)
@@ -145,29 +145,29 @@ def test_a_run_goes_on_with_its_twins(several, tmp_path, capsys, monkeypatch):
     state.update(runs=0, twins=0, stop=2)
     capsys.readouterr()
     assert call([*command, "--out", str(out)]) == 130
-    said = capsys.readouterr().err
+    message = capsys.readouterr().err
     if several:
-        assert f"0 of 2 runs are kept in {out}, and of the one under way itself and 2 of 3 like it: the same" in said
+        assert f"0 of 2 runs are kept in {out}, and of the one under way itself and 2 of 3 like it: the same" in message
     else:
-        assert f"interrupted; 2 of 3 runs are kept in {out}: the same command goes on" in said
+        assert f"interrupted; 2 of 3 runs are kept in {out}: the same command goes on" in message
     state.update(runs=0, twins=0, stop=None)
     assert call([*command, "--out", str(out)]) == 0
     assert (state["runs"], state["twins"]) == ((1, 4) if several else (0, 1))
-    for one in whole.rglob("replicates.csv"):
-        assert (out / one.relative_to(whole)).read_bytes() == one.read_bytes()
-    for one in whole.rglob("run.json"):
-        first, again = (json.loads(path.read_text()) for path in (one, out / one.relative_to(whole)))
+    for file in whole.rglob("replicates.csv"):
+        assert (out / file.relative_to(whole)).read_bytes() == file.read_bytes()
+    for file in whole.rglob("run.json"):
+        first, again = (json.loads(path.read_text()) for path in (file, out / file.relative_to(whole)))
         assert [key for key in first if first[key] != again[key]] == ["wall_s", "files"]
 
 
 def test_a_folder_in_use_is_refused_before_anything_is_computed(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("stylobate.verdicts.population.simulate", lambda *_, **__: pytest.fail("computed first"))
-    held = Holding(tmp_path / "runs.sqlite")
+    holding = Holding(tmp_path / "runs.sqlite")
     try:
         assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.3g,1s", *SPREAD, "--out", str(tmp_path)]) == 2
         assert "runs.sqlite is not free: another process is at work on it" in capsys.readouterr().err
     finally:
-        held.release()
+        holding.release()
 
 
 def test_a_comparison_goes_on_with_the_next_model(tmp_path, capsys, monkeypatch):
@@ -196,7 +196,9 @@ def test_a_comparison_goes_on_with_the_next_model(tmp_path, capsys, monkeypatch)
     made.clear()
     assert call([*command, "--out", str(tmp_path / "out")]) == 0
     assert len(made) == 1
-    tables = [pandas.read_csv(tmp_path / one / "comparison.csv").drop(columns="wall_s") for one in ("whole", "out")]
+    tables = [
+        pandas.read_csv(tmp_path / folder / "comparison.csv").drop(columns="wall_s") for folder in ("whole", "out")
+    ]
     assert tables[0].equals(tables[1])
     assert [path.name for path in (tmp_path / "out").glob("*.sqlite*")] == ["runs.sqlite"]
 
@@ -263,7 +265,7 @@ def test_the_result_of_another_question_is_replaced_with_a_word(tmp_path, monkey
     monkeypatch.chdir(tmp_path)
     (tmp_path / "my.toml").write_text(COLUMN)
     line = ["run", "my.toml", *HOUSNER, "--out", "out", "--harmonic"]
-    said = []
+    messages = []
     for words in (
         [*line, "1Hz,0.3g,1s"],
         [*line, "1Hz,0.3g,1s", "--threads", "1", "--json"],  # the same question
@@ -272,14 +274,14 @@ def test_the_result_of_another_question_is_replaced_with_a_word(tmp_path, monkey
         ["limit", "my.toml", "--out", "out"],
         ["limit", "my.toml", "--out", "out"],
     ):
-        if len(said) == 5:
+        if len(messages) == 5:
             (tmp_path / "my.toml").write_text(COLUMN.replace("0.9", "0.8"))
         assert call(words) == 0
-        said.append(capsys.readouterr().err)
+        messages.append(capsys.readouterr().err)
     replaced = "out held the result of another question"
-    assert [replaced in one for one in said] == [False, False, True, False, False, True]
-    assert "1Hz,0.3g,1s" in said[2]
-    assert "out holds the result of run too" in said[4]
+    assert [replaced in message for message in messages] == [False, False, True, False, False, True]
+    assert "1Hz,0.3g,1s" in messages[2]
+    assert "out holds the result of run too" in messages[4]
     # folders are no matter of a signed report
     assert not CommandRequest.read(tmp_path / "out" / "asked-limit.json").warnings
     assert not (tmp_path / "out" / "energy.png").exists()  # of the first question: the third has no pictures

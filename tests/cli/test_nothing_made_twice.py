@@ -40,16 +40,16 @@ def folder(tmp_path, monkeypatch):
 def made(monkeypatch):
     """Counts the runs that are made, in batches and one by one."""
     runs = []
-    many, one = Rocking.run_many, Rocking.run
+    many, single = Rocking.run_many, Rocking.run
 
     def run_many(self, cases, options, threads):
-        for found in many(self, cases, options, 1):
-            runs.append(found[0])
-            yield found
+        for result in many(self, cases, options, 1):
+            runs.append(result[0])
+            yield result
 
     def run(self, *arguments):
         runs.append(0)
-        return one(self, *arguments)
+        return single(self, *arguments)
 
     monkeypatch.setattr(Rocking, "run_many", run_many)
     monkeypatch.setattr(Rocking, "run", run)
@@ -104,7 +104,7 @@ def test_what_one_command_has_made_the_next_one_reads(first, second, again, fold
     assert answer(first, "shared")[1] >= commands()[first][1]
     result, runs = answer(second, "shared")
     assert runs == again + (0 if first == second else histories)
-    for table in (one for one in folder.glob("alone/*.csv") if one.is_file()):
+    for table in (path for path in folder.glob("alone/*.csv") if path.is_file()):
         assert (folder / "shared" / table.name).read_text() == table.read_text(), table.name
     drop = {"wall_s", "files", "computed"}
     if first != "run":
@@ -179,9 +179,9 @@ REFUSED = [
 @pytest.mark.parametrize(("command", "why"), REFUSED)
 def test_what_is_refused_leaves_no_folder(command, why, folder, made, capsys):
     if why == "drums":  # which this model does not compute
-        command = [one.replace("paper-monolithic", "paper-12-drums") for one in command]
-        for one in folder.glob("*.toml"):
-            one.write_text(one.read_text().replace("paper-monolithic", "paper-12-drums"))
+        command = [argument.replace("paper-monolithic", "paper-12-drums") for argument in command]
+        for path in folder.glob("*.toml"):
+            path.write_text(path.read_text().replace("paper-monolithic", "paper-12-drums"))
     assert call([*command, "--out", "out"]) == 2
     assert why in capsys.readouterr().err
     assert made == []
@@ -192,19 +192,19 @@ def test_what_is_to_be_said_is_said_of_runs_that_the_ledger_holds_and_of_doubles
     along = st.harmonic(1.0, 2.0, 1.0)
     first, second = (along.replace(name=name, ay=0.3 * along.samples) for name in ("first", "second"))
     for motions in ([first], [first, second, along.scaled(1.5)]):
-        with pytest.warns(st.errors.LeftOutWarning) as told:
+        with pytest.warns(st.errors.LeftOutWarning) as warnings:
             st.suite_table(st.preset("paper-monolithic"), motions, HousnerBlock(), ledger=tmp_path / RUNS_FILE)
         for motion in motions[:2]:
-            assert any(motion.name in str(one.message) for one in told)
+            assert any(motion.name in str(warning.message) for warning in warnings)
 
 
 def test_the_same_model_twice_is_compared_and_run_once(folder, made):
     column, motion, models = st.preset("paper-monolithic"), st.harmonic(1.0, 2.0, 1.0), [HousnerBlock()] * 2
-    found = compare_models(column, motion, models)
-    assert found.table["peak_top_displacement_m"].nunique() == len(made) == 1
+    comparison = compare_models(column, motion, models)
+    assert comparison.table["peak_top_displacement_m"].nunique() == len(made) == 1
     files = [folder / "a.nc", folder / "b.nc"]
     for runs in (2, 2):
         again = compare_models(column, motion, models, labels=["a", "b"], ledger=folder / RUNS_FILE, files=files)
         assert again.table["peak_top_displacement_m"].nunique() == 1
         assert len(made) == runs
-        assert all(one.is_file() for one in files)
+        assert all(path.is_file() for path in files)

@@ -59,8 +59,8 @@ def test_rows_of_runs_tell_columns_from_architraves():
     """A pulse that overturns everything: each column has lost a drum, and more than drums has fallen."""
     t = np.arange(0.0, 1.0, 0.01)
     record = st.Motion(0.01, 9.0 * np.sin(np.pi * t), name="pulse")
-    asked = st.Study(study.structures()[:2], [study.directed(record, 0.0)], (study.MODEL,), tail=1.0)
-    table = study.falls(st.run_study(asked))
+    small_study = st.Study(study.structures()[:2], [study.directed(record, 0.0)], (study.MODEL,), tail=1.0)
+    table = study.falls(st.run_study(small_study))
     assert table["columns_fallen"].tolist() == [1, 2]
     assert table["bodies_fallen"].tolist() == [3, 7]
     assert table["azimuth_deg"].tolist() == [0.0, 0.0]

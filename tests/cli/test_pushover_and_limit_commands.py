@@ -9,22 +9,22 @@ from stylobate.cli.main import call
 
 def test_pushover_writes_curve_and_figure(tmp_path, capsys):
     assert call(["pushover", "paper-12-drums", "--json", "--out", str(tmp_path)]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["collapse_multiplier_g"] == pytest.approx(0.2046, rel=5e-3)
-    assert found["ultimate_displacement_m"] == pytest.approx(1.012, abs=2e-3)
-    assert found["governing_joint"] == 1
-    assert len(found["mechanism"]) == 12
-    assert len(found["curve"]["multiplier_g"]) == found["steps"]
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["collapse_multiplier_g"] == pytest.approx(0.2046, rel=5e-3)
+    assert answer["ultimate_displacement_m"] == pytest.approx(1.012, abs=2e-3)
+    assert answer["governing_joint"] == 1
+    assert len(answer["mechanism"]) == 12
+    assert len(answer["curve"]["multiplier_g"]) == answer["steps"]
     names = {"pushover.csv", "pushover.json", "pushover.png", "pushover.svg", "asked-pushover.json"}
     assert {file.name for file in tmp_path.glob("[!.]*")} == names
 
 
 def test_limit_writes_the_mechanism(tmp_path, capsys):
     assert call(["limit", "paper-monolithic", "--json", "--out", str(tmp_path)]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["collapse_multiplier_g"] == pytest.approx(0.2046, rel=5e-4)
-    assert found["upper_bound_g"] == pytest.approx(found["lower_bound_g"], abs=1e-6)
-    assert found["active_joints"][0]["mode"] == "rocking right"
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["collapse_multiplier_g"] == pytest.approx(0.2046, rel=5e-4)
+    assert answer["upper_bound_g"] == pytest.approx(answer["lower_bound_g"], abs=1e-6)
+    assert answer["active_joints"][0]["mode"] == "rocking right"
     assert (tmp_path / "limit.png").stat().st_size > 5000
 
 
@@ -60,12 +60,14 @@ def test_joints_too_soft_for_the_weight_are_bad_input(tmp_path, capsys):
 def test_another_drum_than_the_top_is_led(tmp_path, capsys):
     led = ["pushover", "paper-12-drums", "--at", "6", "--to", "0.2", "--json"]
     assert call([*led, "--out", str(tmp_path)]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["led_drum"] == 6
-    assert found["curve"]["displacement_m"][-1] == pytest.approx(0.2)
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["led_drum"] == 6
+    assert answer["curve"]["displacement_m"][-1] == pytest.approx(0.2)
     assert (tmp_path / "pushover.csv").read_text().startswith("step,drum_6_displacement_m,")
     assert call(["pushover", "paper-12-drums", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["collapse_multiplier_g"] == pytest.approx(found["collapse_multiplier_g"])
+    assert json.loads(capsys.readouterr().out)["collapse_multiplier_g"] == pytest.approx(
+        answer["collapse_multiplier_g"]
+    )
     for odd, words in (
         (["--at", "13"], "from 1 to 12"),
         (["--at", "6", "--check", "ec8,ag=0.25g,soil=B,type=1"], "--at"),
@@ -77,11 +79,11 @@ def test_another_drum_than_the_top_is_led(tmp_path, capsys):
 def test_a_path_that_ends_too_early_is_called_that(tmp_path, capsys):
     early = ["pushover", "paper-12-drums", "--to", "0.0001"]
     assert call([*early, "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["peaked"] is False
-    assert found["collapse_multiplier_g"] is None
-    assert found["governing_joint"] is None
-    assert found["largest_multiplier_g"] == pytest.approx(max(found["curve"]["multiplier_g"]))
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["peaked"] is False
+    assert answer["collapse_multiplier_g"] is None
+    assert answer["governing_joint"] is None
+    assert answer["largest_multiplier_g"] == pytest.approx(max(answer["curve"]["multiplier_g"]))
     assert call([*early, "--out", str(tmp_path)]) == 0
     shown = capsys.readouterr().out
     assert "before it gives way" in shown

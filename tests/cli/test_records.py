@@ -26,26 +26,26 @@ def folder(tmp_path_factory):
 def test_what_is_written_reads_back_as_scaled(folder, tmp_path, capsys):
     """The scaled files, asked for again, have the mean that was told."""
     out = tmp_path / "out"
-    asked = ["records", str(folder), "--target", TARGET, "--count", "3", "--factors", "0.1:10"]
-    assert call([*asked, "--out", str(out)]) == 0
-    told = json.loads((out / "records.json").read_text())
-    assert told["meets"]
+    arguments = ["records", str(folder), "--target", TARGET, "--count", "3", "--factors", "0.1:10"]
+    assert call([*arguments, "--out", str(out)]) == 0
+    summary = json.loads((out / "records.json").read_text())
+    assert summary["meets"]
     capsys.readouterr()
     again = ["records", str(out / "scaled"), "--target", TARGET, "--count", "3", "--factors", "0.1:10", "--json"]
     assert call(again) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["mean_g"] == pytest.approx(told["mean_g"], rel=1e-6)
-    assert call([*asked, "--condition", "pgv=0.3m/s"]) == 2
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["mean_g"] == pytest.approx(summary["mean_g"], rel=1e-6)
+    assert call([*arguments, "--condition", "pgv=0.3m/s"]) == 2
     assert "--condition pgv=0.3m/s scales every record before it is chosen" in capsys.readouterr().err
     # a second choice into the same folder would leave files of the first among its own
-    assert call([*asked[:5], "2", *asked[6:], "--out", str(out)]) == 2
+    assert call([*arguments[:5], "2", *arguments[6:], "--out", str(out)]) == 2
     assert "choose another folder" in capsys.readouterr().err
-    assert call([*asked, "--out", str(out)]) == 0
+    assert call([*arguments, "--out", str(out)]) == 0
     page = tmp_path / "r.html"
     assert call(["report", str(out), "--out", str(page)]) == 0
     text = page.read_text(encoding="utf-8")
-    assert told["sentence"][:40] in text
-    assert text.count("<td") > 3 * len(told["records"])
+    assert summary["sentence"][:40] in text
+    assert text.count("<td") > 3 * len(summary["records"])
     assert "stylobate records" in text
 
 
@@ -79,16 +79,16 @@ def test_a_record_that_drifts_is_named_where_it_is_scaled_to_a_velocity(tmp_path
     block = ["paper-monolithic", "--model", "housner"]
     for measure, levels in (("pgv", "0.1m/s:0.2m/s:2"), ("pga", "0.1g:0.2g:2")):
         size = ["--im", measure, "--levels", levels]
-        for asked in (
+        for arguments in (
             ["ida", block[0], str(tmp_path), *block[1:], *size],
             ["states", str(tmp_path), "--as-built", block[0], "--as-found", block[0], *block[1:], *size],
         ):
-            assert call(asked) == 0
-            told = [line for line in capsys.readouterr().err.splitlines() if "peak velocity of component x" in line]
-            assert [line.partition("warning: ")[2].partition(":")[0] for line in told] == ["drifts.csv"] * (
+            assert call(arguments) == 0
+            warnings = [line for line in capsys.readouterr().err.splitlines() if "peak velocity of component x" in line]
+            assert [line.partition("warning: ")[2].partition(":")[0] for line in warnings] == ["drifts.csv"] * (
                 measure == "pgv"
             )
-            assert all("--condition" in line for line in told)
+            assert all("--condition" in line for line in warnings)
 
 
 def test_a_fragility_says_again_that_its_velocities_drift(tmp_path, capsys):
@@ -104,15 +104,15 @@ def test_a_fragility_says_again_that_its_velocities_drift(tmp_path, capsys):
     capsys.readouterr()
     for measure, names in (("pgv", ["0.csv"]), ("pga", [])):
         assert call(["fragility", str(out), "--im", measure, "--records-are-one"]) == 0
-        told = [line for line in capsys.readouterr().err.splitlines() if "peak velocity of component x" in line]
-        assert [line.partition("warning: ")[2].partition(":")[0] for line in told] == names
+        warnings = [line for line in capsys.readouterr().err.splitlines() if "peak velocity of component x" in line]
+        assert [line.partition("warning: ")[2].partition(":")[0] for line in warnings] == names
 
 
 def test_a_manifest_beside_records_may_be_named(folder, tmp_path, capsys):
     """As it is read where it lies in their folder; one that tells of none of them is refused."""
     manifest = tmp_path / "manifest.csv"
     manifest.write_text("file,event\n0.csv,Somewhere Mw6.0\n1.csv,no size\n")
-    asked = [
+    arguments = [
         "records",
         str(folder),
         "--target",
@@ -124,7 +124,7 @@ def test_a_manifest_beside_records_may_be_named(folder, tmp_path, capsys):
         "--about",
         str(manifest),
     ]
-    assert call([*asked, "--json"]) == 0
+    assert call([*arguments, "--json"]) == 0
     rows = json.loads(capsys.readouterr().out)["records"]
     assert {row["record"]: row["magnitude"] for row in rows} == {
         "0.csv": 6.0,
@@ -133,10 +133,10 @@ def test_a_manifest_beside_records_may_be_named(folder, tmp_path, capsys):
         "3.csv": None,
     }
     manifest.write_text("file,event\nother.csv,Mw6.0\n")
-    assert call(asked) == 2
+    assert call(arguments) == 2
     assert "tells the magnitude of none of these records" in capsys.readouterr().err
     manifest.write_text("record,magnitude\n0.csv,6.1\n")  # a table of records, whatever it is called
-    assert call([*asked, "--json"]) == 0
+    assert call([*arguments, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["records"][0]["magnitude"] == 6.1
 
 

@@ -108,15 +108,15 @@ def test_a_piece_that_is_missing_is_computed_alone(made, monkeypatch):
     piece = folder / "data" / pieces.slug("domain", "paper-monolithic", BEAM, "circular") / "domain.nc"
     before = Domain.load(piece)
     piece.unlink()
-    asked, real = [], pieces.collapse_domain
+    names, real = [], pieces.collapse_domain
 
     def counted(*args, **kwargs):
-        asked.append(kwargs["out"].name)
+        names.append(kwargs["out"].name)
         return real(*args, **kwargs)
 
     monkeypatch.setattr(pieces, "collapse_domain", counted)
     run_study(folder, True, 1, grids=GRIDS)
-    assert asked == [piece.parent.name]
+    assert names == [piece.parent.name]
     np.testing.assert_array_equal(Domain.load(piece).verdicts, before.verdicts)
 
 
@@ -160,13 +160,13 @@ def test_what_a_killed_run_left_half_written_is_removed_by_the_next_and_nothing_
     )
     target = tmp_path / "domain.nc"
     assert subprocess.run([sys.executable, "-c", script, str(target)], check=False).returncode == -9
-    (left,) = tmp_path.iterdir()
+    (remnant,) = tmp_path.iterdir()
     foreign = [".domain-ab_3.nc", ".domain.1-0123abcd-0123456789ab.nc", ".env-local.sh", ".pre-commit-config.yaml"]
     for name in foreign:
         (tmp_path / name).write_text("mine")
     with replacing(tmp_path / "other.nc") as partial:
         partial.write_text("whole")
-    assert left.exists()  # of another file
+    assert remnant.exists()  # of another file
     with replacing(target) as partial:
         partial.write_text("whole")
     assert {path.name for path in tmp_path.iterdir()} == {*foreign, "domain.nc", "other.nc"}
@@ -254,11 +254,11 @@ def test_histories_go_on_in_the_middle(made, monkeypatch):
     before = xarray.load_dataset(place, engine="h5netcdf")
     place.unlink()
     (folder / "data" / RUNS_FILE).unlink()
-    real, asked = pieces.simulate, []
+    real, calls = pieces.simulate, []
 
     def simulate(*args, **kwargs):
-        asked.append(args)
-        if len(asked) == 3:
+        calls.append(args)
+        if len(calls) == 3:
             raise KeyboardInterrupt
         return real(*args, **kwargs)
 
@@ -268,12 +268,12 @@ def test_histories_go_on_in_the_middle(made, monkeypatch):
     kept = finished_runs_in(folder / "data" / RUNS_FILE)
     assert 2 <= kept <= 3  # the others of the pool may have come in
     run_study(folder, True, 1, grids=GRIDS)
-    assert len(asked) <= 3 + 4 - kept + 1
+    assert len(calls) <= 3 + 4 - kept + 1
     xarray.testing.assert_identical(before, xarray.load_dataset(place, engine="h5netcdf"))
     place.unlink()
-    asked.clear()
+    calls.clear()
     run_study(folder, True, 1, grids=GRIDS)
-    assert asked == []  # the ledger has them all
+    assert calls == []  # the ledger has them all
     xarray.testing.assert_identical(before, xarray.load_dataset(place, engine="h5netcdf"))
 
 
@@ -283,8 +283,8 @@ def test_the_table_in_markdown_says_how_it_was_made_and_what_its_verdicts_mean(m
     assert "Written by `stylobate reproduce --quick`" in text
     for verdict, number in summary["verdicts"].items():
         assert f"- **{verdict}** ({number}): " in text
-    said = ("| §", "| Abstract", "| Mouzakis", "| arXiv")
-    assert sum(line.startswith(said) for line in text.splitlines()) == summary["statements"]
+    prefixes = ("| §", "| Abstract", "| Mouzakis", "| arXiv")
+    assert sum(line.startswith(prefixes) for line in text.splitlines()) == summary["statements"]
 
 
 def test_the_demonstration_is_the_coarse_study():
@@ -304,13 +304,15 @@ def test_a_person_is_told_what_holds_and_at_last_where_the_pictures_are(made, ca
 
 def test_runs_are_counted_and_certainty_is_what_its_domains_say(made):
     folder, summary, _ = made
-    found = run_study(folder, True, 1, grids=GRIDS)
+    results = run_study(folder, True, 1, grids=GRIDS)
     single, population = 6 * (4 + 2) + 2 * 3 + 4 * len(GRIDS.variants), 3 * 6
     tested = len(literature.ASKED) * literature.NUMBER
     space = 2 * (3 * 2 + 4)  # two cells: three populations of two columns, four plane domains
-    assert summary["runs"] == found.runs == 2 * (single + 2 * 6 + population + space) + 2 * 50 + 4 * 4 + 4 * 4 + tested
-    assert list(found.shaken) == ["beam, as the paper", "beam, true drums", "beam, β = 0.5 ms", "DEM, two points"]
-    for name, doubt in found.doubts.items():
+    assert (
+        summary["runs"] == results.runs == 2 * (single + 2 * 6 + population + space) + 2 * 50 + 4 * 4 + 4 * 4 + tested
+    )
+    assert list(results.shaken) == ["beam, as the paper", "beam, true drums", "beam, β = 0.5 ms", "DEM, two points"]
+    for name, doubt in results.doubts.items():
         assert doubt.steps.halved.provenance["parameters"]["step_factor"] == 0.5 * st.DistinctElement2D().step_factor
         assert doubt.another.shape == doubt.differing.shape == (2, 3)
         assert (doubt.another == np.array(v.VERDICTS, dtype=object)[doubt.population.codes[..., 0]]).all()

@@ -21,7 +21,7 @@ from stylobate.results import read_results
 BLOCK = ("run", "paper-monolithic", "--model", "housner")
 
 
-def said(capsys, *arguments):
+def output_of(capsys, *arguments):
     assert call([*map(str, arguments)]) == 0
     return capsys.readouterr().out
 
@@ -41,7 +41,7 @@ def test_an_undecided_run_is_to_go_on_for_longer_than_it_did(given, longer):
 def test_no_tail_is_advised_to_drums_that_pivot_freely_as_found():
     """Nothing bounds where such drums come to (docs/theory/distinct_element_3d.md, Walking): all of them stay open."""
     column = st.preset("paper-12-drums")
-    drums = [dataclasses.replace(one, section="circular") for one in column.drums]
+    drums = [dataclasses.replace(drum, section="circular") for drum in column.drums]
     round_ = column.replace(drums=drums, as_found=st.AsFound((st.FoundDrum(2, offset=0.01),)))
     free = {"pivot_friction": 0.0}
     assert to_decide(round_, free, 5.0).startswith("no tail decides it")
@@ -74,7 +74,7 @@ def test_no_tail_is_advised_to_a_round_column_whose_wobble_nothing_damps():
 
 
 def test_peaks_and_films_of_a_fall_tell_one_story(capsys):
-    text = said(capsys, *BLOCK, "--harmonic", "1Hz,0.9g,3s")
+    text = output_of(capsys, *BLOCK, "--harmonic", "1Hz,0.9g,3s")
     (collapse,) = [line for line in text.splitlines() if line.startswith("  collapse")]
     assert "histories and films show the fall, to " in collapse
     peaks = [line for line in text.splitlines() if line.startswith("  peak")]
@@ -87,7 +87,7 @@ def test_several_directions_are_a_table(capsys, tmp_path):
     time = 0.02 * np.arange(50)
     parts = 3.0 * np.sin(6.0 * time), 2.0 * np.sin(5.0 * time)
     record = write_csv(st.Motion(0.02, *parts, metadata={"azimuths": {"x": 0.0, "y": 90.0}}), tmp_path / "r.csv")
-    text = said(capsys, *BLOCK, "--motion", record, "--azimuths", "0:90:2", "--out", tmp_path / "out")
+    text = output_of(capsys, *BLOCK, "--motion", record, "--azimuths", "0:90:2", "--out", tmp_path / "out")
     header, *rows = text.splitlines()
     assert header.split()[:2] == ["motion", "outcome"]
     assert ["r.csv at 0°" in rows[0], "r.csv at 90°" in rows[1]] == [True, True]
@@ -103,7 +103,7 @@ def test_an_assembly_is_no_column(capsys, tmp_path):
         "[joint]\nnormal_stiffness = 1e8\nshear_stiffness = 5e7\nfriction_angle = 35.0\n"
     )
     grid = ("--from", "0.05g", "--to", "0.1g", "--step", "0.05g")
-    text = said(capsys, "critical", tmp_path / "blocks.toml", "--harmonic", "2Hz,?g,0.3s", *grid)
+    text = output_of(capsys, "critical", tmp_path / "blocks.toml", "--harmonic", "2Hz,?g,0.3s", *grid)
     assert "No amplitude looked at, 0.05 to 0.1 g, collapses the assembly; larger ones were not looked at." in text
     assert "column" not in text
 
@@ -166,7 +166,7 @@ def test_what_a_plane_says_of_round_drums_is_doubted_before_it(command, argument
         write_csv(half_sine_pulse(1.0, 0.1 * st.g, 0.5), tmp_path / "one.csv")
         file.write_text('model = "dem2d"\ncolumns = ["two.toml"]\n[motions]\nfiles = ["one.csv"]\n')
         words = ["study", "run", file]
-    text = said(capsys, *words, "--out", tmp_path / "out")
+    text = output_of(capsys, *words, "--out", tmp_path / "out")
     assert " ".join(text.split()).startswith(DOUBT)
     if command != "compare":
         (result,) = read_results([tmp_path / "out"])
@@ -178,26 +178,26 @@ def test_what_a_study_and_a_film_show_is_doubted(column, capsys, tmp_path):
     write_csv(half_sine_pulse(1.0, 0.3 * st.g, 2.0), tmp_path / "one.csv")
     (tmp_path / "study.toml").write_text('model = "dem2d"\ncolumns = ["two.toml"]\n[motions]\nfiles = ["one.csv"]\n')
     out = tmp_path / "out"
-    said(capsys, "study", "run", tmp_path / "study.toml", "--out", out)
-    assert " ".join(said(capsys, "study", "status", out).split()).startswith(DOUBT)
-    assert DOUBT in json.loads(said(capsys, "study", "status", out, "--json"))["doubt"]
+    output_of(capsys, "study", "run", tmp_path / "study.toml", "--out", out)
+    assert " ".join(output_of(capsys, "study", "status", out).split()).startswith(DOUBT)
+    assert DOUBT in json.loads(output_of(capsys, "study", "status", out, "--json"))["doubt"]
     (out / "study.json").unlink()  # of a study that was stopped
-    assert DOUBT in json.loads(said(capsys, "study", "status", out, "--json"))["doubt"]
-    assert DOUBT in json.loads(said(capsys, "study", "export", out, "--to", tmp_path / "a.csv", "--json"))["doubt"]
-    assert " ".join(said(capsys, "study", "export", out, "--to", tmp_path / "b.csv").split()).startswith(DOUBT)
+    assert DOUBT in json.loads(output_of(capsys, "study", "status", out, "--json"))["doubt"]
+    assert DOUBT in json.loads(output_of(capsys, "study", "export", out, "--to", tmp_path / "a.csv", "--json"))["doubt"]
+    assert " ".join(output_of(capsys, "study", "export", out, "--to", tmp_path / "b.csv").split()).startswith(DOUBT)
     result = StudyResult.in_folder(out)
     assert DOUBT in result.summary()["doubt"]
     assert DOUBT in result.table.attrs["doubt"]
     (film,) = (out / "histories").glob("*.nc")
     shown = ("--format", "html", "--fps", "2", "--out", tmp_path / "film")
-    assert DOUBT in said(capsys, "animate", film, *shown)
-    assert DOUBT in json.loads(said(capsys, "animate", film, *shown, "--json"))["doubt"]
+    assert DOUBT in output_of(capsys, "animate", film, *shown)
+    assert DOUBT in json.loads(output_of(capsys, "animate", film, *shown, "--json"))["doubt"]
 
 
 def test_runs_in_several_directions_say_their_doubt_once(column, capsys, tmp_path):
     several_sections = pytest.importorskip("stylobate_report.runs").several_sections
-    asked = ("--harmonic", "1Hz,0.3g,0.5s", "--signs", "both", "--replicates", "0", "--no-pictures")
-    text = said(capsys, "run", column, *asked, "--out", tmp_path / "out")
+    options = ("--harmonic", "1Hz,0.3g,0.5s", "--signs", "both", "--replicates", "0", "--no-pictures")
+    text = output_of(capsys, "run", column, *options, "--out", tmp_path / "out")
     assert " ".join(text.split()).count(DOUBT) == 1
     (result,) = read_results([tmp_path / "out"])
     (lead, *_) = several_sections(cast(Any, result))
@@ -206,9 +206,9 @@ def test_runs_in_several_directions_say_their_doubt_once(column, capsys, tmp_pat
 
 def test_the_strip_of_the_median_is_followed_as_its_run_was(monkeypatch):
     """To rest where nothing was carried; what rode along was not."""
-    asked = {}
+    run_options = {}
     module = sys.modules["stylobate.simulate"]
-    monkeypatch.setattr(module, "simulate", lambda *_, **options: asked.update(options))
+    monkeypatch.setattr(module, "simulate", lambda *_, **options: run_options.update(options))
     monkeypatch.setattr("stylobate.plots.draw_filmstrip", lambda response: None)
     files = SimpleNamespace(table=lambda *_: None, picture=lambda *_: None)
     population = SimpleNamespace(table=None, bodies=(), median=0, drawn=SimpleNamespace(columns=[None]))
@@ -219,20 +219,20 @@ def test_the_strip_of_the_median_is_followed_as_its_run_was(monkeypatch):
         chosen = type("Chosen", (), {"computes_for": engine.computes_for, "__new__": lambda *_, engine=engine: engine})
         model = SimpleNamespace(engines=[chosen])
         write_population(*cast(Any, (population, None, model, response, files)), strip=True)
-        assert asked["until_rest"] is rest
+        assert run_options["until_rest"] is rest
 
 
 def test_a_run_says_its_doubt(column, capsys, tmp_path):
     sections_of = pytest.importorskip("stylobate_report.others").sections_of
-    plane = said(capsys, "run", column, "--harmonic", "1Hz,0.3g,0.5s", "--replicates", "0")
+    plane = output_of(capsys, "run", column, "--harmonic", "1Hz,0.3g,0.5s", "--replicates", "0")
     assert plane.count(DOUBT) == 1
-    assert "Round columns" not in said(capsys, "run", column, "--harmonic", "1Hz,0.01g,0.5s", "--replicates", "0")
+    assert "Round columns" not in output_of(capsys, "run", column, "--harmonic", "1Hz,0.01g,0.5s", "--replicates", "0")
     pulse = write_csv(half_sine_pulse(1.0, 0.3 * st.g, 2.0), tmp_path / "one.csv")
     for command in (("suite", column, pulse), ("ida", column, pulse, "--im", "pga", "--levels", "0.1g:0.2g:2")):
-        assert " ".join(said(capsys, *command, "--out", tmp_path / command[0]).split()).count(DOUBT) == 1
+        assert " ".join(output_of(capsys, *command, "--out", tmp_path / command[0]).split()).count(DOUBT) == 1
         (result,) = read_results([tmp_path / command[0]])
         assert DOUBT in result.summary["doubt"]
         assert DOUBT in str(sections_of(result, set())[0])
-    text = said(capsys, "run", column, "--model", "dem3d", "--harmonic", "1Hz,0.3g,1s", "--replicates", "0")
+    text = output_of(capsys, "run", column, "--model", "dem3d", "--harmonic", "1Hz,0.3g,1s", "--replicates", "0")
     assert "Wobbling was not damped, and in space a verdict can hang on that, either way" in text
     assert "with a stiffness damping of 1e-4 s" in text

@@ -14,8 +14,8 @@ from stylobate.motion import samples
 def test_a_sample_is_a_motion_wherever_a_record_is_asked_for(capsys, tmp_path):
     command = ["run", "paper-monolithic", "--motion", "sample:el-centro-1940", "--model", "housner", "--json"]
     assert call(command) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert "el-centro-1940" in json.dumps(found)
+    answer = json.loads(capsys.readouterr().out)
+    assert "el-centro-1940" in json.dumps(answer)
     assert call(["motion", "sample:waipukurau-2018", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["network"]
     suite = ["suite", "paper-monolithic", "sample:el-centro-1940", "sample:san-francisco-1989"]
@@ -26,8 +26,8 @@ def test_a_sample_is_a_motion_wherever_a_record_is_asked_for(capsys, tmp_path):
 def test_samples_are_listed(capsys):
     assert call(["motion", "--samples", "--json"]) == 0
     listed = json.loads(capsys.readouterr().out)["samples"]
-    assert [one["name"] for one in listed] == [f"sample:{name}" for name in samples()]
-    assert all(one["terms"] for one in listed)
+    assert [sample["name"] for sample in listed] == [f"sample:{name}" for name in samples()]
+    assert all(sample["terms"] for sample in listed)
     assert call(["motion", "--samples"]) == 0
     assert "sample:el-centro-1940" in capsys.readouterr().out
 
@@ -47,6 +47,8 @@ def test_every_sample_is_attributed_and_all_together_are_small():
     folder = resources.files("stylobate.motion") / "samples"
     attribution = (folder / "ATTRIBUTION.md").read_text(encoding="utf-8")
     assert all(f"`{name}`" in attribution for name in samples())
-    files = [one for one in folder.iterdir() if one.is_file()]
-    assert sorted(one.name for one in files if one.name.endswith(".gz")) == sorted(f"{name}.gz" for name in samples())
-    assert sum(len(one.read_bytes()) for one in files) < 1_000_000
+    files = [path for path in folder.iterdir() if path.is_file()]
+    assert sorted(path.name for path in files if path.name.endswith(".gz")) == sorted(
+        f"{name}.gz" for name in samples()
+    )
+    assert sum(len(path.read_bytes()) for path in files) < 1_000_000

@@ -37,24 +37,24 @@ def folder(tmp_path):
 
 
 def run(capsys, *arguments):
-    code = call([str(one) for one in arguments])
+    code = call([str(argument) for argument in arguments])
     return code, *capsys.readouterr()
 
 
 def test_an_object_a_table_and_files(folder, capsys):
     motions = ["--motion", folder / "first.csv", "--motion", folder / "second.csv", "--rest", "1s"]
     out = folder / "out"
-    asked = ["sequence", folder / "column.toml", *motions, "--replicates", "7", "--json", "--out", out]
-    code, printed, _ = run(capsys, *asked)
+    arguments = ["sequence", folder / "column.toml", *motions, "--replicates", "7", "--json", "--out", out]
+    code, printed, _ = run(capsys, *arguments)
     assert code == 0
-    told = json.loads(printed)
-    assert (told["earthquakes"], told["fell_in"], told["rest_s"]) == (2, None, 1.0)
-    first, second = told["events"]
-    assert second["outcome"] == told["outcome"] == "displaced"
+    answer = json.loads(printed)
+    assert (answer["earthquakes"], answer["fell_in"], answer["rest_s"]) == (2, None, 1.0)
+    first, second = answer["events"]
+    assert second["outcome"] == answer["outcome"] == "displaced"
     assert (first["motion"], second["earthquake"]) == ("first.csv", 2)
-    added = [event["alone"]["added"]["residual_slip_x_m"][0] for event in told["events"]]
-    assert sum(added) == pytest.approx(told["residual_slip_x_m"][0], abs=1e-3)
-    assert told["falls"]["runs"] == 7
+    added = [event["alone"]["added"]["residual_slip_x_m"][0] for event in answer["events"]]
+    assert sum(added) == pytest.approx(answer["residual_slip_x_m"][0], abs=1e-3)
+    assert answer["falls"]["runs"] == 7
     table = pandas.read_csv(out / "events.csv")
     assert table["outcome"].tolist() == [first["outcome"], "displaced"]
     assert (out / "sequence.png").stat().st_size > 5000
@@ -82,7 +82,7 @@ def test_words_for_people(folder, capsys):
 
 
 def test_counts_are_kept_and_have_a_page(folder, capsys):
-    asked = [
+    arguments = [
         "sequence",
         folder / "column.toml",
         "--motion",
@@ -93,10 +93,10 @@ def test_counts_are_kept_and_have_a_page(folder, capsys):
         "4s",
     ]
     out = folder / "out"
-    told = [json.loads(run(capsys, *asked, "--replicates", "6", "--json", "--out", out)[1]) for _ in range(2)]
-    assert told[0]["until_fall"] == told[1]["until_fall"]
-    assert told[0]["motions"][0]["not_fallen"] == 6
-    assert told[0]["motions"][0]["median_high"] is None
+    answers = [json.loads(run(capsys, *arguments, "--replicates", "6", "--json", "--out", out)[1]) for _ in range(2)]
+    assert answers[0]["until_fall"] == answers[1]["until_fall"]
+    assert answers[0]["motions"][0]["not_fallen"] == 6
+    assert answers[0]["motions"][0]["median_high"] is None
     assert pandas.read_csv(out / "until_fall.csv")["most"].tolist() == [2]
     code, _, error = run(capsys, "report", out, "--out", folder / "page.html")
     assert code == 0, error
@@ -131,7 +131,7 @@ levels = ["1", "9"]
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "sentence"),
     [
         ([], "no motion is given"),
         (["--motion", "first.csv", "--rest", "-1s"], "--rest is -1"),
@@ -150,10 +150,10 @@ levels = ["1", "9"]
         (["--motion", "column.toml"], "column.toml"),
     ],
 )
-def test_bad_input_is_one_sentence_and_nothing_is_written(folder, capsys, monkeypatch, arguments, said):
+def test_bad_input_is_one_sentence_and_nothing_is_written(folder, capsys, monkeypatch, arguments, sentence):
     monkeypatch.chdir(folder)
     code, printed, error = run(capsys, "sequence", "column.toml", *arguments, "--out", "out")
     assert (code, printed) == (2, "")
-    assert said in error
+    assert sentence in error
     assert error.count("\n") == 1
     assert not (folder / "out").exists()

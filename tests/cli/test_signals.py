@@ -40,7 +40,7 @@ CLEARING = {
 def python(script):
     return subprocess.run(
         [sys.executable, "-c", script], capture_output=True, text=True, check=False, timeout=60,
-        preexec_fn=lambda: [signal.signal(one, signal.SIG_DFL) for one in (signal.SIGINT, signal.SIGHUP)],
+        preexec_fn=lambda: [signal.signal(signum, signal.SIG_DFL) for signum in (signal.SIGINT, signal.SIGHUP)],
     )  # fmt: skip
 
 
@@ -111,14 +111,14 @@ def test_a_signal_ends_even_what_does_not_listen_within_a_second(name):
     )
     process = subprocess.Popen(
         [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        preexec_fn=lambda: [signal.signal(one, signal.SIG_DFL) for one in (signal.SIGINT, signal.SIGHUP)],
+        preexec_fn=lambda: [signal.signal(signum, signal.SIG_DFL) for signum in (signal.SIGINT, signal.SIGHUP)],
     )  # fmt: skip
     assert process.stdout.readline() == "ready\n"
     started = time.monotonic()
     process.send_signal(getattr(signal, name))
-    _, said = process.communicate(timeout=60)
+    _, message = process.communicate(timeout=60)
     assert process.returncode == 130
-    assert said == "stylobate: interrupted; nothing is kept.\n"
+    assert message == "stylobate: interrupted; nothing is kept.\n"
     assert signals.PATIENCE < 1.0
     assert time.monotonic() - started < 10.0  # a second, where nothing else is running
 

@@ -21,7 +21,7 @@ COLUMN = st.preset("paper-12-drums")
 
 
 @pytest.fixture
-def told(capsys):
+def logged(capsys):
     """What is told to the log, as the command line says it."""
     log = logging.getLogger("stylobate")
     before, level = list(log.handlers), log.level
@@ -47,7 +47,7 @@ class Bell:
         self.running = False
 
 
-def test_compiling_is_told_where_it_takes_long(told, monkeypatch):
+def test_compiling_is_told_where_it_takes_long(logged, monkeypatch):
     clock = [100.0]
     monkeypatch.setattr(jit, "time", SimpleNamespace(monotonic=lambda: clock[0]))
     monkeypatch.setattr(jit, "threading", SimpleNamespace(Timer=Bell))
@@ -60,16 +60,16 @@ def test_compiling_is_told_where_it_takes_long(told, monkeypatch):
         with event.trigger_event("numba:compile"):
             assert Bell.rung.wait == 0.5
             clock[0] += 0.5
-            assert told() == ""
+            assert logged() == ""
             Bell.rung.ring()
-            assert told().startswith("stylobate: compiling, which these settings need once on this machine: ")
+            assert logged().startswith("stylobate: compiling, which these settings need once on this machine: ")
             assert Bell.rung.wait == 30.0
             clock[0] += 30.0
             last = Bell.rung
             last.ring()
-            assert told() == "stylobate: still compiling, for 32 s so far ...\n"
+            assert logged() == "stylobate: still compiling, for 32 s so far ...\n"
         last.ring()  # one that came too late
-    assert told() == ""
+    assert logged() == ""
 
 
 def test_nothing_is_told_where_nobody_listens(capsys, monkeypatch):
@@ -79,7 +79,7 @@ def test_nothing_is_told_where_nobody_listens(capsys, monkeypatch):
     assert capsys.readouterr().err == ""
 
 
-def test_progress_in_lines(told, monkeypatch):
+def test_progress_in_lines(logged, monkeypatch):
     clock = [100.0]
     monkeypatch.setattr(console, "time", SimpleNamespace(monotonic=lambda: clock[0]))
     lines = console.Lines("runs")
@@ -87,7 +87,7 @@ def test_progress_in_lines(told, monkeypatch):
         clock[0] = 100.0 + at
         lines(done, 30)
     # the first after ten seconds, the next after half as many again; two seconds a run after the first; none at the end
-    assert told().splitlines() == [
+    assert logged().splitlines() == [
         "stylobate: 5 of 30 runs, about 50 s to go ...",
         "stylobate: 8 of 30 runs, about 44 s to go ...",
     ]
@@ -97,10 +97,10 @@ def left_at(monkeypatch, finished, total):
     """The time to go that is told where so many are done at these times."""
     clock = [0.0]
     monkeypatch.setattr(console, "time", SimpleNamespace(monotonic=lambda: clock[0]))
-    pace, found = console.Pace(), []
+    pace, forecasts = console.Pace(), []
     for clock[0], done in finished:
-        found.append(pace.remaining(done, total))
-    return found
+        forecasts.append(pace.remaining(done, total))
+    return forecasts
 
 
 def test_the_time_to_go_is_that_of_runs_and_not_of_compiling(monkeypatch):
@@ -124,42 +124,42 @@ def test_the_time_to_go_is_that_of_runs_and_not_of_compiling(monkeypatch):
 def test_runs_that_end_many_at_a_time_tell_nothing_until_some_such_times_have_passed(monkeypatch):
     # sixteen lanes end within some milliseconds every minute: of 1600 runs all take 100 minutes
     burst = [(40.0 + 60.0 * (1 + n) + 0.001 * k, 1 + k + 16 * n) for n in range(5) for k in range(16)]
-    found = left_at(monkeypatch, [(0.0, 0), *burst], 1600)
-    first = next(k for k, one in enumerate(found) if one is not None)
+    forecasts = left_at(monkeypatch, [(0.0, 0), *burst], 1600)
+    first = next(k for k, forecast in enumerate(forecasts) if forecast is not None)
     assert first == 1 + 3 * 16  # with the fourth minute
-    assert found[first] == duration(180.0 * (1600 - 49) / 48)
+    assert forecasts[first] == duration(180.0 * (1600 - 49) / 48)
 
 
-def test_progress_is_in_lines_where_there_is_no_terminal(told, monkeypatch):
+def test_progress_is_in_lines_where_there_is_no_terminal(logged, monkeypatch):
     monkeypatch.setattr(console, "FIRST_LINE", 0.0)
     assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.1g,1s", "--replicates", "0"]) == 0
-    assert " of 1 seconds of motion" in told()
+    assert " of 1 seconds of motion" in logged()
 
 
-def test_a_long_computation_is_told_before_it_begins(told, monkeypatch):
+def test_a_long_computation_is_told_before_it_begins(logged, monkeypatch):
     motion = st.Motion(0.01, np.sin(np.arange(3001) / 10.0), metadata={"format": "made for this test"})
     model = st.DistinctElement2D()
     step, cost = engine_for(model, COLUMN).expected_step(motion)
     monkeypatch.setitem(run_cases.__globals__, "LONG_WAIT", 1.0)
     # so many to a lane, and the longest besides, as some lane begins it last
     for runs, threads, blocks in ((1, 1, 1), (320, 2, 10 + 31 / 32), (320, 1, 20 + 15 / 16)):
-        some = run_cases([Case(COLUMN, motion)] * runs, model, threads=threads)
+        results = run_cases([Case(COLUMN, motion)] * runs, model, threads=threads)
         monkeypatch.setattr(LaneEngine, "run_many", lambda *_: iter(()))
-        assert list(some) == []
+        assert list(results) == []
         what = "this run takes" if runs == 1 else "320 runs take"
         expected = duration(blocks * cost * motion.duration / step)
-        assert told() == f"stylobate: {what} about {expected} where nothing else runs on this machine ...\n"
+        assert logged() == f"stylobate: {what} about {expected} where nothing else runs on this machine ...\n"
 
 
-def test_what_falls_takes_longer_than_told(told, monkeypatch):
+def test_what_falls_takes_longer_than_told(logged, monkeypatch):
     monkeypatch.setitem(run_cases.__globals__, "LONG_WAIT", 0.0)
     block = st.Block([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)], density=2500.0, name="cube")
     cube = st.Assembly([block], st.Joint(1e8, 5e7, friction_angle=35.0), name="cube")
     st.simulate(cube, st.harmonic(1.0, 0.1, 0.1), DistinctElement2D())
-    assert " where nothing else runs on this machine, and longer once something falls ...\n" in told()
+    assert " where nothing else runs on this machine, and longer once something falls ...\n" in logged()
 
 
-def test_the_wait_for_several_directions_is_that_for_all_of_them(told, tmp_path, monkeypatch):
+def test_the_wait_for_several_directions_is_that_for_all_of_them(logged, tmp_path, monkeypatch):
     """Twelve directions, each with twenty columns like it of which fifteen ride along: the five others are a batch."""
     waits = []
     monkeypatch.setitem(
@@ -198,14 +198,14 @@ def test_links_cost_what_their_steps_do():
         links=tuple(st.Dowel(joint=k, shear_stiffness=1e8, shear_capacity=1e5) for k in range(1, 6))
     )
     for model in (DistinctElement2D(), DistinctElement3D()):
-        bare, more = (engine_for(model, one).expected_step(motion)[1] for one in (column, linked))
+        bare, more = (engine_for(model, structure).expected_step(motion)[1] for structure in (column, linked))
         assert more == pytest.approx(1.6 * bare, rel=0.07)
 
 
 def test_quiet_is_left_out_and_said(capsys, tmp_path):
     samples = np.concatenate([np.zeros(500), 0.1 * np.sin(2.0 * np.pi * np.arange(101) / 100.0), np.zeros(1500)])
     record = tmp_path / "record.csv"
-    record.write_text("time_s,ax_g\n" + "".join(f"{0.01 * i:.2f},{one:.6f}\n" for i, one in enumerate(samples)))
+    record.write_text("time_s,ax_g\n" + "".join(f"{0.01 * i:.2f},{sample:.6f}\n" for i, sample in enumerate(samples)))
     run = ["run", "paper-monolithic", "--motion", str(record), "--replicates", "0"]
     assert call(run) == 0
     assert " of 21 s, without what is quiet (--whole steps all)\n" in capsys.readouterr().out

@@ -59,7 +59,7 @@ KINDS: dict[str, list[dict[str, Any]]] = {
 
 
 def linked(kind: str) -> Assembly:
-    return dataclasses.replace(PORTAL, links=tuple(block_link(**one) for one in KINDS[kind]))
+    return dataclasses.replace(PORTAL, links=tuple(block_link(**fields) for fields in KINDS[kind]))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -68,15 +68,15 @@ def test_the_ledger_closes_with_every_kind_of_link(kind, tmp_path) -> None:
     response = simulate(linked(kind), MOTION, st.DistinctElement2D(step_factor=0.1))
     links = response.measures.links
     assert response.energy_imbalance < 2e-3
-    assert min(max(one.peak_shear, one.peak_tension) for one in links) > 100.0
+    assert min(max(link.peak_shear, link.peak_tension) for link in links) > 100.0
     if kind == "yielding clamp":
         assert links[0].peak_tension == pytest.approx(4e3, rel=1e-9)
         assert links[0].peak_elongation > 3.0 * 4e3 / 3e7
     if kind == "brittle clamp":
         assert links[0].broken
-        told = response.summary()
-        assert told["links_broken"] == 1
-        assert told["links"][0]["broken_s"] == links[0].broken_at
+        summary = response.summary()
+        assert summary["links_broken"] == 1
+        assert summary["links"][0]["broken_s"] == links[0].broken_at
         after = response.time > links[0].broken_at
         assert not response.links.tension[after].any()
         assert not response.links.shear[after].any()
@@ -133,5 +133,5 @@ def test_a_column_in_an_assembly_takes_its_links_along(tmp_path) -> None:
     assert np.abs(way).max() > 1e-5
     assert other == pytest.approx(way, abs=0.01 * np.abs(way).max())
     for name in ("shear", "tension", "slip"):
-        one, two = getattr(plane.links, name), getattr(blocks.links, name)
-        assert two == pytest.approx(one, abs=0.01 * np.abs(one).max())
+        expected, actual = getattr(plane.links, name), getattr(blocks.links, name)
+        assert actual == pytest.approx(expected, abs=0.01 * np.abs(expected).max())

@@ -38,9 +38,9 @@ FOUND = unequal().replace(
 
 def mirrored(column: Column) -> Column:
     """The column as seen from behind."""
-    found = column.as_found
-    drums = [FoundDrum(d.drum, -d.offset, -d.tilt, d.chip_right, d.chip_left) for d in found.drums]
-    return column.replace(as_found=AsFound(tuple(drums), -found.base_tilt))
+    as_found = column.as_found
+    drums = [FoundDrum(d.drum, -d.offset, -d.tilt, d.chip_right, d.chip_left) for d in as_found.drums]
+    return column.replace(as_found=AsFound(tuple(drums), -as_found.base_tilt))
 
 
 def imbalances(column, unit, step_factor, **options):
@@ -156,16 +156,16 @@ def test_four_times_the_size_is_the_same_motion_to_the_bit(column):
     small = DistinctElement2D(time_step=step, stiffness_damping=2.0**-15, mass_damping=0.25)
     large = DistinctElement2D(time_step=2.0 * step, stiffness_damping=2.0**-14, mass_damping=0.125)
     motion = with_vertical(4.0).scaled(0.35 * g)
-    one = simulate(column, motion, small)
+    original = simulate(column, motion, small)
     four = simulate(scaled(column, 4.0), motion.replace(dt=2.0 * motion.dt), large, output_interval=0.02)
-    assert one.peak_top_displacement > 0.02
-    np.testing.assert_array_equal(four.time, 2.0 * one.time)
+    assert original.peak_top_displacement > 0.02
+    np.testing.assert_array_equal(four.time, 2.0 * original.time)
     for name in ("drum_x", "drum_z", "joint_opening", "joint_slip"):
-        np.testing.assert_array_equal(getattr(four, name), 4.0 * getattr(one, name))
-    np.testing.assert_array_equal(four.drum_rotation, one.drum_rotation)
-    for term, values in one.histories.energy.items():
+        np.testing.assert_array_equal(getattr(four, name), 4.0 * getattr(original, name))
+    np.testing.assert_array_equal(four.drum_rotation, original.drum_rotation)
+    for term, values in original.histories.energy.items():
         np.testing.assert_array_equal(four.histories.energy[term], 256.0 * values)
-    assert four.outcome == one.outcome
+    assert four.outcome == original.outcome
 
 
 def test_similar_columns_have_similar_step_and_verdicts():

@@ -44,11 +44,11 @@ def places(column, motion, **options):
     model = DistinctElement3D(**options)
     block = engine_for(model, column).block(RunOptions(until_end=True))
     block.load(0, Case(column, motion))
-    found = []
+    centroids = []
     while not block.is_over(0):
         block.advance(1)
-        found.append(np.array([block.records.body[c][1:, 0] for c in "xyz"]))
-    return np.array(found), np.arange(1, len(found) + 1) * block.chunk * block.dt[0]
+        centroids.append(np.array([block.records.body[c][1:, 0] for c in "xyz"]))
+    return np.array(centroids), np.arange(1, len(centroids) + 1) * block.chunk * block.dt[0]
 
 
 # -- energy ------------------------------------------------------------------------------------------------------
@@ -112,10 +112,10 @@ def test_turned_input_turns_the_response():
 
 @pytest.mark.parametrize(("column", "duration"), [(MONOLITH, 5.0), (TWELVE, 1.0)], ids=["monolith", "12 drums"])
 def test_mirrored_input_gives_the_mirrored_motion_to_the_bit(column, duration):
-    one, _ = places(column, two_ways(duration))
-    other, _ = places(column, two_ways(duration, mirrored=True))
-    np.testing.assert_array_equal(one[:, [0, 2]], other[:, [0, 2]])
-    np.testing.assert_array_equal(one[:, 1], -other[:, 1])
+    centroids, _ = places(column, two_ways(duration))
+    mirrored, _ = places(column, two_ways(duration, mirrored=True))
+    np.testing.assert_array_equal(centroids[:, [0, 2]], mirrored[:, [0, 2]])
+    np.testing.assert_array_equal(centroids[:, 1], -mirrored[:, 1])
 
 
 def test_planar_twin_stays_in_its_plane():
@@ -150,9 +150,9 @@ def test_a_target_restitution_chooses_the_damping_and_says_its_cost():
     model = DistinctElement3D(restitution=target)
     beta = model.damping(MONOLITH)
     assert 3e-4 < beta < 3e-3
-    found = restitutions(MONOLITH, DistinctElement3D())
-    assert found[0] == pytest.approx(0.98, abs=0.01)
-    assert np.interp(beta, TRIED, found) == pytest.approx(target, abs=1e-3)
+    coefficients = restitutions(MONOLITH, DistinctElement3D())
+    assert coefficients[0] == pytest.approx(0.98, abs=0.01)
+    assert np.interp(beta, TRIED, coefficients) == pytest.approx(target, abs=1e-3)
     response = simulate(MONOLITH, harmonic(1.0, 0.1 * g, 0.2), model)
     assert response.provenance["stiffness_damping_s"] == beta
     assert response.provenance["steps_over_undamped"] > 2.0

@@ -35,11 +35,11 @@ def rig(request):
 
 def test_loops_of_a_closed_face_do_no_work(rig, request):
     faceted = request.node.callspec.params["rig"] in FACETED
-    found = [probe.measured(rig, 47 + k) for k in range(1 if rig.lanes > 1 else POSES)]
-    stuck = np.concatenate([one.stuck for one in found])
+    results = [probe.measured(rig, 47 + k) for k in range(1 if rig.lanes > 1 else POSES)]
+    stuck = np.concatenate([result.stuck for result in results])
     assert stuck.sum() >= POSES
-    assert np.concatenate([one.askew for one in found])[stuck].max() < (FACETED_ASKEW if faceted else ASKEW)
-    assert np.abs(np.concatenate([one.turns for one in found], axis=1))[:, stuck].max() < (
+    assert np.concatenate([result.askew for result in results])[stuck].max() < (FACETED_ASKEW if faceted else ASKEW)
+    assert np.abs(np.concatenate([result.turns for result in results], axis=1))[:, stuck].max() < (
         FACETED_ROUND if faceted else ROUND
     )
 
@@ -49,8 +49,8 @@ def test_friction_never_gives_energy_back(rig):
 
 
 def test_a_face_that_opens_and_closes_again_keeps_its_shear(rig):
-    found = [probe.lost_by_rocking(rig, 47 + k) for k in range(1 if rig.lanes > 1 else POSES)]
-    assert np.concatenate(found).max() < CREEPS
+    losses = [probe.lost_by_rocking(rig, 47 + k) for k in range(1 if rig.lanes > 1 else POSES)]
+    assert np.concatenate(losses).max() < CREEPS
 
 
 @pytest.mark.parametrize("degrees", [20.0, 44.0, 46.0])

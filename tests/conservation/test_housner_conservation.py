@@ -55,13 +55,13 @@ def test_similarity():
     large = Column.of_drums([Drum(2.0 * size, 0.5 * size, 0.4 * size, 1600.0)], joint)
     motion = harmonic(1.6, 0.35 * g, 5.0)
     stretched = motion.replace(dt=motion.dt * math.sqrt(size))
-    one = simulate(small, motion, HousnerBlock(), output_interval=0.01)
-    two = simulate(large, stretched, HousnerBlock(), output_interval=0.02)
-    assert np.count_nonzero(np.diff(np.sign(one.drum_rotation[:, 0]))) > 5  # impacts
-    assert np.array_equal(two.time, 2.0 * one.time)
-    assert np.array_equal(two.drum_rotation, one.drum_rotation)
-    assert two.peak_rotation == one.peak_rotation
-    assert two.peak_top_displacement == size * one.peak_top_displacement
+    original = simulate(small, motion, HousnerBlock(), output_interval=0.01)
+    enlarged = simulate(large, stretched, HousnerBlock(), output_interval=0.02)
+    assert np.count_nonzero(np.diff(np.sign(original.drum_rotation[:, 0]))) > 5  # impacts
+    assert np.array_equal(enlarged.time, 2.0 * original.time)
+    assert np.array_equal(enlarged.drum_rotation, original.drum_rotation)
+    assert enlarged.peak_rotation == original.peak_rotation
+    assert enlarged.peak_top_displacement == size * original.peak_top_displacement
 
 
 def test_a_small_rotation_moves_points_as_a_rigid_body_does():

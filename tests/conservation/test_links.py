@@ -58,13 +58,13 @@ def test_the_ledger_closes_with_every_kind_of_link(kind) -> None:
     response = run(COLUMN.replace(links=KINDS[kind]), st.DistinctElement2D(step_factor=0.1))
     links = response.measures.links
     assert response.energy_imbalance < 2e-3
-    assert max(max(one.peak_shear, one.peak_tension) for one in links) > 100.0
+    assert max(max(link.peak_shear, link.peak_tension) for link in links) > 100.0
     if kind == "yielding dowels":
-        assert max(one.peak_slip for one in links) > 10.0 * 600.0 / 1e7
+        assert max(link.peak_slip for link in links) > 10.0 * 600.0 / 1e7
     if kind == "brittle dowels":
-        assert any(one.broken for one in links)
-        when = max(one.broken_at for one in links if one.broken)
-        broken = [i for i, one in enumerate(links) if one.broken]
+        assert any(link.broken for link in links)
+        when = max(link.broken_at for link in links if link.broken)
+        broken = [i for i, link in enumerate(links) if link.broken]
         assert not response.links.shear[response.time > when][:, broken].any()
     if kind == "layer":
         viscous = response.histories.energy["viscous"]
@@ -75,11 +75,11 @@ def test_the_ledger_closes_with_every_kind_of_link(kind) -> None:
 @pytest.mark.parametrize("kind", ["elastic dowels", "brittle dowels", "bars", "ties", "layer"])
 def test_rigid_blocks_close_their_ledger_with_links(kind) -> None:
     """Less their pretension, which rigid blocks refuse; to 0.2 %, in half of the usual step."""
-    pulled = [one for one in KINDS[kind] if getattr(one, "pretension", 0.0)]
-    links = [dataclasses.replace(one, pretension=0.0) if one in pulled else one for one in KINDS[kind]]
+    pulled = [link for link in KINDS[kind] if getattr(link, "pretension", 0.0)]
+    links = [dataclasses.replace(link, pretension=0.0) if link in pulled else link for link in KINDS[kind]]
     response = run(COLUMN.replace(links=links), st.RigidBlock(step_factor=0.1))
     assert response.energy_imbalance < 2e-3
-    assert max(max(one.peak_shear, one.peak_tension) for one in response.measures.links) > 100.0
+    assert max(max(link.peak_shear, link.peak_tension) for link in response.measures.links) > 100.0
     if pulled:
         with pytest.raises(st.InputError, match=r"pretension of .* N; use dem2d or dem3d"):
             run(COLUMN.replace(links=KINDS[kind]), st.RigidBlock())
@@ -115,18 +115,18 @@ def test_a_broken_link_changes_nothing_afterwards() -> None:
     model = st.DistinctElement2D(time_step=2e-5)
     motion = st.harmonic(frequency=2.0, amplitude=4.5, duration=0.5)
     linked = COLUMN.replace(links=KINDS["elastic dowels"] + KINDS["ties"][1:])
-    found = []
+    positions = []
     for column in (COLUMN, linked):
         block = engine_for(model, column).block(RunOptions())
         block.load(0, Case(column, motion))
         if column.links:
             block.records.link["on"] = 0.0
         block.advance(200)
-        found.append(block.records.body["x"][1:, 0].copy())
+        positions.append(block.records.body["x"][1:, 0].copy())
         if column.links:
             assert not block.records.link["fx"].any()
             assert not block.records.link["ft"].any()
-    assert found[1] == pytest.approx(found[0], rel=1e-9, abs=1e-15)
+    assert positions[1] == pytest.approx(positions[0], rel=1e-9, abs=1e-15)
 
 
 @pytest.mark.parametrize("model", [PLANE, st.DistinctElement3D()], ids=lambda model: model.name)
@@ -134,17 +134,21 @@ def test_mirror_images_move_as_mirror_images(model) -> None:
     """Until rounding has grown; a quarter of a second before joints open."""
     links = KINDS["elastic dowels"] + KINDS["bars"][:1] + KINDS["ties"][:1]
     mirrored = tuple(
-        type(one)(
-            **(vars(one) | {"at": (-one.at[0], one.at[1])} | ({"to": (-0.25, 0.0)} if isinstance(one, st.Tie) else {}))
+        type(link)(
+            **(
+                vars(link)
+                | {"at": (-link.at[0], link.at[1])}
+                | ({"to": (-0.25, 0.0)} if isinstance(link, st.Tie) else {})
+            )
         )
-        for one in links
+        for link in links
     )
     motion, reverse = (st.harmonic(frequency=2.0, amplitude=sign * 2.0, duration=0.25) for sign in (1.0, -1.0))
-    one = run(COLUMN.replace(links=links), model, motion)
+    original = run(COLUMN.replace(links=links), model, motion)
     other = run(COLUMN.replace(links=mirrored), model, reverse)
-    x = one.histories.drum_x
+    x = original.histories.drum_x
     assert other.histories.drum_x == pytest.approx(-x, abs=1e-7 * np.abs(x).max())
-    assert other.links.shear == pytest.approx(one.links.shear, abs=1e-6 * one.links.shear.max())
+    assert other.links.shear == pytest.approx(original.links.shear, abs=1e-6 * original.links.shear.max())
 
 
 def test_a_batch_has_the_numbers_of_single_runs() -> None:
@@ -157,8 +161,8 @@ def test_a_batch_has_the_numbers_of_single_runs() -> None:
         assert row["peak_top_displacement_m"] == alone.peak_top_displacement
         assert row["steps"] == alone.steps
         if column.links:
-            assert row["links_broken"] == sum(one.broken for one in alone.links)
-            assert row["link_utilisation"] == [one.utilisation for one in alone.links]
+            assert row["links_broken"] == sum(link.broken for link in alone.links)
+            assert row["link_utilisation"] == [link.utilisation for link in alone.links]
 
 
 def test_a_response_with_links_comes_back_from_its_file(tmp_path) -> None:
@@ -169,8 +173,8 @@ def test_a_response_with_links_comes_back_from_its_file(tmp_path) -> None:
     assert again.sentence == response.sentence
     data = response.to_xarray()
     assert data.link_shear.dims == ("time", "link")
-    assert [one["name"] for one in response.summary()["links"]] == list(data.link.values)
-    broken = sum(one.broken for one in response.measures.links)
+    assert [link["name"] for link in response.summary()["links"]] == list(data.link.values)
+    broken = sum(link.broken for link in response.measures.links)
     assert f"{broken} of 5 links broke, the first" in response.sentence
 
 

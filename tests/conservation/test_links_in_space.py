@@ -47,7 +47,7 @@ KINDS: dict[str, list[dict[str, Any]]] = {
 
 
 def portal(*kinds: dict[str, Any]) -> st.SpatialAssembly:
-    return st.SpatialAssembly(STONES, JOINT, "portal", links=tuple(block_link(**one) for one in kinds))
+    return st.SpatialAssembly(STONES, JOINT, "portal", links=tuple(block_link(**fields) for fields in kinds))
 
 
 def shaken(amplitude: float, duration: float, frequency: float = 2.0) -> st.Motion:
@@ -71,11 +71,11 @@ def test_the_ledger_closes_with_every_kind_of_link(kind, tmp_path) -> None:
 def test_a_clamped_beam_falls_with_its_columns_and_by_itself_without() -> None:
     """Both columns are thrown over: with bars and a clamp that hold they lie as they stood to each other; without, apart, by
     ten times as much at least: where debris comes to lie is a draw (0.47 and 0.77 m, 28 November 2026)."""
-    held = [CLAMP | {"axial_stiffness": 3e7, "shear_stiffness": 3e7}]
-    held += [HELD | {"between": pair} for pair in (("west", "one"), ("east", "two"))]
+    connections = [CLAMP | {"axial_stiffness": 3e7, "shear_stiffness": 3e7}]
+    connections += [HELD | {"between": pair} for pair in (("west", "one"), ("east", "two"))]
     motion = shaken(9.0, 2.5, 1.0)
     apart = []
-    for links in ((), held):
+    for links in ((), connections):
         response = st.simulate(portal(*links), motion, st.DistinctElement3D(stiffness_damping=1e-4))
         assert {name for name, _ in response.measures.blocks.fell_at} == {"west", "east", "one", "two"}
         assert response.energy_imbalance < 0.02
@@ -88,19 +88,19 @@ def test_a_clamped_beam_falls_with_its_columns_and_by_itself_without() -> None:
 
 def test_momentum_is_kept_by_links() -> None:
     """Two boxes in free flight, held by a clamp and a tie, turn about their common centroid, which flies as a point."""
-    one = st.Stone.box(
+    first = st.Stone.box(
         (0.5, 0.5, 0.5), (0.0, 0.0, 1.0), 2000.0, name="a", velocity=(0.0, 1.0, 2.0), angular_velocity=(1.0, 3.0, 2.0)
     )
-    two = st.Stone.box((0.5, 0.4, 0.3), (0.7, 0.0, 1.0), 2000.0, name="b", velocity=(0.0, -1.0, 2.0))
+    second = st.Stone.box((0.5, 0.4, 0.3), (0.7, 0.0, 1.0), 2000.0, name="b", velocity=(0.0, -1.0, 2.0))
     links = (
         block_link("clamp", ("a", "b"), (0.2, 0.0, 1.2), (0.5, 0.0, 1.2), axial_stiffness=1e6, shear_stiffness=1e6),
         block_link("core", ("a", "b"), (-0.2, 0.1, 1.2), (0.8, 0.1, 1.2), axial_stiffness=1e5, pretension=1e2),
     )
-    scene = st.SpatialAssembly((one, two), JOINT, "pair", gravity=0.0, ground=None, settle=False, links=links)
+    scene = st.SpatialAssembly((first, second), JOINT, "pair", gravity=0.0, ground=None, settle=False, links=links)
     response = st.simulate(scene, st.Motion(0.01, np.zeros(101)), st.DistinctElement3D(time_step=1e-4))
-    masses = np.array([one.mass, two.mass])
+    masses = np.array([first.mass, second.mass])
     centroid = (masses[:, None] * response.body_position).sum(axis=1) / masses.sum()
-    start = masses @ np.array([one.velocity, two.velocity]) / masses.sum()
+    start = masses @ np.array([first.velocity, second.velocity]) / masses.sum()
     assert centroid == pytest.approx(centroid[0] + np.outer(response.time, start), abs=1e-10)
     energy = response.energy
     total = sum(energy[name] for name in ("kinetic", "gravitational", "elastic", "friction", "viscous"))

@@ -27,7 +27,7 @@ def test_the_ledger_closes_until_all_lies_still(kind) -> None:
     response = to_the_ground(KINDS[kind])
     assert response.energy_imbalance < 0.01
     assert response.collapsed == bool(response.mechanism.fallen)
-    assert max(max(one.peak_shear, one.peak_tension) for one in response.measures.links) > 100.0
+    assert max(max(link.peak_shear, link.peak_tension) for link in response.measures.links) > 100.0
     energy = response.histories.energy
     for term in ("friction", "viscous"):  # a slip, a break and a dashpot can only take energy
         assert np.diff(energy[term]).min() >= -1e-3 * energy[term].max()
@@ -49,18 +49,18 @@ def test_links_that_are_never_reached_change_no_bit() -> None:
     )  # certain when they are out of their holes
     assert linked.energy_imbalance == bare.energy_imbalance
     assert not linked.links.shear.any()
-    assert max(one.peak_slip for one in linked.measures.links) > 0.05
+    assert max(link.peak_slip for link in linked.measures.links) > 0.05
 
 
 def test_ties_hold_a_column_that_falls_without_them() -> None:
     ties = tuple(st.Tie(at=(x, 0.0), to=(0.8 * x, 0.0), to_height=1.7, axial_stiffness=1e7) for x in (0.3, -0.3))
-    bare, held = to_the_ground(()), to_the_ground(ties)
+    bare, tied = to_the_ground(()), to_the_ground(ties)
     assert bare.mechanism.fallen == (1, 2, 3)
-    assert held.mechanism.fallen == ()
-    assert held.mechanism.standing == (1, 2, 3)
-    assert not held.collapsed
-    assert held.measures.decided
-    assert min(one.peak_tension for one in held.measures.links) > 1e3
+    assert tied.mechanism.fallen == ()
+    assert tied.mechanism.standing == (1, 2, 3)
+    assert not tied.collapsed
+    assert tied.measures.decided
+    assert min(link.peak_tension for link in tied.measures.links) > 1e3
 
 
 def test_links_that_break_in_the_fall_are_told() -> None:
@@ -75,7 +75,7 @@ def test_links_that_break_in_the_fall_are_told() -> None:
     )
     dowel = st.Dowel(joint=1, shear_stiffness=1e7, shear_capacity=600.0, failure="brittle")
     response = to_the_ground((tie, dowel))
-    broken = {one.kind: one for one in response.measures.links}
+    broken = {link.kind: link for link in response.measures.links}
     assert response.collapsed
     assert broken["dowel"].broken_at < 0.5
     assert broken["tie"].broken_at > 1.0
@@ -84,8 +84,8 @@ def test_links_that_break_in_the_fall_are_told() -> None:
     assert after.any()
     assert not response.links.tension[after].any()
     assert response.energy_imbalance < 0.01
-    told = response.summary()
-    assert told["links_broken"] == 2
-    assert told["first_link_broken_s"] == broken["dowel"].broken_at
+    summary = response.summary()
+    assert summary["links_broken"] == 2
+    assert summary["first_link_broken_s"] == broken["dowel"].broken_at
     assert "broke" in response.sentence
-    assert not math.isnan(told["links"][0]["broken_s"])
+    assert not math.isnan(summary["links"][0]["broken_s"])

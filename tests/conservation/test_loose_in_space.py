@@ -113,11 +113,11 @@ def test_the_ground_is_under_a_part_far_from_the_centroid():
 
 def halves(sides, way):
     """Two boxes that are one, cut across an axis."""
-    sub, found = np.where(np.arange(3) == way, 0.5, 1.0) * sides, []
+    sub, meshes = np.where(np.arange(3) == way, 0.5, 1.0) * sides, []
     for side in (-0.25, 0.25):
         mesh = box_mesh(sub)
-        found.append(Mesh(mesh.vertices + side * sides * (np.arange(3) == way), mesh.faces))
-    return found
+        meshes.append(Mesh(mesh.vertices + side * sides * (np.arange(3) == way), mesh.faces))
+    return meshes
 
 
 @pytest.mark.parametrize("seed", [25, 44, 48, 51, 89])
@@ -132,10 +132,10 @@ def test_a_box_in_two_parts_is_hit_as_one(seed):
         sides, turns, way = rng.uniform(0.4, 0.9, 3), rng.normal(size=(2, 3)), rng.normal(size=3)
         way /= np.linalg.norm(way)
         other = box(rng.uniform(0.3, 0.8, 3), 1.6 * way, turn(*turns[1]), velocity=-2.0 * way, spin=rng.normal(size=3))
-        one = box(sides, (0.0, 0.0, 0.0), turn(*turns[0]))
+        body = box(sides, (0.0, 0.0, 0.0), turn(*turns[0]))
         if parts == 2:
-            one = one._replace(parts=halves(sides, seed % 2))
-        lane = Lane(one, other, kn=5e9, mu=0.0, gravity=(0.0, 0.0, 0.0), restitution=0.5, step=5e-5)
+            body = body._replace(parts=halves(sides, seed % 2))
+        lane = Lane(body, other, kn=5e9, mu=0.0, gravity=(0.0, 0.0, 0.0), restitution=0.5, step=5e-5)
         energy = lane.energies()[1]
         lane.run(0.8)
         assert lane.now["touched"][0] >= 0

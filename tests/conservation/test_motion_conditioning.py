@@ -210,12 +210,12 @@ def test_a_motion_without_azimuths_is_turned_as_a_whole_as_if_its_x_pointed_nort
 
 
 def test_turning_needs_two_components_that_are_not_parallel():
-    one = Motion(0.1, [0.0, 1.0])
+    motion = Motion(0.1, [0.0, 1.0])
     parallel = Motion(0.1, [0.0, 1.0], [0.0, 1.0], metadata={"azimuths": {"x": 10.0, "y": 190.0}})
     with pytest.raises(InputError, match="one horizontal component"):
-        turned(one, 10.0)
+        turned(motion, 10.0)
     with pytest.raises(InputError, match="one horizontal component"):
-        rotated(one, 10.0)
+        rotated(motion, 10.0)
     with pytest.raises(InputError, match="nearly parallel"):
         rotated(parallel, 10.0)
 
@@ -229,7 +229,7 @@ def test_scaling_meets_its_target(record):
 
 
 @pytest.mark.parametrize(
-    ("step", "said"),
+    ("step", "message"),
     [
         (lambda m: bandpass(m, 10.0, 5.0), "high corner"),
         (lambda m: bandpass(m, 0.1, 1e4), "nothing above"),
@@ -240,8 +240,8 @@ def test_scaling_meets_its_target(record):
         (lambda m: demean(m, 1e9), "pre_event"),
     ],
 )
-def test_impossible_steps_are_refused(record, step, said):
-    with pytest.raises(InputError, match=said):
+def test_impossible_steps_are_refused(record, step, message):
+    with pytest.raises(InputError, match=message):
         step(record)
 
 

@@ -117,12 +117,12 @@ def test_energy_that_the_steps_make_overturns_nothing():
     for share in (0.5, 0.8, 0.9, 0.95):
         for step in (None, 0.019 / column.frequency_parameter):
             model = RigidBeam(initial_rotation=share * column.slenderness, time_step=step)
-            found = simulate(column, quiet, model, tail=20.0)
-            assert not found.collapsed
-            assert found.energy_imbalance > 1e-4
-            ends.add((str(found.outcome), found.decided))
-            if found.outcome is Outcome.FAILED:
-                assert "shorten the time_step" in found.measures.reason
+            response = simulate(column, quiet, model, tail=20.0)
+            assert not response.collapsed
+            assert response.energy_imbalance > 1e-4
+            ends.add((str(response.outcome), response.decided))
+            if response.outcome is Outcome.FAILED:
+                assert "shorten the time_step" in response.measures.reason
     assert ("failed", False) in ends
     assert ("rocked", True) in ends
 
@@ -139,11 +139,11 @@ def test_what_the_ledger_cannot_account_for_counts_against_a_verdict():
         (0.95, 0.06, False),
         (1.01, 0.0, False),
     ):
-        found = measures_of(beam, facts | {"energy": energy * lowest, "unaccounted": unaccounted * lowest})
-        assert found.decided == decided
+        measures = measures_of(beam, facts | {"energy": energy * lowest, "unaccounted": unaccounted * lowest})
+        assert measures.decided == decided
     # Of little input little can be made: what counts is what it takes to overturn the column, or the energy at the start.
     for work, expected in ((0.0, 0.1), (4.0, 0.025)):
-        found = measures_of(beam, facts | {"energy": 0.0, "unaccounted": 0.1 * lowest, "work": work * lowest})
-        assert found.energy_imbalance == pytest.approx(expected, rel=0.02)
-    found = measures_of(beam, facts | {"energy": 0.0, "unaccounted": 0.3 * lowest})
-    assert found.outcome is Outcome.FAILED
+        measures = measures_of(beam, facts | {"energy": 0.0, "unaccounted": 0.1 * lowest, "work": work * lowest})
+        assert measures.energy_imbalance == pytest.approx(expected, rel=0.02)
+    measures = measures_of(beam, facts | {"energy": 0.0, "unaccounted": 0.3 * lowest})
+    assert measures.outcome is Outcome.FAILED

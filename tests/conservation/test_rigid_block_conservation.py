@@ -67,13 +67,13 @@ def test_mirrored_motion_gives_the_mirrored_response():
 def test_a_run_does_not_depend_on_its_lane_neighbours_or_threads():
     columns = [preset("paper-12-drums"), preset("paper-monolithic")] * 12
     motions = [harmonic(1.0, a * G, 1.0) for a in np.linspace(0.1, 0.6, 24)]
-    one = simulate_many(columns, motions, RigidBlock(), threads=1)
-    two = simulate_many(columns, motions, RigidBlock(), threads=2)
-    facts = [name for name in one.columns if name not in ("wall_s",)]
-    assert one[facts].equals(two[facts])
+    serial = simulate_many(columns, motions, RigidBlock(), threads=1)
+    parallel = simulate_many(columns, motions, RigidBlock(), threads=2)
+    facts = [name for name in serial.columns if name not in ("wall_s",)]
+    assert serial[facts].equals(parallel[facts])
     for k in (0, 7, 22):
         alone = simulate(columns[k], motions[k], RigidBlock()).measures.row()
-        assert all(one.iloc[k][name] == value for name, value in alone.items() if isinstance(value, float))
+        assert all(serial.iloc[k][name] == value for name, value in alone.items() if isinstance(value, float))
 
 
 def test_an_unstable_step_is_refused_and_a_stable_one_is_stable():

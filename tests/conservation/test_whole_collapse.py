@@ -49,7 +49,7 @@ def contacts(engine):
         engine.structure, np.zeros(1), x, z, rotation, {}, np.zeros(1), np.zeros(1), at_rest=True, failed=False,
         in_equilibrium=True, energy_imbalance=0.0, time_step=1.0, steps=1, model="dem2d", provenance={},
     )  # fmt: skip
-    n, found = len(engine.records.body), {}
+    n, pairs = len(engine.records.body), {}
     outlines = [np.ascontiguousarray(recorded.outline(0, i).T) for i in range(n)]
     px, pz, qx, qz = (np.zeros(near.MOST) for _ in range(4))
     from_b, q_from = (np.zeros(near.MOST, dtype=np.int64) for _ in range(2))
@@ -63,8 +63,8 @@ def contacts(engine):
                 depth = float(np.ptp((px[:count] * -gz + pz[:count] * gx) / width))
                 thick = min(engine.shape["depth"][i], engine.shape["depth"][j])
                 stiffness = engine.law[i, j, 0] * thick
-                found[i, j] = (depth, width, stiffness, stiffness * area)
-    return found
+                pairs[i, j] = (depth, width, stiffness, stiffness * area)
+    return pairs
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -100,9 +100,9 @@ def test_at_rest_nothing_is_deeper_than_static(name):
     assert set(lying) == set(static)
     for pair, (depth, width, stiffness, _) in lying.items():
         carried = static[pair][3]
-        assert np.mean([one.get(pair, 0.0) for one in forces]) == pytest.approx(carried, rel=0.05)
+        assert np.mean([sample.get(pair, 0.0) for sample in forces]) == pytest.approx(carried, rel=0.05)
         assert depth <= 1.05 * 2.0 * carried / (stiffness * width) + RINGING
-    deepest, static_deepest = (max(depth for depth, *_ in one.values()) for one in (lying, static))
+    deepest, static_deepest = (max(depth for depth, *_ in state.values()) for state in (lying, static))
     assert deepest <= 1.05 * static_deepest + RINGING
 
 

@@ -31,7 +31,7 @@ def top_after(step: float) -> np.ndarray:
 
 def test_second_order_in_the_time_step():
     """Halving the step quarters the change of the answer."""
-    found = [top_after(step) for step in (5e-4, 2.5e-4, 1.25e-4, 6.25e-5)]
-    changes = [float(np.linalg.norm(after - before)) for before, after in pairwise(found)]
+    positions = [top_after(step) for step in (5e-4, 2.5e-4, 1.25e-4, 6.25e-5)]
+    changes = [float(np.linalg.norm(after - before)) for before, after in pairwise(positions)]
     assert changes[0] > 1e-8
     assert np.log2(np.array(changes[:-1]) / changes[1:]) == pytest.approx(2.0, abs=0.1), changes

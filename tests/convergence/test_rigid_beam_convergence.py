@@ -30,13 +30,13 @@ def test_adaptive_error_follows_its_tolerance(monkeypatch):
     reference = freed(1e-12).top_displacement
     size = np.abs(reference).max()
     tolerances = np.array([1e-5, 1e-7, 1e-9])
-    found = [freed(tolerance) for tolerance in tolerances]
-    errors = np.array([np.abs(one.top_displacement - reference).max() / size for one in found])
+    responses = [freed(tolerance) for tolerance in tolerances]
+    errors = np.array([np.abs(response.top_displacement - reference).max() / size for response in responses])
     assert (errors < tolerances).all()
     assert ((30.0 < errors[:-1] / errors[1:]) & (errors[:-1] / errors[1:] < 300.0)).all()  # 100, but for whole steps
-    assert found[2].steps < 1.5 * 1e4 ** (1.0 / 8.0) * found[0].steps
+    assert responses[2].steps < 1.5 * 1e4 ** (1.0 / 8.0) * responses[0].steps
     # The solver of fixed step is another method, of order 4.
     fixed = [simulate(COLUMN, still, RigidBeam(time_step=h, initial_rotation=1e-5)) for h in (4e-4, 2e-4)]
-    coarse, fine = (abs(one.top_displacement[-1] - reference[-1]) / size for one in fixed)
+    coarse, fine = (abs(response.top_displacement[-1] - reference[-1]) / size for response in fixed)
     assert fine < 1e-6
     assert 10.0 < coarse / fine < 25.0  # 2⁴

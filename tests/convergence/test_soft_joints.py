@@ -35,11 +35,11 @@ def test_fast_shaking_of_soft_joints_ends_as_with_a_finer_step():
     motions = [harmonic(f, a * st.g, 5.0) for f in (10.0, 25.0, 50.0) for a in (1.0, 2.0, 4.0, 6.0, 8.0)]
     model = st.DistinctElement2D()
     assert engine_for(model, column).step > 10.0 * longest_step(motions[-1])
-    found = outcomes(column, motions, model)
+    actual = outcomes(column, motions, model)
     finer = [
         outcomes(column, [motion], st.DistinctElement2D(time_step=0.2 * longest_step(motion)))[0] for motion in motions
     ]
-    assert found == finer, Counter(zip(found, finer))
+    assert actual == finer, Counter(zip(actual, finer))
 
 
 def test_the_step_resolves_the_motion():

@@ -33,10 +33,10 @@ def test_the_stored_table_has_date_versions_and_every_part():
     stored = engines.results()
     assert date.fromisoformat(stored["date"]) > date(2026, 1, 1)
     assert set(stored["engines"]) == {*engines.LINES, *engines.EXPERIMENTS}
-    for name, one in stored["engines"].items():
-        assert one["version"]
-        assert one["settings"]
-        assert set(one["parts"]) == {"passes"} if name in engines.EXPERIMENTS else {"plane"} <= set(one["parts"])
+    for name, engine in stored["engines"].items():
+        assert engine["version"]
+        assert engine["settings"]
+        assert set(engine["parts"]) == {"passes"} if name in engines.EXPERIMENTS else {"plane"} <= set(engine["parts"])
     assert set(engines.passing()) == {*engines.LINES, *engines.EXPERIMENTS} - {"LMGC90", BEAM}
     assert not re.search(r"://|(?<!\w)/\w+/", engines.FILE.read_text(encoding="utf-8"))
 
@@ -46,10 +46,10 @@ def test_stored_thresholds_are_those_of_this_code():
     assert tapered.stored()["case"] == tapered.case_digest(), "renew tapered_column.json with: make thresholds"
     assert all(len(rows) == len(tapered.LENGTHS) for rows in tapered.stored()["thresholds"].values())
     for name, (model, square, _) in tapered.MODELS.items():
-        found = tapered.thresholds(name)
-        sides = [(length, found[length][0] + aside) for length in (0.8, 1.0) for aside in (-0.02, 0.01)]
-        seen = tapered.verdicts([(tapered.column(square=square), *one) for one in sides], model)
-        assert [one == verdicts.COLLAPSED for one in seen] == [False, True] * 2, name
+        thresholds = tapered.thresholds(name)
+        sides = [(length, thresholds[length][0] + aside) for length in (0.8, 1.0) for aside in (-0.02, 0.01)]
+        seen = tapered.verdicts([(tapered.column(square=square), *side) for side in sides], model)
+        assert [verdict == verdicts.COLLAPSED for verdict in seen] == [False, True] * 2, name
 
 
 def test_what_the_page_says_of_statics_and_of_free_rocking():
@@ -65,21 +65,21 @@ def test_what_the_page_says_of_passes_nearly_in_a_plane():
 
     With losses of stone and with a long contact, both of whose dashpots resist pivoting, they do not."""
     damped = {"stylobate, losses of stone": 0, "stylobate, β = 10⁻³ s": 2}
-    kept = {one: seen["kept"][engines.PRECESSIONS.index(0.01)] for one, seen in engines.passing().items()}
-    for one in kept:
-        if one in damped:
-            assert engines.fallen(one) == damped[one]
-            assert kept[one] <= 0.943
+    kept = {name: seen["kept"][engines.PRECESSIONS.index(0.01)] for name, seen in engines.passing().items()}
+    for engine in kept:
+        if engine in damped:
+            assert engines.fallen(engine) == damped[engine]
+            assert kept[engine] <= 0.943
         else:
-            assert (engines.fallen(one) == 0) == (kept[one] <= 0.943), one
-            assert (engines.fallen(one) > 0) == (kept[one] >= 0.957), one
+            assert (engines.fallen(engine) == 0) == (kept[engine] <= 0.943), engine
+            assert (engines.fallen(engine) > 0) == (kept[engine] >= 0.957), engine
     assert engines.STRUCK == pytest.approx(struck(), abs=5e-4)
     exact = aside_of_rigid_rolling(0.1)
-    for one, seen in engines.passing().items():
-        if one not in damped:
-            assert seen["aside"][0] == pytest.approx(exact, abs=5e-3), one
-    for one in ("MuJoCo, stiff contact", "PyBullet"):
-        assert seen_in_plane(one) == pytest.approx(engines.STRUCK, abs=5e-3)
+    for engine, seen in engines.passing().items():
+        if engine not in damped:
+            assert seen["aside"][0] == pytest.approx(exact, abs=5e-3), engine
+    for engine in ("MuJoCo, stiff contact", "PyBullet"):
+        assert seen_in_plane(engine) == pytest.approx(engines.STRUCK, abs=5e-3)
 
 
 def struck():
@@ -178,4 +178,4 @@ def test_what_the_page_says_of_round_columns_after_an_impact_and_of_the_rigid_be
     assert all(round(stone["kept"][k], 2) == 0.84 for k in (2, 3, 4, 5))
     assert abs(stone["growth"][-1]) < 0.1
     same = [engines.agreeing(BEAM, "plane", column) for column in ("monolith", "drums")]
-    assert [one.split(" (")[0] for one in same] == ["14 of 18", "7 of 18"]
+    assert [text.split(" (")[0] for text in same] == ["14 of 18", "7 of 18"]

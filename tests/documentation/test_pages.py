@@ -39,9 +39,9 @@ def without_code(text: str, inline: bool = False) -> str:
 
 
 def test_equations_have_numbers_of_their_own():
-    found = tags()
-    assert len(found) > 30
-    assert len(set(found)) == len(found)
+    numbers = tags()
+    assert len(numbers) > 30
+    assert len(set(numbers)) == len(numbers)
 
 
 @pytest.mark.parametrize(
@@ -81,10 +81,10 @@ def test_the_code_cites_nothing_that_readers_do_not_have():
 def test_equations_of_the_paper_cited_in_the_code_are_explained():
     rows = set(re.findall(r"^\| ((?:Eq|Fig)\. \d+) \|", PAGES["theory/index.md"], re.MULTILINE))
     cited = {
-        one
+        reference
         for text in SOURCES.values()
-        for one in re.findall(r"(?:Baraldi et al\.,|[Tt]he paper's|paper) ((?:Eq|Fig)\. \d+)", text)
-        if not re.search(rf"Figs?\. {one.split()[1]}\b.*histor", text)
+        for reference in re.findall(r"(?:Baraldi et al\.,|[Tt]he paper's|paper) ((?:Eq|Fig)\. \d+)", text)
+        if not re.search(rf"Figs?\. {reference.split()[1]}\b.*histor", text)
     }
     assert {"Eq. 6", "Eq. 7", "Eq. 8"} <= cited <= rows
 
@@ -94,10 +94,10 @@ def test_equations_of_the_paper_cited_in_the_code_are_explained():
 
 def test_pages_named_in_the_code_exist():
     named = {
-        one for text in SOURCES.values() for one in re.findall(r"\b(?:docs/)?theory/(\w+)", text) if one != "index"
+        name for text in SOURCES.values() for name in re.findall(r"\b(?:docs/)?theory/(\w+)", text) if name != "index"
     }
     assert {"rigid_beam", "rigid_block"} <= named
-    assert [one for one in named if f"theory/{one}.md" not in PAGES] == []
+    assert [name for name in named if f"theory/{name}.md" not in PAGES] == []
 
 
 @pytest.mark.parametrize("page", PAGES)
@@ -110,8 +110,8 @@ def test_files_named_on_the_page_exist(page):
         *ROOT.glob("packages/*/src/*"),
         *ROOT.glob("studies/src/*"),
     )
-    missing = [one for one in named if not any((root / one).exists() for root in roots)]
-    assert [one for one in missing if "my_model" not in one] == []
+    missing = [path for path in named if not any((root / path).exists() for root in roots)]
+    assert [path for path in missing if "my_model" not in path] == []
 
 
 @pytest.mark.parametrize("page", [*PAGES, "../README.md", "../CONTRIBUTING.md", "../studies/README.md", *READMES])
@@ -159,10 +159,10 @@ def test_every_command_and_option_is_on_the_page():
 def test_every_model_says_what_it_assumes_and_where_it_ends():
     [(_, text)] = extension("model_pages").texts(Path())
     for name in MODELS:
-        one = model_class(name)
+        model = model_class(name)
         assert f"### `{name}`" in text
         assert f"theory/{extension('model_pages').PAGES[name]}.md" in PAGES
-        for sentences in (one.assumptions, one.limits):
+        for sentences in (model.assumptions, model.limits):
             assert len(sentences) >= 3
             assert all(sentence.endswith(".") for sentence in sentences)
 
@@ -170,9 +170,9 @@ def test_every_model_says_what_it_assumes_and_where_it_ends():
 def test_every_public_name_is_in_the_python_reference():
     import stylobate
 
-    found = {path.name: text for path, text in extension("api_pages").texts(Path())}
-    assert all(f"st.{name}" in found["public.txt"] for name in stylobate.__all__)
-    assert "automodule:: strongmotion.formats.peer" in found["strongmotion.md"]
+    pages = {path.name: text for path, text in extension("api_pages").texts(Path())}
+    assert all(f"st.{name}" in pages["public.txt"] for name in stylobate.__all__)
+    assert "automodule:: strongmotion.formats.peer" in pages["strongmotion.md"]
 
 
 def test_quick_tests_are_of_every_room():

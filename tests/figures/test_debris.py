@@ -39,9 +39,11 @@ def fallen():
 
 def test_what_it_says(fallen):
     """The way is along y, 90° from x; it struck something before it had fallen."""
-    said = fallen.sentence
-    assert said.startswith("1 of 2 blocks fell, the first at ")
-    assert "First fell tall, towards azimuth 90° (from x towards y); until then the joint of ground and tall" in said
+    sentence = fallen.sentence
+    assert sentence.startswith("1 of 2 blocks fell, the first at ")
+    assert (
+        "First fell tall, towards azimuth 90° (from x towards y); until then the joint of ground and tall" in sentence
+    )
     assert "Assemblies in space are new" in fallen.describe()
     assert fallen.summary()["doubt"].startswith("Assemblies in space are new")
     assert repr(fallen).count("Assemblies in space are new") == 1
@@ -71,7 +73,7 @@ def test_debris_is_drawn_as_regions(fallen, tmp_path):
     figure = plots.draw_debris(fallen, bodies)
     (axes,) = figure.axes
     circles = [patch for patch in axes.patches if hasattr(patch, "radius")]
-    assert [round(patch.radius, 9) for patch in circles] == [round(one, 9) for one in bodies[0].radii]
+    assert [round(patch.radius, 9) for patch in circles] == [round(radius, 9) for radius in bodies[0].radii]
     inside = [np.mean(np.linalg.norm(ends - bodies[0].middle, axis=1) <= radius + 1e-12) for radius in bodies[0].radii]
     assert inside == [0.5, 0.9]
     assert "in 0 of" not in axes.get_title()

@@ -25,9 +25,9 @@ WORDS = {"S": ("rocked", True), "C": ("collapsed", True), "U": ("rocked", False)
 def domain(letters):
     """Verdicts by frequency, one word each: S stands, C collapsed, U undecided, F failed."""
     rows = [
-        {"outcome": WORDS[one][0], "collapsed": one == "C", "decided": WORDS[one][1]}
+        {"outcome": WORDS[letter][0], "collapsed": letter == "C", "decided": WORDS[letter][1]}
         for word in letters
-        for one in word
+        for letter in word
     ]
     return Domain(preset("paper-12-drums"), "dem2d", F, A, rows, 1.0, {})
 
@@ -37,7 +37,7 @@ HALVED = domain(["SSCCC", "SSCCC", "SSSSS", "SSSCC", "SSSSS", "SSSSS"])
 
 
 def doubt():
-    codes = np.array([[v.VERDICTS.index(one) for one in line] for line in ONE.verdicts], dtype=np.int8)
+    codes = np.array([[v.VERDICTS.index(verdict) for verdict in line] for line in ONE.verdicts], dtype=np.int8)
     codes = np.repeat(codes[:, :, None], 4, axis=2)
     codes[5, 4, 0], codes[0, 2, 1] = v.VERDICTS.index(v.COLLAPSED), v.VERDICTS.index(v.STANDS)
     zero = np.zeros(codes.shape, np.float32)
@@ -48,10 +48,10 @@ def doubt():
 
 
 def test_doubt_counts_only_what_has_a_verdict_both_times():
-    found = doubt()
-    assert np.argwhere(found.steps.differing).tolist() == [[1, 2], [2, 4]]
-    assert np.argwhere(found.differing).tolist() == [[5, 4]]
-    assert found.uncertain == pytest.approx(2 / 30)
+    uncertainty = doubt()
+    assert np.argwhere(uncertainty.steps.differing).tolist() == [[1, 2], [2, 4]]
+    assert np.argwhere(uncertainty.differing).tolist() == [[5, 4]]
+    assert uncertainty.uncertain == pytest.approx(2 / 30)
 
 
 def test_what_changes_is_marked_and_counted():
@@ -63,7 +63,7 @@ def test_what_changes_is_marked_and_counted():
         ["stones that differ by 1 %", "1 of 30 verdicts change"],
     ]
     dots = [[line for line in axes.lines if line.get_marker() == "o"] for axes in figure.axes]
-    assert [sum(len(line.get_xdata()) for line in some) for some in dots] == [0, 2, 1]
+    assert [sum(len(line.get_xdata()) for line in lines) for lines in dots] == [0, 2, 1]
     np.testing.assert_allclose(dots[2][0].get_xydata(), [[F[5], A[4] / st.g]])
 
 
@@ -101,12 +101,12 @@ def test_panel_titles_do_not_run_into_each_other():
     titles = [text for axes in figure.axes for text in axes.findobj(Text) if "% collapse" in text.get_text()]
     assert len(titles) == 4
     boxes = [text.get_window_extent() for text in titles]
-    for one, other in pairwise(boxes):
-        assert one.x1 < other.x0
+    for box, other in pairwise(boxes):
+        assert box.x1 < other.x0
 
 
 def test_a_model_keeps_its_look_in_every_boundary_picture():
-    named = [dataclasses.replace(one, model=name) for one, name in ((ONE, "b"), (HALVED, "d"))]
+    named = [dataclasses.replace(original, model=name) for original, name in ((ONE, "b"), (HALVED, "d"))]
     few = plots.draw_boundaries(named, looks=[1, 3]).axes[0].lines
     many = plots.draw_boundaries([ONE, named[0], HALVED, named[1]]).axes[0].lines
     look = [(line.get_color(), line.get_marker(), line.get_linestyle()) for line in few[:2]]

@@ -29,9 +29,9 @@ def words(axes):
 
 def test_heights_widths_numbers_and_joints():
     (axes,) = plots.draw_elevation(COLUMN).axes
-    said = words(axes)
-    assert {"0.900", "0.800", "0.500", "2.200 m", "1", "2", "3"} <= set(said)
-    assert {"⌀ 1.100 – 1.000", "⌀ 1.100 m", "⌀ 1.200 m", "joint 1", "joint 2, μ = 0.4", "joint 3"} <= set(said)
+    labels = words(axes)
+    assert {"0.900", "0.800", "0.500", "2.200 m", "1", "2", "3"} <= set(labels)
+    assert {"⌀ 1.100 – 1.000", "⌀ 1.100 m", "⌀ 1.200 m", "joint 1", "joint 2, μ = 0.4", "joint 3"} <= set(labels)
     assert axes.get_aspect() == 1.0
     drawn = [patch.get_xy() for patch in axes.patches if isinstance(patch, Polygon)]
     assert np.ptp(np.concatenate(drawn), axis=0) == pytest.approx([1.2, 2.2])
@@ -41,10 +41,10 @@ def test_heights_widths_numbers_and_joints():
 
 @pytest.mark.parametrize("azimuth", [0.0, 90.0])
 def test_what_is_as_found_is_red_and_said(azimuth):
-    found = st.AsFound(
+    as_found = st.AsFound(
         (st.FoundDrum(2, offset=0.04, offset_azimuth=azimuth, tilt=0.5, tilt_azimuth=azimuth),), base_tilt=1.0
     )
-    (axes,) = plots.draw_elevation(COLUMN.replace(as_found=found)).axes
+    (axes,) = plots.draw_elevation(COLUMN.replace(as_found=as_found)).axes
     red = [patch for patch in axes.patches if to_hex(patch.get_edgecolor()) == RED]
     assert len(red) == 2  # the drum above goes along
     to = " to 90°" if azimuth else ""
@@ -56,16 +56,16 @@ def test_what_is_as_found_is_red_and_said(azimuth):
 
 def test_a_drum_that_comes_back_and_a_chipped_one_are_in_place():
     """Offsets are over the drum below: the one above a displaced drum that comes back stands where it was built."""
-    found = st.AsFound(
+    as_found = st.AsFound(
         (
             st.FoundDrum(1, chip_right=0.06, chip_azimuth=30.0),
             st.FoundDrum(2, offset=0.038, offset_azimuth=120.0),
             st.FoundDrum(3, offset=-0.038, offset_azimuth=120.0),
         )
     )
-    assert [found.displaced(drum) for drum in (1, 2, 3)] == [False, True, False]
-    assert found.place(2) == pytest.approx((0.038, 120.0))
-    (axes,) = plots.draw_elevation(COLUMN.replace(as_found=found)).axes
+    assert [as_found.displaced(drum) for drum in (1, 2, 3)] == [False, True, False]
+    assert as_found.place(2) == pytest.approx((0.038, 120.0))
+    (axes,) = plots.draw_elevation(COLUMN.replace(as_found=as_found)).axes
     filled = [patch for patch in axes.patches if patch.get_facecolor()[3] > 0.0]
     assert [to_hex(patch.get_edgecolor()) == RED for patch in filled] == [False, True, False]
     assert "offset −38 mm to 120°, back in line" in words(axes)
@@ -76,8 +76,8 @@ def test_a_drum_that_comes_back_and_a_chipped_one_are_in_place():
 
 
 def test_outlines_stand_as_the_run_begins():
-    found = st.AsFound((st.FoundDrum(2, offset=0.05, tilt=0.3),), base_tilt=0.4)
-    column = COLUMN.replace(as_found=found)
+    as_found = st.AsFound((st.FoundDrum(2, offset=0.05, tilt=0.3),), base_tilt=0.4)
+    column = COLUMN.replace(as_found=as_found)
     response = st.simulate(column, st.harmonic(2.0, 0.0, 0.02), st.DistinctElement2D())
     for i, shape in enumerate(outlines_of(column)):
         np.testing.assert_allclose(
@@ -97,8 +97,8 @@ def test_links_are_blue_at_their_place():
 
 def test_an_assembly_by_name_and_size():
     corners = ((0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (0.0, 2.0))
-    one = st.Assembly((st.Block(corners, 2000.0, name="pier"),), JOINT, name="pier alone")
-    (axes,) = plots.draw_elevation(one, title="pier").axes
+    assembly = st.Assembly((st.Block(corners, 2000.0, name="pier"),), JOINT, name="pier alone")
+    (axes,) = plots.draw_elevation(assembly, title="pier").axes
     assert {"pier", "1.000 m", "2.000 m"} <= set(words(axes))
     assert axes.get_title(loc="left") == "pier"
 
@@ -125,4 +125,4 @@ def test_long_names_of_drums_in_assemblies_are_cut_to_what_fits():
     (axes,) = plots.draw_elevation(st.read_assembly(folder / "clamped.toml")).axes
     assert words(axes).count("drum 5") == 3
     assert "west" in words(axes)
-    assert not any(one.startswith("column") for one in words(axes))
+    assert not any(label.startswith("column") for label in words(axes))

@@ -58,8 +58,8 @@ def test_the_scene_is_the_response(name, request):
 def test_the_scene_of_a_column_as_found():
     joint = Joint(1e8, 5e7, friction_coefficient=0.7)
     column = Column.tapered(height=2.0, bottom_width=0.4, top_width=0.3, drums=2, density=2000.0, joint=joint)
-    found = st.AsFound((st.FoundDrum(2, offset=0.05, chip_left=0.03),), base_tilt=2.0)
-    response = simulate(column.replace(as_found=found), harmonic(0.8, 0.2 * g, 1.0), DistinctElement2D())
+    as_found = st.AsFound((st.FoundDrum(2, offset=0.05, chip_left=0.03),), base_tilt=2.0)
+    response = simulate(column.replace(as_found=as_found), harmonic(0.8, 0.2 * g, 1.0), DistinctElement2D())
     scene = Scene(response)
     assert scene.slope == pytest.approx(np.tan(np.radians(2.0)))
     for index in (0, len(response.time) // 2):
@@ -207,7 +207,7 @@ def test_names_do_not_break_the_page(knocked, tmp_path):
     import dataclasses
 
     blocks = [
-        dataclasses.replace(one, name=name) for one, name in zip(knocked.assembly.blocks, ("DATA", "<b>", "TITLE"))
+        dataclasses.replace(block, name=name) for block, name in zip(knocked.assembly.blocks, ("DATA", "<b>", "TITLE"))
     ]
     assembly = dataclasses.replace(knocked.assembly, blocks=tuple(blocks), name="SENTENCE & DATA")
     fell = tuple((name, time) for name, (_, time) in zip(("DATA", "<b>"), knocked.measures.blocks.fell_at))
@@ -258,12 +258,12 @@ def test_a_window_of_time(fall, tmp_path):
 
 
 def test_a_film_says_how_far_it_is(fall, tmp_path):
-    told = []
+    calls = []
     write_gif(
-        fall, tmp_path / "a.gif", frames_per_second=5.0, window=(0.0, 1.0), progress=lambda *how: told.append(how)
+        fall, tmp_path / "a.gif", frames_per_second=5.0, window=(0.0, 1.0), progress=lambda *how: calls.append(how)
     )
-    assert told == [(i + 1, len(told)) for i in range(len(told))]
-    assert len(told) == 6
+    assert calls == [(i + 1, len(calls)) for i in range(len(calls))]
+    assert len(calls) == 6
 
 
 def test_the_command_takes_a_window(fall, tmp_path, capsys):

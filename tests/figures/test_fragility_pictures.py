@@ -28,16 +28,16 @@ def curve():
 def texts(figure: Figure) -> str:
     from matplotlib.text import Text
 
-    return "\n".join(one.get_text() for one in figure.findobj(Text))
+    return "\n".join(text.get_text() for text in figure.findobj(Text))
 
 
 def test_fragility(curve, tmp_path):
     figure = plots.draw_fragility([curve, curve])
-    said = texts(figure)
-    assert "peak ground velocity [m/s]" in said
-    assert "probability of collapse" in said
-    assert r"\$x\$_{" in said
-    assert said.count("if all that is undecided did, or none") == 1
+    labels = texts(figure)
+    assert "peak ground velocity [m/s]" in labels
+    assert "probability of collapse" in labels
+    assert r"\$x\$_{" in labels
+    assert labels.count("if all that is undecided did, or none") == 1
     # two bands, and for each curve the two extremes that its open runs leave
     assert len(figure.axes[0].lines) >= 2 * (1 + 2)
     assert all(file.stat().st_size > 5000 for file in plots.save(figure, tmp_path / "f"))
@@ -47,25 +47,25 @@ def test_risk_and_survival(curve):
     x = np.geomspace(0.02, 5.0, 10)
     hazard = Hazard(x, 1e-3 * x**-2.0, "m/s", "site.csv")
     figure = plots.draw_risk(st.risk(curve, hazard))
-    said = texts(figure)
+    labels = texts(figure)
     for text in ("[1/y]", "share of the rate [%]", "peak ground velocity [m/s]", "once in"):
-        assert text in said
-    said = texts(plots.draw_survival(st.survival(curve, 2400.0, [hazard])))
-    assert "2,400 years without collapse" in said
-    assert "site.csv" in said
+        assert text in labels
+    labels = texts(plots.draw_survival(st.survival(curve, 2400.0, [hazard])))
+    assert "2,400 years without collapse" in labels
+    assert "site.csv" in labels
 
 
 def test_ida():
     pulses = [
         half_sine_pulse(f, 0.4 * st.g, 10.0).replace(name=f"{f}", metadata={"format": "made"}) for f in (0.6, 0.9, 1.4)
     ]
-    found = st.ida(rocking_block(2.0, 0.2), pulses, st.HousnerBlock(), "pga", runs=8, threads=1)
-    figure = plots.draw_ida(found)
-    said = texts(figure)
-    assert "peak ground acceleration [g]" in said
-    assert "peak top displacement [base widths]" in said
-    assert "50 % of the records" in said
-    best = which_tells_most(found.runs)
-    said = texts(plots.draw_efficiency(best))
-    assert "β [-]" in said
-    assert all(name in said for name in best["measure"])
+    analysis = st.ida(rocking_block(2.0, 0.2), pulses, st.HousnerBlock(), "pga", runs=8, threads=1)
+    figure = plots.draw_ida(analysis)
+    labels = texts(figure)
+    assert "peak ground acceleration [g]" in labels
+    assert "peak top displacement [base widths]" in labels
+    assert "50 % of the records" in labels
+    best = which_tells_most(analysis.runs)
+    labels = texts(plots.draw_efficiency(best))
+    assert "β [-]" in labels
+    assert all(name in labels for name in best["measure"])

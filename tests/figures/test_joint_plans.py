@@ -22,7 +22,7 @@ def area(corners):
 
 
 @pytest.fixture
-def found():
+def column():
     """Three round drums of 1 m; the second offset by 30 mm to 120°, the third turned with a chip of 0.2 m at 30° of it."""
     drums = [st.Drum(0.8, 1.0, 1.0, 2700.0, "circular")] * 3
     state = st.AsFound(
@@ -39,24 +39,24 @@ def found():
     )
 
 
-def test_plans_of_a_column_as_found(found):
-    first, second, third = joint_plans(found)
+def test_plans_of_a_column_as_found(column):
+    first, second, third = joint_plans(column)
     assert first.below is None
     assert second.offset == pytest.approx((0.03 * math.cos(math.radians(120.0)), 0.03 * math.sin(math.radians(120.0))))
     assert second.above.mean(axis=0) == pytest.approx(np.array(second.offset))
     assert second.found == "offset +30 mm to 120°"
     # a segment of height h: r² (θ − sin θ cos θ), cos θ = 1 − h/r; 120 corners leave 0.05 % of a circle out
     half = math.acos(1.0 - 0.2 / 0.5)
-    left = math.pi * 0.25 - 0.25 * (half - math.sin(half) * math.cos(half))
-    assert area(third.above) == pytest.approx(left, rel=1e-3)
+    remaining_area = math.pi * 0.25 - 0.25 * (half - math.sin(half) * math.cos(half))
+    assert area(third.above) == pytest.approx(remaining_area, rel=1e-3)
     way = np.array([math.cos(math.radians(45.0)), math.sin(math.radians(45.0))])  # 30° in axes turned by 15°
     assert float((third.above @ way).max()) == pytest.approx(0.3, abs=1e-9)
     assert third.links == (pytest.approx((0.3 * math.cos(math.radians(15.0)), 0.3 * math.sin(math.radians(15.0)))),)
     assert third.found == "turned +15°\nchip right 200 mm (right at 30°)"
 
 
-def test_the_sheet_of_a_column(found):
-    figure = plots.draw_sheet(found, found.name)
+def test_the_sheet_of_a_column(column):
+    figure = plots.draw_sheet(column, column.name)
     words = {text.get_text() for axes in figure.subfigs[0].axes for text in axes.texts}
     assert {"0.800", "2.400 m", "drum 2"} <= words  # heights of drums and of all
     below = figure.subfigs[1]
@@ -93,29 +93,29 @@ def test_an_assembly_in_the_plane_has_views_only():
 def test_round_drums_of_an_assembly_are_told_with_diameters_offsets_and_chips(tmp_path):
     """As the column's own sheet tells them: an assembly keeps where its drums lie, not what a survey said."""
     drums = [st.Drum(1.0, 1.0, 0.9, 2500.0, "circular"), st.Drum(1.0, 0.9, 0.8, 2500.0, "circular")]
-    found = st.AsFound((st.FoundDrum(2, offset=0.04, offset_azimuth=120.0, chip_right=0.06, chip_azimuth=30.0),))
-    column = st.Column.of_drums(drums, st.Joint(5e9, 2.5e9, 35.0)).replace(as_found=found)
+    as_found = st.AsFound((st.FoundDrum(2, offset=0.04, offset_azimuth=120.0, chip_right=0.06, chip_azimuth=30.0),))
+    column = st.Column.of_drums(drums, st.Joint(5e9, 2.5e9, 35.0)).replace(as_found=as_found)
     write_column(column, tmp_path / "c.toml")
     (tmp_path / "a.toml").write_text('name = "pair"\n[[column]]\nfile = "c.toml"\nat = [[0.0, 0.0], [3.0, 0.0]]\n')
     pair = st.read_assembly(tmp_path / "a.toml")
     plans = [plan for plan in joint_plans(pair) if plan.found]
     assert [plan.found for plan in plans] == ["offset 40 mm to 120°\nchip 60 mm to 30°"] * 2
     assert all(plan.marked and plan.said.endswith("⌀ 0.900 m") for plan in plans)
-    said = {text.get_text() for axes in plots.draw_views(pair).axes for text in axes.texts}
-    assert {"3.000", "1.000", "2.000 m"} <= said  # from axis to axis, each drum, and all of it
+    labels = {text.get_text() for axes in plots.draw_views(pair).axes for text in axes.texts}
+    assert {"3.000", "1.000", "2.000 m"} <= labels  # from axis to axis, each drum, and all of it
 
 
 @pytest.mark.parametrize("scale", [None, 100])
-def test_sheets_are_drawn_to_the_scale_that_they_name(found, scale):
-    elevations, joints = plots.sheets_to_scale(found, paper="A4", scale=scale)
+def test_sheets_are_drawn_to_the_scale_that_they_name(column, scale):
+    elevations, joints = plots.sheets_to_scale(column, paper="A4", scale=scale)
     # 2.4 m and room for dimensions on 297 mm: 1:20 needs 120 mm; the faces of 1 m lie three beside one another
-    for sheet, said in ((elevations, scale or 20), (joints, 20)):
+    for sheet, denominator in ((elevations, scale or 20), (joints, 20)):
         sheet.draw_without_rendering()
-        assert any(text.get_text().startswith(f"1:{said} on A4") for axes in sheet.axes for text in axes.texts)
+        assert any(text.get_text().startswith(f"1:{denominator} on A4") for axes in sheet.axes for text in axes.texts)
         for axes in sheet.axes[1:]:
             ends = axes.transData.transform([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]) / sheet.dpi * 25.4
-            assert ends[1] - ends[0] == pytest.approx((1000.0 / said, 0.0), abs=1e-6)
-            assert ends[2] - ends[0] == pytest.approx((0.0, 1000.0 / said), abs=1e-6)
+            assert ends[1] - ends[0] == pytest.approx((1000.0 / denominator, 0.0), abs=1e-6)
+            assert ends[2] - ends[0] == pytest.approx((0.0, 1000.0 / denominator), abs=1e-6)
     assert (elevations.get_size_inches() * 25.4).tolist() == pytest.approx([210.0, 297.0])
 
 

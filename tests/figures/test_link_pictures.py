@@ -52,11 +52,11 @@ def test_marks_between_blocks_stay_on_them() -> None:
         block_link("dowel", ("ground", "a"), (0.5, 0.0), shear_stiffness=1e7, embedment=0.1),
     )
     pair = Assembly(blocks, JOINT, "pair", links=links)
-    found = simulate(pair, st.harmonic(frequency=2.0, amplitude=1.0, duration=0.05), st.DistinctElement2D())
-    marks = link_marks(Scene(found), 0)
+    response = simulate(pair, st.harmonic(frequency=2.0, amplitude=1.0, duration=0.05), st.DistinctElement2D())
+    marks = link_marks(Scene(response), 0)
     assert marks[0][0] == pytest.approx(np.array([(0.8, 0.4), (1.2, 0.4)]), abs=1e-4)
     assert marks[1][0] == pytest.approx(np.array([(0.5, -0.1), (0.5, 0.1)]), abs=1e-4)
-    clamp, dowel = film_data(Scene(found), np.array([0]))["links"]
+    clamp, dowel = film_data(Scene(response), np.array([0]))["links"]
     assert (clamp[0], clamp[2], dowel[0]) == (0, 1, None)
 
 

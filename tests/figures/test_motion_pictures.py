@@ -42,9 +42,9 @@ def critical_suite(verdicts):
     results = []
     for i, row in enumerate(verdicts):
         rows = [
-            {"outcome": one if one in ("failed", "collapsed") else "rocked", "collapsed": one == "collapsed",
-             "decided": one != "undecided", "peak_top_displacement_m": 0.2}
-            for one in row
+            {"outcome": verdict if verdict in ("failed", "collapsed") else "rocked", "collapsed": verdict == "collapsed",
+             "decided": verdict != "undecided", "peak_top_displacement_m": 0.2}
+            for verdict in row
         ]  # fmt: skip
         motion = THREE.replace(name=f"record of a station with a long name {i}")
         results.append(CriticalAmplitude(preset("paper-monolithic"), motion, "housner", amplitudes, rows, 1.0))
@@ -56,11 +56,11 @@ VERDICTS_OF_RECORDS = [["stands", "collapsed", "undecided", "collapsed"], ["stan
 
 def table(outcomes=("at_rest", "rocked", "displaced", "collapsed", "rocked", "failed")):
     motions = [st.half_sine_pulse(1.0, size * st.g, 8.0) for size in np.geomspace(0.05, 1.0, len(outcomes))]
-    found = suite_table(preset("paper-monolithic"), motions, st.HousnerBlock(), threads=1)
-    found["outcome"] = outcomes
-    found["verdict"] = ["stands", "stands", "stands", "collapsed", "undecided", "failed"]
-    found["peak_top_over_base_width"] = [0.0, 0.02, 0.3, 5.0, 0.4, math.nan]
-    return found
+    frame = suite_table(preset("paper-monolithic"), motions, st.HousnerBlock(), threads=1)
+    frame["outcome"] = outcomes
+    frame["verdict"] = ["stands", "stands", "stands", "collapsed", "undecided", "failed"]
+    frame["peak_top_over_base_width"] = [0.0, 0.02, 0.3, 5.0, 0.4, math.nan]
+    return frame
 
 
 PICTURES = {
@@ -96,8 +96,8 @@ def test_axes_say_what_and_in_which_unit_and_nothing_is_cut_off(name):
 def test_no_letter_is_cut_in_the_file(tmp_path):
     """Letters are up to a tenth wider in the resolution of the file than in that of a screen, and long names add up."""
     suite = critical_suite([["stands", "collapsed"]])
-    (one,) = suite.results
-    named = dataclasses.replace(one, motion=one.motion.replace(name="W" * 40))
+    (result,) = suite.results
+    named = dataclasses.replace(result, motion=result.motion.replace(name="W" * 40))
     png, _ = plots.save(plots.draw_record_verdicts(dataclasses.replace(suite, results=(named,))), tmp_path / "verdicts")
     assert (imread(png)[:, :4, :3] == 1.0).all()  # white at the left edge, where the label of the axis stands
 
@@ -155,7 +155,7 @@ def test_the_share_of_collapse_counts_undecided_records_as_not_collapsed():
     assert suite.summary()["runs"] == len(suite.runs) == 8
     figure = plots.draw_record_verdicts(suite)
     labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert [label.split(" ")[0] for label in labels[:-1]] == [one for one in VERDICTS if one != "not run"]
+    assert [label.split(" ")[0] for label in labels[:-1]] == [verdict for verdict in VERDICTS if verdict != "not run"]
     names = [text.get_text() for text in figure.axes[1].get_yticklabels()]
     assert all(name.endswith("…") for name in names)
     alone = dataclasses.replace(suite, results=suite.results[1:])
@@ -166,8 +166,8 @@ def test_a_name_with_an_ending_is_the_one_file_that_is_written(tmp_path):
     figure = plots.draw_motion(st.harmonic(1.0, 1.0, 1.0))
     assert plots.save(figure, tmp_path / "a.png") == [tmp_path / "a.png"]
     assert plots.save(figure, tmp_path / "b.PDF") == [tmp_path / "b.PDF"]
-    assert [one.name for one in plots.save(figure, tmp_path / "at 0.3g")] == ["at 0.3g.png", "at 0.3g.svg"]
-    assert sorted(one.name for one in tmp_path.iterdir()) == ["a.png", "at 0.3g.png", "at 0.3g.svg", "b.PDF"]
+    assert [path.name for path in plots.save(figure, tmp_path / "at 0.3g")] == ["at 0.3g.png", "at 0.3g.svg"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "at 0.3g.png", "at 0.3g.svg", "b.PDF"]
     with pytest.raises(
         InputError, match=r"the ending of a picture is '.jpg'; did you mean .png. allowed are .png, .svg, .pdf"
     ):

@@ -56,8 +56,8 @@ def test_every_picture_takes_every_name(name, record, tmp_path):
 
 def test_pictures_of_amplitudes_and_records_take_every_name(record, tmp_path):
     stone = COLUMN.replace(name="$_{")
-    one = st.critical_amplitude(stone, record.replace(name="$^"), st.RigidBeam(), 1.0, 2.0, 1.0)
-    plots.save(plots.draw_amplitudes(one), tmp_path / "one")
+    single = st.critical_amplitude(stone, record.replace(name="$^"), st.RigidBeam(), 1.0, 2.0, 1.0)
+    plots.save(plots.draw_amplitudes(single), tmp_path / "one")
     many = critical_suite(stone, [record.replace(name="$^"), record.replace(name="b$")], st.RigidBeam(), 1.0, 2.0, 1.0)
     plots.save(plots.draw_record_verdicts(many), tmp_path / "many")
 
@@ -73,8 +73,8 @@ def test_pictures_are_drawn_where_they_are_asked_to(record, tmp_path):
     page = Figure(figsize=(9.0, 6.0), layout="constrained")
     left, right = page.subfigures(1, 2)
     beside = left.subplots()
-    found = st.critical_amplitude(COLUMN, record, st.RigidBeam(), 1.0, 2.0, 1.0)
-    plots.draw_amplitudes(found, ax=beside, title="here")
+    result = st.critical_amplitude(COLUMN, record, st.RigidBeam(), 1.0, 2.0, 1.0)
+    plots.draw_amplitudes(result, ax=beside, title="here")
     assert beside.get_title(loc="left") == "here"
     assert plots.draw_motion(record, figure=right) is right
     assert len(right.axes) == 2

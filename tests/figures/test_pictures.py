@@ -51,15 +51,15 @@ def rocking(name="paper-12-drums", collapse=False, size=0.05):
 
 
 def rows(verdicts):
-    for one in verdicts:
+    for verdict in verdicts:
         yield (
             None
-            if one == "not run"
+            if verdict == "not run"
             else {
-                "outcome": {"failed": "failed", "collapsed": "collapsed"}.get(one, "rocked"),
-                "collapsed": one == "collapsed",
-                "decided": one in ("stands", "collapsed"),
-                "peak_top_displacement_m": math.nan if one == "failed" else 0.2,
+                "outcome": {"failed": "failed", "collapsed": "collapsed"}.get(verdict, "rocked"),
+                "collapsed": verdict == "collapsed",
+                "decided": verdict in ("stands", "collapsed"),
+                "peak_top_displacement_m": math.nan if verdict == "failed" else 0.2,
             }
         )
 
@@ -192,8 +192,8 @@ def test_verdicts_differ_in_grey():
     grey = {name: np.dot(to_rgb(fill["facecolor"]), (0.299, 0.587, 0.114)) for name, fill in FILL.items()}
     assert grey["stands"] - grey["collapsed"] > 0.4
     assert grey["undecided"] - grey["collapsed"] > 0.4
-    for one in ("undecided", "failed"):
-        assert FILL[one]["hatch"]
+    for verdict in ("undecided", "failed"):
+        assert FILL[verdict]["hatch"]
 
 
 def test_a_picture_is_saved_as_png_and_svg_and_is_the_same_each_time(tmp_path):

@@ -44,12 +44,12 @@ def test_classes_darken_evenly_in_grey():
 
 
 def test_the_cut_shows_intervals_and_shares():
-    found = probability()
-    cut = plots.draw_probability(found).axes[1]
+    result = probability()
+    cut = plots.draw_probability(result).axes[1]
     shares = cut.lines[0].get_xdata()
-    i = int(np.flatnonzero((found.frequency == shares).all(axis=1))[0])
+    i = int(np.flatnonzero((result.frequency == shares).all(axis=1))[0])
     segments = np.array([segment[:, 0] for segment in cut.collections[0].get_segments()])
-    np.testing.assert_allclose(segments.T, [one[i] for one in found.interval])
+    np.testing.assert_allclose(segments.T, [limit[i] for limit in result.interval])
 
 
 @pytest.mark.parametrize("top", [False, True])

@@ -84,7 +84,7 @@ def test_histories_have_a_panel_for_each_direction(shaken):
         np.testing.assert_array_equal(base.get_ydata(), shaken.base_displacement[:, k])
         assert axes.get_ylabel().startswith("xy"[k])
     assert along.get_ylim() == across.get_ylim()
-    for k, line in enumerate(one for one in ground.lines if one.get_label() in ("x", "y")):
+    for k, line in enumerate(curve for curve in ground.lines if curve.get_label() in ("x", "y")):
         np.testing.assert_array_equal(line.get_ydata(), shaken.ground_acceleration[:, k] / g)
 
 
@@ -108,7 +108,9 @@ def test_a_strip_shows_both_elevations(shaken):
 def test_uplift_of_a_drum_tilted_over_its_edge(shaken, toward, twist):
     """A drum that leans on one point of its rim opens by r sin(tilt) (1 − cos(azimuth from there))."""
     tilt, joint = 0.05, 3
-    position, orientation = (np.repeat(one[:1], 2, axis=0) for one in (shaken.body_position, shaken.body_orientation))
+    position, orientation = (
+        np.repeat(history[:1], 2, axis=0) for history in (shaken.body_position, shaken.body_orientation)
+    )
     shape, lower = shaken.bodies.shapes[joint], shaken.bodies.shapes[joint - 1]
     orientation[:] = [1.0, 0.0, 0.0, 0.0]
     position[:, joint] = position[:, joint - 1] + [0.0, 0.0, lower.height - lower.centroid + shape.centroid]
@@ -123,8 +125,8 @@ def test_uplift_of_a_drum_tilted_over_its_edge(shaken, toward, twist):
     position[1, joint] = edge - rotation_matrices(lean) @ (radius * away - np.array([0.0, 0.0, shape.centroid]))
     np.testing.assert_allclose(turned[:, 2], rotation_matrices(lean)[:, 2], atol=1e-12)
     azimuth = np.arange(24) * (math.pi / 12)
-    found = rim_uplift(_posed(shaken, position, orientation), joint, azimuth)[1]
-    np.testing.assert_allclose(found, radius * math.sin(tilt) * (1.0 - np.cos(azimuth - toward)), atol=1e-9)
+    uplift = rim_uplift(_posed(shaken, position, orientation), joint, azimuth)[1]
+    np.testing.assert_allclose(uplift, radius * math.sin(tilt) * (1.0 - np.cos(azimuth - toward)), atol=1e-9)
 
 
 def test_uplift_by_direction_is_drawn_in_millimetres(shaken):
@@ -154,9 +156,9 @@ def test_residuals_are_those_of_the_response(shaken):
         (x, end), (y, high) = mark.get_data()
         np.testing.assert_allclose((x, y), far * slip[drum], atol=1e-12)
         assert math.atan2(high - y, end - x) == pytest.approx(turned * twist[drum], abs=1e-9)
-        said = axes.get_title().replace("−", "-")
-        assert float(re.search(r"([\d.]+) mm", said)[1]) == pytest.approx(1000.0 * np.hypot(*slip[drum]), abs=0.0501)
-        assert float(re.search(r"twist (\S+)°", said)[1]) == pytest.approx(math.degrees(twist[drum]), abs=0.00501)
+        title = axes.get_title().replace("−", "-")
+        assert float(re.search(r"([\d.]+) mm", title)[1]) == pytest.approx(1000.0 * np.hypot(*slip[drum]), abs=0.0501)
+        assert float(re.search(r"twist (\S+)°", title)[1]) == pytest.approx(math.degrees(twist[drum]), abs=0.00501)
     assert [round_factor(wanted) for wanted in (0.3, 1.9, 2.0, 49.0, 700.0)] == [1.0, 1.0, 2.0, 20.0, 500.0]
 
 
@@ -214,7 +216,7 @@ def test_parts_of_one_body_are_painted_one_by_one():
     slab = Placed(RectangularFrustum((2.0, 2.0), (2.0, 2.0), 0.2, 0.1), (0.0, 0.0, 0.1))
     for parts, place in (((neck, slab), 0), ((slab, neck), 1)):
         surfaces = surfaces_of(Glued(parts))
-        solids = [Solid(one, np.zeros(3), np.eye(3)) for one in surfaces]
+        solids = [Solid(surface, np.zeros(3), np.eye(3)) for surface in surfaces]
         assert np.ptp(surfaces[place].vertices, axis=0) == pytest.approx([0.4, 0.4, 1.0])
         assert painting_order(solids, View(-0.5, 0.9)) == [place, 1 - place]
     assert len(surfaces_of(neck.shape)) == 1
@@ -263,7 +265,7 @@ def test_a_frame_holds_every_drum(shaken):
         assert left < outline[:, 0].min() < outline[:, 0].max() < right
         assert bottom < outline[:, 1].min() < outline[:, 1].max() < top
     above, below = draw_frame(scene, 50).axes
-    (faces,) = [one for one in above.collections if hasattr(one, "get_facecolor")]
+    (faces,) = [collection for collection in above.collections if hasattr(collection, "get_facecolor")]
     assert len(faces.get_facecolor()) == len(painted(scene.solids(50), OBLIQUE)[0])
     assert [line.get_label() for line in below.lines[:2]] == ["x", "y"]
 
@@ -331,22 +333,22 @@ def test_the_page_magnifies_and_orders_as_films_do(shaken, tmp_path):
     data = re.search(r"const data = .*;\n", page)[0]
     laws = page[page.index("function placed(") : page.index("// Canvases have")]
     script = page[page.index("const dot =") : page.index("// Seen from anywhere")]
-    asked = """
+    query = """
       const last = data.poses.at(-1), space = data.space, c = Math.cos, s = Math.sin, [a, e] = space.view;
       const axes = [[-s(a), c(a), 0], [-c(a) * s(e), -s(a) * s(e), c(e)], [c(a) * c(e), s(a) * c(e), s(e)]];
       console.log(JSON.stringify({ larger: last.map((pose, i) => magnified(pose, data.start[i], 7)),
         order: ordered(last.map((pose, i) =>
           formed(i, data.shapes[i], space.faces[i], pose, axes))).map(body => body.i) }));"""
-    (tmp_path / "page.js").write_text(data + laws + script + asked)
-    found = json.loads(
+    (tmp_path / "page.js").write_text(data + laws + script + query)
+    answer = json.loads(
         subprocess.run(["node", tmp_path / "page.js"], capture_output=True, text=True, check=True).stdout
     )
     state = int(np.abs(shaken.time - json.loads(data[len("const data = ") : -2])["time"][-1]).argmin())
     wanted = exaggerated(shaken.poses, state, 7.0)
-    np.testing.assert_allclose(np.array(found["larger"])[:, :3], wanted.position, atol=2e-4)
-    np.testing.assert_allclose(np.array(found["larger"])[:, 3:], wanted.orientation, atol=2e-4)
-    assert found["order"] == list(range(12))  # from the base upward, as seen from above
-    assert painting_order(film_of(shaken, OBLIQUE).solids(state), OBLIQUE) == found["order"]
+    np.testing.assert_allclose(np.array(answer["larger"])[:, :3], wanted.position, atol=2e-4)
+    np.testing.assert_allclose(np.array(answer["larger"])[:, 3:], wanted.orientation, atol=2e-4)
+    assert answer["order"] == list(range(12))  # from the base upward, as seen from above
+    assert painting_order(film_of(shaken, OBLIQUE).solids(state), OBLIQUE) == answer["order"]
 
 
 def test_a_base_out_of_level_is_drawn_as_it_leans(tmp_path):

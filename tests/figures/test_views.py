@@ -42,10 +42,10 @@ def test_links_are_marked_where_they_are():
     law = st.Joint(1e9, 5e8, friction_coefficient=0.7)
     figure = plots.draw_views(st.SpatialAssembly((stone,), law, links=(tie,)))
     marks = [[line.get_xydata() for line in axes.lines if line.get_color() == BLUE] for axes in figure.axes]
-    assert [len(some) for some in marks] == [1, 1, 1, 1]
+    assert [len(lines) for lines in marks] == [1, 1, 1, 1]
     expected = [(0.7, 0.0), (0.7, 1.5)], [(0.8, 0.0), (0.8, 1.5)], [(0.7, 0.8), (0.7, 0.8)]
-    for (found,), ends in zip(marks, expected):
-        assert found == pytest.approx(np.array(ends), abs=1e-12)
+    for (segment,), ends in zip(marks, expected):
+        assert segment == pytest.approx(np.array(ends), abs=1e-12)
 
 
 def test_a_column_has_one_height_however_it_leans():
@@ -60,7 +60,9 @@ def test_a_column_has_one_height_however_it_leans():
     (elevation,) = plots.draw_elevation(column).axes
     assert all(f"{column.height:.3f} m" in words(axes) for axes in (front, side, elevation))
     assert "7.0785 m high" in column.describe()
-    assert [one for axes in (front, side) for one in words(axes) if re.fullmatch(r"7\.\d+ m", one)] == ["7.079 m"] * 2
+    assert [label for axes in (front, side) for label in words(axes) if re.fullmatch(r"7\.\d+ m", label)] == [
+        "7.079 m"
+    ] * 2
 
 
 @pytest.mark.parametrize("north", [0.0, 37.0, 270.0])
@@ -68,19 +70,21 @@ def test_north_stands_beside_the_plan_where_it_is_stated(north):
     """x points so far clockwise from north: north is so far from x towards y."""
     column = st.read_column(FOLDER / "column5.toml")
     plan = plots.draw_views(column.replace(north=north)).axes[2]
-    (arrow,) = [one for one in plan.texts if one.get_text() == "N"]
+    (arrow,) = [text for text in plan.texts if text.get_text() == "N"]
     assert math.degrees(math.atan2(*arrow.xyann[::-1])) % 360.0 == pytest.approx(north)
     assert "N" not in words(plots.draw_views(column).axes[2])
 
 
 @pytest.mark.parametrize("name", ["column", "plane", "specimen", "found"])
 def test_views_of_everything_that_stands(name):
-    found = st.AsFound((st.FoundDrum(2, offset=0.05, tilt=1.0, tilt_azimuth=40.0),), base_tilt=0.5, base_azimuth=90.0)
+    as_found = st.AsFound(
+        (st.FoundDrum(2, offset=0.05, tilt=1.0, tilt_azimuth=40.0),), base_tilt=0.5, base_azimuth=90.0
+    )
     column = st.read_column(FOLDER / "column5.toml")
     cube = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
     structure = {
         "column": column,
-        "found": column.replace(as_found=found),
+        "found": column.replace(as_found=as_found),
         "plane": st.read_assembly(FOLDER / "portal.toml"),
         "specimen": st.Specimen(100.0, [20.0, 20.0, 20.0], cube, name="cube"),
     }[name]
@@ -90,5 +94,5 @@ def test_views_of_everything_that_stands(name):
         float(text.removesuffix(" m")) for axes in (front, side, plan) for text in words(axes) if text.endswith(" m")
     ]
     assert len(sizes) == 6
-    corners = np.concatenate([one.corners for one in structure.bodies if not one.fixed])
+    corners = np.concatenate([body.corners for body in structure.bodies if not body.fixed])
     assert max(sizes[:2]) == pytest.approx(np.ptp(corners, axis=0).max(), rel=5e-3)

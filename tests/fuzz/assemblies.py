@@ -33,21 +33,21 @@ def file(rng: random.Random) -> str:
 
     lines = []
     if rng.random() < 0.5:
-        lines.append("name = " + odd.some(rng, ['"portal"'], 0.5, odd.NAMES))
+        lines.append("name = " + odd.choice(rng, ['"portal"'], 0.5, odd.NAMES))
     if rng.random() < 0.9:
         lines.append(f"density = {value(1000.0, 3000.0)}")
     for key, low, high in (("depth", 0.5, 2.0), ("gravity", 1.0, 20.0)):
         if rng.random() < 0.1:
             lines.append(f"{key} = {value(low, high)}")
     if rng.random() < 0.3:
-        lines.append("ground = " + odd.some(rng, ["0.0", "0.0", "false", "-1.0"], strange, odd.NUMBERS + odd.OTHERS))
+        lines.append("ground = " + odd.choice(rng, ["0.0", "0.0", "false", "-1.0"], strange, odd.NUMBERS + odd.OTHERS))
     if rng.random() > 0.3 * strange:
         lines += ["[joint]", f"normal_stiffness = {value(1e7, 1e12)}", f"shear_stiffness = {value(1e7, 1e12)}"]
         lines.append(f"friction_angle = {value(5.0, 60.0)}")
     names = []
     for number in range(rng.randint(0 if strange else 1, 5)):
         lines.append("[[block]]")
-        names.append(odd.some(rng, [f'"b{number}"'], strange, odd.NAMES))
+        names.append(odd.choice(rng, [f'"b{number}"'], strange, odd.NAMES))
         if rng.random() < 0.8:
             lines.append(f"name = {names[-1]}")
         corners = polygon(rng, number, strange)
@@ -55,7 +55,7 @@ def file(rng: random.Random) -> str:
         if rng.random() < 0.1:
             lines.append(f"density = {value(1000.0, 3000.0)}")
         if rng.random() < 0.1:
-            lines.append("fixed = " + odd.some(rng, ["true", "false"], strange, odd.OTHERS))
+            lines.append("fixed = " + odd.choice(rng, ["true", "false"], strange, odd.OTHERS))
     if len(names) > 1 and rng.random() < 0.1:
         lines += ["[[joint_override]]", f"between = [{', '.join(rng.sample(names, 2))}]"]
         lines += [f"normal_stiffness = {value(1e7, 1e12)}", f"shear_stiffness = {value(1e7, 1e12)}"]
@@ -67,8 +67,8 @@ def file(rng: random.Random) -> str:
 def link(rng: random.Random, names: list[str], value: Callable[[float, float], str]) -> list[str]:
     """A link between two bodies, now and then one that cannot be."""
     kind = rng.choice((*KINDS, "clmp"))
-    one, other = rng.choice(names), rng.choice([*names, '"ground"'])
-    lines = ["[[link]]", f'kind = "{kind}"', f"between = [{one}, {other}]"]
+    first, second = rng.choice(names), rng.choice([*names, '"ground"'])
+    lines = ["[[link]]", f'kind = "{kind}"', f"between = [{first}, {second}]"]
     if (kind in KINDS and KINDS[kind].lies != "joint") or rng.random() < 0.1:
         lines += [f"{end} = [{value(-1.0, 1.0)}, {value(0.0, 2.0)}]" for end in ("at", "to")]
     if rng.random() < 0.3 and kind != "layer":
@@ -107,35 +107,35 @@ def polygon(rng: random.Random, number: int, strange: float) -> list[tuple[str, 
     ]
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """One file."""
     path = odd.write(rng, folder, file(rng))
     try:
-        found = load_structure(path)
+        structure = load_structure(path)
     except InputError as error:
         sentence(error)
         return "refused"
-    if isinstance(found, Column):
+    if isinstance(structure, Column):
         return "a column"
-    if found.space_joints is not None:
+    if structure.space_joints is not None:
         return "in space"
-    is_what_the_file_says(found, tomllib.loads(path.read_text(encoding="utf-8")))
-    for block in found.blocks:
+    is_what_the_file_says(structure, tomllib.loads(path.read_text(encoding="utf-8")))
+    for block in structure.blocks:
         if not block.fixed and not (np.isfinite(block.properties).all() and min(block.properties[:2]) > 0.0):
             raise Fault(f"mass and inertia are {block.properties} of {block!r:.1000}")
-    if assembly_from_dict(json.loads(json.dumps(found.to_dict()))) != found:
+    if assembly_from_dict(json.loads(json.dumps(structure.to_dict()))) != structure:
         raise Fault("the assembly changed on its way through JSON")
-    return computed(rng, found) if rng.random() < 0.1 else "read"
+    return computed(rng, structure) if rng.random() < 0.1 else "read"
 
 
-def is_what_the_file_says(assembly: Assembly, said: dict) -> None:
+def is_what_the_file_says(assembly: Assembly, content: dict) -> None:
     """Raise a fault where blocks have other extents or densities than the file's."""
-    wanted = [(np.min(one["vertices"], 0), np.max(one["vertices"], 0)) for one in said["block"]]
+    wanted = [(np.min(fields["vertices"], 0), np.max(fields["vertices"], 0)) for fields in content["block"]]
     got = [(block.corners.min(0), block.corners.max(0)) for block in assembly.blocks]
     if len(wanted) != len(got) or not np.allclose(np.array(wanted, float), np.array(got), rtol=1e-9, atol=1e-9):
         raise Fault(f"the file says {wanted!r:.500}, the assembly is {got!r:.500}")
-    for one, block in zip(said["block"], assembly.blocks):
-        if not block.fixed and block.density != one.get("density", said.get("density")):
+    for entry, block in zip(content["block"], assembly.blocks):
+        if not block.fixed and block.density != entry.get("density", content.get("density")):
             raise Fault(f"{block.name!r} has density {block.density}")
 
 
@@ -153,4 +153,4 @@ def computed(rng: random.Random, assembly: Assembly) -> str:
     return f"computed: {outcome}"
 
 
-TARGET = Target("assemblies", 5_000, 60, one, limit=60.0)
+TARGET = Target("assemblies", 5_000, 60, attempt, limit=60.0)

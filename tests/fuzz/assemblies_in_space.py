@@ -26,14 +26,14 @@ def file(rng: random.Random) -> str:
 
     lines = [f"density = {value(1000.0, 3000.0)}"]
     if rng.random() < 0.2:
-        lines.append("settle = " + odd.some(rng, ["true", "false"], strange, odd.OTHERS))
+        lines.append("settle = " + odd.choice(rng, ["true", "false"], strange, odd.OTHERS))
     if rng.random() < 0.1:
         lines.append("gravity = " + value(0.0, 20.0))
     lines += ["[joint]", f"normal_stiffness = {value(1e7, 1e12)}", f"shear_stiffness = {value(1e7, 1e12)}"]
     lines += [f"friction_angle = {value(3.0, 60.0)}"]
     level = 0.0
     for number in range(rng.randint(0 if strange else 1, 4)):
-        lines += ["[[block]]", "name = " + odd.some(rng, [f'"b{number}"'], strange, odd.NAMES)]
+        lines += ["[[block]]", "name = " + odd.choice(rng, [f'"b{number}"'], strange, odd.NAMES)]
         height = rng.choice((0.5, 1.0))
         stacked = rng.random() < 0.7
         place = (value(-0.1, 0.1), value(-0.1, 0.1), f"{level}") if stacked else tuple(value(-3.0, 3.0) for _ in "xyz")
@@ -59,7 +59,7 @@ def file(rng: random.Random) -> str:
         if rng.random() < 0.05:
             lines.append(f"orientation = [{', '.join(value(-1.0, 1.0) for _ in range(4))}]")
         if rng.random() < 0.1:
-            lines.append("fixed = " + odd.some(rng, ["true", "false"], strange, odd.OTHERS))
+            lines.append("fixed = " + odd.choice(rng, ["true", "false"], strange, odd.OTHERS))
     for _ in range(rng.choice((0, 0, 1, 2))):
         lines += link(rng, value, strange)
     return "\n".join(lines) + "\n"
@@ -69,7 +69,7 @@ def link(rng: random.Random, value: Callable[[float, float], str], strange: floa
     """Lines of a link between two of the bodies, or the ground."""
     kind = rng.choice(("dowel", "bar", "layer", "pad", "tie", "core", "clamp"))
     ends = [
-        odd.some(rng, [f'"{name}"'], strange, odd.NAMES)
+        odd.choice(rng, [f'"{name}"'], strange, odd.NAMES)
         for name in rng.choice((("b0", "b1"), ("ground", "b0"), ("b1", "b2")))
     ]
     lines = ["[[link]]", f'kind = "{kind}"', f"between = [{', '.join(ends)}]"]
@@ -93,23 +93,23 @@ def link(rng: random.Random, value: Callable[[float, float], str], strange: floa
     return lines
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """One file."""
     path = odd.write(rng, folder, file(rng))
     try:
-        found = load_structure(path)
+        structure = load_structure(path)
     except InputError as error:
         sentence(error)
         return "refused"
-    if found.space_joints is None:
+    if structure.space_joints is None:
         return "not in space"
-    for body in found.bodies:
+    for body in structure.bodies:
         if not body.fixed and not (body.mass > 0.0 and np.isfinite(body.mass) and body.inertia > 0.0):
             raise Fault(f"mass {body.mass} and inertia {body.inertia} of {body.name!r}")
-    if FROM_DICT[found.kind](json.loads(json.dumps(found.to_dict()))).digest != found.digest:
+    if FROM_DICT[structure.kind](json.loads(json.dumps(structure.to_dict()))).digest != structure.digest:
         raise Fault("the assembly changed on its way through JSON")
     try:
-        limit = limit_directions(found, [rng.uniform(0.0, 360.0)]).limits[0]
+        limit = limit_directions(structure, [rng.uniform(0.0, 360.0)]).limits[0]
     except InputError as error:
         sentence(error)
         return "read, and refused by statics"
@@ -118,4 +118,4 @@ def one(rng: random.Random, folder: Path) -> str:
     return "read, with a multiplier"
 
 
-TARGET = Target("assemblies in space", 3_000, 60, one, limit=60.0)
+TARGET = Target("assemblies in space", 3_000, 60, attempt, limit=60.0)

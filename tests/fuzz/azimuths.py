@@ -15,7 +15,7 @@ from .command import command
 from .target import Fault, Target
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """A record of a few cycles that ends early, turned to several azimuths, at a peak near that which overturns."""
     time = 0.01 * np.arange(rng.randint(100, 400))
     parts = [
@@ -30,8 +30,8 @@ def one(rng: random.Random, folder: Path) -> str:
     if reversed_too:
         turned = ["--azimuths", f"0:{180.0 - step}:{number}", "--signs", "both"]
     line = ["suite", "paper-monolithic", str(record), "--model", "housner", *turned, "--pga", f"{peak / 9.80665}g"]
-    said = json.loads(command([*line, "--json"]).out)
-    runs, all_ways = said["runs"], 2 * number if reversed_too else number
+    answer = json.loads(command([*line, "--json"]).out)
+    runs, all_ways = answer["runs"], 2 * number if reversed_too else number
     if len(runs) != all_ways:
         raise Fault(f"{len(runs)} runs of {all_ways} directions")
     towards = np.radians([row["azimuth_deg"] for row in runs])
@@ -43,15 +43,15 @@ def one(rng: random.Random, folder: Path) -> str:
     most = min(fell, key=lambda row: row["collapse_time_s"]) if fell else None
     most = most or max(runs, key=lambda row: abs(row["peak_top_displacement_m"]))
     open_ = sorted({bearing(row) for row in runs if not row["decided"] and not row["collapsed"]})
-    if abs(measure(said["worst"]) - measure(most)) > 1e-12:
-        raise Fault(f"the worst is {said['worst']}, and by its runs {most}")
-    if sorted(said["undecided_directions_deg"]) != open_:
-        raise Fault(f"undecided are {said['undecided_directions_deg']}, and by the runs {open_}")
-    if f"turned to {bearing(said['worst']):g}°, " not in said["sentence"]:
-        raise Fault(f"{bearing(said['worst'])}° is not in {said['sentence']!r}")
+    if abs(measure(answer["worst"]) - measure(most)) > 1e-12:
+        raise Fault(f"the worst is {answer['worst']}, and by its runs {most}")
+    if sorted(answer["undecided_directions_deg"]) != open_:
+        raise Fault(f"undecided are {answer['undecided_directions_deg']}, and by the runs {open_}")
+    if f"turned to {bearing(answer['worst']):g}°, " not in answer["sentence"]:
+        raise Fault(f"{bearing(answer['worst'])}° is not in {answer['sentence']!r}")
     ways = len({bearing(row) for row in runs})
-    if (f"From {len(open_)} of {ways} directions runs are undecided" in said["sentence"]) != bool(open_):
-        raise Fault(f"{len(open_)} of {ways} directions are undecided: {said['sentence']!r}")
+    if (f"From {len(open_)} of {ways} directions runs are undecided" in answer["sentence"]) != bool(open_):
+        raise Fault(f"{len(open_)} of {ways} directions are undecided: {answer['sentence']!r}")
     return f"{'collapse' if fell else 'none collapses'}, {'some' if open_ else 'none'} undecided"
 
 
@@ -65,4 +65,4 @@ def measure(row: dict) -> float:
     return -1e3 / (1.0 + row["collapse_time_s"]) if row["collapsed"] else abs(row["peak_top_displacement_m"])
 
 
-TARGET = Target("azimuths", 1_000, 12, one, limit=120.0)
+TARGET = Target("azimuths", 1_000, 12, attempt, limit=120.0)

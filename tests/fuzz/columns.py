@@ -39,9 +39,9 @@ def file(rng: random.Random) -> str:
 
     lines = []
     if rng.random() < 0.5:
-        lines.append("name = " + odd.some(rng, ['"column"'], 0.5, odd.NAMES))
+        lines.append("name = " + odd.choice(rng, ['"column"'], 0.5, odd.NAMES))
     if rng.random() < 0.5:
-        lines.append("section = " + odd.some(rng, ['"circular"', '"rectangular"'], strange, odd.NAMES))
+        lines.append("section = " + odd.choice(rng, ['"circular"', '"rectangular"'], strange, odd.NAMES))
     if rng.random() < 0.2:
         lines.append(f"depth = {value(0.5, 2.0)}")
     if rng.random() < 0.9:
@@ -69,16 +69,16 @@ def file(rng: random.Random) -> str:
         if rng.random() < 0.1:
             lines.append(f"cohesion = {value(0.0, 1e6)}")
     if rng.random() < 0.1:
-        lines += ["[[joint_override]]", f"index = {odd.some(rng, ['1', '2'], strange, odd.NUMBERS)}"]
+        lines += ["[[joint_override]]", f"index = {odd.choice(rng, ['1', '2'], strange, odd.NUMBERS)}"]
         lines.append(f"friction_angle = {value(5.0, 60.0)}")
     if rng.random() < 0.1:
         lines += ["[as_found]", f"base_tilt = {value(-2.0, 2.0)}"]
-        lines += ["[[as_found.drum]]", f"index = {odd.some(rng, ['1', '2'], strange, odd.NUMBERS)}"]
+        lines += ["[[as_found.drum]]", f"index = {odd.choice(rng, ['1', '2'], strange, odd.NUMBERS)}"]
         lines += [f"{key} = {value(0.0, 0.1)}" for key in ("offset", "tilt", "chip_left") if rng.random() < 0.5]
     return "\n".join(lines) + "\n"
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """One file."""
     path = odd.write(rng, folder, file(rng))
     try:
@@ -99,18 +99,18 @@ def one(rng: random.Random, folder: Path) -> str:
     return "read"
 
 
-def is_what_the_file_says(column: Column, said: dict) -> None:
+def is_what_the_file_says(column: Column, content: dict) -> None:
     """Raise a fault where heights, widths, densities or stiffnesses are others than the file's."""
-    if "tapered" in said:
-        table = said["tapered"]
+    if "tapered" in content:
+        table = content["tapered"]
         wanted = (table["height"], table["bottom_width"], table["top_width"], table["drums"])
         got = (column.height, column.drums[0].bottom_width, column.drums[-1].top_width, column.n)
     else:
         keys = ("height", "bottom_width", "top_width")
-        wanted = [drum[key] for drum in said["drum"] for key in keys]
+        wanted = [drum[key] for drum in content["drum"] for key in keys]
         got = [getattr(drum, key) for drum in column.drums for key in keys]
-    wanted = (*wanted, said["joint"]["shear_stiffness"] if not said.get("joint_override") else 1.0)
-    got = (*got, column.joints[0].shear_stiffness if not said.get("joint_override") else 1.0)
+    wanted = (*wanted, content["joint"]["shear_stiffness"] if not content.get("joint_override") else 1.0)
+    got = (*got, column.joints[0].shear_stiffness if not content.get("joint_override") else 1.0)
     if len(got) != len(wanted) or any(abs(a - b) > 1e-9 * abs(b) for a, b in zip(got, wanted)):
         raise Fault(f"the file says {wanted!r:.500}, the column is {got!r:.500}")
 
@@ -132,4 +132,4 @@ def computed(rng: random.Random, column: Column) -> str:
     return f"computed: {measures.outcome.label}"
 
 
-TARGET = Target("columns", 10_000, 150, one, limit=60.0)
+TARGET = Target("columns", 10_000, 150, attempt, limit=60.0)

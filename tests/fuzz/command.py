@@ -31,12 +31,12 @@ def command(arguments: Sequence[str]) -> Ended:
     if code not in (0, 2) or "Traceback" in ended.err or "fault of stylobate" in ended.err:
         raise Fault(f"exit code {code} of: {line}\n{ended.err[-3000:]}")
     if code == 2:
-        told = [one for one in ended.err.splitlines() if not one.startswith("stylobate: warning: ")]
-        if len(told) != 1 or not told[0].startswith("stylobate: ") or ended.out:
+        sentences = [sentence for sentence in ended.err.splitlines() if not sentence.startswith("stylobate: warning: ")]
+        if len(sentences) != 1 or not sentences[0].startswith("stylobate: ") or ended.out:
             raise Fault(f"not one sentence from: {line}\n{ended.err[-3000:]}{ended.out[-300:]}")
     elif "--json" in arguments and "--help" not in arguments:
         try:
-            json.loads(ended.out, parse_constant=lambda one: (_ for _ in ()).throw(ValueError(one)))
+            json.loads(ended.out, parse_constant=lambda constant: (_ for _ in ()).throw(ValueError(constant)))
         except ValueError as error:
             raise Fault(f"no JSON from: {line}\n{ended.out[-300:]}") from error
     return ended

@@ -85,14 +85,14 @@ def runs_of(rng: random.Random) -> list[Run]:
         middle = rng.choice((-9.0, 9.0))
     if kind == "one level":
         levels = levels[:1]
-    found = []
-    for one in names:
+    runs = []
+    for record in names:
         capacity = rng.gauss(middle, beta)
         for im in [float(f"{math.exp(rng.gauss(middle, 0.6)):.4g}")] if kind == "cloud" else levels:
             code = int(math.log(im) >= capacity)
             code = 1 - code if kind == "reversed" else rng.randint(0, 1) if kind in ("chance", "one level") else code
-            found.append(Run(one, im, -1 if kind == "undecided" or rng.random() < 0.02 else code))
-    return found
+            runs.append(Run(record, im, -1 if kind == "undecided" or rng.random() < 0.02 else code))
+    return runs
 
 
 def write(rng: random.Random, path: Path, runs: list[Run]) -> bool:
@@ -109,7 +109,7 @@ def write(rng: random.Random, path: Path, runs: list[Run]) -> bool:
             row.insert(at, rng.choice(("", "0.3", "x", "a, b")))
     order = sorted(range(len(header)), key=lambda _: rng.random()) if rng.random() < 0.3 else list(range(len(header)))
     header, rows = [header[k] for k in order], [[row[k] for k in order] for row in rows]
-    im, end, who = (header.index(one) for one in ("im", "collapsed", "record"))
+    im, end, who = (header.index(column) for column in ("im", "collapsed", "record"))
     delimiter = rng.choice(",,,;\t")
     damage, unlucky = rng.choice((None,) * 18 + tuple(range(12))), rng.choice(rows)
     damaged = damage is not None
@@ -124,7 +124,7 @@ def write(rng: random.Random, path: Path, runs: list[Run]) -> bool:
         rows = [[row[0], *row] for row in rows]
     elif damage == 4:
         header[rng.choice((im, end, who))] = "something"
-    cells = [[quoted(rng, one, delimiter) for one in row] for row in rows]
+    cells = [[quoted(rng, cell, delimiter) for cell in row] for row in rows]
     if damage in (5, 6):  # decimal commas, of the whole table
         for row in cells:
             row[im] = row[im].strip('"').replace(".", ",")
@@ -137,7 +137,7 @@ def write(rng: random.Random, path: Path, runs: list[Run]) -> bool:
         else:
             del unlucky[rng.randrange(len(unlucky))]
     case = rng.choice((str, str, str.upper, str.title))
-    lines = [delimiter.join(quoted(rng, case(one), delimiter) for one in header), *map(delimiter.join, cells)]
+    lines = [delimiter.join(quoted(rng, case(column), delimiter) for column in header), *map(delimiter.join, cells)]
     if damage == 9:
         k = rng.randrange(1, len(lines))
         lines[k] = '"' + lines[k].replace('"', "")
@@ -165,43 +165,43 @@ def log_likelihood(runs: list[Run], log_median: float, log_beta: float) -> float
     return float(log_ndtr(np.where([run.code == 1 for run in runs], z, -z)).sum())
 
 
-def check(runs: list[Run], said: dict) -> str:
+def check(runs: list[Run], answer: dict) -> str:
     """Whether an answer is right, by a fit of its own."""
-    told = [run for run in runs if run.code >= 0]
-    hit, missed = ([math.log(run.im) for run in told if run.code == one] for one in (1, 0))
-    if len({run.record for run in told}) < 10 or not hit or not missed or len({run.im for run in told}) == 1:
-        raise Fault(f"a curve where there is none: {said}")
+    decided = [run for run in runs if run.code >= 0]
+    hit, missed = ([math.log(run.im) for run in decided if run.code == code] for code in (1, 0))
+    if len({run.record for run in decided}) < 10 or not hit or not missed or len({run.im for run in decided}) == 1:
+        raise Fault(f"a curve where there is none: {answer}")
     if np.mean(hit) <= np.mean(missed) - 1e-9:
-        raise Fault(f"a curve of runs that do not rise: {said}")
-    if (said["runs"], said["exceeded"]) != (len(runs), len(hit)) or said["undecided"] != len(runs) - len(told):
-        raise Fault(f"other runs than were written: {said}")
-    low, high = said["median_low"], math.inf if said["median_high"] is None else said["median_high"]
-    if not low <= said["median"] <= high or low == high:
-        raise Fault(f"no interval about the median: {said}")
+        raise Fault(f"a curve of runs that do not rise: {answer}")
+    if (answer["runs"], answer["exceeded"]) != (len(runs), len(hit)) or answer["undecided"] != len(runs) - len(decided):
+        raise Fault(f"other runs than were written: {answer}")
+    low, high = answer["median_low"], math.inf if answer["median_high"] is None else answer["median_high"]
+    if not low <= answer["median"] <= high or low == high:
+        raise Fault(f"no interval about the median: {answer}")
     if max(missed) <= min(hit):
         bracket = math.exp(max(missed)), math.exp(min(hit))
-        if not np.allclose(said["bracket"], bracket) or said["beta"] is not None or said["beta_low"] > 0.0:
-            raise Fault(f"more than the bracket {bracket} that is known: {said}")
+        if not np.allclose(answer["bracket"], bracket) or answer["beta"] is not None or answer["beta_low"] > 0.0:
+            raise Fault(f"more than the bracket {bracket} that is known: {answer}")
         if low > bracket[0] * (1 + 1e-9) or high < bracket[1] * (1 - 1e-9):
-            raise Fault(f"narrower than the bracket {bracket}: {said}")
+            raise Fault(f"narrower than the bracket {bracket}: {answer}")
         return "bracket"
-    starts = [(np.mean(hit + missed), one) for one in (-2.0, -0.7, 0.7)]
+    starts = [(np.mean(hit + missed), log_beta) for log_beta in (-2.0, -0.7, 0.7)]
     best = min(
         (
-            minimize(lambda x: -log_likelihood(told, *x), one, method="Nelder-Mead", options={"fatol": 1e-10})
-            for one in starts
+            minimize(lambda x: -log_likelihood(decided, *x), start, method="Nelder-Mead", options={"fatol": 1e-10})
+            for start in starts
         ),
-        key=lambda one: one.fun,
+        key=lambda fit: fit.fun,
     )
-    if abs(math.log(said["median"]) - best.x[0]) > 1e-3 or abs(math.log(said["beta"]) - best.x[1]) > 1e-3:
-        raise Fault(f"another curve than {np.exp(best.x)}: {said}")
-    n = len({run.record for run in told})
+    if abs(math.log(answer["median"]) - best.x[0]) > 1e-3 or abs(math.log(answer["beta"]) - best.x[1]) > 1e-3:
+        raise Fault(f"another curve than {np.exp(best.x)}: {answer}")
+    n = len({run.record for run in decided})
     drop = 0.5 * n * math.log1p(t.ppf(0.975, n - 1) ** 2 / (n - 1))
     for limit in (low, high):
         if 0.0 < limit < math.inf:
-            top = max(log_likelihood(told, math.log(limit), one) for one in np.linspace(-4.6, 6.9, 300))
+            top = max(log_likelihood(decided, math.log(limit), log_beta) for log_beta in np.linspace(-4.6, 6.9, 300))
             if top > -best.fun - drop:
-                raise Fault(f"the limit {limit} is narrower than the likelihood: {said}")
+                raise Fault(f"the limit {limit} is narrower than the likelihood: {answer}")
     return "curve"
 
 
@@ -211,7 +211,7 @@ def one_table(rng: random.Random, folder: Path) -> str:
     damaged = write(rng, path, runs)
     try:
         with patch.object(fragility_points, "SETS", 5):
-            said = fragility(evidence(read_table(path)), samples=40).summary()
+            summary = fragility(evidence(read_table(path)), samples=40).summary()
     except InputError as error:
         text = sentence(error)
         if "np." in text or "Traceback" in text:
@@ -228,11 +228,11 @@ def one_table(rng: random.Random, folder: Path) -> str:
             raise Fault(f"the command draws what is refused: {text}") from error
         return "damaged, refused" if damaged else "no curve, refused"
     if damaged:
-        raise Fault(f"a damaged table has a curve: {path.read_bytes()[:400]!r}, {said}")
+        raise Fault(f"a damaged table has a curve: {path.read_bytes()[:400]!r}, {summary}")
     if rng.random() < 0.05:
         command(["fragility", str(path), "--json"])
-    said = {key: None if isinstance(value, float) and math.isinf(value) else value for key, value in said.items()}
-    return check(runs, said)
+    summary = {key: None if isinstance(value, float) and math.isinf(value) else value for key, value in summary.items()}
+    return check(runs, summary)
 
 
 TARGET = Target("fragility_tables", 6_000, 25, one_table)

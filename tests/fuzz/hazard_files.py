@@ -80,7 +80,7 @@ def own(rng: random.Random, kind: str, column: str, im: list[float], rate: list[
     return "\n".join([*mark, *stated, *(separator.join(row[::-1] if turned else row) for row in rows)]) + "\n"
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """One file of a curve that falls by a power of the intensity."""
     spread = rng.random() < 0.3
     kind, words = (rng.choice(SPREADS), "") if spread else rng.choice((*CURVES, ("", "")))
@@ -130,4 +130,4 @@ def one(rng: random.Random, folder: Path) -> str:
     return layout
 
 
-TARGET = Target("hazard_files", 6_000, 60, one)
+TARGET = Target("hazard_files", 6_000, 60, attempt)

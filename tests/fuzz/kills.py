@@ -68,7 +68,7 @@ ANSWER = 4.0
 _whole: dict[str, tuple[float, dict[str, str]]] = {}
 
 
-def one(rng: random.Random, folder: Path) -> Tried:
+def attempt(rng: random.Random, folder: Path) -> Tried:
     """Kill one command, let it end, and compare."""
     name = rng.choice(list(COMMANDS))
     if name not in _whole:
@@ -100,26 +100,28 @@ def one(rng: random.Random, folder: Path) -> Tried:
     made = [line.split(" ", 2)[1] for line in (folder / "notes").read_text().splitlines()]
     if len(set(made)) < len(made):
         raise Fault(f"{name}: {len(made) - len(set(made))} runs that were kept were made again after {signals}")
-    left = [path.name for path in out.rglob("*.sqlite*") if path.name != RUNS_FILE]
-    left += [path.name for path in out.rglob(".*") if path.name not in (*FOREIGN, ".stylobate-files")]
-    if left:
-        raise Fault(f"{name}: {left} were left over after {signals}")
+    leftovers = [path.name for path in out.rglob("*.sqlite*") if path.name != RUNS_FILE]
+    leftovers += [path.name for path in out.rglob(".*") if path.name not in (*FOREIGN, ".stylobate-files")]
+    if leftovers:
+        raise Fault(f"{name}: {leftovers} were left over after {signals}")
     return Tried(f"{len(signals)} kills", numbers={"answers to a signal [s]": took})
 
 
 def kill(process: subprocess.Popen, number: signal.Signals, name: str) -> list[float]:
     """Send a signal to a command, whose answer must be quick and one sentence; how long it took [s], of an interrupt."""
-    told = time.monotonic()
+    sent_at = time.monotonic()
     process.send_signal(number)
-    _, said = process.communicate(timeout=60)
-    took = time.monotonic() - told
+    _, output = process.communicate(timeout=60)
+    took = time.monotonic() - sent_at
     if number != signal.SIGKILL and took > ANSWER:
         raise Fault(f"{name}: {number.name} was answered after {took:.1f} s")
-    if process.returncode not in (0, 130, -number) or "Traceback" in said:
-        raise Fault(f"{name}: {number.name} ended with {process.returncode}: {said}")
-    sentences = [one for one in said.splitlines() if not one.endswith(" ...")]  # which piece of a study is computed
+    if process.returncode not in (0, 130, -number) or "Traceback" in output:
+        raise Fault(f"{name}: {number.name} ended with {process.returncode}: {output}")
+    sentences = [
+        line for line in output.splitlines() if not line.endswith(" ...")
+    ]  # which piece of a study is computed
     if process.returncode == 130 and len(sentences) != 1:
-        raise Fault(f"{name}: not one sentence: {said}")
+        raise Fault(f"{name}: not one sentence: {output}")
     return [took] if process.returncode == 130 else []
 
 
@@ -132,12 +134,12 @@ def start(line: list[str], folder: Path) -> subprocess.Popen:
             times = [0.01 * i for i in range(500)]
             lines = [f"{t:.2f},{(2.0 + k) * math.sin(2 * math.pi * (1 + 0.3 * k) * t):.6f}" for t in times]
             (records / f"record-{k}.csv").write_text("\n".join(["time_s,ax_m_s2", *lines, ""]))
-    arguments = [str(records) if one == "RECORDS" else one for one in line]
-    found = os.pathsep.join(filter(None, [str(Path(__file__).parents[1]), os.getenv("PYTHONPATH")]))
+    arguments = [str(records) if argument == "RECORDS" else argument for argument in line]
+    search_path = os.pathsep.join(filter(None, [str(Path(__file__).parents[1]), os.getenv("PYTHONPATH")]))
     command = [sys.executable, "-c", SCRIPT, str(folder / "notes"), *arguments, "--out", str(folder / "out"), "--json"]
     return subprocess.Popen(
         command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=_hear_everything,
-        env=os.environ | {"PYTHONPATH": found},
+        env=os.environ | {"PYTHONPATH": search_path},
     )  # fmt: skip
 
 
@@ -148,14 +150,14 @@ def _hear_everything() -> None:
 
 def end(process: subprocess.Popen) -> None:
     """Wait for a command that nobody kills."""
-    _, said = process.communicate(timeout=600)
+    _, output = process.communicate(timeout=600)
     if process.returncode != 0:
-        raise Fault(f"ended with {process.returncode}: {said}")
+        raise Fault(f"ended with {process.returncode}: {output}")
 
 
 def lost(notes: Path, killed: float) -> int:
     """Runs that were finished and are not in their ledger; those of the last second may be. They are noted no more."""
-    missing, left = 0, []
+    missing, kept_lines = 0, []
     ledgers: dict[str, set[int]] = {}
     for line in notes.read_text().splitlines(keepends=True) if notes.exists() else ():
         when, number, ledger = line.rstrip("\n").split(" ", 2)
@@ -165,24 +167,24 @@ def lost(notes: Path, killed: float) -> int:
             with closing(sqlite3.connect(ledger)) as file:
                 ledgers[ledger] = {number for (number,) in file.execute("SELECT number FROM runs")}
         if int(number) in ledgers[ledger]:
-            left.append(line)
+            kept_lines.append(line)
         elif killed - float(when) > 1.0:
             raise Fault(f"a run that was finished {killed - float(when):.1f} s before the kill is lost")
         else:
             missing += 1
-    notes.write_text("".join(left))
+    notes.write_text("".join(kept_lines))
     return missing
 
 
 def tables(out: Path) -> dict[str, str]:
     """What the results say, without what the clock says."""
-    found = {str(path.relative_to(out)): path.read_text() for path in sorted(out.rglob("*.csv")) if path.is_file()}
+    texts = {str(path.relative_to(out)): path.read_text() for path in sorted(out.rglob("*.csv")) if path.is_file()}
     for path in sorted(out.rglob("run.json")):
         run = {key: value for key, value in json.loads(path.read_text()).items() if key not in ("wall_s", "files")}
-        found[str(path.relative_to(out))] = json.dumps(run)
-    if not found:
+        texts[str(path.relative_to(out))] = json.dumps(run)
+    if not texts:
         raise Fault(f"no table in {sorted(os.listdir(out))}")
-    return found
+    return texts
 
 
-TARGET = Target("kills", 50, 2, one, limit=1800.0)  # a hang is seen by the time that a signal or an end is given
+TARGET = Target("kills", 50, 2, attempt, limit=1800.0)  # a hang is seen by the time that a signal or an end is given

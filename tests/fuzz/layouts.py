@@ -28,7 +28,7 @@ END = ("", "", "*** End Data ***\n", "END\n", "\n\n")
 ROWS = 40
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """One layout."""
     axes = ["x", *rng.sample(("y", "z", "-", "-"), rng.randrange(4))]
     rng.shuffle(axes)
@@ -79,4 +79,4 @@ def compare(motion: Motion, wanted: dict[str, np.ndarray], what: str) -> None:
             raise Fault(f"{what!r}: {axis} holds the numbers of another column or unit")
 
 
-TARGET = Target("layouts", 5_000, 150, one)
+TARGET = Target("layouts", 5_000, 150, attempt)

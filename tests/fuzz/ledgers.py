@@ -45,7 +45,7 @@ def damaged(data, rng):
     return kind, bytes(new)
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """Fill a ledger, damage it, and open it again."""
     path, runs = folder / "runs.sqlite", rng.choice([0, 1, 30, 200])
     with closing(Ledger(path)) as book:
@@ -56,19 +56,19 @@ def one(rng: random.Random, folder: Path) -> str:
     if rng.random() < 0.3:
         path.with_name(f"{path.name}-wal").write_bytes(rng.randbytes(rng.randrange(5000)))
     try:
-        found = rows(path)
+        kept_rows = rows(path)
     except InputError as error:
         sentence(error)
         if path.read_bytes() != bad:
             raise Fault(f"{kind}: a refused file was changed") from error
         return "refused"
-    if any(line != row(number) for number, line in found.items()):
+    if any(line != row(number) for number, line in kept_rows.items()):
         raise Fault(f"{kind}: a row was altered")
     with closing(Ledger(path)) as book:
         book.record(runs, row(runs))
-    if set(rows(path)) != {*found, runs}:
+    if set(rows(path)) != {*kept_rows, runs}:
         raise Fault(f"{kind}: nothing can be added")
-    return "all kept" if len(found) == runs else "part kept"
+    return "all kept" if len(kept_rows) == runs else "part kept"
 
 
 def rows(path):
@@ -77,4 +77,4 @@ def rows(path):
         return dict(rows_in(path, lambda number: True))
 
 
-TARGET = Target("ledgers", 1000, 25, one)
+TARGET = Target("ledgers", 1000, 25, attempt)

@@ -75,8 +75,8 @@ def fans(vertices: np.ndarray, faces: list[tuple[int, ...]]) -> tuple[np.ndarray
     """Faces in triangles around their middles, which become vertices: ends of any outline, sides out of plane."""
     middles = np.array([vertices[list(face)].mean(axis=0) for face in faces])
     n = len(vertices)
-    some = [(a, b, n + k) for k, face in enumerate(faces) for a, b in zip(face, (*face[1:], face[0]), strict=True)]
-    return np.concatenate((vertices, middles)), some
+    triangles = [(a, b, n + k) for k, face in enumerate(faces) for a, b in zip(face, (*face[1:], face[0]), strict=True)]
+    return np.concatenate((vertices, middles)), triangles
 
 
 def place(mesh: Mesh, turn: np.ndarray, shift: np.ndarray) -> Mesh:
@@ -106,7 +106,7 @@ def reach(points: np.ndarray, ways: np.ndarray) -> np.ndarray:
     return (points @ ways.T).max(axis=0)
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """A stack of drums in a file, and what is read from it: volume, extents, kinds, or a refusal that helps."""
     column = rng.random() < 0.3
     drums = [drum(rng) for _ in range(rng.choice((1, 1, 2, 3)))]
@@ -170,10 +170,10 @@ def solid(mesh: Mesh) -> tuple[trimesh.Trimesh, np.ndarray]:
     """A surface around its centroid for trimesh, which counts its volume in a second way, and where that is [m]."""
     middle = mesh.vertices.mean(axis=0)
     vertices, faces = fans(mesh.vertices - middle, list(mesh.faces))
-    found = trimesh.Trimesh(vertices, faces, process=False)
-    centroid = np.array(found.center_mass)
-    found.apply_translation(-centroid)
-    return found, middle + centroid
+    surface = trimesh.Trimesh(vertices, faces, process=False)
+    centroid = np.array(surface.center_mass)
+    surface.apply_translation(-centroid)
+    return surface, middle + centroid
 
 
-TARGET = Target("meshes", 2000, 20, one, limit=60.0)
+TARGET = Target("meshes", 2000, 20, attempt, limit=60.0)

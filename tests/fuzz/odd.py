@@ -85,6 +85,6 @@ def write(rng: random.Random, folder: Path, text: str, *, hurt: float = 0.25) ->
     return path
 
 
-def some(rng: random.Random, choices: Sequence[str], odd: float, odd_choices: Sequence[str]) -> str:
+def choice(rng: random.Random, choices: Sequence[str], odd: float, odd_choices: Sequence[str]) -> str:
     """One of the usual texts, or now and then an odd one."""
     return rng.choice(odd_choices if rng.random() < odd else choices)

@@ -74,7 +74,7 @@ USUAL: tuple[tuple[str, ...], ...] = (
 RECORD = "time_s,ax_g\n" + "".join(f"{0.02 * i:.2f},{0.3 * (-1) ** (i // 5)}\n" for i in range(40))
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """One command line."""
     line = [word(rng, folder, part) for part in rng.choice(USUAL)]
     for _ in range(rng.choice((0, 0, 1, 1, 2))):
@@ -133,4 +133,4 @@ def _swap(rng: random.Random, line: list[str]) -> None:
     line[i], line[j] = line[j], line[i]
 
 
-TARGET = Target("options", 1_000, 25, one, limit=60.0)
+TARGET = Target("options", 1_000, 25, attempt, limit=60.0)

@@ -83,7 +83,7 @@ def page() -> tuple[httpx.Client, Path]:
     return client, folder
 
 
-def one(rng: random.Random, _: Path) -> str:
+def attempt(rng: random.Random, _: Path) -> str:
     """One try of some kind."""
     client, folder = page()
     came = rng.choice((_posted, _posted, _asked, _uploaded, _uploaded, _broken_off, _raw, _stranger, _half_sent))(
@@ -127,7 +127,7 @@ def _right(rng: random.Random, path: str) -> dict[str, Any]:
         return {"assembly": assembly}
     if path == "/api/jobs":
         kind = rng.choice(("run", "critical", "domain", "ida"))
-        asked = {
+        job = {
             "kind": kind,
             "column": table,
             "motion": motion,
@@ -135,7 +135,7 @@ def _right(rng: random.Random, path: str) -> dict[str, Any]:
             "settings": {"points": "3"},
             "page": {"x": "y"},
         }
-        return asked | {
+        return job | {
             "frequencies": "1:2:2",
             "amplitudes": "0.1g:0.2g:2",
             "duration": "1s",
@@ -229,8 +229,8 @@ def _raw(rng: random.Random, client: httpx.Client) -> str:
         _send(line, sent)
         line.shutdown(socket.SHUT_WR)
         with contextlib.suppress(OSError):
-            told = line.recv(12)
-            if told[9:12] == b"500":
+            reply = line.recv(12)
+            if reply[9:12] == b"500":
                 raise Fault(f"500 after {sent[:300]!r}")
     return "raw"
 
@@ -276,8 +276,8 @@ def _answered(answer: httpx.Response) -> str:
         raise Fault(where)
     if not answer.content or answer.request.method == "HEAD":
         return str(answer.status_code)
-    told = answer.json() if answer.headers["content-type"] == "application/json" else {}
-    error = told.get("error") if isinstance(told, dict) else None
+    content = answer.json() if answer.headers["content-type"] == "application/json" else {}
+    error = content.get("error") if isinstance(content, dict) else None
     if answer.status_code >= 400 and error is None:
         raise Fault(f"no sentence from {where}")
     if error is not None and ("\n" in error or not error.endswith((".", "?")) or _OPTION.search(error)):
@@ -307,4 +307,4 @@ def _sound(client: httpx.Client, folder: Path) -> None:
         client.delete(f"/api/jobs/{job['id']}").raise_for_status()
 
 
-TARGET = Target("page", 3_000, 40, one)
+TARGET = Target("page", 3_000, 40, attempt)

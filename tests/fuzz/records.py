@@ -30,20 +30,20 @@ _WORD = re.compile(rb"[^\s,;:=/]+")
 @functools.cache
 def originals() -> dict[str, tuple[bytes, dict]]:
     """Content and options of reading, by name: the small files of every format, one of our own, and real ones."""
-    found = {name: (text.encode("latin-1"), {}) for name, (text, *_) in FORMATS.items()}
-    found["knet"] = (knet().encode(), {})
+    files = {name: (text.encode("latin-1"), {}) for name, (text, *_) in FORMATS.items()}
+    files["knet"] = (knet().encode(), {})
     lines = "".join(f"{i * 0.01:.2f} {value:.4f}\n" for i, value in enumerate(WAVES[0]))
-    found["columns"] = (lines.encode(), {"unit": "g"})
-    found["columns header"] = (b"time_s,ax_g\n" + lines.replace(" ", ",").encode(), {})
-    found["our csv"] = (_own(), {})
+    files["columns"] = (lines.encode(), {"unit": "g"})
+    files["columns header"] = (b"time_s,ax_g\n" + lines.replace(" ", ",").encode(), {})
+    files["our csv"] = (_own(), {})
     if (small := _mseed()) is not None:
-        found["mseed"] = (small, {})
+        files["mseed"] = (small, {})
     for path in sorted(RECORDS.glob("*.*")) if RECORDS.is_dir() else []:
         if path.suffix in (".csv", ".xml", ".mseed") or path.stat().st_size > 450_000:
             continue
         options = {"unit": "g"} if path.name.startswith("twocol") else {}
-        found[f"real {path.name.partition('_')[0]} {path.name}"] = (path.read_bytes(), options)
-    return found
+        files[f"real {path.name.partition('_')[0]} {path.name}"] = (path.read_bytes(), options)
+    return files
 
 
 def _own() -> bytes:
@@ -88,10 +88,12 @@ def _read(data: bytes, folder: Path, options: dict, mseed: bool) -> tuple[Motion
     with warnings.catch_warnings(record=True) as seen:
         warnings.simplefilter("always")
         motion = read_motion(path, **options)
-    for one in seen:
-        if not issubclass(one.category, (OutOfRangeWarning, DeprecationWarning)):
-            raise Fault(f"a warning that is none of ours: {one.message}")
-    return motion, {str(one.message).partition(": ")[2] for one in seen if one.category is OutOfRangeWarning}
+    for warning in seen:
+        if not issubclass(warning.category, (OutOfRangeWarning, DeprecationWarning)):
+            raise Fault(f"a warning that is none of ours: {warning.message}")
+    return motion, {
+        str(warning.message).partition(": ")[2] for warning in seen if warning.category is OutOfRangeWarning
+    }
 
 
 def _sums(motion: Motion) -> tuple:
@@ -139,7 +141,7 @@ def _lines(rng: random.Random, data: bytes) -> bytes:
 
 def _header(rng: random.Random, data: bytes) -> bytes:
     """A digit changed in the first lines of the file."""
-    digits = [i for i, one in enumerate(data[: min(len(data), 3000)]) if 48 <= one <= 57]
+    digits = [i for i, byte in enumerate(data[: min(len(data), 3000)]) if 48 <= byte <= 57]
     if not digits:
         return data
     at = rng.choice(digits)
@@ -149,11 +151,11 @@ def _header(rng: random.Random, data: bytes) -> bytes:
 def _word(rng: random.Random, data: bytes) -> bytes:
     """A word replaced by what may confuse a reader."""
     words = list(_WORD.finditer(data[: min(len(data), 20_000)]))
-    one = rng.choice(words)
+    match = rng.choice(words)
     odd = rng.choice(
         (b"nan", b"1e999", b"1d3", b"-1", b"0", b"99999999999", b"", b"*****", b"1_0", b"\xff\xfe", b"\x00")
     )
-    return data[: one.start()] + odd + data[one.end() :]
+    return data[: match.start()] + odd + data[match.end() :]
 
 
 DAMAGES = {"cut": _cut, "flip": _flip, "lines": _lines, "header": _header, "word": _word}
@@ -165,10 +167,10 @@ def _changed_words(old: bytes, new: bytes) -> list[tuple[bytes, bytes]] | None:
     if len(before) != len(after):
         return None
     pairs = []
-    for one, other in zip(before, after):
-        if one == other:
+    for line, other in zip(before, after):
+        if line == other:
             continue
-        a, b = _WORD.findall(one), _WORD.findall(other)
+        a, b = _WORD.findall(line), _WORD.findall(other)
         if len(a) != len(b):
             return None
         pairs += [(x, y) for x, y in zip(a, b) if x != y]
@@ -179,7 +181,7 @@ def _permuted(old: bytes, new: bytes) -> bool:
     return sorted(old.splitlines()) == sorted(new.splitlines())
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """One damaged file."""
     name = rng.choice(sorted(originals()))
     data, options = originals()[name]
@@ -222,4 +224,4 @@ def _unseen(name: str, kind: str, data: bytes, damaged: bytes) -> str:
     return "several words" if words else "numbers joined or split"
 
 
-TARGET = Target("records", 20_000, 300, one)
+TARGET = Target("records", 20_000, 300, attempt)

@@ -71,7 +71,7 @@ def damaged(rng: random.Random, content: bytes) -> bytes:
     return bytes(data)
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def attempt(rng: random.Random, folder: Path) -> str:
     """One damaged file."""
     name = rng.choice(sorted(KINDS))
     whole = written(name)
@@ -87,4 +87,4 @@ def one(rng: random.Random, folder: Path) -> str:
     return "read"
 
 
-TARGET = Target("results", 2500, 40, one, limit=60.0)
+TARGET = Target("results", 2500, 40, attempt, limit=60.0)

@@ -58,7 +58,7 @@ LAST = 20.0
 _whole: list = []
 
 
-def one(rng: random.Random, folder: Path) -> Tried:
+def attempt(rng: random.Random, folder: Path) -> Tried:
     """Kill a study twice, let it end, and compare."""
     if not _whole:
         with tempfile.TemporaryDirectory() as other:
@@ -96,10 +96,10 @@ def one(rng: random.Random, folder: Path) -> Tried:
         raise Fault(f"{len(runs)} runs were made, {len(kept(folder))} are in the ledger, after {what}")
     if not StudyResult.in_folder(out).table.equals(whole):
         raise Fault(f"another table after {what}")
-    if left := [path.name for path in out.glob(".*") if path.name != ".stylobate-files"]:
-        raise Fault(f"{left} were left over after {what}")
+    if leftovers := [path.name for path in out.glob(".*") if path.name != ".stylobate-files"]:
+        raise Fault(f"{leftovers} were left over after {what}")
     numbers: dict[str, list[float]] = {"answers to a signal [s]": took, "lost runs": gone}
-    numbers["runs at a kill on the way"] = [float(one) for one in at if 0 < one < CASES]
+    numbers["runs at a kill on the way"] = [float(count) for count in at if 0 < count < CASES]
     for kind in what:
         numbers.setdefault(f"kills by {kind}" if kind != "worker" else "kills of a worker", []).append(1.0)
     return Tried(f"2 kills {'of a cluster' if options else 'of threads'}", numbers=numbers)
@@ -126,7 +126,7 @@ def wait(process: subprocess.Popen, folder: Path, rng: random.Random) -> None:
 def made(folder: Path) -> list[int]:
     """Numbers of the runs that were made, as often as they were made and not lost."""
     notes = folder / "notes"
-    return [int(one.split(" ", 2)[1]) for one in notes.read_text().splitlines()] if notes.exists() else []
+    return [int(line.split(" ", 2)[1]) for line in notes.read_text().splitlines()] if notes.exists() else []
 
 
 def kept(folder: Path) -> set[int]:
@@ -151,7 +151,7 @@ def line(folder: Path, options: list[str]) -> list[str]:
 def of_cluster(program: int) -> list[int]:
     """Processes of the workers that a program has started."""
     table = subprocess.run(["ps", "-eo", "pid=,ppid=,args="], capture_output=True, text=True, check=True).stdout
-    rows = [one.split(None, 2) for one in table.splitlines()]
+    rows = [line.split(None, 2) for line in table.splitlines()]
     clusters = {pid for pid, parent, args in rows if int(parent) == program and "local_workers" in args}
     return [int(pid) for pid, parent, args in rows if parent in clusters and "spawn_main" in args]
 
@@ -159,10 +159,10 @@ def of_cluster(program: int) -> list[int]:
 def ended(workers: list[int]) -> None:
     """See that processes end."""
     deadline = time.monotonic() + LAST
-    while left := [one for one in workers if Path(f"/proc/{one}").exists()]:
+    while survivors := [pid for pid in workers if Path(f"/proc/{pid}").exists()]:
         if time.monotonic() > deadline:
-            raise Fault(f"workers {left} live on without their program")
+            raise Fault(f"workers {survivors} live on without their program")
         time.sleep(0.05)
 
 
-TARGET = Target("studies", 50, 1, one, limit=600.0)
+TARGET = Target("studies", 50, 1, attempt, limit=600.0)

@@ -54,7 +54,7 @@ class Target:
         Tries of a whole run.
     small : int
         Tries in the test suite.
-    one : callable
+    attempt : callable
         One try, from a generator of random numbers of its own and an empty folder of its own. Returns a word for what
         came of it (``read``, ``refused`` …), which is counted; raises :class:`Fault`, or anything else, where that is wrong.
     limit : float
@@ -64,7 +64,7 @@ class Target:
     name: str
     count: int
     small: int
-    one: Callable[[random.Random, Path], str]
+    attempt: Callable[[random.Random, Path], str]
     limit: float = 20.0
 
 
@@ -87,12 +87,12 @@ class Report:
     def __str__(self) -> str:
         counts = ", ".join(f"{number} {word}" for word, number in sorted(self.results.items()))
         short = "" if self.tries >= self.wanted else f" of {self.wanted}, stopped by the budget"
-        said = f"{self.target.name}: {self.tries} tries{short} in {self.seconds:.0f} s: {counts}; {len(self.faults)} faults"
+        text = f"{self.target.name}: {self.tries} tries{short} in {self.seconds:.0f} s: {counts}; {len(self.faults)} faults"
         for what, values in self.numbers.items():
             if values:
                 middle = f"median {statistics.median(values):.2f}, largest {max(values):.2f}"
-                said += f"; {len(values)} {what}: {middle}"
-        return said
+                text += f"; {len(values)} {what}: {middle}"
+        return text
 
 
 def fuzz(
@@ -118,9 +118,9 @@ def fuzz(
                 _within(target.limit),
             ):
                 warnings.simplefilter("ignore")
-                found = target.one(rng, Path(folder))
-                report.results[str(found)] += 1
-                for what, values in getattr(found, "numbers", {}).items():
+                word = target.attempt(rng, Path(folder))
+                report.results[str(word)] += 1
+                for what, values in getattr(word, "numbers", {}).items():
                     report.numbers.setdefault(what, []).extend(values)
         except KeyboardInterrupt:
             raise

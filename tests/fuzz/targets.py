@@ -9,9 +9,9 @@ from pathlib import Path
 from .target import Target
 
 
-def found() -> dict[str, Target]:
+def by_name() -> dict[str, Target]:
     """Targets by name."""
-    names = [one.name for one in pkgutil.iter_modules([str(Path(__file__).parent)])]
+    names = [module_info.name for module_info in pkgutil.iter_modules([str(Path(__file__).parent)])]
     modules = [
         importlib.import_module(f"{__package__}.{name}")
         for name in names

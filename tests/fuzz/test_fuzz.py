@@ -7,7 +7,7 @@ import pytest
 from fuzz import targets
 from fuzz.target import Fault, Target, Tried, fuzz
 
-TARGETS = targets.found()
+TARGETS = targets.by_name()
 
 
 @pytest.mark.parametrize("name", TARGETS)
@@ -18,7 +18,7 @@ def test_target(name):
 
 
 def test_what_goes_wrong_is_seen_and_can_be_repeated_by_its_number():
-    def one(rng, folder):
+    def attempt(rng, folder):
         assert not list(folder.iterdir())
         number = rng.random()
         if number < 0.2:
@@ -27,7 +27,7 @@ def test_what_goes_wrong_is_seen_and_can_be_repeated_by_its_number():
             raise ZeroDivisionError(f"{number}")
         return "read"
 
-    target = Target("sample", 50, 1, one)
+    target = Target("sample", 50, 1, attempt)
     report = fuzz(target)
     assert report.tries == 50
     assert report.results["read"] == 50 - len(report.faults) > 0
@@ -48,9 +48,9 @@ def test_hangs_and_the_budget_end():
 
 
 def test_numbers_of_the_tries_are_told_as_a_distribution():
-    def one(rng, folder):
+    def attempt(rng, folder):
         return Tried("read", {"answers [s]": [0.1, 0.3, 0.2]})
 
-    report = fuzz(Target("sample", 2, 1, one))
+    report = fuzz(Target("sample", 2, 1, attempt))
     assert report.results == {"read": 2}
     assert str(report).endswith("; 0 faults; 6 answers [s]: median 0.20, largest 0.30")

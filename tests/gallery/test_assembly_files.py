@@ -55,8 +55,8 @@ def test_every_file_says_how_it_is_run():
 def test_assemblies_in_space(name, capsys):
     """Bodies and multipliers along x and y, by hand where a closed form is near; the arch and the statue by their ends."""
     bodies, azimuth, expected, tolerance = SPACE[name]
-    found = read_assembly(FOLDER / f"{name}.toml")
-    assert found.n == bodies
+    assembly = read_assembly(FOLDER / f"{name}.toml")
+    assert assembly.n == bodies
     assert call(["limit", str(FOLDER / f"{name}.toml"), "--directions", f"{azimuth}:{azimuth}:1", "--json"]) == 0
     out, err = capsys.readouterr()
     assert err == ""
@@ -82,8 +82,8 @@ def test_portal(run):
     laws = {j.law.friction_angle for j in read_assembly(FOLDER / "portal.toml").joints}
     assert laws == {35.0, 25.0}
     # below the uplift of its columns, about g tan α with α of their width over height, 0.78/4.0 at the narrow end
-    calm, said = run("portal", "--harmonic", "2Hz,0.1g,1s")
-    assert said == ""
+    calm, messages = run("portal", "--harmonic", "2Hz,0.1g,1s")
+    assert messages == ""
     assert calm["peak_displacement_m"] < 1e-3
     fallen, _ = run("portal", "--harmonic", "0.7Hz,0.4g,6s")
     assert "architrave" in fallen["fallen"]
@@ -94,8 +94,8 @@ def test_leaning_drum(run):
     """Smooth above, it would press there with 0.29 of its weight, and need a coefficient of 0.28 at its foot."""
     leaning = read_assembly(FOLDER / "leaning_drum.toml")
     assert [leaning.bodies[j.upper].name for j in leaning.joints] == ["standing drum"]
-    holds, said = run("leaning_drum", "--pulse", "sine,2Hz,0.3g")
-    assert said == ""
+    holds, messages = run("leaning_drum", "--pulse", "sine,2Hz,0.3g")
+    assert messages == ""
     assert holds["in_equilibrium_as_drawn"]
     assert not holds["fallen"]
 
@@ -113,8 +113,8 @@ def test_a_leaning_drum_slides_where_friction_is_too_small(run, tmp_path, capsys
 
 
 def test_dominoes(run):
-    fallen, said = run("dominoes", "--harmonic", "1Hz,0g,3s")
-    assert "'dominoes' is not in equilibrium as drawn; it moves from the start." in said
+    fallen, messages = run("dominoes", "--harmonic", "1Hz,0g,3s")
+    assert "'dominoes' is not in equilibrium as drawn; it moves from the start." in messages
     assert len(fallen["fallen"]) == 6
     assert fallen["at_rest"]
 
@@ -122,8 +122,8 @@ def test_dominoes(run):
 def test_arch(run):
     module = runpy.run_path(str(FOLDER / "write_arch.py"))
     assert module["arch"]() == (FOLDER / "arch.toml").read_text(encoding="utf-8")
-    calm, said = run("arch", "--harmonic", "2Hz,0.05g,2s")
-    assert said == ""
+    calm, messages = run("arch", "--harmonic", "2Hz,0.05g,2s")
+    assert messages == ""
     assert calm["fallen"] == []
     fallen, _ = run("arch", "--harmonic", "2Hz,0.5g,4s")
     assert {"stone 10", "stone 11", "stone 12"} <= set(fallen["fallen"])  # the crown

@@ -43,8 +43,8 @@ def box(width: float, depth: float, nodes: int = 160) -> Base:
     step = 2.0 * (width + depth) / nodes
     places = []
     for x, y, along, length in ((-1, -1, 0, width), (1, -1, 1, depth), (1, 1, 0, -width), (-1, 1, 1, -depth)):
-        some = round(abs(length) / step)
-        s = (np.arange(some) + 0.5) / some * length
+        count = round(abs(length) / step)
+        s = (np.arange(count) + 0.5) / count * length
         corner = np.array([0.5 * x * width, 0.5 * y * depth])
         places.append(corner + np.outer(s, np.eye(2)[along]))
     edge = np.concatenate(places)
@@ -77,9 +77,9 @@ def ring(outer: float, inner: float, circles: int = 6, nodes: int = 96) -> Base:
     """All of a ring between two diameters; of a disc where the inner one is 0."""
     bounds = 0.5 * np.sqrt(np.linspace(inner**2, outer**2, circles + 1))  # circles of the same area
     angle = (np.arange(nodes) + 0.5) * 2.0 * np.pi / nodes
-    one = np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    directions = np.stack((np.cos(angle), np.sin(angle)), axis=1)
     middle = np.sqrt(0.5 * (bounds[1:] ** 2 + bounds[:-1] ** 2))
-    place = (middle[:, None, None] * one).reshape(-1, 2)
+    place = (middle[:, None, None] * directions).reshape(-1, 2)
     return _spread(place, np.ones(len(place)), 0.25 * math.pi * (outer**2 - inner**2))
 
 
@@ -125,9 +125,9 @@ def _turn(w, dt):
     k = np.zeros((3, 3))
     k[0, 1], k[0, 2], k[1, 2] = -w[2] * dt, w[1] * dt, -w[0] * dt
     k -= k.T.copy()
-    one = math.sin(angle) / angle if angle > 1e-9 else 1.0
+    sinc = math.sin(angle) / angle if angle > 1e-9 else 1.0
     half = math.sin(0.5 * angle) / (0.5 * angle) if angle > 1e-9 else 1.0
-    return np.eye(3) + one * k + 0.5 * half * half * (k @ k)
+    return np.eye(3) + sinc * k + 0.5 * half * half * (k @ k)
 
 
 @njit(cache=True)

@@ -52,7 +52,7 @@ def arrays_in(state: Any) -> list[np.ndarray]:
     """All arrays of a state."""
     if isinstance(state, np.ndarray):
         return [state]
-    return [array for one in state for array in arrays_in(one)] if isinstance(state, tuple) else []
+    return [array for part in state for array in arrays_in(part)] if isinstance(state, tuple) else []
 
 
 class Rig:
@@ -108,12 +108,12 @@ class Rig:
 
     def copy(self) -> list[np.ndarray]:
         """All that the rig is, to come back to."""
-        return [one.copy() for one in self.arrays]
+        return [array.copy() for array in self.arrays]
 
     def back(self, kept: list[np.ndarray]) -> None:
         """Come back to what was copied."""
-        for one, old in zip(self.arrays, kept, strict=True):
-            one[...] = old
+        for array, old in zip(self.arrays, kept, strict=True):
+            array[...] = old
 
     def rub(self, mu: float) -> None:
         """Let friction have this coefficient."""
@@ -135,15 +135,15 @@ class Rig:
             self._put(" ".join(axis + c for c in "xyz"), axes[:, :, k])
         self.set_velocity((place - first) / DT, small_turn(now @ was.swapaxes(1, 2)) / DT)
         self.call(self.state)
-        force, moment = (one.T for one in self.load())
+        force, moment = (vectors.T for vectors in self.load())
         moment = moment + np.cross(place - new, force)
-        return np.concatenate([np.einsum("lji,lj->li", self.frame, one) for one in (force, moment)], axis=1)
+        return np.concatenate([np.einsum("lji,lj->li", self.frame, vectors) for vectors in (force, moment)], axis=1)
 
     def along(self, path: np.ndarray) -> np.ndarray:
         """What resists along a path, shape (steps, lanes, 6); the first place of the path is where the rig is."""
-        found = [self.step(path[0], path[0])]
-        found += [self.step(a, b) for a, b in itertools.pairwise(path)]
-        return np.array(found)
+        loads = [self.step(path[0], path[0])]
+        loads += [self.step(a, b) for a, b in itertools.pairwise(path)]
+        return np.array(loads)
 
 
 def work(path: np.ndarray, force: np.ndarray) -> np.ndarray:
@@ -193,8 +193,8 @@ def drums(count: int, section: str = "circular", **joint: Any) -> st.Column:
 
 def chipped(count: int) -> st.Column:
     """The same with a segment broken off the upper drum's foot."""
-    found = st.FoundDrum(count, chip_right=0.06, chip_azimuth=50.0)
-    return drums(count).replace(as_found=st.AsFound((found,)))
+    drum = st.FoundDrum(count, chip_right=0.06, chip_azimuth=50.0)
+    return drums(count).replace(as_found=st.AsFound((drum,)))
 
 
 def stones(kind: str) -> st.SpatialAssembly:
@@ -335,13 +335,13 @@ def loaded(rig: Rig, rng: np.random.Generator, lean: float = 0.8) -> np.ndarray:
     ``lean`` is the largest tilt, over the one at which the face begins to open.
     """
     rig.back(rig.began)
-    some = (rig.lanes,)
-    depth = rng.uniform(4e-6, 3e-5, some)
-    about, share = rng.uniform(0.0, 2.0 * math.pi, some), lean * np.sqrt(rng.uniform(0.0, 1.0, some))
+    shape = (rig.lanes,)
+    depth = rng.uniform(4e-6, 3e-5, shape)
+    about, share = rng.uniform(0.0, 2.0 * math.pi, shape), lean * np.sqrt(rng.uniform(0.0, 1.0, shape))
     tilt = share * depth / rig.radius
     # shear and torsion to a share of their limits together; the middle of pressure is off by as much as a half of ρ
-    way, mixed = rng.uniform(0.0, 2.0 * math.pi, some), rng.uniform(-0.5 * math.pi, 0.5 * math.pi, some)
-    size = rng.uniform(0.1, 0.6, some) * (1.0 - 0.4 * share)
+    way, mixed = rng.uniform(0.0, 2.0 * math.pi, shape), rng.uniform(-0.5 * math.pi, 0.5 * math.pi, shape)
+    size = rng.uniform(0.1, 0.6, shape) * (1.0 - 0.4 * share)
     slide, spin = size * np.cos(mixed) * MU * depth * KN / KS, size * np.sin(mixed) * MU * depth * KN / KS / rig.radius
     end = np.stack(
         (slide * np.cos(way), slide * np.sin(way), -depth, tilt * np.cos(about), tilt * np.sin(about), spin), axis=1
@@ -361,7 +361,7 @@ def straight(knots: np.ndarray, steps: int) -> np.ndarray:
 
 def tangent(rig: Rig, at: np.ndarray, size: float = 1e-8) -> np.ndarray:
     """Stiffness against displacements, turns taken times the radius, by differences from where a rig is, (lanes, 6, 6)."""
-    kept, found = rig.copy(), np.empty((rig.lanes, 6, 6))
+    kept, stiffness = rig.copy(), np.empty((rig.lanes, 6, 6))
     scale = np.array([1.0, 1.0, 1.0, *[rig.radius] * 3])
     for k in range(6):
         ends = []
@@ -370,7 +370,7 @@ def tangent(rig: Rig, at: np.ndarray, size: float = 1e-8) -> np.ndarray:
             there = at.copy()
             there[:, k] += sign * size / scale[k]
             ends.append(rig.step(at, there))
-        found[:, :, k] = (ends[0] - ends[1]) / (2.0 * size)
+        stiffness[:, :, k] = (ends[0] - ends[1]) / (2.0 * size)
     rig.back(kept)
     # a moment that stays as it is in space has an antisymmetric part of its own in angles: half of its cross product
     moment = rig.step(at, at)[:, 3:]
@@ -379,8 +379,8 @@ def tangent(rig: Rig, at: np.ndarray, size: float = 1e-8) -> np.ndarray:
     cross = np.zeros((rig.lanes, 3, 3))
     cross[:, 0, 1], cross[:, 0, 2], cross[:, 1, 2] = -z, y, -x
     cross -= cross.swapaxes(1, 2)
-    found[:, 3:, 3:] -= cross
-    return found / scale[:, None]
+    stiffness[:, 3:, 3:] -= cross
+    return stiffness / scale[:, None]
 
 
 def loops(
@@ -513,15 +513,15 @@ def lost_by_rocking(rig: Rig, seed: int, cycles: int = 8, steps: int = 60) -> np
 def all_of(name: str, poses: int, seed: int = 47) -> dict[str, float]:
     """The largest of what is measured of a law, over random poses that nowhere slip."""
     rig = LAWS[name]()
-    found = [measured(rig, seed + k) for k in range(-(-poses // rig.lanes))]
-    stuck = np.concatenate([one.stuck for one in found])
-    turns = np.abs(np.concatenate([one.turns for one in found], axis=1))[:, stuck]
+    measurements = [measured(rig, seed + k) for k in range(-(-poses // rig.lanes))]
+    stuck = np.concatenate([measurement.stuck for measurement in measurements])
+    turns = np.abs(np.concatenate([measurement.turns for measurement in measurements], axis=1))[:, stuck]
     return {
-        "askew": float(np.concatenate([one.askew for one in found])[stuck].max()),
-        "pressure askew": float(np.concatenate([one.bare for one in found])[stuck].max()),
+        "askew": float(np.concatenate([measurement.askew for measurement in measurements])[stuck].max()),
+        "pressure askew": float(np.concatenate([measurement.bare for measurement in measurements])[stuck].max()),
         "first turn": float(turns[0].max()), "third turn": float(turns[2].max()),
-        "given back": float(max(given_back(rig, seed + k).max() for k in range(len(found)))),
-        "lost by rocking": float(np.concatenate([lost_by_rocking(rig, seed + k) for k in range(len(found))]).max()),
+        "given back": float(max(given_back(rig, seed + k).max() for k in range(len(measurements)))),
+        "lost by rocking": float(np.concatenate([lost_by_rocking(rig, seed + k) for k in range(len(measurements))]).max()),
         "stuck": int(stuck.sum()), "of": len(stuck),
     }  # fmt: skip
 

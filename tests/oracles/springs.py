@@ -43,11 +43,11 @@ class Body:
         shear = -self.ks * memory
         size = np.linalg.norm(shear, axis=1)
         limit = self.mu * normal
-        held = np.where(size > limit, limit / np.maximum(size, 1e-300), 1.0)
-        shear = shear * held[:, None]
+        factor = np.where(size > limit, limit / np.maximum(size, 1e-300), 1.0)
+        shear = shear * factor[:, None]
         # the spring's stretch follows the slip; what is over the limit relaxes fast
         stretch = np.where(touching[:, None], speeds[:, :2], 0.0)
-        stretch = stretch - (memory * (1.0 - held)[:, None]) * 2e4
+        stretch = stretch - (memory * (1.0 - factor)[:, None]) * 2e4
         forces = np.column_stack((shear, normal))
         force = forces.sum(axis=0) + self.mass * np.array([-ground(t), 0.0, -G])
         moment = turn.T @ np.cross(arms, forces).sum(axis=0)

@@ -5,8 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as some
+from hypothesis import given, settings, strategies
 
 import stylobate as st
 from stylobate.column.catalogue import preset
@@ -15,54 +14,54 @@ from stylobate.response import Measures, Response, load_response
 from stylobate.response.assemblies import recorded_blocks
 
 RECORDED = ("time", "x", "z", "rotation", "joint_opening", "joint_slip", "ground_acceleration", "ground_displacement")
-NUMBERS = some.floats(allow_nan=True, allow_infinity=True)
+NUMBERS = strategies.floats(allow_nan=True, allow_infinity=True)
 
 
-@some.composite
+@strategies.composite
 def joints(draw):
-    form = draw(some.sampled_from(["friction_angle", "friction_coefficient"]))
-    value = draw(some.floats(0.01, 1.5)) * (50.0 if form == "friction_angle" else 1.0)
-    return st.Joint(draw(some.floats(1e6, 1e12)), draw(some.floats(1e6, 1e12)), **{form: value})
+    form = draw(strategies.sampled_from(["friction_angle", "friction_coefficient"]))
+    value = draw(strategies.floats(0.01, 1.5)) * (50.0 if form == "friction_angle" else 1.0)
+    return st.Joint(draw(strategies.floats(1e6, 1e12)), draw(strategies.floats(1e6, 1e12)), **{form: value})
 
 
-@some.composite
+@strategies.composite
 def assemblies(draw):
     """A stack of convex blocks, some with a law of their own, on a ground or on a fixed block."""
-    if draw(some.integers(0, 4)) == 0:
+    if draw(strategies.integers(0, 4)) == 0:
         return of_column(preset("paper-12-drums"))
     blocks, z = [], 0.0
-    for i in range(draw(some.integers(1, 4))):
-        height, width, lean = (draw(some.floats(0.1, 3.0)) for _ in range(3))
+    for i in range(draw(strategies.integers(1, 4))):
+        height, width, lean = (draw(strategies.floats(0.1, 3.0)) for _ in range(3))
         corners = [(-width, z), (width, z), (width + 0.1 * lean, z + height), (-width, z + height)]
         blocks.append(
             st.Block(
                 tuple(corners),
-                draw(some.floats(1.0, 5000.0)),
-                draw(some.sampled_from(["stone", "Säule ⌀", "a'\"b", "null"])) + f" {i}",
-                draw(some.floats(0.1, 2.0)),
-                fixed=i == 0 and draw(some.booleans()) and len(blocks) > 0,
-                surface=draw(some.none() | joints()),
+                draw(strategies.floats(1.0, 5000.0)),
+                draw(strategies.sampled_from(["stone", "Säule ⌀", "a'\"b", "null"])) + f" {i}",
+                draw(strategies.floats(0.1, 2.0)),
+                fixed=i == 0 and draw(strategies.booleans()) and len(blocks) > 0,
+                surface=draw(strategies.none() | joints()),
             )
         )
         z += height
-    overrides = [("ground", blocks[0].name, draw(joints()))] if draw(some.booleans()) else []
+    overrides = [("ground", blocks[0].name, draw(joints()))] if draw(strategies.booleans()) else []
     return st.Assembly(
         tuple(blocks),
         draw(joints()),
-        draw(some.text("abcδ №1", min_size=1, max_size=8).filter(str.strip)),
-        draw(some.just(0.0) | some.floats(0.01, 20.0)),
+        draw(strategies.text("abcδ №1", min_size=1, max_size=8).filter(str.strip)),
+        draw(strategies.just(0.0) | strategies.floats(0.01, 20.0)),
         0.0,
         tuple(overrides),
     )
 
 
-@some.composite
+@strategies.composite
 def responses(draw):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         assembly = draw(assemblies())
-    steps, n = draw(some.integers(1, 4)), len(assembly.bodies)
-    random = np.random.default_rng(draw(some.integers(0, 2**32)))
+    steps, n = draw(strategies.integers(1, 4)), len(assembly.bodies)
+    random = np.random.default_rng(draw(strategies.integers(0, 2**32)))
     special = draw(NUMBERS)
 
     def array(*shape):
@@ -70,23 +69,24 @@ def responses(draw):
         values.flat[0] = special
         return values
 
-    terms = draw(some.sets(some.sampled_from(["input", "kinetic", "gravitational", "elastic"]), min_size=1))
-    found = Response.of(recorded_blocks(
+    terms = draw(strategies.sets(strategies.sampled_from(["input", "kinetic", "gravitational", "elastic"]), min_size=1))
+    response = Response.of(recorded_blocks(
         assembly=assembly,
         time=np.arange(steps) * 0.01,
         **{name: array(steps, n) for name in ("x", "z", "rotation")},
         energy={term: array(steps) for term in terms},
         **{name: array(steps) for name in ("ground_acceleration", "ground_displacement")},
-        at_rest=draw(some.booleans()),
-        failed=draw(some.booleans()),
+        at_rest=draw(strategies.booleans()),
+        failed=draw(strategies.booleans()),
         energy_imbalance=draw(NUMBERS),
-        time_step=draw(some.floats(1e-9, 1.0)),
-        steps=draw(some.integers(0, 2**60)),
-        in_equilibrium=draw(some.none() | some.booleans()),
+        time_step=draw(strategies.floats(1e-9, 1.0)),
+        steps=draw(strategies.integers(0, 2**60)),
+        in_equilibrium=draw(strategies.none() | strategies.booleans()),
         model="dem2d",
-        provenance={"version": "0.1.0", "parameters": {"points": 2, "restitution": None}, "share": draw(some.floats(0, 1))},
+        provenance={"version": "0.1.0", "parameters": {"points": 2, "restitution": None},
+                    "share": draw(strategies.floats(0, 1))},
     ))  # fmt: skip
-    return dataclasses.replace(found, wall_time=draw(some.floats(0, 1e6)))
+    return dataclasses.replace(response, wall_time=draw(strategies.floats(0, 1e6)))
 
 
 @settings(max_examples=25, deadline=None)
@@ -126,10 +126,10 @@ def test_four_hundred_blocks_fit_in_a_file(tmp_path):
         st.Block(((x, z), (x + 1, z), (x + 1, z + 1), (x, z + 1)), 2e3, f"b{i}") for i, (x, z) in enumerate(corners)
     )
     assembly = st.Assembly(blocks, st.Joint(1e9, 5e8, 35.0))
-    n, one = len(assembly.bodies), np.zeros(1)
+    n, zero = len(assembly.bodies), np.zeros(1)
     x, z, rotation = np.zeros((3, 1, n))
     still = Response.of(recorded_blocks(
-        assembly, one, x, z, rotation, {"input": one}, one, one, at_rest=True, failed=False, in_equilibrium=True,
+        assembly, zero, x, z, rotation, {"input": zero}, zero, zero, at_rest=True, failed=False, in_equilibrium=True,
         energy_imbalance=0.0, time_step=1e-3, steps=1, model="dem2d", provenance={},
     ))  # fmt: skip
     assert Response.load(still.save(tmp_path / "many.nc")).assembly == assembly

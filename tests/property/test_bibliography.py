@@ -41,21 +41,21 @@ def family(reference):
 
 
 def test_every_entry_has_author_title_and_year():
-    for one in bibliography().values():
-        assert one.authors
-        assert all(one.authors)
-        assert one.fields["title"]
-        assert one.year or "not verified" in one.fields["note"], one.key
+    for entry in bibliography().values():
+        assert entry.authors
+        assert all(entry.authors)
+        assert entry.fields["title"]
+        assert entry.year or "not verified" in entry.fields["note"], entry.key
 
 
 def test_the_whole_file_is_read():
     # What is printed as BibTeX is the entry as it stands in the file; nothing of the file is passed over.
     text = FILE.read_text(encoding="utf-8")
-    assert all(one.bibtex in text for one in bibliography().values())
-    left = text
-    for one in bibliography().values():
-        left = left.replace(one.bibtex, "")
-    assert all(line.startswith("%") for line in left.split("\n") if line)
+    assert all(entry.bibtex in text for entry in bibliography().values())
+    rest = text
+    for entry in bibliography().values():
+        rest = rest.replace(entry.bibtex, "")
+    assert all(line.startswith("%") for line in rest.split("\n") if line)
 
 
 def test_keys_in_the_code_are_in_the_bibliography():
@@ -69,27 +69,31 @@ def test_keys_in_the_code_are_in_the_bibliography():
 
 
 def test_sources_of_docstrings_are_in_the_bibliography():
-    known = {(family(one), one.year) for one in bibliography().values()}
-    found = set()
+    known = {(family(entry), entry.year) for entry in bibliography().values()}
+    cited = set()
     for path, text in TEXTS.items():
         if "src" in path.parts:
             for section in re.findall(r"References\n +-{10}\n(.*?)\"\"\"", text, re.DOTALL):
-                found |= {(one["first"], int(one["year"])) for one in CITED.finditer(" ".join(section.split()))}
-    assert len(found) > 15
-    assert found <= known
+                cited |= {(match["first"], int(match["year"])) for match in CITED.finditer(" ".join(section.split()))}
+    assert len(cited) > 15
+    assert cited <= known
 
 
 def test_lists_of_the_pages_agree_with_the_bibliography():
-    titles = {(family(one), one.year, one.fields["title"]) for one in bibliography().values()}
+    titles = {(family(entry), entry.year, entry.fields["title"]) for entry in bibliography().values()}
     pages = [text for path, text in TEXTS.items() if "docs" in path.parts]
-    listed = {(one["first"].strip(), int(one["year"]), one["title"]) for text in pages for one in LISTED.finditer(text)}
+    listed = {
+        (match["first"].strip(), int(match["year"]), match["title"])
+        for text in pages
+        for match in LISTED.finditer(text)
+    }
     assert listed
     assert listed <= titles
 
 
 @pytest.mark.parametrize("key", bibliography())
 def test_every_entry_is_cited(key):
-    one, everything = bibliography()[key], "\n".join(TEXTS.values())
-    name, year = re.escape(family(one)), one.year or ""
-    near = rf"{name}[^\n]{{0,60}}{year}" if str(year) not in family(one) else name
+    entry, everything = bibliography()[key], "\n".join(TEXTS.values())
+    name, year = re.escape(family(entry)), entry.year or ""
+    near = rf"{name}[^\n]{{0,60}}{year}" if str(year) not in family(entry) else name
     assert re.search(rf'"{key}"', everything) or re.search(near, everything), f"nothing cites {key}"

@@ -40,11 +40,11 @@ def written(tmp_path, *tables: str):
 def test_links_are_read_with_their_places(tmp_path) -> None:
     made = 'kind = "clamp"\nbetween = ["a", "b"]\nat = [0.85, 0.48]\nto = [1.15, 0.48]\nsection = [0.03, 0.012]\n'
     made += 'embedment = 0.06\nmaterial = "iron in lead"'
-    found = st.read_assembly(written(tmp_path, CLAMP, DOWEL, TIE, made)).placed_links
-    assert [one.name for one in found] == [
+    links = st.read_assembly(written(tmp_path, CLAMP, DOWEL, TIE, made)).placed_links
+    assert [link.name for link in links] == [
         "clamp between a and b, 1", "dowel between a and top", "tie between ground and top", "clamp between a and b, 2",
     ]  # fmt: skip
-    clamp, dowel, tie, iron = found
+    clamp, dowel, tie, iron = links
     assert clamp.place == pytest.approx((1.0, 0.48))
     assert clamp.along == pytest.approx((0.0, -1.0))
     assert dowel.low == pytest.approx((0.5, 0.0, 0.5))
@@ -86,9 +86,9 @@ def test_links_are_read_with_their_places(tmp_path) -> None:
 )  # fmt: skip
 def test_what_cannot_be_is_said_in_one_sentence(tmp_path, capsys, table, words) -> None:
     assert call(["run", str(written(tmp_path, table)), "--pulse", "ricker,1Hz,0.1g"]) == 2
-    said = capsys.readouterr().err
-    assert words in " ".join(said.split())
-    assert "Traceback" not in said
+    message = capsys.readouterr().err
+    assert words in " ".join(message.split())
+    assert "Traceback" not in message
 
 
 def test_a_column_has_no_clamp(tmp_path) -> None:

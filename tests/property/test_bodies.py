@@ -123,10 +123,10 @@ def test_a_response_in_space_is_drawn(tmp_path):
 
 
 def test_poses_of_a_plane_model_in_space():
-    found = st.AsFound(
+    as_found = st.AsFound(
         (st.FoundDrum(2, offset=0.02, tilt=0.4, chip_left=0.05), st.FoundDrum(5, tilt=-0.3)), base_tilt=2.0
     )
-    column = preset("paper-12-drums").replace(as_found=found)
+    column = preset("paper-12-drums").replace(as_found=as_found)
     response = st.simulate(column, st.harmonic(2.0, 0.2 * st.g, 0.5), st.DistinctElement2D())
     assert response.dims == "xz"
     matrices = rotation_matrices(response.body_orientation)
@@ -177,16 +177,16 @@ def test_a_collapse_has_one_story():
         preset("paper-12-drums"), st.harmonic(0.66, 0.5 * st.g, 3.0), st.DistinctElement2D(), until_rest=True,
         output_interval=0.05,
     )  # fmt: skip
-    collapse, said = response.collapse, response.summary()
+    collapse, summary = response.collapse, response.summary()
     assert collapse.time == response.collapse_time <= min(response.fell_at.values())
     assert collapse.joint == response.mechanism.joint
     assert f"joint {collapse.joint}" in response.reason
     assert collapse.side in response.reason
     assert collapse.touched.bodies is not None
-    assert said["residual_top_displacement_m"] is None
-    assert said["residual_joint_slip_m"] is None
+    assert summary["residual_top_displacement_m"] is None
+    assert summary["residual_joint_slip_m"] is None
     before = response.time <= collapse.time
-    assert said["peak_opening_per_joint_m"] == np.abs(response.joint_opening[before]).max(axis=0).tolist()
+    assert summary["peak_opening_per_joint_m"] == np.abs(response.joint_opening[before]).max(axis=0).tolist()
     for words in (f"certain at {collapse.time:.2f} s", "First to touch were", response.mechanism.describe()):
         assert words in response.sentence
 
@@ -194,9 +194,9 @@ def test_a_collapse_has_one_story():
 def test_measures_without_a_collapse_are_equal_on_every_python():
     """A time of collapse that is no number is like another one, whichever objects they are; other numbers are not."""
     column, motion = preset("paper-monolithic"), st.harmonic(1.0, 0.05 * st.g, 0.2)
-    found = st.simulate(column, motion, st.HousnerBlock()).measures
-    again = dataclasses.replace(found, collapse_time=float("nan"))
-    assert math.isnan(found.collapse_time)
-    assert found == again
-    assert found != dataclasses.replace(found, peak_rotation=1.0)
-    assert found != "measures"
+    measures = st.simulate(column, motion, st.HousnerBlock()).measures
+    again = dataclasses.replace(measures, collapse_time=float("nan"))
+    assert math.isnan(measures.collapse_time)
+    assert measures == again
+    assert measures != dataclasses.replace(measures, peak_rotation=1.0)
+    assert measures != "measures"

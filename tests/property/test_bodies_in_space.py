@@ -32,49 +32,51 @@ def turned(axis, degrees):
 
 def test_a_box_and_the_hull_of_its_corners_are_the_same_body():
     """Mass and inertia of a box by hand; to rounding, as the sums differ."""
-    one = box((0.8, 0.6, 4.0), (1.0, 2.0, 0.0), orientation=turned((1, 2, 3), 40.0))
-    other = st.Stone.hull(one.vertices, 2000.0)
+    stone = box((0.8, 0.6, 4.0), (1.0, 2.0, 0.0), orientation=turned((1, 2, 3), 40.0))
+    other = st.Stone.hull(stone.vertices, 2000.0)
     mass = 2000.0 * 0.8 * 0.6 * 4.0
-    assert one.mass == pytest.approx(mass, rel=1e-12)
-    assert np.diag(one.inertia_tensor) == pytest.approx(mass / 12.0 * np.array([16.36, 16.64, 1.0]), rel=1e-12)
+    assert stone.mass == pytest.approx(mass, rel=1e-12)
+    assert np.diag(stone.inertia_tensor) == pytest.approx(mass / 12.0 * np.array([16.36, 16.64, 1.0]), rel=1e-12)
     assert other.mass == pytest.approx(mass, rel=1e-9)
-    assert other.position == pytest.approx(one.position, abs=1e-9)
-    np.testing.assert_allclose(other.inertia_tensor, one.axes @ one.inertia_tensor @ one.axes.T, rtol=1e-9, atol=1e-6)
+    assert other.position == pytest.approx(stone.position, abs=1e-9)
+    np.testing.assert_allclose(
+        other.inertia_tensor, stone.axes @ stone.inertia_tensor @ stone.axes.T, rtol=1e-9, atol=1e-6
+    )
     assert len(other.shape.mesh().faces) == 6
 
 
 def test_moments_of_a_hull_are_those_of_the_points_within_it():
     """Against two million random points: 1/sqrt of those within, 0.3 % at four times it."""
     shape = ConvexSolid(RNG.uniform(-1.0, 1.0, (12, 3)))
-    found = mesh_moments(shape.mesh(), 1.0)
+    moments = mesh_moments(shape.mesh(), 1.0)
     points = RNG.uniform(-1.0, 1.0, (400_000, 3))
     inside = np.ones(len(points), dtype=bool)
     for face in shape.mesh().faces:
         a, b, c = shape.vertices[list(face[:3])]
         inside &= (points - a) @ np.cross(b - a, c - a) <= 0.0
     share = inside.mean()
-    assert found.mass == pytest.approx(8.0 * share, rel=0.02)
-    assert found.centroid == pytest.approx(points[inside].mean(axis=0), abs=0.01)
-    away = points[inside] - found.centroid
+    assert moments.mass == pytest.approx(8.0 * share, rel=0.02)
+    assert moments.centroid == pytest.approx(points[inside].mean(axis=0), abs=0.01)
+    away = points[inside] - moments.centroid
     tensor = 8.0 * share * np.mean((away**2).sum(axis=1)) * np.eye(3) - 8.0 * share * away.T @ away / len(away)
-    np.testing.assert_allclose(found.tensor, tensor, atol=0.02 * np.trace(tensor))
+    np.testing.assert_allclose(moments.tensor, tensor, atol=0.02 * np.trace(tensor))
 
 
 def test_a_capital_is_one_body():
     """An echinus and a square abacus glued: mass, centroid and inertia by the parallel axes."""
     echinus, abacus = drum_shape(0.8, 1.2, 0.25, "it"), box_shape((1.2, 1.2, 0.2), "it")
     parts = (Placed(echinus, (0.0, 0.0, echinus.centroid)), Placed(abacus, (0.0, 0.0, 0.35)))
-    one = st.Stone(parts, (0.0, 0.0, 2.0), 2500.0)
+    capital = st.Stone(parts, (0.0, 0.0, 2.0), 2500.0)
     masses = [2500.0 * math.pi * 0.25 * (0.64 + 0.96 + 1.44) / 12.0, 2500.0 * 1.44 * 0.2]
-    assert one.mass == pytest.approx(sum(masses), rel=1e-12)
+    assert capital.mass == pytest.approx(sum(masses), rel=1e-12)
     middle = (masses[0] * echinus.centroid + masses[1] * 0.35) / sum(masses)
-    assert [piece.place[2] for piece in one.pieces] == pytest.approx(
+    assert [piece.place[2] for piece in capital.pieces] == pytest.approx(
         [echinus.centroid - middle, 0.35 - middle], abs=1e-12
     )
     # along the axis inertias add: of a cone's frustum ρπh(R⁵−r⁵)/(10(R−r)), of a square m a²/6
     cone = 2500.0 * math.pi * 0.25 * (0.6**5 - 0.4**5) / (10.0 * 0.2)
-    assert one.inertia_tensor[2, 2] == pytest.approx(cone + masses[1] * 1.44 / 6.0, rel=1e-9)
-    assert np.ptp(one.vertices[:, 2]) == pytest.approx(0.45, abs=1e-12)
+    assert capital.inertia_tensor[2, 2] == pytest.approx(cone + masses[1] * 1.44 / 6.0, rel=1e-9)
+    assert np.ptp(capital.vertices[:, 2]) == pytest.approx(0.45, abs=1e-12)
 
 
 def test_joints_are_where_faces_lie_on_one_another():
@@ -166,7 +168,7 @@ def test_rotating_everything_changes_no_joint():
     def scene(angle):
         turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
         at = [turn @ place for place in ((0.0, 0.0), (2.0, 0.0), (0.0, 2.0))]
-        stones = [st.Stone.drum(0.8, 0.7, 2.0, (*one, 0.0), 2000.0, name=f"d{i}") for i, one in enumerate(at)]
+        stones = [st.Stone.drum(0.8, 0.7, 2.0, (*point, 0.0), 2000.0, name=f"d{i}") for i, point in enumerate(at)]
         way = about_z(math.degrees(angle))
         stones.append(box((2.4, 0.4, 0.5), (*(turn @ (1.0, 0.0)), 2.0), name="x", orientation=way))
         stones.append(box((0.4, 1.8, 0.5), (*(turn @ (0.0, 1.1)), 2.0), name="y", orientation=way))
@@ -175,5 +177,7 @@ def test_rotating_everything_changes_no_joint():
     level = scene(0.0)
     for angle in (0.3, 1.0, 2.5):
         other = scene(angle)
-        assert [(one.lower, one.upper) for one in other] == [(one.lower, one.upper) for one in level]
-        assert [one.area for one in other] == pytest.approx([one.area for one in level], rel=2e-3)  # of 96 corners
+        assert [(joint.lower, joint.upper) for joint in other] == [(joint.lower, joint.upper) for joint in level]
+        assert [joint.area for joint in other] == pytest.approx(
+            [joint.area for joint in level], rel=2e-3
+        )  # of 96 corners

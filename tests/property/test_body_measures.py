@@ -68,16 +68,16 @@ def made_in_the_plane(at_rest=True, failed=False):
 
 
 def test_the_first_to_fall_fell_to_its_own_side():
-    measures, said = made_in_the_plane()
+    measures, sentence = made_in_the_plane()
     assert measures.collapse.azimuth == measures.blocks.bodies[0].fall_azimuth == 0.0
-    assert "First fell tall, to the right" in said
-    assert said.endswith("Shifted, but standing: low.")
+    assert "First fell tall, to the right" in sentence
+    assert sentence.endswith("Shifted, but standing: low.")
 
 
 def test_what_still_moves_is_not_called_standing():
-    measures, said = made_in_the_plane(at_rest=False)
+    measures, sentence = made_in_the_plane(at_rest=False)
     assert measures.blocks.displaced == ()
-    assert said.endswith("Not all is at rest at the end: what has not fallen by then may yet fall.")
+    assert sentence.endswith("Not all is at rest at the end: what has not fallen by then may yet fall.")
 
 
 def test_a_run_that_failed_tells_nothing_as_fallen_or_displaced():
@@ -109,10 +109,10 @@ def test_an_assembly_in_the_plane_tells_its_bodies_and_velocities(tmp_path):
     assembly = st.Assembly((pushed, side), st.Joint(5e9, 2.5e9, 35.0))
     motion = st.harmonic(1.0, 0.5 * st.g, 2.0)
     response = st.simulate(assembly, motion, st.DistinctElement2D())
-    told = response.summary()
-    assert told["fallen"] == ["tall"]
-    assert told["bodies"]["tall"]["fall_azimuth_deg"] in (0.0, 180.0)
-    assert told["mechanism"]["first"] == "tall"
+    summary = response.summary()
+    assert summary["fallen"] == ["tall"]
+    assert summary["bodies"]["tall"]["fall_azimuth_deg"] in (0.0, 180.0)
+    assert summary["mechanism"]["first"] == "tall"
     assert "First fell tall, to the " in response.sentence
     assert response.body_velocity.shape == (len(response.time), 3, 3)
     speed = np.gradient(response.x[:, 1], response.time)

@@ -35,15 +35,15 @@ OTHER = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(("made", "without"), WITHOUT.items(), ids=lambda one: getattr(one, "__name__", ""))
+@pytest.mark.parametrize(("made", "without"), WITHOUT.items(), ids=lambda value: getattr(value, "__name__", ""))
 def test_its_fields_are_keywords_but_for_those_that_a_function_does_not_take(made, without):
     needed = [
         None
-        for one in inspect.signature(made).parameters.values()
-        if one.default is one.empty and one.kind is one.POSITIONAL_OR_KEYWORD
+        for parameter in inspect.signature(made).parameters.values()
+        if parameter.default is parameter.empty and parameter.kind is parameter.POSITIONAL_OR_KEYWORD
     ]
     assert "**settings" in (inspect.getdoc(made) or "") or "as in" in (inspect.getdoc(made) or "")
-    assert [one.name for one in dataclasses.fields(st.Campaign)] == [*OTHER]
+    assert [field.name for field in dataclasses.fields(st.Campaign)] == [*OTHER]
     for name, value in OTHER.items():
         refused = TypeError if name in without else Exception
         with pytest.raises(refused) as caught:
@@ -111,11 +111,11 @@ def test_an_option_that_a_command_ignores_is_not_accepted(capsys, command, optio
 
 def test_a_keyword_that_contradicts_the_campaign_is_refused():
     """The keyword won, and nobody was told."""
-    asked = st.Campaign(tail=3.0, threads=1)
+    campaign = st.Campaign(tail=3.0, threads=1)
     with pytest.raises(
         st.InputError, match=r"`tail` is 1.0, and 3.0 in the campaign; give it in one of the two"
     ) as refused:
-        st.collapse_domain(*GRID, campaign=asked, tail=1.0)
+        st.collapse_domain(*GRID, campaign=campaign, tail=1.0)
     assert refused.value.field == "tail"
-    same = st.collapse_domain(*GRID, campaign=asked, tail=3.0)
+    same = st.collapse_domain(*GRID, campaign=campaign, tail=3.0)
     assert same.provenance["tail"] == 3.0

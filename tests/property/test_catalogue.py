@@ -36,14 +36,14 @@ def test_figures_fit_each_other(name):
 @pytest.mark.parametrize("name", PRESETS)
 def test_every_figure_is_sourced_or_said_to_be_assumed(name):
     known = CATALOGUE[name]
-    assert all(one.words for one in known.figures.values())
-    assert {one.source for one in known.figures.values() if one.measured} <= set(bibliography())
+    assert all(figure.words for figure in known.figures.values())
+    assert {figure.source for figure in known.figures.values() if figure.measured} <= set(bibliography())
     # Nobody stands here whose size is a guess.
     assert known.height.measured
     assert known.bottom_width.measured
-    told = known.to_dict()
-    assert sorted(told["measured"] + told["assumed"]) == sorted(known.figures)
-    assert len(told["sources"]) == len(known.sources) >= 1
+    facts = known.to_dict()
+    assert sorted(facts["measured"] + facts["assumed"]) == sorted(known.figures)
+    assert len(facts["sources"]) == len(known.sources) >= 1
 
 
 def test_the_weight_of_pompeys_pillar_is_the_published_one():

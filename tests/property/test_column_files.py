@@ -6,8 +6,7 @@ import warnings
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as some
+from hypothesis import given, settings, strategies
 
 import stylobate as st
 from stylobate.column.assembly_files import read_assembly
@@ -18,49 +17,51 @@ from stylobate.column.scatter import Scatter, twins_of
 from stylobate.column.toml import parse_toml, toml_text
 from stylobate.errors import InputError
 
-LENGTHS = some.floats(1e-3, 1e3)
+LENGTHS = strategies.floats(1e-3, 1e3)
 
 
-@some.composite
+@strategies.composite
 def joints(draw):
-    friction = draw(some.sampled_from(["friction_angle", "friction_coefficient"]))
-    value = draw(some.floats(0.0, 89.9)) if friction == "friction_angle" else draw(some.floats(0.0, 100.0))
-    stiffness = some.floats(1.0, 1e15)
-    return st.Joint(draw(stiffness), draw(stiffness), cohesion=draw(some.floats(0.0, 1e9)), **{friction: value})
+    friction = draw(strategies.sampled_from(["friction_angle", "friction_coefficient"]))
+    value = draw(strategies.floats(0.0, 89.9)) if friction == "friction_angle" else draw(strategies.floats(0.0, 100.0))
+    stiffness = strategies.floats(1.0, 1e15)
+    return st.Joint(draw(stiffness), draw(stiffness), cohesion=draw(strategies.floats(0.0, 1e9)), **{friction: value})
 
 
-@some.composite
+@strategies.composite
 def as_found(draw, n):
-    small = some.floats(-1e-4, 1e-4)
+    small = strategies.floats(-1e-4, 1e-4)
     drums = [
-        st.FoundDrum(i, draw(small), draw(some.floats(-0.1, 0.1)), abs(draw(small)), abs(draw(small)))
-        for i in draw(some.sets(some.integers(1, n)))
+        st.FoundDrum(i, draw(small), draw(strategies.floats(-0.1, 0.1)), abs(draw(small)), abs(draw(small)))
+        for i in draw(strategies.sets(strategies.integers(1, n)))
     ]
-    return st.AsFound(tuple(drums), draw(some.floats(-0.1, 0.1)))
+    return st.AsFound(tuple(drums), draw(strategies.floats(-0.1, 0.1)))
 
 
-@some.composite
+@strategies.composite
 def columns(draw):
-    section = draw(some.sampled_from(["circular", "rectangular"]))
-    n = draw(some.integers(1, 6))
+    section = draw(strategies.sampled_from(["circular", "rectangular"]))
+    n = draw(strategies.integers(1, 6))
     drums = [
         st.Drum(
             draw(LENGTHS),
             draw(LENGTHS),
             draw(LENGTHS),
-            draw(some.floats(1.0, 1e5)),
+            draw(strategies.floats(1.0, 1e5)),
             section,
             draw(LENGTHS) if section == "rectangular" else 1.0,
         )
         for _ in range(n)
     ]
-    signs = some.characters(exclude_categories=["Cs", "Cc", "Zl", "Zp"])
-    name = draw(some.text(signs, min_size=1, max_size=20).filter(str.strip))
+    signs = strategies.characters(exclude_categories=["Cs", "Cc", "Zl", "Zp"])
+    name = draw(strategies.text(signs, min_size=1, max_size=20).filter(str.strip))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", st.OutOfRangeWarning)
-        column = st.Column(tuple(drums), tuple(draw(joints()) for _ in range(n)), name, draw(some.floats(0.1, 100.0)))
+        column = st.Column(
+            tuple(drums), tuple(draw(joints()) for _ in range(n)), name, draw(strategies.floats(0.1, 100.0))
+        )
         try:
-            return column.replace(as_found=draw(some.none() | as_found(n)) or st.AsFound())
+            return column.replace(as_found=draw(strategies.none() | as_found(n)) or st.AsFound())
         except st.InputError:  # it would not stand
             return column
 
@@ -157,7 +158,7 @@ def test_what_no_column_of_stone_is_like_is_warned_of(change, says, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("found", "says"),
+    ("table", "says"),
     [
         (
             "[[as_found.drum]]\nindex = 2\noffset = 0.38",
@@ -166,15 +167,15 @@ def test_what_no_column_of_stone_is_like_is_warned_of(change, says, tmp_path):
         ("[[as_found.drum]]\nindex = 2\noffset = 0.2", None),
     ],
 )
-def test_a_drum_found_near_the_edge_is_warned_of(found, says, tmp_path):
-    one = "[[drum]]\nheight = 0.74\nbottom_width = 1.0\ntop_width = 1.0\n"
+def test_a_drum_found_near_the_edge_is_warned_of(table, says, tmp_path):
+    drum = "[[drum]]\nheight = 0.74\nbottom_width = 1.0\ntop_width = 1.0\n"
     joint = "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\nfriction_angle = 35.0\n"
     path = tmp_path / "column.toml"
-    path.write_text(f"density = 2600.0\n{one * 6}{joint}{found}\n")
-    with warnings.catch_warnings(record=True) as told:
+    path.write_text(f"density = 2600.0\n{drum * 6}{joint}{table}\n")
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         read_column(path)
-    assert (says is None and not told) or any(re.search(says, str(w.message)) for w in told)
+    assert (says is None and not caught) or any(re.search(says, str(w.message)) for w in caught)
 
 
 def drums_of(height, width, number):
@@ -203,21 +204,21 @@ def drums_of(height, width, number):
     ],
 )
 def test_a_radius_given_for_a_diameter_makes_a_column_too_slender(size, says):
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        found = unit_doubts(drums_of(*size))
-    assert [str(one.message) for one in told] == [f"'column': {doubt}" for doubt in found]
-    assert len(found) == bool(says)
-    assert re.search(says, " ".join(found))
+        doubts = unit_doubts(drums_of(*size))
+    assert [str(warning.message) for warning in caught] == [f"'column': {doubt}" for doubt in doubts]
+    assert len(doubts) == bool(says)
+    assert re.search(says, " ".join(doubts))
 
 
 def test_a_column_made_in_python_is_doubted_as_one_of_a_file_and_not_again():
     drums = [st.Drum(900.0, 800.0, 800.0, 2500.0, section="circular")] * 3
     joint = st.Joint(5e10, 2.5e10, 35.0)
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         column = st.Column.of_drums(drums, joint)
-    first, *others = (str(one.message) for one in told)
+    first, *others = (str(warning.message) for warning in caught)
     assert first == "'column': the height of drum 1 is 900 m, and drums have 0.005 to 30 m: check it and its unit."
     assert re.search("width of the lower face of drum 1 is 800 m", others[0])
     sound = drums_of(5.5, 0.5, 10)
@@ -258,10 +259,10 @@ def test_what_is_found_is_part_of_the_column(tmp_path):
     path = tmp_path / "found.toml"
     path.write_text(TAPERED + AS_FOUND)
     column = read_column(path)
-    found = st.AsFound((st.FoundDrum(3, offset=0.012, tilt=-0.4), st.FoundDrum(5, chip_left=0.05)), 0.5)
+    damage = st.AsFound((st.FoundDrum(3, offset=0.012, tilt=-0.4), st.FoundDrum(5, chip_left=0.05)), 0.5)
     path.write_text(TAPERED)
     as_built = read_column(path)
-    assert column == as_built.replace(as_found=found)
+    assert column == as_built.replace(as_found=damage)
     assert column.digest != as_built.digest
     assert "as_found" not in as_built.to_dict()
 
@@ -287,12 +288,12 @@ def test_both_ways_of_stating_drums(tmp_path):
     assert column.joints[1] == st.Joint(5e10, 2.5e10, friction_angle=25.0)
 
 
-@given(data=some.data())
+@given(data=strategies.data())
 def test_a_misspelt_key_is_named_with_the_right_one(data, tmp_path_factory):
     lines = TAPERED.splitlines()
-    at = data.draw(some.sampled_from([i for i, line in enumerate(lines) if "=" in line]))
+    at = data.draw(strategies.sampled_from([i for i, line in enumerate(lines) if "=" in line]))
     key, _, value = lines[at].partition(" = ")
-    cut = data.draw(some.integers(0, len(key) - 1))
+    cut = data.draw(strategies.integers(0, len(key) - 1))
     wrong = key[:cut] + key[cut + 1 :]
     lines[at] = f"{wrong} = {value}"
     path = tmp_path_factory.getbasetemp() / "misspelt.toml"
@@ -365,22 +366,22 @@ def test_a_column_that_is_neither_preset_nor_file(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "warning"),
     [
         ("friction_coefficient = 3.5", "friction_coefficient is 3.5, and nobody has measured but 0 to 2"),
         ("normal_stiffness = 5e6", "normal_stiffness is 5e\\+06 N/m³, and nobody has measured but 1e\\+07"),
         ("shear_stiffness = 5e13", "shear_stiffness is 5e\\+13 N/m³, and nobody has measured"),
     ],
 )
-def test_joints_that_nobody_has_measured_are_warned_about(line, said, tmp_path):
+def test_joints_that_nobody_has_measured_are_warned_about(line, warning, tmp_path):
     joint = {"normal_stiffness": "5e10", "shear_stiffness": "2.5e10", "friction_coefficient": "0.7"}
     key, _, value = line.partition(" = ")
-    rows = "\n".join(f"{name} = {one}" for name, one in (joint | {key: value}).items())
+    rows = "\n".join(f"{name} = {number}" for name, number in (joint | {key: value}).items())
     path = tmp_path / "column.toml"
     path.write_text(
         "density = 2000.0\n[tapered]\nheight = 2.0\nbottom_width = 0.6\ntop_width = 0.6\ndrums = 1\n[joint]\n" + rows
     )
-    with pytest.warns(st.OutOfRangeWarning, match=said):
+    with pytest.warns(st.OutOfRangeWarning, match=warning):
         read_column(path)
 
 
@@ -408,7 +409,7 @@ def test_one_drum_too_high_is_told_apart_from_a_column_too_high(tmp_path):
     path.write_text(f"density = 2500.0\n{drums}{law}")
     with pytest.warns(st.OutOfRangeWarning) as seen:
         read_column(path)
-    assert [str(one.message) for one in seen] == [
+    assert [str(warning.message) for warning in seen] == [
         "'column': the height of drum 2 is 86 m, and drums have 0.005 to 30 m: check it and its unit."
     ]
 
@@ -433,7 +434,7 @@ def test_each_kind_of_length_is_doubted_once():
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "warning"),
     [
         ("height = 86.0", r"size of block 'a' is 86 m, and stones have 0.05 to 60 m: check"),
         ("depth = 80.0", r"size of block 'a' is 80 m, and stones have"),
@@ -441,7 +442,7 @@ def test_each_kind_of_length_is_doubted_once():
         ("normal_stiffness = 5e7", r"closure of the joint under block 'a' by weight is 1.962 mm, and dry joints"),
     ],
 )
-def test_blocks_of_an_assembly_are_doubted_as_drums_are(line, said, tmp_path):
+def test_blocks_of_an_assembly_are_doubted_as_drums_are(line, warning, tmp_path):
     values = {"height": "4.0", "density": "2500.0", "normal_stiffness": "5e10", "depth": "0.8"}
     name, _, value = line.partition(" = ")
     values[name] = value
@@ -452,17 +453,27 @@ def test_blocks_of_an_assembly_are_doubted_as_drums_are(line, said, tmp_path):
         f"[joint]\nnormal_stiffness = {values['normal_stiffness']}\nshear_stiffness = 2e10\nfriction_angle = 35.0\n"
         f"[[block]]\nname = 'a'\nvertices = [[0.0, 0.0], [0.8, 0.0], [0.8, {h}], [0.0, {h}]]\n"
     )
-    with pytest.warns(st.OutOfRangeWarning, match=said) as seen:
+    with pytest.warns(st.OutOfRangeWarning, match=warning) as seen:
         read_assembly(path)
     assert len(seen) == 1
 
 
-SCALARS = some.integers(-5, 5) | some.floats(-1e9, 1e9) | some.booleans() | some.text("ab \n\"'#é", max_size=5)
-KEYS = some.text("abc_", min_size=1, max_size=3)
-VALUES = some.recursive(SCALARS, lambda one: some.lists(one, max_size=3) | some.dictionaries(KEYS, one, max_size=3))
+SCALARS = (
+    strategies.integers(-5, 5)
+    | strategies.floats(-1e9, 1e9)
+    | strategies.booleans()
+    | strategies.text("ab \n\"'#é", max_size=5)
+)
+KEYS = strategies.text("abc_", min_size=1, max_size=3)
+VALUES = strategies.recursive(
+    SCALARS,
+    lambda children: strategies.lists(children, max_size=3) | strategies.dictionaries(KEYS, children, max_size=3),
+)
 
 
-@given(some.dictionaries(KEYS, VALUES, max_size=5), some.lists(some.text("ab #", max_size=4), max_size=2))
+@given(
+    strategies.dictionaries(KEYS, VALUES, max_size=5), strategies.lists(strategies.text("ab #", max_size=4), max_size=2)
+)
 def test_a_file_under_headings_holds_the_same_tables(tables, comments):
     assert tomllib.loads(toml_text(tables, comments)) == tables
 
@@ -505,7 +516,7 @@ def test_the_advice_on_a_slip_of_the_hand_works(tmp_path, line):
 
 def test_no_value_is_advised_that_would_be_a_guess(tmp_path):
     """80 cm are not 80 m; a table that stands there twice may be two of a list, or one too many."""
-    for text, said in {
+    for text, advice in {
         "height = 80 cm": "give the number alone, in SI units",
         "height = 3/4": "column 11); a line is a key, =, and a number",
         "height = None": "column 10); a line is a key, =, and a number",
@@ -513,7 +524,7 @@ def test_no_value_is_advised_that_would_be_a_guess(tmp_path):
         "[drum]\nheight = 1.0\n[drum]\nheight = 2.0": "write [[drum]] each time if there may be several, as of drums",
     }.items():
         (tmp_path / "a.toml").write_text(text, encoding="utf-8")
-        with pytest.raises(InputError, match=re.escape(said)) as refused:
+        with pytest.raises(InputError, match=re.escape(advice)) as refused:
             parse_toml(tmp_path / "a.toml")
         assert not re.search(r"write [\d\"]", str(refused.value))
     (tmp_path / "a.toml").write_text("[drum]\nheight = 1.0\n", encoding="utf-8")

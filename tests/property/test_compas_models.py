@@ -52,8 +52,8 @@ def tower(named=("base", "shaft")):
 
 def places(model):
     """Corners of every block in space [m], by name."""
-    blocks = [one for one in model.elements() if isinstance(one, Block)]
-    return {one.name: np.array(one.modelgeometry.to_vertices_and_faces()[0]) for one in blocks}
+    blocks = [element for element in model.elements() if isinstance(element, Block)]
+    return {block.name: np.array(block.modelgeometry.to_vertices_and_faces()[0]) for block in blocks}
 
 
 def test_an_arch_of_compas_is_shaken_and_returned():
@@ -120,12 +120,12 @@ def loaded(problem):
     ("change", "says"),
     [
         (loaded, "boundary condition 'Live' holds loads or displacements"),
-        (lambda one: one.set_joint_model(1e9, 1e9), r"joint model in N/m, and stiffnesses here are per area"),
+        (lambda problem: problem.set_joint_model(1e9, 1e9), r"joint model in N/m, and stiffnesses here are per area"),
         (
-            lambda one: one.set_contact_model("MohrCoulomb", mu=0.6, t_c=1.0),
+            lambda problem: problem.set_contact_model("MohrCoulomb", mu=0.6, t_c=1.0),
             "tension cutoff of 1; joints here bear none",
         ),
-        (lambda one: one.set_contact_model("MohrCoulomb", mu=0.6, c=2.0), "cohesion of 2 without a unit"),
+        (lambda problem: problem.set_contact_model("MohrCoulomb", mu=0.6, c=2.0), "cohesion of 2 without a unit"),
     ],
 )
 def test_what_is_not_computed_is_refused(change, says):

@@ -57,17 +57,17 @@ def overlap_ends(upper, lower):
     Every corner of one face is tried against the other segment, seen along the lower face's normal; of those that meet
     it, the outermost two are the ends. The contact is at the corner, normal and gap are those of the segment.
     """
-    found = []
+    contacts = []
     for corner in (upper.left, upper.right):
         if lower.across(corner, lower.normal) is not None:
             gap = (corner - lower.left) @ lower.normal
-            found.append(((corner - lower.left) @ lower.tangent, corner, gap, lower.normal))
+            contacts.append(((corner - lower.left) @ lower.tangent, corner, gap, lower.normal))
     for corner in (lower.left, lower.right):
         if upper.across(corner, lower.normal) is not None:
             gap = (upper.left - corner) @ upper.normal
-            found.append(((corner - lower.left) @ lower.tangent, corner, gap, upper.normal))
-    found.sort(key=lambda contact: contact[0])
-    return [found[0], found[-1]] if len(found) >= 2 else []
+            contacts.append(((corner - lower.left) @ lower.tangent, corner, gap, upper.normal))
+    contacts.sort(key=lambda contact: contact[0])
+    return [contacts[0], contacts[-1]] if len(contacts) >= 2 else []
 
 
 def joint_contacts(upper, lower, points):

@@ -83,28 +83,28 @@ def block(more, name="a"):
 
 def test_columns_and_a_beam_from_axis_to_axis(read):
     """Places, turns, densities and laws come with the columns; the beam lies along the line of their axes, 2.5 m apart."""
-    found = read(TWO)
+    assembly = read(TWO)
     names = [f"column {i}, drum {k}" for i in (1, 2) for k in (1, 2, 3, 4)]
-    assert [one.name for one in found.stones] == [*names, "architrave"]
-    beam = found.stones[-1]
+    assert [stone.name for stone in assembly.stones] == [*names, "architrave"]
+    beam = assembly.stones[-1]
     assert (beam.mass, beam.density) == (pytest.approx(2400.0 * 3.0 * 0.6 * 0.5), 2400.0)
     way = np.array([0.6, 0.8])
     assert beam.position[:2] == pytest.approx(way * (0.5 * 3.0 - 0.3), abs=1e-12)
     assert beam.position[2] == pytest.approx(4.25)
     assert beam.axes[:2, 0] == pytest.approx(way, abs=1e-12)
-    assert found.stones[4].position[:2] == pytest.approx((1.5, 2.0))
-    assert found.stones[0].axes[:2, 0] == pytest.approx([math.cos(math.pi / 6.0), 0.5])
-    pairs = {(found.bodies[one.lower].name, found.bodies[one.upper].name) for one in found.space_joints}
+    assert assembly.stones[4].position[:2] == pytest.approx((1.5, 2.0))
+    assert assembly.stones[0].axes[:2, 0] == pytest.approx([math.cos(math.pi / 6.0), 0.5])
+    pairs = {(assembly.bodies[joint.lower].name, assembly.bodies[joint.upper].name) for joint in assembly.space_joints}
     assert ("column 1, drum 4", "architrave") in pairs
     assert ("column 2, drum 4", "architrave") in pairs
     assert len(pairs) == 10
-    assert {one.law.friction_angle for one in found.space_joints} == {30.0}
-    assert FROM_DICT[found.kind](found.to_dict()).digest == found.digest
+    assert {joint.law.friction_angle for joint in assembly.space_joints} == {30.0}
+    assert FROM_DICT[assembly.kind](assembly.to_dict()).digest == assembly.digest
 
 
 def test_blocks_of_every_shape(read):
     """A box, a drum, a hull, a mesh in mm, a capital of two parts; turned, tilted, oriented, thrown, fixed."""
-    found = read(
+    assembly = read(
         HEAD.replace("density", "settle = false\ndensity")
         + block("box = [0.6, 0.4, 1.8]\nat = [1.0, 2.0, 0.0]\nturn = 90.0", "box")
         + block("drum = { bottom_diameter = 1.1, top_diameter = 1, height = 0.8 }\nat = [4, 0, 0]\nfixed = true", "drum")
@@ -116,7 +116,7 @@ def test_blocks_of_every_shape(read):
         + block("box = [1.0, 1.0, 1.0]\nat = [15.0, 0.0, 1.0]\ntilt = 10.0\ntowards = 90.0", "tilted")
         + block("box = [1.0, 1.0, 1.0]\nat = [18.0, 0.0, 1.0]\norientation = [0.6, 0.8, 0.0, 0.0]", "oriented")
     )  # fmt: skip
-    box, drum, hull, mesh, capital, tilted, oriented = found.stones
+    box, drum, hull, mesh, capital, tilted, oriented = assembly.stones
     assert np.ptp(box.vertices, axis=0) == pytest.approx([0.4, 0.6, 1.8])
     assert box.position == pytest.approx((1.0, 2.0, 0.9))
     assert (drum.fixed, drum.vertices[:, 2].min()) == (True, pytest.approx(0.0, abs=1e-12))
@@ -132,23 +132,23 @@ def test_blocks_of_every_shape(read):
     assert tilted.axes[:, 2] == pytest.approx([0.0, math.sin(math.radians(10.0)), math.cos(math.radians(10.0))])
     assert tilted.position == pytest.approx((15.0, 0.0, 1.5))
     assert oriented.orientation == (0.6, 0.8, 0.0, 0.0)
-    assert FROM_DICT[found.kind](found.to_dict()).digest == found.digest
+    assert FROM_DICT[assembly.kind](assembly.to_dict()).digest == assembly.digest
 
 
 def test_parts_are_told_from_the_middle_of_the_lower_face(read):
     """An L of two boxes: at is the origin of its parts, and the centroid, of 1 : 0.5, is aside of it."""
-    found = read(HEAD + block("at = [5.0, 1.0, 0.0]\nparts = [{ box = [1.0, 1.0, 1.0] }, "
+    assembly = read(HEAD + block("at = [5.0, 1.0, 0.0]\nparts = [{ box = [1.0, 1.0, 1.0] }, "
                               "{ box = [1.0, 1.0, 0.5], at = [1.0, 0.0, 0.0] }]"))  # fmt: skip
-    (one,) = found.stones
-    assert one.position == pytest.approx((5.0 + 1.0 / 3.0, 1.0, (0.5 + 0.125) / 1.5))
-    assert one.vertices.min(axis=0) == pytest.approx((4.5, 0.5, 0.0), abs=1e-12)
-    assert one.vertices.max(axis=0) == pytest.approx((6.5, 1.5, 1.0))
+    (stone,) = assembly.stones
+    assert stone.position == pytest.approx((5.0 + 1.0 / 3.0, 1.0, (0.5 + 0.125) / 1.5))
+    assert stone.vertices.min(axis=0) == pytest.approx((4.5, 0.5, 0.0), abs=1e-12)
+    assert stone.vertices.max(axis=0) == pytest.approx((6.5, 1.5, 1.0))
 
 
 def test_a_mesh_in_millimetres(read, tmp_path):
     scaled = re.sub(r"\b1\b(?=.*)", "1", CUBE).replace("v ", "v ").splitlines()
     lines = [
-        " ".join(["v", *(str(1000 * int(x)) for x in one.split()[1:])]) if one[:1] == "v" else one for one in scaled
+        " ".join(["v", *(str(1000 * int(x)) for x in line.split()[1:])]) if line[:1] == "v" else line for line in scaled
     ]
     (tmp_path / "mm.obj").write_text("\n".join(lines))
     with pytest.raises(st.InputError, match=r"mm.obj is 1000 m, and stones have 0.05 to 60 m: check .*unit = "):
@@ -159,15 +159,15 @@ def test_a_mesh_in_millimetres(read, tmp_path):
 def test_a_mesh_is_refused_where_no_part_of_it_has_the_size_of_a_stone(tmp_path):
     """A colonnade of cubes 70 m long is one; a single cube of 40 m, thick in every direction, is none."""
     corners = [line.split()[1:] for line in CUBE.splitlines() if line[:1] == "v"]
-    faces = [[int(one) for one in line.split()[1:]] for line in CUBE.splitlines() if line[:1] == "f"]
+    faces = [[int(index) for index in line.split()[1:]] for line in CUBE.splitlines() if line[:1] == "f"]
     lines = []
     for number in range(2):
         lines += [f"o cube{number}", *(f"v {int(x) + 70 * number} {y} {z}" for x, y, z in corners)]
-        lines += [" ".join(["f", *(str(one + 8 * number) for one in face)]) for face in faces]
+        lines += [" ".join(["f", *(str(index + 8 * number) for index in face)]) for face in faces]
     (tmp_path / "long.obj").write_text("\n".join(lines))
     assert len(read_stones(tmp_path / "long.obj")) == 2
-    forty = [" ".join(["v", *(str(40 * int(x)) for x in one.split()[1:])]) if one[:1] == "v" else one
-             for one in CUBE.splitlines()]  # fmt: skip
+    forty = [" ".join(["v", *(str(40 * int(x)) for x in line.split()[1:])]) if line[:1] == "v" else line
+             for line in CUBE.splitlines()]  # fmt: skip
     (tmp_path / "forty.obj").write_text("\n".join(forty))
     with pytest.raises(st.InputError, match=r"forty.obj is 40 m, and stones have at their thinnest 0 to 10 m: check"):
         read_stones(tmp_path / "forty.obj")
@@ -300,17 +300,22 @@ def test_the_file_of_the_documentation_stands(tmp_path):
     )
     (tmp_path / "scene.toml").write_text(re.search(r"```toml\n(.*?)```", page, re.DOTALL)[1])
     (tmp_path / "column5.toml").write_text((root / "gallery" / "assemblies" / "column5.toml").read_text())
-    found = st.read_assembly(tmp_path / "scene.toml")
-    assert [one.name for one in found.stones[-4:]] == ["architrave", "statue", "capital on the ground", "boulder"]
-    assert 0.1 < st.limit_directions(found, [0.0]).multipliers[0] < 0.3
+    assembly = st.read_assembly(tmp_path / "scene.toml")
+    assert [stone.name for stone in assembly.stones[-4:]] == [
+        "architrave",
+        "statue",
+        "capital on the ground",
+        "boulder",
+    ]
+    assert 0.1 < st.limit_directions(assembly, [0.0]).multipliers[0] < 0.3
 
 
 def test_beams_that_meet_on_an_axis(read):
     """End to end they share the top; one that reaches beyond the axis is in the way of the other."""
     three = TWO.replace("[1.5, 2.0]]", "[2.6, 0.0], [5.2, 0.0]]").replace("overhang = [0.3, 0.2]\n", "")
     second = '[[beam]]\nbetween = ["column 2", "column 3"]\nsection = [0.6, 0.5]\n'
-    found = read(three + second)
-    names = [(found.bodies[one.lower].name, found.bodies[one.upper].name) for one in found.space_joints]
+    assembly = read(three + second)
+    names = [(assembly.bodies[joint.lower].name, assembly.bodies[joint.upper].name) for joint in assembly.space_joints]
     assert ("architrave 1", "architrave 2") in names
     with pytest.raises(
         st.InputError, match=r"'architrave 1' and 'architrave 2' reach beyond one another by 0\.1 m; end"
@@ -341,14 +346,14 @@ def test_columns_that_assemblies_in_space_do_not_take(read, tmp_path, more, says
 
 def test_a_column_as_found_enters_with_its_offsets_and_chips(read, tmp_path):
     """An offset moves a drum, a chip leaves less of its joint: the area of the face less its segment of 60 mm."""
-    found = "[[as_found.drum]]\nindex = 2\noffset = 0.05\noffset_azimuth = 90.0\n"
-    found += "[[as_found.drum]]\nindex = 1\nchip_left = 0.06\n"
-    (tmp_path / "shaft.toml").write_text(COLUMN + found)
-    one = read('[[column]]\nfile = "shaft.toml"\nat = [[0.0, 0.0]]\n')
-    assert one.stones[1].position[1] == pytest.approx(0.05)
+    as_found = "[[as_found.drum]]\nindex = 2\noffset = 0.05\noffset_azimuth = 90.0\n"
+    as_found += "[[as_found.drum]]\nindex = 1\nchip_left = 0.06\n"
+    (tmp_path / "shaft.toml").write_text(COLUMN + as_found)
+    assembly = read('[[column]]\nfile = "shaft.toml"\nat = [[0.0, 0.0]]\n')
+    assert assembly.stones[1].position[1] == pytest.approx(0.05)
     half = math.acos(1.0 - 0.06 / 0.4)
     lost = 0.16 * (half - math.sin(half) * math.cos(half))
-    assert one.space_joints[0].area == pytest.approx(0.16 * math.pi - lost, rel=1e-3)
+    assert assembly.space_joints[0].area == pytest.approx(0.16 * math.pi - lost, rel=1e-3)
 
 
 def test_how_far_a_body_hangs_from_a_drum_is_found_in_a_moment(read):

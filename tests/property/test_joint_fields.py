@@ -23,7 +23,7 @@ DIGEST = "cf5328c3705b61ff5499fe2b97e3c4294dcb7b439120614cd95b9de4590d2992"
 
 #: Of every field whose default is None a value; a new field needs one here.
 VALUES = {"friction_angle": 20.0, "friction_coefficient": 0.5, "ring_width": 0.1}
-OPTIONAL = [one.name for one in dataclasses.fields(st.Joint) if one.default is None]
+OPTIONAL = [field.name for field in dataclasses.fields(st.Joint) if field.default is None]
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,7 @@ def test_a_friction_that_nobody_gives_is_none(tmp_path, text) -> None:
 
 
 def test_files_say_all_of_a_joint() -> None:
-    assert {*JointTable.model_fields} - {"material"} == {one.name for one in dataclasses.fields(st.Joint)}
+    assert {*JointTable.model_fields} - {"material"} == {field.name for field in dataclasses.fields(st.Joint)}
 
 
 @pytest.mark.parametrize("name", OPTIONAL)

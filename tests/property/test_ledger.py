@@ -68,7 +68,7 @@ def test_rows_come_back_to_the_bit(tmp_path):
     path = tmp_path / "runs.sqlite"
     filled(path, 3)
     assert rows(path) == {n: ROW | {"n": n, "note": "x" * 400} for n in range(3)}
-    assert sorted(one.name for one in tmp_path.iterdir()) == ["runs.sqlite"]
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["runs.sqlite"]
 
 
 def test_a_second_process_is_refused_in_one_sentence(tmp_path):
@@ -122,7 +122,7 @@ def test_the_database_of_another_program_is_refused_and_left_as_it_was(tmp_path,
     before = path.read_bytes()
     with pytest.raises(st.InputError, match=r"is a database of another program.*choose another folder"):
         Ledger(path)
-    assert [one.name for one in tmp_path.iterdir()] == ["runs.sqlite"]
+    assert [file.name for file in tmp_path.iterdir()] == ["runs.sqlite"]
     assert path.read_bytes() == before
 
 
@@ -134,7 +134,7 @@ def test_a_link_is_refused_and_left_as_it_was(tmp_path, there):
     (tmp_path / "out" / "runs.sqlite").symlink_to(tmp_path / "mine.sqlite")
     with pytest.raises(st.InputError, match=r"runs\.sqlite is a link.*choose another folder"):
         Ledger(tmp_path / "out" / "runs.sqlite")
-    assert [one.name for one in (tmp_path / "out").iterdir()] == ["runs.sqlite"]
+    assert [file.name for file in (tmp_path / "out").iterdir()] == ["runs.sqlite"]
     assert (tmp_path / "mine.sqlite").exists() == there
 
 

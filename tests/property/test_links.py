@@ -38,7 +38,7 @@ ALL_KINDS = (
 
 
 def test_every_kind_that_a_column_may_have_is_tried_here() -> None:
-    assert {one.kind for one in ALL_KINDS} == set(COLUMN_KINDS)
+    assert {link.kind for link in ALL_KINDS} == set(COLUMN_KINDS)
 
 
 def test_a_column_without_links_keeps_its_digest() -> None:
@@ -61,8 +61,8 @@ def test_a_file_puts_one_link_into_all_joints(tmp_path) -> None:
             '[[link]]\nkind = "layer"\njoints = [1, 2]\ndamping = 1000\n'
         )
     links = st.read_column(path).links
-    assert [one.joint for one in links if isinstance(one, st.Dowel)] == list(range(1, 13))
-    assert [one.joint for one in links if isinstance(one, st.Layer)] == [1, 2]
+    assert [link.joint for link in links if isinstance(link, st.Dowel)] == list(range(1, 13))
+    assert [link.joint for link in links if isinstance(link, st.Layer)] == [1, 2]
 
 
 def test_the_friction_of_a_joint_is_that_of_its_layer() -> None:
@@ -104,7 +104,7 @@ TITANIUM: dict[str, Any] = {"diameter": 0.04, "embedment": 0.1, "material": "tit
 
 
 @pytest.mark.parametrize(
-    ("made", "said"),
+    ("made", "message"),
     [
         (lambda: st.Dowel(joint=2, **(TITANIUM | {"embedment": 0.5})), "embedded by 0.5 m, and drum 2 is 0.416667 m"),
         (lambda: st.Dowel(joint=2, at=(0.7, 0.0), **TITANIUM), "outside the section"),
@@ -128,8 +128,8 @@ TITANIUM: dict[str, Any] = {"diameter": 0.04, "embedment": 0.1, "material": "tit
         (lambda: "dowel", "allowed is a Dowel, Bar, Tie, Core, Layer or Pad"),
     ],
 )
-def test_what_cannot_be_is_said_in_one_sentence(made, said) -> None:
-    with pytest.raises(st.InputError, match=said) as error:
+def test_what_cannot_be_is_said_in_one_sentence(made, message) -> None:
+    with pytest.raises(st.InputError, match=message) as error:
         COLUMN.replace(links=[made()])
     assert str(error.value).count(". ") == 0
     assert str(error.value).endswith(".")
@@ -138,7 +138,7 @@ def test_what_cannot_be_is_said_in_one_sentence(made, said) -> None:
 def test_files_name_the_table_and_the_nearest_key(tmp_path) -> None:
     path = write_column(COLUMN, tmp_path / "column.toml")
     text = path.read_text()
-    for table, said in (
+    for table, message in (
         ('kind = "dovel"\njoint = 1', "did you mean dowel"),
         ('kind = "dowel"\njoint = 1\nshear_stifness = 1e6', "shear_stiffness"),
         ('kind = "dowel"\nshear_stiffness = 1e6', "a dowel has no joint"),
@@ -147,7 +147,7 @@ def test_files_name_the_table_and_the_nearest_key(tmp_path) -> None:
         ('kind = "dowel"\njoints = "some"\nshear_stiffness = 1e6', 'must be "all"'),
     ):
         path.write_text(f"{text}\n[[link]]\n{table}\n")
-        with pytest.raises(st.InputError, match=said):
+        with pytest.raises(st.InputError, match=message):
             st.read_column(path)
 
 
@@ -206,11 +206,11 @@ def test_what_lanes_have_of_their_own_begins_on_lines_of_the_cache(model) -> Non
         if isinstance(model, st.DistinctElement2D)
         else engine.kind.record_types(linked=True)
     )
-    for one in types.values() if isinstance(types, dict) else types:
-        if not any(field.subdtype for field, *_ in one.fields.values()):
+    for record_type in types.values() if isinstance(types, dict) else types:
+        if not any(field.subdtype for field, *_ in record_type.fields.values()):
             continue  # numbers that all lanes share
-        assert one.itemsize % 64 == 0
-        lanes = [one.fields[name] for name in one.names if one.fields[name][0].itemsize >= 64]
+        assert record_type.itemsize % 64 == 0
+        lanes = [record_type.fields[name] for name in record_type.names if record_type.fields[name][0].itemsize >= 64]
         assert all(start % 64 == 0 for _, start in lanes)
 
 
@@ -237,7 +237,7 @@ def test_no_link_bears_more_nearer_to_the_rim_or_in_weaker_stone(seed) -> None:
     for less, more in ((weak, strong), (last, first)):
         assert less[0] <= more[0] * (1.0 + 1e-12)
         assert less[1] <= more[1] * (1.0 + 1e-12)
-    d, h, c = (1e3 * one for one in (size["diameter"], embedment, last[2]))
+    d, h, c = (1e3 * length for length in (size["diameter"], embedment, last[2]))
     along = min(h, 12.0 * d if d <= 24.0 else max(8.0 * d, 300.0))
     edge = 1.7 * d ** (0.1 * math.sqrt(along / c)) * along ** (0.1 * (d / c) ** 0.2) * math.sqrt(1e-6 * stone) * c**1.5
     bar = min(shear_limits(size["material"], size["diameter"], embedment, stone).values())

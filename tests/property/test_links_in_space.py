@@ -111,19 +111,19 @@ def test_links_of_columns_come_with_them_as_found_and_turned(tmp_path) -> None:
     )
     scene = st.read_assembly(tmp_path / "scene.toml")
     assert len(scene.placed_links) == 10
-    one, two, three, tie, pad = scene.placed_links[5:]
-    assert [one.name, tie.name] == ["column 2, dowel in joint 1", "column 2, tie from the base to drum 3"]
+    first, second, third, tie, pad = scene.placed_links[5:]
+    assert [first.name, tie.name] == ["column 2, dowel in joint 1", "column 2, tie from the base to drum 3"]
 
     def at(radius, angle, x, y):
         return x + radius * np.cos(np.radians(angle)), y + radius * np.sin(np.radians(angle))
 
     base, aside = (3.0, 1.0), at(0.02, 60.0, 3.0, 1.0)
-    assert one.low == pytest.approx((*at(0.1, 30.0, *base), 0.0))
-    assert two.low == pytest.approx((*at(0.1, 40.0, *aside), 1.0))
-    assert three.low == pytest.approx((*at(0.1, 40.0, *aside), 2.0))
+    assert first.low == pytest.approx((*at(0.1, 30.0, *base), 0.0))
+    assert second.low == pytest.approx((*at(0.1, 40.0, *aside), 1.0))
+    assert third.low == pytest.approx((*at(0.1, 40.0, *aside), 2.0))
     assert tie.low == pytest.approx((*at(0.5, 30.0, *base), 0.0))
     assert tie.high == pytest.approx((*at(0.5, 40.0, *aside), 2.5))
-    assert two.arms[1] == pytest.approx((0.1, 0.0, -0.5))
+    assert second.arms[1] == pytest.approx((0.1, 0.0, -0.5))
     assert scene.space_joints[0].law.normal_stiffness == pytest.approx(5e9 / (1.0 + 5e9 * 0.002 / 16.1e9))
     assert pad.bed_stiffness < np.inf
 
@@ -160,10 +160,10 @@ def test_links_of_columns_come_with_them_as_found_and_turned(tmp_path) -> None:
 )
 def test_what_cannot_be_is_said_in_one_sentence(tmp_path, capsys, table, words) -> None:
     assert call(["columns", str(written(tmp_path, table))]) == 2
-    said = " ".join(capsys.readouterr().err.split())
-    assert words in said
-    assert "Traceback" not in said
-    assert "number 1" in said or "link 1 of" in said
+    message = " ".join(capsys.readouterr().err.split())
+    assert words in message
+    assert "Traceback" not in message
+    assert "number 1" in message or "link 1 of" in message
 
 
 def test_a_dowel_between_bodies_that_touch_twice_needs_its_place() -> None:

@@ -33,12 +33,12 @@ def test_texts_of_several_keep_their_parts():
     text = joined(" ", [MESSAGE, "", say("It stands.") + " Or not.", digits(0.5, ".2f") * True, digits(1.0) * False])
     assert text == f"{MESSAGE} It stands. Or not. 0.50"
     assert isinstance(text, Message)
-    assert [one for one in text.parts if isinstance(one, Message)] == [MESSAGE, "It stands.", "0.50"]
+    assert [part for part in text.parts if isinstance(part, Message)] == [MESSAGE, "It stands.", "0.50"]
     assert joined(", ", ["a", "b"]) == "a, b"
     assert not isinstance(joined(", ", ["a", "b"]), Message)
 
 
-@pytest.mark.parametrize("way", [copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+@pytest.mark.parametrize("way", [copy.deepcopy, lambda message: pickle.loads(pickle.dumps(message))])
 def test_copies_are_messages(way):
     assert way(MESSAGE).template == MESSAGE.template
     assert way(MESSAGE).values["far"].values == {"value": 12.3456}
@@ -49,19 +49,19 @@ def test_a_file_holds_what_its_messages_are_made_of(tmp_path):
     write_json(tmp_path / "run.json", result)
     plain = json.loads((tmp_path / "run.json").read_text())
     assert {key: plain[key] for key in result} == result
-    found = read_json(tmp_path / "run.json")
-    assert found == result
-    assert found["sentence"].template == MESSAGE.template
-    assert found["rows"][0]["advice"].parts[0].values["n"] == 2
+    content = read_json(tmp_path / "run.json")
+    assert content == result
+    assert content["sentence"].template == MESSAGE.template
+    assert content["rows"][0]["advice"].parts[0].values["n"] == 2
 
 
 def test_what_somebody_changed_in_a_file_is_his_text(tmp_path):
     write_json(tmp_path / "run.json", {"sentence": MESSAGE})
     content = json.loads((tmp_path / "run.json").read_text()) | {"sentence": "It stands, I say."}
     (tmp_path / "run.json").write_text(json.dumps(content))
-    found = read_json(tmp_path / "run.json")["sentence"]
-    assert found == "It stands, I say."
-    assert not isinstance(found, Message)
+    sentence = read_json(tmp_path / "run.json")["sentence"]
+    assert sentence == "It stands, I say."
+    assert not isinstance(sentence, Message)
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_messages_as_nobody_writes_them_are_refused_in_one_sentence(tmp_path, ba
 
 def test_names_of_options_are_values_not_templates():
     message = say("take it off ({step}) unless it is meant.", step="`condition='demean'`")
-    asked = in_options(message)
-    assert asked == "take it off (--condition demean) unless it is meant."
-    assert asked.template == message.template
-    assert restored({"a": str(asked)}, messages_in({"a": asked}))["a"].values == {"step": "--condition demean"}
+    wording = in_options(message)
+    assert wording == "take it off (--condition demean) unless it is meant."
+    assert wording.template == message.template
+    assert restored({"a": str(wording)}, messages_in({"a": wording}))["a"].values == {"step": "--condition demean"}

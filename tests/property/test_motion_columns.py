@@ -74,17 +74,17 @@ def test_a_report_on_a_filtered_record_tells_its_filter_and_of_a_drifting_one_ho
     time = np.arange(4000) * 0.01
     raw = Motion(0.01, np.sin(6.0 * time) + 0.01, metadata={"stage": "uncorrected", "station": "A"})
     filtered = bandpass(raw, 0.2, None)
-    told = {}
+    notes = {}
     for name, motion in (("raw", raw), ("filtered", filtered)):
         back = read_motion(write_csv(motion, tmp_path / f"{name}.csv"))
         items = motion_section(back, None, {"metadata": dict(back.metadata)}, None).items
-        told[name] = " ".join(text for one in items if isinstance(one, Note) for text in one.texts)
-    assert "may drift" not in told["filtered"]
-    assert "Integrated twice" not in told["filtered"]
-    assert "what was corrected stands under processing" in told["filtered"]
-    assert "its baseline was not corrected here either" in told["raw"]
+        notes[name] = " ".join(text for item in items if isinstance(item, Note) for text in item.texts)
+    assert "may drift" not in notes["filtered"]
+    assert "Integrated twice" not in notes["filtered"]
+    assert "what was corrected stands under processing" in notes["filtered"]
+    assert "its baseline was not corrected here either" in notes["raw"]
     # 0.01 m/s² over 40 s: 8 m, and 1/6 m/s of the sine's mean velocity over as long: 6.7 m
-    assert "ends 15 m from where it began" in told["raw"]
+    assert "ends 15 m from where it began" in notes["raw"]
 
 
 @pytest.mark.parametrize(
@@ -117,8 +117,8 @@ def test_three_components_and_the_vertical(put):
 def test_bare_columns(put):
     two = read_motion(put("0.00 0.1\n0.02 -0.1\n0.04 0.0\n"), unit="g")
     assert (two.dt, two.pga) == (0.02, pytest.approx(0.1 * g))
-    one = read_motion(put("# title: Athens 1999\nax_m_s2\n0.1\n-0.1\n0.0\n"), dt=0.01)
-    assert (one.dt, one.pga, one.metadata["header"]) == (0.01, 0.1, ("# title: Athens 1999", "ax_m_s2"))
+    untimed = read_motion(put("# title: Athens 1999\nax_m_s2\n0.1\n-0.1\n0.0\n"), dt=0.01)
+    assert (untimed.dt, untimed.pga, untimed.metadata["header"]) == (0.01, 0.1, ("# title: Athens 1999", "ax_m_s2"))
     glued = read_motion(put("0.00-0.1\n0.02-0.2\n0.04 0.3\n"), unit="g")
     assert glued.acceleration == pytest.approx([-0.1 * g, -0.2 * g, 0.3 * g])
     fortran = read_motion(put("0.1D+01\n-1.0d0\n0.0\n"), unit="gal", dt=0.01)
@@ -159,7 +159,7 @@ def test_a_peak_beyond_all_records_is_noticed(put):
 
 
 @pytest.mark.parametrize(
-    ("text", "options", "said"),
+    ("text", "options", "message"),
     [
         ("0 0.1\n1 0.2\n", {}, "`unit='g'`"),
         ("time_s,ax\n0,0.1\n1,0.2\n", {}, "`unit='g'`"),
@@ -195,8 +195,8 @@ def test_a_peak_beyond_all_records_is_noticed(put):
         ("1 " * 600_000, {"unit": "g", "dt": 0.1}, "break the numbers into lines"),
     ],
 )
-def test_files_that_are_refused(put, text, options, said):
-    with pytest.raises(InputError, match=said):
+def test_files_that_are_refused(put, text, options, message):
+    with pytest.raises(InputError, match=message):
         read_motion(put(text), **options)
 
 
@@ -206,7 +206,7 @@ MILLISECONDS = "".join(f"{10 * i},{(-1) ** i}\n" for i in range(20))
 
 
 @pytest.mark.parametrize(
-    ("text", "options", "said"),
+    ("text", "options", "message"),
     [
         ("time_s,ax_g\n" + MILLISECONDS, {}, r"is 10 s; allowed is 0\.0002 to 0\.2 s.*name the column time_ms"),
         (MILLISECONDS, {"unit": "g"}, "is 10 s; allowed"),
@@ -216,8 +216,8 @@ MILLISECONDS = "".join(f"{10 * i},{(-1) ** i}\n" for i in range(20))
         ("1\n-1\n", {"unit": "g", "dt": 10.0}, "is 10 s"),
     ],
 )
-def test_steps_that_no_accelerograph_has_are_refused_wherever_they_come_from(put, text, options, said):
-    with pytest.raises(InputError, match=said):
+def test_steps_that_no_accelerograph_has_are_refused_wherever_they_come_from(put, text, options, message):
+    with pytest.raises(InputError, match=message):
         read_motion(put(text), **options)
 
 

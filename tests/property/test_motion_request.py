@@ -83,13 +83,13 @@ def test_scaling_to_a_peak_along_x_keeps_the_ratio_of_the_components():
 
 
 def test_a_request_is_a_value():
-    one = st.MotionRequest.typed(harmonic="1Hz,0.3g,10s", azimuth="30deg", pga="0.4g")
+    request = st.MotionRequest.typed(harmonic="1Hz,0.3g,10s", azimuth="30deg", pga="0.4g")
     other = st.MotionRequest(harmonic="1Hz,0.3g,10s", azimuths=(30.0,), pga=0.4 * st.g)
-    assert one == other
-    assert hash(one) == hash(other)
+    assert request == other
+    assert hash(request) == hash(other)
     with pytest.raises(dataclasses.FrozenInstanceError):
-        one.pga = 1.0
-    assert one.motion().digest == other.motion().digest
+        request.pga = 1.0
+    assert request.motion().digest == other.motion().digest
 
 
 def test_the_whole_motion_is_turned():
@@ -100,19 +100,19 @@ def test_the_whole_motion_is_turned():
 
 
 def test_every_record_in_every_direction_with_both_signs(record):
-    asked = st.MotionRequest(files=(record.parent,), azimuths=(0.0, 90.0, 120.0), signs="both")
-    assert asked.several
-    found = asked.expand()
-    assert [one.name for one in found.motions] == [
+    request = st.MotionRequest(files=(record.parent,), azimuths=(0.0, 90.0, 120.0), signs="both")
+    assert request.several
+    expansion = request.expand()
+    assert [motion.name for motion in expansion.motions] == [
         f"two.csv at {angle}°{sign}" for angle in (0, 90, 120) for sign in ("", " reversed")
     ]
-    first, reversed_, turned, *_ = found.motions
+    first, reversed_, turned, *_ = expansion.motions
     assert reversed_.acceleration == pytest.approx(-first.acceleration)
     assert reversed_.lateral == pytest.approx(-first.lateral)
     assert reversed_.vertical == pytest.approx(first.vertical)  # turned by half a turn: the vertical stays upward
     assert turned.acceleration == pytest.approx(-first.lateral, abs=1e-12)
     assert turned.lateral == pytest.approx(first.acceleration, abs=1e-12)
-    assert [one.metadata["azimuths"]["x"] for one in found.motions] == [0.0, 180.0, 90.0, 270.0, 120.0, 300.0]
+    assert [motion.metadata["azimuths"]["x"] for motion in expansion.motions] == [0.0, 180.0, 90.0, 270.0, 120.0, 300.0]
     assert not st.MotionRequest(files=(record,)).several
     with pytest.raises(st.InputError, match="several motions are asked for"):
         st.MotionRequest(files=(record,), signs="both").motion()
@@ -120,12 +120,12 @@ def test_every_record_in_every_direction_with_both_signs(record):
 
 def test_a_record_has_one_size_in_all_directions(record):
     as_recorded = st.MotionRequest(files=(record,), azimuths=(0.0, 30.0, 90.0)).expand().motions
-    found = st.MotionRequest(files=(record,), azimuths=(0.0, 30.0, 90.0), pga=0.5 * st.g).expand().motions
-    times = 0.5 * st.g / max(one.pga for one in as_recorded)
-    assert [one.factor for one in found] == pytest.approx([times * one.factor for one in as_recorded])
-    assert max(one.pga for one in found) == pytest.approx(0.5 * st.g)
-    assert min(one.pga for one in found) < 0.3 * st.g
-    assert "the strongest of these directions" in found[0].processing[-1]
+    motions = st.MotionRequest(files=(record,), azimuths=(0.0, 30.0, 90.0), pga=0.5 * st.g).expand().motions
+    times = 0.5 * st.g / max(motion.pga for motion in as_recorded)
+    assert [motion.factor for motion in motions] == pytest.approx([times * motion.factor for motion in as_recorded])
+    assert max(motion.pga for motion in motions) == pytest.approx(0.5 * st.g)
+    assert min(motion.pga for motion in motions) < 0.3 * st.g
+    assert "the strongest of these directions" in motions[0].processing[-1]
 
 
 def test_all_components_and_the_strongest(record):
@@ -139,18 +139,18 @@ def test_all_components_and_the_strongest(record):
     assert alone.acceleration == pytest.approx(second.acceleration, abs=1e-12)
 
 
-@pytest.mark.parametrize(("step", "size"), [("pgv=0.5m/s", lambda one: one.pgv / 0.5), ("sa=0.5s,0.4g", None)])
+@pytest.mark.parametrize(("step", "size"), [("pgv=0.5m/s", lambda motion: motion.pgv / 0.5), ("sa=0.5s,0.4g", None)])
 def test_a_step_that_scales_keeps_what_directions_of_a_record_are_to_each_other(record, step, size):
     azimuths = (0.0, 30.0, 90.0)
     as_recorded = st.MotionRequest(files=(record,), azimuths=azimuths).expand().motions
-    found = st.MotionRequest(files=(record,), azimuths=azimuths, condition=("demean", step)).expand().motions
-    sizes = [size(one) if size else pseudo_acceleration(one, [0.5])[0] / (0.4 * st.g) for one in found]
+    motions = st.MotionRequest(files=(record,), azimuths=azimuths, condition=("demean", step)).expand().motions
+    sizes = [size(motion) if size else pseudo_acceleration(motion, [0.5])[0] / (0.4 * st.g) for motion in motions]
     assert max(sizes) == pytest.approx(1.0)
-    factors = [one.factor / before.factor for one, before in zip(found, as_recorded, strict=True)]
+    factors = [motion.factor / before.factor for motion, before in zip(motions, as_recorded, strict=True)]
     assert factors == pytest.approx([factors[0]] * 3)
-    assert sum("that of the strongest" in one.processing[-1] for one in found) == 3
+    assert sum("that of the strongest" in motion.processing[-1] for motion in motions) == 3
     (alone,) = st.MotionRequest(files=(record,), azimuths=azimuths[:1], condition=("demean", step)).expand().motions
-    assert alone.factor >= found[0].factor * (1.0 - 1e-12)
+    assert alone.factor >= motions[0].factor * (1.0 - 1e-12)
 
 
 @pytest.mark.parametrize("azimuths", [tuple(np.linspace(0.0, 330.0, 12)), (-90.0, 0.0, 90.0)])
@@ -170,14 +170,14 @@ def test_the_azimuths_of_a_reversed_motion_are_turned_with_it(azimuths, tmp_path
         "# azimuth_x_deg: 90\n# azimuth_y_deg: 0\ntime_s,ax_g,ay_g\n0,0.1,0.02\n0.01,-0.3,0.08\n0.02,0.2,-0.1\n"
     )
     first, back = st.MotionRequest(files=(path,), azimuths=azimuths, signs="both").expand().motions
-    assert [direction_of(one)["reversed"] for one in (first, back)] == [False, True]
-    assert len({direction_of(one)["azimuth_deg"] for one in (first, back)}) == 1
-    north = [rotated(read_motion(write_csv(one, tmp_path / "a.csv")), 0.0) for one in (first, back)]
+    assert [direction_of(motion)["reversed"] for motion in (first, back)] == [False, True]
+    assert len({direction_of(motion)["azimuth_deg"] for motion in (first, back)}) == 1
+    north = [rotated(read_motion(write_csv(motion, tmp_path / "a.csv")), 0.0) for motion in (first, back)]
     assert north[1].acceleration == pytest.approx(north[0].acceleration)
     assert north[1].lateral == pytest.approx(north[0].lateral)
-    told = {**direction_of(back), "azimuths": back.metadata["azimuths"], "components": ["x"]}
-    assert axes_in_words(told) == f"x {back.metadata['azimuths']['x']:g}°"
-    assert axes_in_words(told | {"azimuths": {}}) == "x, reversed"
+    direction = {**direction_of(back), "azimuths": back.metadata["azimuths"], "components": ["x"]}
+    assert axes_in_words(direction) == f"x {back.metadata['azimuths']['x']:g}°"
+    assert axes_in_words(direction | {"azimuths": {}}) == "x, reversed"
     bare = st.MotionRequest(harmonic="1Hz,0.3g,2s", signs="both").expand().motions[1]
     assert direction_of(bare) == {"azimuth_deg": None, "reversed": True}
 
@@ -186,26 +186,26 @@ def test_the_azimuths_of_a_reversed_motion_are_turned_with_it(azimuths, tmp_path
 @pytest.mark.parametrize("size", [{}, {"pga": 3.0}, {"scale": 0.5}])
 def test_both_signs_of_a_record_are_that_record_however_it_is_scaled(record, size, azimuths):
     write_csv(st.read_motion(record).scaled(2.0), record.parent / "other.csv")
-    asked = st.MotionRequest(files=(record.parent,), azimuths=azimuths, signs="both", **size)
+    request = st.MotionRequest(files=(record.parent,), azimuths=azimuths, signs="both", **size)
     with pytest.warns(st.errors.OutOfRangeWarning, match="recordings of others once more"):
-        motions = asked.expand().motions
+        motions = request.expand().motions
     assert len(motions) == 4 * max(1, len(azimuths))
-    assert {record_of(one) for one in motions} == {"two.csv", "other.csv"}
+    assert {record_of(motion) for motion in motions} == {"two.csv", "other.csv"}
 
 
 def test_what_cannot_be_used_is_named_with_its_reason(record):
     (record.parent / "alone.csv").write_text("time_s,ax_g\n0,0.1\n0.01,-0.2\n0.02,0.1\n")
-    found = st.MotionRequest(files=(record.parent,), azimuths=(10.0,)).expand()
-    assert [one.name for one in found.motions] == ["two.csv"]
-    assert "one horizontal component" in found.refused["alone.csv"]
+    expansion = st.MotionRequest(files=(record.parent,), azimuths=(10.0,)).expand()
+    assert [motion.name for motion in expansion.motions] == ["two.csv"]
+    assert "one horizontal component" in expansion.refused["alone.csv"]
 
 
 def test_an_open_amplitude():
-    asked = st.MotionRequest(harmonic="1Hz,?g,2s", across="1Hz,?g,90deg")
-    motion = asked.motion(amplitude_open=True)
+    request = st.MotionRequest(harmonic="1Hz,?g,2s", across="1Hz,?g,90deg")
+    motion = request.motion(amplitude_open=True)
     assert (motion.pga, np.abs(motion.lateral).max()) == pytest.approx((1.0, 1.0))
     with pytest.raises(st.InputError, match="leaves the amplitude open"):
-        asked.motion()
+        request.motion()
     with pytest.raises(st.InputError, match="write \\?g"):
         st.MotionRequest(pulse="ricker,1Hz,1g").motion(amplitude_open=True)
     with pytest.raises(st.InputError, match="write \\?g for both"):
@@ -213,8 +213,8 @@ def test_an_open_amplitude():
 
 
 def test_a_pulse_of_open_length_leaves_time_to_rock():
-    asked = st.MotionRequest(pulse="sine,2Hz,0.3g")
-    assert asked.motion(2.0).duration == pytest.approx(0.5 + 20.0 / 2.0)
+    request = st.MotionRequest(pulse="sine,2Hz,0.3g")
+    assert request.motion(2.0).duration == pytest.approx(0.5 + 20.0 / 2.0)
     assert st.MotionRequest(pulse="sine,2Hz,0.3g,4s").motion(2.0).duration == pytest.approx(4.0)
 
 
@@ -260,20 +260,20 @@ def test_scaled_copies_are_one_record_however_they_are_named():
     motion = st.ricker(1.0, 2.0)
     copies = [motion.scaled(1.0 + 0.1 * k) for k in range(12)]
     copies += [copies[1].scaled_to_pga(3.0), motion.scaled_to_pga(1.0).scaled(2.0).replace(name="another")]
-    assert len({one.name for one in copies}) == len(copies)
-    assert {record_of(one) for one in copies} == {motion.name}
+    assert len({copy.name for copy in copies}) == len(copies)
+    assert {record_of(copy) for copy in copies} == {motion.name}
     table = st.suite_table(rocking_block(2.0, 0.2), copies, st.HousnerBlock())
     assert set(table["record"]) == {motion.name}
-    assert table["motion"].tolist() == [one.name for one in copies]
+    assert table["motion"].tolist() == [copy.name for copy in copies]
     with pytest.raises(st.InputError, match="a fragility of 1 record says nothing"):
         st.fragility(st.evidence(table, "pga"))
 
 
 def test_motions_of_a_suite_are_called_as_they_were_asked_for():
-    asked = {"harmonic": "1Hz,0.3g,2s", "scale": 2.0}
-    (one,) = st.MotionRequest(**asked).expand().motions
-    assert record_of(one) == one.name
-    assert record_of(one) != record_of(st.MotionRequest(**asked).motion())
+    options = {"harmonic": "1Hz,0.3g,2s", "scale": 2.0}
+    (motion,) = st.MotionRequest(**options).expand().motions
+    assert record_of(motion) == motion.name
+    assert record_of(motion) != record_of(st.MotionRequest(**options).motion())
 
 
 def test_runs_of_nothing_are_refused():
@@ -304,8 +304,8 @@ def test_several_scales_are_no_scale(record):
 
 
 def test_azimuths_are_taken_in_their_order_whatever_is_typed():
-    asked = st.MotionRequest.typed(harmonic="1Hz,0.3g,2s", azimuths="0,30deg,10")
-    assert asked.azimuths == (0.0, 10.0, 30.0)
+    request = st.MotionRequest.typed(harmonic="1Hz,0.3g,2s", azimuths="0,30deg,10")
+    assert request.azimuths == (0.0, 10.0, 30.0)
 
 
 @pytest.mark.parametrize("azimuth", [0.0, 90.0, 180.0, 270.0, -90.0])
@@ -331,14 +331,14 @@ def test_a_record_that_is_not_in_the_axes_of_a_column_is_warned_of_and_the_advic
     )  # fmt: skip
     column = dataclasses.replace(column, north=35.0)
     facts = {"azimuths": {"x": 90.0, "y": 0.0}}
-    asked = rotated(st.Motion(0.01, WAVE, WAVE, metadata=facts), 35.0)
-    warn_of_north(column, asked)
-    warn_of_north(column, asked.replace(metadata={"direction": {"azimuth": 10.0}, **facts}))
+    aligned = rotated(st.Motion(0.01, WAVE, WAVE, metadata=facts), 35.0)
+    warn_of_north(column, aligned)
+    warn_of_north(column, aligned.replace(metadata={"direction": {"azimuth": 10.0}, **facts}))
     assert not recwarn.list
     askew, twin = st.Motion(0.01, WAVE, WAVE, metadata=facts), dataclasses.replace(column, name="twin 1")
-    with pytest.warns(st.errors.OutOfRangeWarning, match=r"x of the record points to 90° .* `azimuth=35deg`") as said:
-        any(warn_of_north(one, askew) for one in (column, twin))
-    assert len({str(one.message) for one in said}) == 1  # the program says the same but once
+    with pytest.warns(st.errors.OutOfRangeWarning, match=r"x of the record points to 90° .* `azimuth=35deg`") as caught:
+        any(warn_of_north(structure, askew) for structure in (column, twin))
+    assert len({str(warning.message) for warning in caught}) == 1  # the program says the same but once
     mirrored = st.Motion(0.01, WAVE, WAVE, metadata={"azimuths": {"x": 35.0, "y": 125.0}})
     with pytest.warns(st.errors.OutOfRangeWarning, match=r"y to 125°, and x and y of .* to 35° and 305°"):
         warn_of_north(column, mirrored)
@@ -348,5 +348,5 @@ def test_what_was_done_to_a_motion_is_a_message():
     """English text in a report in another language, where it was put together from one."""
     both = st.Motion(0.01, WAVE, 0.5 * WAVE)
     done = [*trim(both, 0.2, 0.8).processing, *_reversed(both, "r").processing]
-    done += [one.processing[-1] for one in conditioned_alike([both, rotated(both, 30.0)], "pgv=0.3m/s")]
+    done += [motion.processing[-1] for motion in conditioned_alike([both, rotated(both, 30.0)], "pgv=0.3m/s")]
     assert [text for text in done if not isinstance(text, Message)] == []

@@ -58,7 +58,7 @@ def test_pulses(kind):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("1.0Hz,?g", "leaves the amplitude open"),
         ("1.0,0.3g", "has no unit"),
@@ -69,8 +69,8 @@ def test_pulses(kind):
         ("1Hz,0.3parsec", "unknown"),
     ],
 )
-def test_harmonics_that_are_refused(text, said):
-    with pytest.raises(InputError, match=said):
+def test_harmonics_that_are_refused(text, message):
+    with pytest.raises(InputError, match=message):
         parse_harmonic(text)
 
 

@@ -31,10 +31,10 @@ def test_what_is_shown_is_plain(k):
 def test_a_column_in_a_paragraph():
     """Numbers of the closed forms, as ``stylobate columns`` prints them."""
     column = st.preset("paper-monolithic")
-    said = repr(column)
-    assert "a column of 1 drum, 5 m high" in said
-    assert f"{column.uplift_acceleration / st.g:.3f} g" in said
-    assert f"Slenderness {column.slenderness:.3f} rad, p = {column.frequency_parameter:.3f} rad/s" in said
+    text = repr(column)
+    assert "a column of 1 drum, 5 m high" in text
+    assert f"{column.uplift_acceleration / st.g:.3f} g" in text
+    assert f"Slenderness {column.slenderness:.3f} rad, p = {column.frequency_parameter:.3f} rad/s" in text
 
 
 def test_names_are_texts():
@@ -73,7 +73,7 @@ def completed(shell, text):
     from IPython.core.completer import provisionalcompleter
 
     with provisionalcompleter():
-        return {one.text for one in shell.Completer.completions(text, len(text))}
+        return {completion.text for completion in shell.Completer.completions(text, len(text))}
 
 
 @pytest.mark.parametrize(

@@ -30,18 +30,18 @@ def as_openquake_reads(path):
     assert {"id", "assetCategory", "lossCategory"} <= set(model.attrib)
     assert model.find(f"{TAG}description").text
     states = model.find(f"{TAG}limitStates").text.split()
-    found = {}
+    functions = {}
     for function in model.findall(f"{TAG}fragilityFunction"):
         assert (function.get("format"), function.get("shape")) == ("continuous", "logncdf")
         imls, *params = function
         assert imls.tag == f"{TAG}imls"
-        assert [one.get("ls") for one in params] == states
+        assert [param.get("ls") for param in params] == states
         mean, stddev = (float(params[0].get(key)) for key in ("mean", "stddev"))
         spread = math.sqrt(math.log(stddev**2 / mean**2 + 1.0))
         median = mean**2 / math.sqrt(stddev**2 + mean**2)
         ends = float(imls.get("minIML")), float(imls.get("maxIML"))
-        found[function.get("id")] = (imls.get("imt"), ends, lognorm(spread, scale=median).cdf)
-    return states, found
+        functions[function.get("id")] = (imls.get("imt"), ends, lognorm(spread, scale=median).cdf)
+    return states, functions
 
 
 @pytest.mark.parametrize(
@@ -54,14 +54,17 @@ def as_openquake_reads(path):
     ],
 )
 def test_what_is_read_back_is_the_curve(measure, unit, imt, size, tmp_path):
-    one = curve(measure, unit, "two columns & a beam")
-    path = write_nrml([one], tmp_path / "f.xml")
-    states, found = as_openquake_reads(path)
+    original = curve(measure, unit, "two columns & a beam")
+    path = write_nrml([original], tmp_path / "f.xml")
+    states, functions = as_openquake_reads(path)
     assert states == ["collapse"]
-    name, (low, high), probability = *found["two columns & a beam"][:2], found["two columns & a beam"][2]
+    name, (low, high), probability = *functions["two columns & a beam"][:2], functions["two columns & a beam"][2]
     assert name == imt
     x = np.geomspace(0.05, 3.0, 30)
-    exact = [0.5 * math.erfc(-(math.log(one_) - one.log_median) / one.beta / math.sqrt(2.0)) for one_ in x]
+    exact = [
+        0.5 * math.erfc(-(math.log(intensity) - original.log_median) / original.beta / math.sqrt(2.0))
+        for intensity in x
+    ]
     assert probability(size * x) == pytest.approx(exact, abs=1e-9)
     assert low <= size * 0.1
     assert high >= size * 2.0
@@ -71,16 +74,16 @@ def test_what_is_read_back_is_the_curve(measure, unit, imt, size, tmp_path):
 
 def test_several_curves_of_one_state_are_one_model(tmp_path):
     both = [curve(name="a", state="top:0.35d"), curve(name="b", state="top:0.35d", seed=4)]
-    states, found = as_openquake_reads(write_nrml(both, tmp_path / "f.xml"))
+    states, functions = as_openquake_reads(write_nrml(both, tmp_path / "f.xml"))
     assert states == ["top_0_35d"]
-    assert list(found) == ["a", "b"]
+    assert list(functions) == ["a", "b"]
 
 
 def test_what_nrml_does_not_hold_is_refused_and_nothing_is_written(tmp_path):
     names = np.repeat(np.array([f"r{i}" for i in range(12)], dtype=object), 2)
     codes = np.tile(np.array([0, 1], dtype=np.int8), 12)
     sharp = Evidence(names, np.tile([0.1, 0.2], 12), codes, "pga", "g", "collapse", "c")
-    for curves, said in (
+    for curves, message in (
         ([curve("cav", "m/s")], "NRML has names for pga, pgv and sa"),
         ([curve("im", "-")], "NRML has names"),
         ([curve(), curve(name="b", state="top:1d")], "are of 2 states"),
@@ -88,7 +91,7 @@ def test_what_nrml_does_not_hold_is_refused_and_nothing_is_written(tmp_path):
         ([curve(), curve()], "two curves are called 'column 1'"),
         ([fragility(sharp, samples=50)], "do not show how capacities scatter"),
     ):
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             write_nrml(curves, tmp_path / "f.xml")
     with pytest.raises(InputError, match=r"ends in \.xml"):
         write_nrml([curve()], tmp_path / "f.txt")

@@ -18,11 +18,11 @@ from stylobate.models.space.packing import Drum, Solid, pack
 class Pair:
     """Two solids, and what their overlap adds up to."""
 
-    def __init__(self, one, other, direction=None):
-        self.packed = packed = pack([one, other])
+    def __init__(self, solid, other, direction=None):
+        self.packed = packed = pack([solid, other])
         self.work, self.simplex = workspace(), np.zeros((4, 3))
         self.pair = np.zeros(1, types()["pair"])[0]
-        way = other.place - one.place
+        way = other.place - solid.place
         self.pair["n"] = way / np.linalg.norm(way) if direction is None else direction
         self.arguments = (packed.shape[0], packed.body[0], packed.shape[1], packed.body[1])
 
@@ -47,15 +47,15 @@ def half_spaces(solid):
     return hull.equations
 
 
-def reference(one, other):
+def reference(solid, other):
     """Volume and middle of the overlap; 0 if there is none to speak of."""
-    planes = np.concatenate([half_spaces(one), half_spaces(other)])
-    found = linprog(
+    planes = np.concatenate([half_spaces(solid), half_spaces(other)])
+    solution = linprog(
         [0, 0, 0, -1], A_ub=np.c_[planes[:, :3], np.ones(len(planes))], b_ub=-planes[:, 3], bounds=(None, None)
     )
-    if found.x[3] < 1e-9:
+    if solution.x[3] < 1e-9:
         return 0.0, None
-    corners = HalfspaceIntersection(planes, found.x[:3]).intersections
+    corners = HalfspaceIntersection(planes, solution.x[:3]).intersections
     hull = ConvexHull(corners)
     inside = corners.mean(axis=0)
     volume, moment = 0.0, np.zeros(3)
@@ -79,8 +79,8 @@ def solid(mesh, place, axes):
 
 
 def direction(rng):
-    found = rng.normal(size=3)
-    return found / np.linalg.norm(found)
+    vector = rng.normal(size=3)
+    return vector / np.linalg.norm(vector)
 
 
 def poses(seed, count):
@@ -96,41 +96,41 @@ def poses(seed, count):
 
 def test_volume_and_middle_of_random_bodies():
     """Met to 1e-9 m³ in 60 poses; where the hull of half-spaces is empty, nothing is in contact."""
-    some = 0
-    for one, other in poses(1, 60):
-        volume, middle = reference(one, other)
-        pair = Pair(one, other)
+    overlaps = 0
+    for solid, other in poses(1, 60):
+        volume, middle = reference(solid, other)
+        pair = Pair(solid, other)
         touches = pair.touches()
         if volume < 1e-9:
             assert not touches or pair.total[VOLUME] < 1e-8
             continue
-        some += 1
+        overlaps += 1
         assert touches
         assert pair.total[VOLUME] == pytest.approx(volume, abs=1e-9)
         assert pair.middle == pytest.approx(middle, abs=1e-6)
-    assert some > 30
+    assert overlaps > 30
 
 
 def test_the_direction_changes_only_what_is_left_out():
     """Faces outside the slab along any direction do not bound the overlap."""
     rng = np.random.default_rng(2)
-    for one, other in poses(3, 12):
-        if reference(one, other)[0] < 1e-9:
+    for solid, other in poses(3, 12):
+        if reference(solid, other)[0] < 1e-9:
             continue
-        found = []
+        results = []
         for _ in range(4):
-            pair = Pair(one, other, direction(rng))
+            pair = Pair(solid, other, direction(rng))
             assert pair.touches()
-            found.append([pair.total[VOLUME], *pair.middle, *pair.total[NORMAL : NORMAL + 3]])
-        assert np.ptp(found, axis=0) == pytest.approx(np.zeros(7), abs=1e-12)
+            results.append([pair.total[VOLUME], *pair.middle, *pair.total[NORMAL : NORMAL + 3]])
+        assert np.ptp(results, axis=0) == pytest.approx(np.zeros(7), abs=1e-12)
 
 
 def test_boxes_apart_and_how_far():
     """The certified distance of a box from another one's face, edge and corner."""
     for place, gap in (((0, 0, 1.3), 0.3), ((0, 1.3, 1.4), 0.5), ((1.2, 1.1, 1.2), 0.3)):
         pair = Pair(box((1, 1, 1), (0, 0, 0)), box((1, 1, 1), place))
-        found = nearest.parting(*pair.arguments, 1.0, pair.packed.vertex, 0.6, 0.0, 0.8, pair.simplex)
-        assert found[0] == pytest.approx(gap, rel=1e-6)
+        separation = nearest.parting(*pair.arguments, 1.0, pair.packed.vertex, 0.6, 0.0, 0.8, pair.simplex)
+        assert separation[0] == pytest.approx(gap, rel=1e-6)
         assert not pair.touches()
 
 

@@ -16,22 +16,22 @@ from stylobate.verdicts.population import Population, chance_words
 
 
 @pytest.mark.parametrize(
-    ("share", "said"),
+    ("share", "text"),
     [(4 / 7, "57"), (0.575, "58"), (23 / 40, "58"), (0.145, "15"), (0.125, "13"), (0.565, "57"), (0.0, "0"), (1.0, "100"),
      (1e-17, "0"), (0.001, "<1"), (0.998, ">99"),
      (1 / 3, "33"), (2 / 3, "67"), (0.5749, "57"), (float("nan"), "–"), (float("inf"), "–")],
 )  # fmt: skip
-def test_half_of_a_per_cent_is_rounded_up(share, said):
-    assert whole_percent(share) == said
-    assert percent(share) == f"{said} %"
+def test_half_of_a_per_cent_is_rounded_up(share, text):
+    assert whole_percent(share) == text
+    assert percent(share) == f"{text} %"
 
 
 def test_every_share_of_up_to_four_hundred_runs_is_rounded_as_its_fraction_and_never_to_none_or_all():
     for runs in range(1, 401):
         for count in range(runs + 1):
             exact = (Fraction(100 * count, runs) + Fraction(1, 2)).__floor__()
-            said = "<1" if exact == 0 < count else ">99" if exact == 100 > Fraction(100 * count, runs) else str(exact)
-            assert whole_percent(count / runs) == said, (count, runs)
+            text = "<1" if exact == 0 < count else ">99" if exact == 100 > Fraction(100 * count, runs) else str(exact)
+            assert whole_percent(count / runs) == text, (count, runs)
 
 
 def test_all_who_tell_a_share_tell_the_same():
@@ -49,13 +49,13 @@ def test_all_who_tell_a_share_tell_the_same():
 def test_nobody_else_rounds_a_share():
     """Neither a script of the page nor a module writes a percentage of whole numbers by itself."""
     own = re.compile(r":\.0f\} %|:\.0%|Math\.round\(100")
-    found = [
+    lines = [
         f"{name}: {line.strip()}"
         for name, path in sources("py", "js")
         for line in path.read_text(encoding="utf-8").splitlines()
         if own.search(line) and "running.done" not in line  # how far a job is, no share of runs
     ]
-    assert not found
+    assert not lines
 
 
 def test_runs_without_a_verdict_are_counted_in_a_sentence():

@@ -16,7 +16,7 @@ def record(name, event=None, start_time=None, seconds=300.0):
 
 
 @pytest.mark.parametrize(
-    ("one", "other", "same"),
+    ("head", "other", "same"),
     [
         # one accelerogram from two networks: the file with a pre-event part begins three minutes before the other
         (("Rcrd of Fri", "7/06/19, 03:16: 8.0 UTC (GPS)"), (None, "2019-07-06T03:19:23.038300Z"), True),
@@ -35,8 +35,8 @@ def record(name, event=None, start_time=None, seconds=300.0):
         ((None, "2019-13-45T99:00:00Z"), (None, "2019-07-06T03:19:23Z"), False),
     ],
 )
-def test_records_of_one_earthquake(one, other, same):
-    first, second = events_of([record("a", *one), record("b", *other)])
+def test_records_of_one_earthquake(head, other, same):
+    first, second = events_of([record("a", *head), record("b", *other)])
     assert (first == second) is same
 
 
@@ -49,7 +49,7 @@ def test_records_of_other_numbers_of_the_event_are_of_other_earthquakes(ids, sam
         head = esm().replace("NETWORK", f"EVENT_ID: {number}\nNETWORK" if number else "NETWORK")
         path.write_text(f"DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS: 20160824_0{k}3600.000\n{head}")
         motions.append(st.read_motion(path))
-    again = [st.read_motion(write_csv(one, tmp_path / f"{k}.csv")) for k, one in enumerate(motions)]
+    again = [st.read_motion(write_csv(motion, tmp_path / f"{k}.csv")) for k, motion in enumerate(motions)]
     for records in (motions, again):
         first, second = events_of(records)
         assert (first == second) is same
@@ -71,9 +71,9 @@ def test_one_earthquake_is_chosen_once():
         for motion, name, (event, start) in zip(shaking, "abc", heads, strict=True)
     ]
     target = st.target_spectrum("ec8,ag=0.2g,soil=B")
-    found = st.select_records(motions, target, 2, factors=(0.01, 100.0), per_event=1)
-    assert found.table["record"].tolist() in (["a", "c"], ["b", "c"])
-    assert found.summary()["unknown_events"] == ["c"]
-    assert "The files of c do not tell of which earthquake they are" in found.sentence
+    selection = st.select_records(motions, target, 2, factors=(0.01, 100.0), per_event=1)
+    assert selection.table["record"].tolist() in (["a", "c"], ["b", "c"])
+    assert selection.summary()["unknown_events"] == ["c"]
+    assert "The files of c do not tell of which earthquake they are" in selection.sentence
     with pytest.raises(st.InputError, match="2 records can be chosen with at most 1 of one event"):
         st.select_records(motions, target, 3, factors=(0.01, 100.0), per_event=1)

@@ -36,12 +36,12 @@ def _table(tmp_path, motion, times):
 
 def test_a_record_that_is_the_target(tmp_path, motions):
     """Its own spectrum 1.5 times: multiplied by 1.5, over all periods within what lies between rows of the table."""
-    found = select_records(motions, _table(tmp_path, motions[2], 1.5), 1)
-    assert found.table["record"].tolist() == ["record 2"]
-    assert found.table["factor"][0] == pytest.approx(1.5, rel=2e-3)
-    assert found.ratio == pytest.approx(np.ones_like(found.ratio), rel=0.03)
-    assert found.meets
-    assert np.array_equal(found.motions[0].samples, motions[2].samples)
+    selection = select_records(motions, _table(tmp_path, motions[2], 1.5), 1)
+    assert selection.table["record"].tolist() == ["record 2"]
+    assert selection.table["factor"][0] == pytest.approx(1.5, rel=2e-3)
+    assert selection.ratio == pytest.approx(np.ones_like(selection.ratio), rel=0.03)
+    assert selection.meets
+    assert np.array_equal(selection.motions[0].samples, motions[2].samples)
 
 
 @pytest.mark.parametrize("count", [2, 3])
@@ -49,8 +49,8 @@ def test_exchanges_reach_the_best_of_all_sets(tmp_path, motions, count):
     """The misfit of the chosen set is at most 5 % above that of the best of all sets."""
     target = st.target_spectrum("ec8,ag=0.2g,soil=B")
     wide = {"factors": (0.1, 10.0), "least": 0.1}
-    each = [select_records([one], target, 1, **wide) for one in motions]
-    own = np.array([one.spectra[0] * one.table["factor"][0] ** 0 for one in each])
+    each = [select_records([motion], target, 1, **wide) for motion in motions]
+    own = np.array([selection.spectra[0] * selection.table["factor"][0] ** 0 for selection in each])
     best = own / np.exp(np.log(own / each[0].wanted).mean(axis=1))[:, None] / each[0].wanted
 
     def misfit(chosen):
@@ -59,21 +59,21 @@ def test_exchanges_reach_the_best_of_all_sets(tmp_path, motions, count):
         alone = np.sqrt((np.log(best[list(chosen)]) ** 2).mean(axis=1)).mean()
         return np.sqrt(((mean / level - 1.0) ** 2).mean()) + OWN_MISFIT * alone
 
-    names = [one.name for one in motions]
-    found = select_records(motions, target, count, **wide).table["record"]
+    names = [motion.name for motion in motions]
+    records = select_records(motions, target, count, **wide).table["record"]
     least = min(map(misfit, combinations(range(len(motions)), count)))
-    assert misfit([names.index(name) for name in found]) <= 1.05 * least
+    assert misfit([names.index(name) for name in records]) <= 1.05 * least
 
 
 def test_bounds_and_limits_hold(motions):
     target = st.target_spectrum("ec8,ag=0.2g,soil=B")
-    found = select_records(motions, target, 4, factors=(0.2, 6.0))
-    assert found.meets
-    assert found.ratio.min() >= 0.9 - 1e-9
-    assert found.pga_over_target >= 1.0 - 1e-9
-    assert ((found.table["factor"] >= 0.2) & (found.table["factor"] <= 6.0)).all()
-    for motion, row in zip(found.motions, found.spectra, strict=True):
-        assert pseudo_acceleration(motion, found.periods) == pytest.approx(row)
+    selection = select_records(motions, target, 4, factors=(0.2, 6.0))
+    assert selection.meets
+    assert selection.ratio.min() >= 0.9 - 1e-9
+    assert selection.pga_over_target >= 1.0 - 1e-9
+    assert ((selection.table["factor"] >= 0.2) & (selection.table["factor"] <= 6.0)).all()
+    for motion, row in zip(selection.motions, selection.spectra, strict=True):
+        assert pseudo_acceleration(motion, selection.periods) == pytest.approx(row)
     short = select_records(motions, target, 4, factors=(0.2, 6.0), least=1.9)
     assert (short.table["factor"] <= 6.0).all()
     assert ("does not meet" in short.sentence) == (not short.meets)
@@ -81,22 +81,25 @@ def test_bounds_and_limits_hold(motions):
 
 def test_ranges_and_events(motions):
     target = st.target_spectrum("ec8,ag=0.2g,soil=B")
-    told = [one.replace(metadata={**one.metadata, "event": "A" if k < 5 else f"{k}"}) for k, one in enumerate(motions)]
-    found = select_records(told, target, 4, factors=(0.01, 100.0), per_event=1)
-    assert (found.table["event"] == "A").sum() <= 1
+    recordings = [
+        motion.replace(metadata={**motion.metadata, "event": "A" if k < 5 else f"{k}"})
+        for k, motion in enumerate(motions)
+    ]
+    selection = select_records(recordings, target, 4, factors=(0.01, 100.0), per_event=1)
+    assert (selection.table["event"] == "A").sum() <= 1
     with pytest.raises(st.InputError, match="4 records can be chosen with at most 1 of one event"):
-        select_records(told, target, 5, factors=(0.01, 100.0), per_event=1)
-    about = {one.name: {"magnitude": 6.0 + 0.1 * k} for k, one in enumerate(motions)}
+        select_records(recordings, target, 5, factors=(0.01, 100.0), per_event=1)
+    about = {motion.name: {"magnitude": 6.0 + 0.1 * k} for k, motion in enumerate(motions)}
     wanted = [RecordRange("magnitude", 6.25, 6.75), RecordRange(parse_measure("pgv"), 0.0, 10.0)]
-    found = select_records(motions, target, 3, factors=(0.01, 100.0), wanted=wanted, about=about)
-    assert set(found.refused) == {"record 0", "record 1", "record 2"}
+    selection = select_records(motions, target, 3, factors=(0.01, 100.0), wanted=wanted, about=about)
+    assert set(selection.refused) == {"record 0", "record 1", "record 2"}
     with pytest.raises(st.InputError, match="0 of 8 records can be used, and 3 are asked for"):
         select_records(motions, target, 3, wanted=[RecordRange("distance_km", 0.0, 10.0)])
 
 
 def test_wider_limits_that_are_told_let_in_as_many_as_are_asked_for(motions):
     target = st.target_spectrum("ec8,ag=0.2g,soil=B")
-    spread = [one.scaled(1.6**k) for k, one in enumerate(motions)]
+    spread = [motion.scaled(1.6**k) for k, motion in enumerate(motions)]
     with pytest.raises(st.InputError, match="Factors from ") as caught:
         select_records(spread, target, 6, factors=(0.9, 1.1))
     low, high = map(float, re.search(r"Factors from (\S+) to (\S+) would let in as many", str(caught.value)).groups())
@@ -115,24 +118,24 @@ def test_a_recording_in_two_files_counts_once(motions):
         np.arange(2 * len(motions[1].samples) - 1), 2 * np.arange(len(motions[1].samples)), motions[1].samples
     )
     alone = st.Motion(0.5 * motions[1].dt, 1.7 * fine, name="alone")
-    found = select_records([alone, pair, *motions[3:]], target, 3, factors=(0.01, 100.0))
-    assert found.refused == {"alone": "it is the recording of 'both' once more; a record counts once"}
+    selection = select_records([alone, pair, *motions[3:]], target, 3, factors=(0.01, 100.0))
+    assert selection.refused == {"alone": "it is the recording of 'both' once more; a record counts once"}
 
 
 def test_a_recording_that_wider_limits_let_in_twice_counts_once(motions):
     """The file with more components is the record, wherever its factor lies."""
     target = st.target_spectrum("ec8,ag=0.2g,soil=B")
     factor = select_records(motions[:1], target, 1, factors=(0.01, 100.0)).table["factor"][0]
-    one = motions[0].scaled(factor)
-    weak = one.scaled(0.1).replace(vertical=0.3 * one.samples, name="weaker, with a vertical component")
+    recording = motions[0].scaled(factor)
+    weak = recording.scaled(0.1).replace(vertical=0.3 * recording.samples, name="weaker, with a vertical component")
     with pytest.raises(
         st.InputError, match=r"1 of 2 records can be used, and 2 are asked for; .* give more\. The first"
     ):
-        select_records([one, weak], target, 2, factors=(0.5, 2.0))
+        select_records([recording, weak], target, 2, factors=(0.5, 2.0))
 
 
 def test_one_recording_processed_otherwise_is_told(motions):
-    dt, (x, y) = motions[0].dt, (np.resize(one.samples, 3000) for one in motions[:2])
+    dt, (x, y) = motions[0].dt, (np.resize(motion.samples, 3000) for motion in motions[:2])
     t, many = dt * np.arange(3000), list(motions[2:])
     both, alone = st.Motion(dt, x, y), st.Motion(dt, x)
     drifting = x + 0.01 * np.abs(x).max() * (t / t[-1] - 0.5)
@@ -140,11 +143,11 @@ def test_one_recording_processed_otherwise_is_told(motions):
     mirrored = st.Motion(dt, y, -3.0 * x)
     coarse = st.Motion(4 * dt, np.interp(np.arange(0.0, t[-1], 4 * dt), t, x))
     late = st.Motion(dt, np.concatenate([np.zeros(400), -x[:2500]]))
-    for one, other in [
+    for recording, other in [
         *((both, again) for again in (*turned, mirrored)),
         *((alone, again) for again in (coarse, late, st.Motion(dt, drifting))),
     ]:
-        assert recorded_again([*many, one, other]) == {len(many) + 1: len(many)}
+        assert recorded_again([*many, recording, other]) == {len(many) + 1: len(many)}
     assert recorded_again([*many, alone, st.Motion(dt, x[::-1]), st.Motion(dt, y)]) == {}
 
 

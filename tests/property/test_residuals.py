@@ -21,8 +21,8 @@ ALONG = st.harmonic(1.5, 0.35 * st.g, 1.0)
 def test_in_space_by_hand():
     """One joint slid 0.5 m; bodies lean 0.1 rad towards y, stand on their heads, and not at all."""
     up = np.array([[0.0, math.sin(0.1), math.cos(0.1)], [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])
-    found = Residuals.in_space(np.array([[0.3, -0.4]]), np.array([0.2]), np.eye(3), up)
-    row = found.row()
+    residuals = Residuals.in_space(np.array([[0.3, -0.4]]), np.array([0.2]), np.eye(3), up)
+    row = residuals.row()
     assert row["residual_slip_per_joint_m"] == pytest.approx([0.5])
     assert (row["residual_slip_x_m"], row["residual_slip_y_m"], row["residual_twist_rad"]) == ([0.3], [-0.4], [0.2])
     assert row["residual_displacement_z_m"] == [0.0, 0.0, 1.0]
@@ -33,10 +33,10 @@ def test_in_space_by_hand():
 
 def test_in_the_plane_by_hand():
     """A turn to the left, towards -x, of a quarter beyond half a turn is one to the right; nothing is told across."""
-    found = Residuals.in_plane(np.array([-0.1]), np.array([0.2]), np.array([0.0]), np.array([1.25 * math.pi]))
-    assert found.tilt_x == pytest.approx((0.75 * math.pi,))
-    assert found.slips == (0.1,)
-    assert set(found.row()) == {NAMES[name] for name in ("slip_x", "moved_x", "moved_z", "tilt_x")}
+    residuals = Residuals.in_plane(np.array([-0.1]), np.array([0.2]), np.array([0.0]), np.array([1.25 * math.pi]))
+    assert residuals.tilt_x == pytest.approx((0.75 * math.pi,))
+    assert residuals.slips == (0.1,)
+    assert set(residuals.row()) == {NAMES[name] for name in ("slip_x", "moved_x", "moved_z", "tilt_x")}
 
 
 @pytest.mark.parametrize(
@@ -48,20 +48,20 @@ def test_in_the_plane_by_hand():
         (BLOCK, st.HousnerBlock()),
         (COLUMN, st.DistinctElement3D()),
     ],
-    ids=lambda one: getattr(one, "name", ""),
+    ids=lambda value: getattr(value, "name", ""),
 )
 def test_the_row_of_every_model_tells_what_its_histories_end_with(column, model):
     response = st.simulate(column, ALONG, model)
-    told, seen = response.measures.row(), residuals_of(column, response.histories).row()
-    assert seen.keys() == {name for name in told if name in seen}
+    measures, seen = response.measures.row(), residuals_of(column, response.histories).row()
+    assert seen.keys() == {name for name in measures if name in seen}
     for name, values in seen.items():
-        np.testing.assert_allclose(told[name], values, atol=1e-12)
-        assert response.summary()[name] == told[name] or response.collapsed
-    assert "collapse_azimuth_deg" in told
+        np.testing.assert_allclose(measures[name], values, atol=1e-12)
+        assert response.summary()[name] == measures[name] or response.collapsed
+    assert "collapse_azimuth_deg" in measures
     row = st.simulate_many(column, [ALONG], model).iloc[0]
     exact = 0.0 if model.name != "housner" else 1e-4  # whose single runs choose their steps
     for name in seen:
-        np.testing.assert_allclose(row[name], told[name], atol=exact)
+        np.testing.assert_allclose(row[name], measures[name], atol=exact)
 
 
 def test_a_drum_pushed_aside_slips_and_leans_where_it_is_pushed():
@@ -83,11 +83,11 @@ def test_assemblies_tell_joints_and_bodies_that_can_move():
     ground = st.Block([[-2.0, -0.5], [2.0, -0.5], [2.0, 0.0], [-2.0, 0.0]], 2000.0, name="rock", fixed=True)
     stone = st.Block([[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]], 2000.0, name="stone")
     response = st.simulate(st.Assembly((ground, stone), SLIPPERY), ALONG, st.DistinctElement2D())
-    row, told = response.measures.row(), response.summary()
+    row, summary = response.measures.row(), response.summary()
     assert len(row["residual_slip_x_m"]) == response.slip.shape[1] == 2
     assert row["residual_displacement_x_m"] == [row["bodies"]["stone"]["displacement_at_end_m"][0]]
     assert row["residual_slip_x_m"] == pytest.approx([0.0, *row["residual_displacement_x_m"]], abs=1e-2)
-    assert told["residual_tilt_x_rad"] == row["residual_tilt_x_rad"]
+    assert summary["residual_tilt_x_rad"] == row["residual_tilt_x_rad"]
     assert residuals_of(response.structure, response.histories) == response.residuals
 
 
@@ -96,9 +96,9 @@ def test_a_file_of_before_has_its_residuals_from_its_histories(tmp_path):
     response = st.simulate(COLUMN, ALONG, st.DistinctElement3D())
     data = to_dataset(response, derived=False)
     facts = store.from_json(data, "facts")
-    left = facts.pop("residuals")
-    facts["space"] |= {"residual_slip_x": left["slip_x"], "residual_slip_y": left["slip_y"]}
-    facts["space"] |= {"residual_slip_per_joint": [0.0, 0.0], "residual_twist_per_joint": left["twist"]}
+    residuals = facts.pop("residuals")
+    facts["space"] |= {"residual_slip_x": residuals["slip_x"], "residual_slip_y": residuals["slip_y"]}
+    facts["space"] |= {"residual_slip_per_joint": [0.0, 0.0], "residual_twist_per_joint": residuals["twist"]}
     data["facts"] = ((), store.as_json(facts))
     path = tmp_path / "old.nc"
     store.write(data, "response", path)

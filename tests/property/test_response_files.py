@@ -5,8 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as some
+from hypothesis import given, settings, strategies
 
 import stylobate as st
 from stylobate.atomic import replacing
@@ -18,16 +17,16 @@ RECORDED = (
     "time", "drum_x", "drum_z", "drum_rotation", "joint_opening", "joint_slip", "joint_twist", "base_displacement",
     "top_displacement", "ground_acceleration", "ground_displacement",
 )  # fmt: skip
-NUMBERS = some.floats(allow_nan=True, allow_infinity=True)
+NUMBERS = strategies.floats(allow_nan=True, allow_infinity=True)
 
 
-@some.composite
+@strategies.composite
 def responses(draw):
     column = draw(
-        some.sampled_from([preset("paper-monolithic"), preset("paper-12-drums").with_joint(friction_angle=31.0)])
+        strategies.sampled_from([preset("paper-monolithic"), preset("paper-12-drums").with_joint(friction_angle=31.0)])
     )
-    steps = draw(some.integers(1, 4))
-    random = np.random.default_rng(draw(some.integers(0, 2**32)))
+    steps = draw(strategies.integers(1, 4))
+    random = np.random.default_rng(draw(strategies.integers(0, 2**32)))
     special = draw(NUMBERS)
 
     def array(*shape):
@@ -45,21 +44,23 @@ def responses(draw):
             name: array(steps)
             for name in ("base_displacement", "top_displacement", "ground_acceleration", "ground_displacement")
         },
-        energy={term: array(steps) for term in draw(some.sets(some.sampled_from(ENERGY_TERMS), min_size=1))},
+        energy={
+            term: array(steps) for term in draw(strategies.sets(strategies.sampled_from(ENERGY_TERMS), min_size=1))
+        },
     )
     measures = Measures(
-        outcome=draw(some.sampled_from(st.Outcome)),
-        decided=draw(some.booleans()),
+        outcome=draw(strategies.sampled_from(st.Outcome)),
+        decided=draw(strategies.booleans()),
         **{field.name: draw(NUMBERS) for field in dataclasses.fields(Measures) if field.type == "float"},
-        steps=draw(some.integers(0, 2**60)),
-        reason=draw(some.sampled_from(["", "overturned about joint 3", "θ̈ is not finite"])),
+        steps=draw(strategies.integers(0, 2**60)),
+        reason=draw(strategies.sampled_from(["", "overturned about joint 3", "θ̈ is not finite"])),
     )
     provenance = {
         "version": "0.1.0",
         "parameters": {"points": 2, "block_modulus": None},
-        "share": draw(some.floats(0, 1)),
+        "share": draw(strategies.floats(0, 1)),
     }
-    return st.Response(column, histories, measures, "dem2d", provenance, draw(some.floats(0, 1e6)))
+    return st.Response(column, histories, measures, "dem2d", provenance, draw(strategies.floats(0, 1e6)))
 
 
 def same(a, b):

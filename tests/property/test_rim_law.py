@@ -3,8 +3,7 @@
 import math
 
 import numpy as np
-from hypothesis import given, settings
-from hypothesis import strategies as some
+from hypothesis import given, settings, strategies
 from validation.space import block_of, joint, put, put_axes, round_column
 
 from stylobate.column import Column, Drum
@@ -57,13 +56,13 @@ def summed(ru, rl, c, n, stiffness):
 
 @settings(max_examples=25, deadline=None)
 @given(
-    ratio=some.sampled_from((0.92, 1.0, 1.08, 2.0)),
-    slip=some.floats(-4.0, -0.4),
-    towards=some.floats(-math.pi, math.pi),
-    tilt=some.floats(-5.0, -0.7),
-    depth=some.floats(-0.95, 2.5),
-    base=some.floats(0.0, 0.3),
-    turn=some.floats(-3.0, 3.0),
+    ratio=strategies.sampled_from((0.92, 1.0, 1.08, 2.0)),
+    slip=strategies.floats(-4.0, -0.4),
+    towards=strategies.floats(-math.pi, math.pi),
+    tilt=strategies.floats(-5.0, -0.7),
+    depth=strategies.floats(-0.95, 2.5),
+    base=strategies.floats(0.0, 0.3),
+    turn=strategies.floats(-3.0, 3.0),
 )
 def test_force_and_moment_of_random_poses(ratio, slip, towards, tilt, depth, base, turn):
     """Any slip, tilt and depth, on a drum that itself leans and is turned. The sum over the rims errs by 1e-4."""
@@ -87,9 +86,9 @@ def test_force_and_moment_of_random_poses(ratio, slip, towards, tilt, depth, bas
     block.records.kernel.forces(block.records.state)
     force, moment = summed(ru, rl, c, own[:, 2], 5e10)
     force, moment = frame @ force, frame @ moment
-    found = block.records.load["f"][1, :, 0]
+    actual_force = block.records.load["f"][1, :, 0]
     size = max(np.linalg.norm(force), 1e-9 * 5e10)
-    np.testing.assert_allclose(found, force, rtol=0, atol=3e-4 * size)
+    np.testing.assert_allclose(actual_force, force, rtol=0, atol=3e-4 * size)
     about_lower = np.cross(face - place, force) + moment
     about_upper = moment - np.cross(frame @ c + upper.centroid_height * (frame @ own)[:, 2], force)
     np.testing.assert_allclose(-block.records.load["lo"][1, :, 0], about_lower, rtol=0, atol=5e-4 * size)
@@ -131,7 +130,7 @@ def test_closed_joint_has_its_area_and_twice_its_second_moment():
 
 
 @settings(max_examples=60, deadline=None)
-@given(some.floats(-1.0, 1.0))
+@given(strategies.floats(-1.0, 1.0))
 def test_arc_cosine(x):
     """Polynomial of degree 14 times √(1 − x)."""
     from stylobate.kernels.dem3d.rim import angle_of

@@ -16,8 +16,8 @@ GOOD = "record,im,collapsed\na,0.5,0\na,1.0,\nb,0.5,1\n"
 
 def read(path, text, encoding="utf-8"):
     path.write_bytes(text.encode(encoding))
-    found = evidence(read_table(path), "pgv")
-    return [*zip(found.records.tolist(), found.im.tolist(), found.codes.tolist(), strict=True)]
+    runs = evidence(read_table(path), "pgv")
+    return [*zip(runs.records.tolist(), runs.im.tolist(), runs.codes.tolist(), strict=True)]
 
 
 @pytest.mark.parametrize(
@@ -43,7 +43,7 @@ def test_dialects_are_the_same_table(tmp_path, text):
 def test_names_of_records_stay_as_they_are(tmp_path):
     names = ["01", "1", "1.0", "#7", "a#b", "nan", "NA", "x, y", "1e3"]
     rows = "".join(f'"{name}",0.5,1\n' for name in names)
-    assert [one for one, _, _ in read(tmp_path / "runs.csv", "record,im,collapsed\n" + rows)] == names
+    assert [record for record, _, _ in read(tmp_path / "runs.csv", "record,im,collapsed\n" + rows)] == names
 
 
 @pytest.mark.parametrize(
@@ -75,9 +75,9 @@ def test_names_of_records_stay_as_they_are(tmp_path):
     ],
 )
 def test_what_is_not_understood_is_refused(tmp_path, text, why):
-    with pytest.raises(InputError, match=why) as told:
+    with pytest.raises(InputError, match=why) as error:
         read(tmp_path / "runs.csv", text)
-    assert "np." not in str(told.value)
+    assert "np." not in str(error.value)
 
 
 def test_other_encodings_are_read_or_named(tmp_path):
@@ -116,17 +116,17 @@ def test_commands_say_it_in_one_sentence(tmp_path, capsys):
     rows = "".join(f"r{k},{x},{int(x > 0.5)}\n" for k in range(12) for x in (0.2, 0.4, 0.6))
     path.write_text("record,im,collapsed\n" + rows)
     assert call(["fragility", str(path), "--im", "pgv"]) == 0
-    told = capsys.readouterr().out
-    assert "half of the records bring collapse at pgv between 0.4 and 0.6 m/s" in told
-    assert "not seen in these runs (95 %: up to 0." in told
+    output = capsys.readouterr().out
+    assert "half of the records bring collapse at pgv between 0.4 and 0.6 m/s" in output
+    assert "not seen in these runs (95 %: up to 0." in output
     (alone := tmp_path / "alone.csv").write_text("record,pgv_m_s,collapsed\n" + rows)
     assert call(["fragility", str(alone)]) == 0  # its one intensity is called after its measure
-    assert capsys.readouterr().out.replace("alone:", "runs:") == told
+    assert capsys.readouterr().out.replace("alone:", "runs:") == output
     path.write_text(path.read_text().replace("0.4", "0,4"))
     assert call(["fragility", str(path), "--im", "pgv"]) == 2
-    told = capsys.readouterr()
-    assert (told.out, told.err.count("\n")) == ("", 1)
-    assert "line 3 of" in told.err
+    output = capsys.readouterr()
+    assert (output.out, output.err.count("\n")) == ("", 1)
+    assert "line 3 of" in output.err
 
 
 @pytest.mark.parametrize(
@@ -142,9 +142,9 @@ def test_commands_say_it_in_one_sentence(tmp_path, capsys):
     ],
 )
 def test_numbers_of_numpy_are_shown_as_numbers(refused, shown):
-    with pytest.raises(InputError, match=shown) as told:
+    with pytest.raises(InputError, match=shown) as error:
         refused()
-    assert "np." not in str(told.value)
+    assert "np." not in str(error.value)
 
 
 def test_as_typed():

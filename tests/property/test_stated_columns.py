@@ -66,7 +66,7 @@ def test_each_column_has_its_unit(put):
 
 
 @pytest.mark.parametrize(
-    ("columns", "said"),
+    ("columns", "message"),
     [
         ("", "'' is not understood"),
         ("t [s], ax [g]", r"'ax \[g\]' is not understood; allowed are t, x, y and z"),
@@ -80,12 +80,12 @@ def test_each_column_has_its_unit(put):
         ("t [s], -", "names no column of acceleration"),
     ],
 )
-def test_columns_that_are_not_understood_are_refused_before_a_file_is_opened(columns, said):
+def test_columns_that_are_not_understood_are_refused_before_a_file_is_opened(columns, message):
     for refused in (
         lambda: read_motion("no such file", columns=columns),
         lambda: MotionRequest(files=("no such file",), columns=columns),
     ):
-        with pytest.raises(InputError, match=said) as error:
+        with pytest.raises(InputError, match=message) as error:
             refused()
         assert error.value.field.partition(".")[0] == "columns"
 

@@ -119,9 +119,9 @@ def test_a_full_disk_leaves_nothing_and_says_so(tmp_path):
     ]
     done = subprocess.run([sys.executable, "-c", FULL, *arguments], capture_output=True, text=True)
     assert done.returncode == 1  # no signal: the library crashes at the end of a process that could not finish a file
-    said = done.stderr.strip().splitlines()
-    assert len(said) == 1
-    assert "cannot be written" in said[0]
+    messages = done.stderr.strip().splitlines()
+    assert len(messages) == 1
+    assert "cannot be written" in messages[0]
     assert "Traceback" not in done.stderr
     assert not list((tmp_path / "out").glob("*.nc")) if (tmp_path / "out").exists() else True
 
@@ -147,7 +147,7 @@ def test_what_the_library_cannot_open_is_one_sentence_and_no_traceback(tmp_path,
             refused.append(str(error))
     gc.collect()
     assert len(refused) > 5
-    assert not [one for one in refused if "\n" in one]
+    assert not [message for message in refused if "\n" in message]
     assert not printed
 
 

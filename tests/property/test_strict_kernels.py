@@ -40,13 +40,13 @@ def compiled(function):
 
 def test_every_compiled_function_states_its_own_mode():
     # A function that states none takes that of the first one that calls it.
-    found = 0
+    count = 0
     for module in pkgutil.walk_packages(kernels.__path__, f"{kernels.__name__}."):
         for name, value in vars(importlib.import_module(module.name)).items():
             if isinstance(value, numba.core.registry.CPUDispatcher):
                 assert "fastmath" in value.targetoptions, f"{module.name}.{name}"
-                found += 1
-    assert found > 50
+                count += 1
+    assert count > 50
 
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])

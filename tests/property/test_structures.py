@@ -38,12 +38,12 @@ def portal_in_space():
 
 def standing():
     column = preset("paper-12-drums")
-    found = column.replace(as_found=LEANING)
+    leaning = column.replace(as_found=LEANING)
     return {
         "column": column,
-        "as found": found,
+        "as found": leaning,
         "blocks": of_column(column),
-        "found blocks": of_column(found),
+        "found blocks": of_column(leaning),
         "specimen": st.Specimen(100.0, [20.0, 20.0, 20.0], CUBE, name="cube"),
         "in space": portal_in_space(),
     }
@@ -54,15 +54,15 @@ STANDING = standing()
 
 def names_of(node):
     """Last parts of all names in an expression."""
-    for one in ast.walk(node):
-        if isinstance(one, ast.Name | ast.Attribute):
-            yield one.id if isinstance(one, ast.Name) else one.attr
+    for part in ast.walk(node):
+        if isinstance(part, ast.Name | ast.Attribute):
+            yield part.id if isinstance(part, ast.Name) else part.attr
 
 
 def told_apart(tree):
     """Lines in which a kind of structure is asked for: by its class, or by the word for it."""
     asserted = {
-        id(one) for assertion in ast.walk(tree) if isinstance(assertion, ast.Assert) for one in ast.walk(assertion)
+        id(part) for assertion in ast.walk(tree) if isinstance(assertion, ast.Assert) for part in ast.walk(assertion)
     }
     for node in ast.walk(tree):
         if id(node) in asserted:  # it decides nothing
@@ -73,10 +73,10 @@ def told_apart(tree):
             yield node.lineno
         if isinstance(node, ast.Compare):
             sides = (node.left, *node.comparators)
-            words = {one.value for one in sides if isinstance(one, ast.Constant)} & {word.lower() for word in KINDS}
-            asks = any(isinstance(one, ast.Attribute) and one.attr == "kind" for one in sides)
-            typed = any(isinstance(one, ast.Call) and "type" in names_of(one.func) for one in sides)
-            if (words and asks) or (typed and any(KINDS & set(names_of(one)) for one in sides)):
+            words = {side.value for side in sides if isinstance(side, ast.Constant)} & {word.lower() for word in KINDS}
+            asks = any(isinstance(side, ast.Attribute) and side.attr == "kind" for side in sides)
+            typed = any(isinstance(side, ast.Call) and "type" in names_of(side.func) for side in sides)
+            if (words and asks) or (typed and any(KINDS & set(names_of(side)) for side in sides)):
                 yield node.lineno
 
 
@@ -96,18 +96,18 @@ def test_nobody_below_tells_kinds_of_structures_apart():
 
 @pytest.mark.parametrize("name", STANDING)
 def test_a_structure_is_made_again_from_its_plain_values(name):
-    one = STANDING[name]
-    assert isinstance(one, Structure)
-    again = FROM_DICT[one.kind](one.to_dict())
-    assert again.digest == one.digest
+    structure = STANDING[name]
+    assert isinstance(structure, Structure)
+    again = FROM_DICT[structure.kind](structure.to_dict())
+    assert again.digest == structure.digest
     assert again.described in ("a column", "an assembly", "a specimen", "an assembly in space")
 
 
 @pytest.mark.parametrize("name", STANDING)
 def test_bodies_stand_where_their_outlines_are(name):
     """The centroid of the outline of a prism is where the body stands; every body that moves has a mass and an inertia."""
-    one = STANDING[name]
-    for body in one.bodies:
+    structure = STANDING[name]
+    for body in structure.bodies:
         assert body.fixed == (body.mass == 0.0 or body.name in ("ground", "step"))
         if not body.fixed:
             assert body.mass > 0.0
@@ -115,7 +115,7 @@ def test_bodies_stand_where_their_outlines_are(name):
             low, high = body.corners.min(axis=0), body.corners.max(axis=0)
             assert (low < body.place).all()
             assert (body.place < high).all()
-    assert len(one.shapes) == len(one.bodies) - one.first
+    assert len(structure.shapes) == len(structure.bodies) - structure.first
 
 
 @pytest.mark.parametrize(("column", "blocks"), [("column", "blocks"), ("as found", "found blocks")])
@@ -131,10 +131,10 @@ def test_a_column_and_its_drums_as_blocks_are_the_same_structure(column, blocks)
             np.testing.assert_allclose(drum.corners, block.corners, atol=1e-12)
     assert len(column.face_pairs) == len(blocks.face_pairs)
     lean = [0.0, *geometry(column).lean]  # a drum's faces are in axes along its lower one
-    for one, other in zip(column.face_pairs, blocks.face_pairs, strict=True):
-        assert one[:2] == other[:2]
-        assert one.law == other.law
-        for body, mine, its in ((one.upper, one.above, other.above), (one.lower, one.below, other.below)):
+    for pair, other in zip(column.face_pairs, blocks.face_pairs, strict=True):
+        assert pair[:2] == other[:2]
+        assert pair.law == other.law
+        for body, mine, its in ((pair.upper, pair.above, other.above), (pair.lower, pair.below, other.below)):
             assert mine.height == pytest.approx(its.height, abs=1e-12)
             assert math.atan2(*its.direction[::-1]) == pytest.approx(
                 lean[body] + math.atan2(*mine.direction[::-1]), abs=1e-12
@@ -145,11 +145,16 @@ def test_a_column_and_its_drums_as_blocks_are_the_same_structure(column, blocks)
 
 def test_what_a_structure_has_not_is_none():
     for name in ("blocks", "specimen", "in space"):
-        one = STANDING[name]
+        structure = STANDING[name]
         assert (
-            one.stack is one.base_width is one.slenderness is one.uplift_acceleration is one.moving_acceleration is None
+            structure.stack
+            is structure.base_width
+            is structure.slenderness
+            is structure.uplift_acceleration
+            is structure.moving_acceleration
+            is None
         )
-        assert set(one.widths.values()) == {None}
+        assert set(structure.widths.values()) == {None}
     column = STANDING["column"]
     assert column.stack is column
     assert column.widths == {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}
@@ -173,9 +178,9 @@ def test_what_a_model_does_not_know_is_refused():
 @pytest.mark.parametrize("name", ["", "  ", "a\nb", "a\tb", "a\x00", "a\x7f", "a\u2028b"], ids=ascii)
 def test_a_name_is_one_line_of_text(name):
     """Of whatever stands, and of its parts: reports and files of other programs have a line for each."""
-    for one in STANDING.values():
+    for structure in STANDING.values():
         with pytest.raises(st.InputError, match=r"the name of an? \w+ is '.*'; write one line of text"):
-            dataclasses.replace(one, name=name)
+            dataclasses.replace(structure, name=name)
     for make in (
         lambda: st.Stone.box((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), 2500.0, name=name),
         lambda: dataclasses.replace(STANDING["blocks"].blocks[0], name=name),
@@ -191,17 +196,17 @@ def asked_of_the_package(path, tree):
     depth = len(path.relative_to(SOURCES).parts)
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and (node.level == depth or node.module == "stylobate"):
-            yield from (one.name for one in node.names if node.module in (None, "stylobate"))
+            yield from (alias.name for alias in node.names if node.module in (None, "stylobate"))
 
 
 def test_rooms_ask_the_package_itself_for_a_film_alone():
     """Or floors and circles would prove nothing: its names are those of all rooms. A response hands out films of itself."""
     rooms = {path.stem for path in SOURCES.iterdir()}
-    asked = {
+    imports = {
         (path.relative_to(SOURCES).as_posix(), name)
         for path in SOURCES.rglob("*.py")
         if path.relative_to(SOURCES).parts[0] != "cli"  # on top, whose commands are scripts themselves
         for name in asked_of_the_package(path, ast.parse(path.read_text("utf-8")))
         if name not in rooms
     }
-    assert asked == {("response/response.py", "Film")}
+    assert imports == {("response/response.py", "Film")}

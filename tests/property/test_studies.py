@@ -91,18 +91,18 @@ def test_a_case_is_what_simulate_many_computes():
 @pytest.mark.filterwarnings("ignore::stylobate.errors.LeftOutWarning")
 def test_a_plan_tells_its_cases_as_any_other_request_does(tmp_path):
     """By what acts and what stands: not by names, nor by the components that the model leaves out."""
-    some = study(replicates=2)
-    again = Request.of([some.case(number) for number in range(some.size)], Hasher(some.models[0]))
-    assert again.digests.digests.tolist() == some.plan().digests.digests.tolist()
+    original = study(replicates=2)
+    again = Request.of([original.case(number) for number in range(original.size)], Hasher(original.models[0]))
+    assert again.digests.digests.tolist() == original.plan().digests.digests.tolist()
     aside = PULSE.replace(name="another", ay=0.3 * PULSE.samples)
-    renamed = st.Study([COLUMN.replace(name="another")], [aside], some.models, some.levels, replicates=2)
-    assert renamed.plan().digests.digests.tolist() == some.plan().digests.digests.tolist()
+    renamed = st.Study([COLUMN.replace(name="another")], [aside], original.models, original.levels, replicates=2)
+    assert renamed.plan().digests.digests.tolist() == original.plan().digests.digests.tolist()
     for other in (
         study(replicates=2, seed=1),
         study(replicates=2, tail=1.0),
         study(1.0, 2.0, 3.0, 6.1, replicates=2),
     ):
-        assert other.plan().digests.digests.tolist() != some.plan().digests.digests.tolist()
+        assert other.plan().digests.digests.tolist() != original.plan().digests.digests.tolist()
 
 
 OWN = """
@@ -117,22 +117,22 @@ class Own(st.HousnerBlock):
 
 def test_a_model_of_ones_own_of_another_version_is_another_law(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path)
-    found = []
+    digests = []
     for source in (OWN, f"{OWN}        # edited", OWN.replace('"1"', '"2"')):
         (tmp_path / "own_model.py").write_text(source)
         monkeypatch.delitem(sys.modules, "own_model", raising=False)
         importlib.invalidate_caches()
-        some = st.Study([COLUMN], [PULSE], [importlib.import_module("own_model").Own()])
-        found.append(some.plan().digests[0])
-    assert found[0] == found[1] != found[2]
+        own_study = st.Study([COLUMN], [PULSE], [importlib.import_module("own_model").Own()])
+        digests.append(own_study.plan().digests[0])
+    assert digests[0] == digests[1] != digests[2]
 
 
 def test_what_is_to_be_said_of_runs_is_said_of_those_in_the_ledger_too(tmp_path):
     aside = PULSE.replace(ay=0.3 * PULSE.samples)
     for made in (4, 0):
         with pytest.warns(st.errors.LeftOutWarning):
-            found = st.run_study(st.Study([COLUMN], [aside], [st.HousnerBlock()], (1.0, 2.0, 3.0, 6.0)), tmp_path)
-        assert found.computed == made
+            result = st.run_study(st.Study([COLUMN], [aside], [st.HousnerBlock()], (1.0, 2.0, 3.0, 6.0)), tmp_path)
+        assert result.computed == made
 
 
 def test_runs_of_another_law_are_never_mixed_in(tmp_path, monkeypatch):
@@ -143,15 +143,15 @@ def test_runs_of_another_law_are_never_mixed_in(tmp_path, monkeypatch):
 
 
 def test_the_same_case_twice_is_run_once():
-    found = st.run_study(st.Study([COLUMN], [PULSE, PULSE], [st.HousnerBlock()], (1.0, 1.0)))
-    assert found.rows.finished == 4
-    assert len({str(row) for row in found.rows}) == 1
+    result = st.run_study(st.Study([COLUMN], [PULSE, PULSE], [st.HousnerBlock()], (1.0, 1.0)))
+    assert result.rows.finished == 4
+    assert len({str(row) for row in result.rows}) == 1
 
 
 def test_levels_of_an_intensity_are_met():
     motion = conditioned(st.sample_motion("el-centro-1940"), "highpass=0.1Hz")  # its peak velocity holds drift
-    some = st.Study([COLUMN], [motion], [st.HousnerBlock()], (0.1, 0.4), parse_measure("pgv"))
-    assert [some.case(i).motion.pgv for i in range(2)] == pytest.approx([0.1, 0.4], rel=1e-9)
+    pgv = st.Study([COLUMN], [motion], [st.HousnerBlock()], (0.1, 0.4), parse_measure("pgv"))
+    assert [pgv.case(i).motion.pgv for i in range(2)] == pytest.approx([0.1, 0.4], rel=1e-9)
     arias = st.Study([COLUMN], [motion], [st.HousnerBlock()], (0.5,), parse_measure("arias"))
     assert parse_measure("arias").of(arias.case(0).motion) == pytest.approx(0.5, rel=1e-9)
     with pytest.warns(st.OutOfRangeWarning, match="more than 10 times"):
@@ -199,14 +199,14 @@ def test_run_status_and_export_under_their_promised_names(folder, capsys):
         assert call([*map(str, arguments), "--json"]) == 0, capsys.readouterr().err
         return json.loads(capsys.readouterr().out)
 
-    found = answer("study", "run", folder / "study.toml", "--out", out)
+    result = answer("study", "run", folder / "study.toml", "--out", out)
     promised = {"cases", "finished", "failed", "undecided", "collapsed", "wall_s", "files"}
-    assert promised <= set(found)
-    assert found["cases"] == found["finished"] == 12
+    assert promised <= set(result)
+    assert result["cases"] == result["finished"] == 12
     assert len(list((out / "histories").iterdir())) == 2
     status = answer("study", "status", out)
     assert promised <= set(status)
-    assert {key: status[key] for key in promised - {"files"}} == {key: found[key] for key in promised - {"files"}}
+    assert {key: status[key] for key in promised - {"files"}} == {key: result[key] for key in promised - {"files"}}
     assert call(["study", "run", str(folder / "study.toml"), "--out", str(out)]) == 0
     written = next(path.name for path in out.glob("study.*") if path.suffix != ".json")
     assert f"5 files in {out}: {written}, asked-study.json, study.json, histories of 2 runs" in capsys.readouterr().out
@@ -235,7 +235,7 @@ def test_parquet_holds_the_same_numbers_to_the_bit(tmp_path):
     table = st.run_study(study(replicates=2)).table
     again = pandas.read_parquet(write_table(table, tmp_path / "t.parquet"))
     for name in table:
-        assert [str(one) for one in again[name]] == [str(one) for one in table[name]], name
+        assert [str(value) for value in again[name]] == [str(value) for value in table[name]], name
 
 
 def test_the_old_study_file_is_a_study_of_harmonics(folder):
@@ -247,7 +247,7 @@ def test_the_old_study_file_is_a_study_of_harmonics(folder):
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         (('files = ["wave.csv"]', "files = []"), "names no record"),
         (('files = ["wave.csv"]', 'files = ["*.V2"]'), "no file matches '*.V2'"),
@@ -260,11 +260,11 @@ def test_the_old_study_file_is_a_study_of_harmonics(folder):
         (('column = "three.toml"', ""), "names no column"),
     ],
 )
-def test_a_bad_study_is_refused_in_one_sentence(folder, capsys, change, said):
+def test_a_bad_study_is_refused_in_one_sentence(folder, capsys, change, message):
     (folder / "study.toml").write_text(FILE.replace(*change))
     assert call(["study", "run", str(folder / "study.toml"), "--out", str(folder / "out")]) == 2
     text = capsys.readouterr().err
-    assert said in text
+    assert message in text
     assert text.count("\n") == 1
     assert not (folder / "out").exists()
 

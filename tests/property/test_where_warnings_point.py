@@ -22,8 +22,8 @@ WARNING = {
 
 @pytest.mark.parametrize("call", WARNING.values(), ids=WARNING)
 def test_warnings_point_to_the_line_that_called(call):
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         call()
-    assert told
-    assert {one.filename for one in told} == {__file__}
+    assert caught
+    assert {warning.filename for warning in caught} == {__file__}

@@ -22,26 +22,26 @@ COMMAND_LINES = {"stylobate_report/page.py"}
 @cache
 def texts():
     """Every text below the command line but docstrings, with its file; names stand for what is filled in."""
-    found = []
+    named_texts = []
     for name, path in sources("py"):
         if name.startswith("stylobate/cli/") or "/commands/" in name or name in COMMAND_LINES:
             continue
         nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
         described = {
-            id(one.value) for one in nodes if isinstance(one, ast.Expr) and isinstance(one.value, ast.Constant)
+            id(node.value) for node in nodes if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
         }
-        for one in nodes:
-            if isinstance(one, ast.JoinedStr):
-                parts = [str(part.value) if isinstance(part, ast.Constant) else "X" for part in one.values]
-                found.append((name, "".join(parts)))
-            elif isinstance(one, ast.Constant) and isinstance(one.value, str) and id(one) not in described:
-                found.append((name, one.value))
-    return found
+        for node in nodes:
+            if isinstance(node, ast.JoinedStr):
+                parts = [str(part.value) if isinstance(part, ast.Constant) else "X" for part in node.values]
+                named_texts.append((name, "".join(parts)))
+            elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in described:
+                named_texts.append((name, node.value))
+    return named_texts
 
 
 def test_no_message_below_the_command_line_names_an_option():
     assert len(texts()) > 5000
-    assert [one for one in texts() if OPTION.search(one[1])] == []
+    assert [entry for entry in texts() if OPTION.search(entry[1])] == []
 
 
 def test_every_parameter_in_a_message_is_given_by_an_option():
@@ -51,9 +51,9 @@ def test_every_parameter_in_a_message_is_given_by_an_option():
         for parameter in command.params
         for option in parameter.opts
     }
-    named = {found[1] for name, text in texts() if name != "stylobate/errors.py" for found in PARAMETER.finditer(text)}
+    named = {match[1] for name, text in texts() if name != "stylobate/errors.py" for match in PARAMETER.finditer(text)}
     assert len(named) > 20
-    assert {one for one in named if console.in_options(f"`{one}`") not in options} == set()
+    assert {parameter for parameter in named if console.in_options(f"`{parameter}`") not in options} == set()
 
 
 @pytest.mark.parametrize(

@@ -25,14 +25,14 @@ SMALL = [name for name in SCENES if name != "wall_corner"]
 
 @needs_references
 @pytest.mark.parametrize(
-    "name", [pytest.param(one, marks=pytest.mark.slow if one == "wall_corner" else ()) for one in SCENES]
+    "name", [pytest.param(scene, marks=pytest.mark.slow if scene == "wall_corner" else ()) for scene in SCENES]
 )
 def test_multipliers_of_an_independent_programme(name):
     """Half a per cent; both cut arcs into 48 corners and cones into 16 sides, and differ by less than 0.2 %."""
-    told = [row for row in rows("limit3d_") if row["case"] == f"limit3d_{name}"]
-    assert told
-    azimuths = [float(re.search(r"along (\S+) deg", row["params"])[1]) for row in told]
+    references = [row for row in rows("limit3d_") if row["case"] == f"limit3d_{name}"]
+    assert references
+    azimuths = [float(re.search(r"along (\S+) deg", row["params"])[1]) for row in references]
     # the wall corner takes seconds a direction: one of them here
-    found = st.limit_directions(assembly(SCENES[name](scenes())), azimuths[: 1 if name == "wall_corner" else None])
-    for one, row in zip(found.limits, told, strict=False):
-        assert one.multiplier == pytest.approx(float(row["value"]), rel=5e-3), row["params"]
+    analysis = st.limit_directions(assembly(SCENES[name](scenes())), azimuths[: 1 if name == "wall_corner" else None])
+    for limit, row in zip(analysis.limits, references, strict=False):
+        assert limit.multiplier == pytest.approx(float(row["value"]), rel=5e-3), row["params"]

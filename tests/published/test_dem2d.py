@@ -19,14 +19,14 @@ AMPLITUDES = np.linspace(0.10, 0.60, 16) * g
 @pytest.fixture(scope="module")
 def domains():
     """Collapsed cells of both columns, shape (frequencies, amplitudes); two points, tan φ = 0.70, no damping."""
-    found = {}
+    cells = {}
     for name in ("paper-monolithic", "paper-12-drums"):
         units = [harmonic(frequency, 1.0, 10.0) for frequency in FREQUENCIES]
         motions = [unit.scaled(amplitude) for unit in units for amplitude in AMPLITUDES]
         table = simulate_many(preset(name), motions, DistinctElement2D())
         assert not (table["outcome"] == "failed").any()
-        found[name] = table["collapsed"].to_numpy().reshape(len(FREQUENCIES), len(AMPLITUDES))
-    return found
+        cells[name] = table["collapsed"].to_numpy().reshape(len(FREQUENCIES), len(AMPLITUDES))
+    return cells
 
 
 @pytest.mark.parametrize("name", ["paper-monolithic", "paper-12-drums"])

@@ -38,7 +38,7 @@ def test_a_toss_to_its_first_impact(name):
     spin = states[1:first, 10:13].mean(axis=0)  # in the axes of the body, and constant: a cube is a sphere to itself
     stiffness = 4e9 * HALF**2
     body = Body(0.37, np.eye(3) * 0.295 * HALF**2, corners, stiffness, 0.5 * stiffness, 0.18, 0.125)
-    toss = next(one for one in read_tosses(FOLDER / "cube").tosses if one.name == name)
+    toss = next(candidate for candidate in read_tosses(FOLDER / "cube").tosses if candidate.name == name)
     frame = cubes.impacts(toss)[0] + 4
     start = np.concatenate((position, states[0, 3:7], velocity, spin))
     moved = body.move(start, np.array([0.0, frame * dt]))
@@ -57,18 +57,18 @@ def test_a_boulder_topples_when_and_where_it_does_here(number):
     body off it: the two ways of friction, and the integrator's 1e-4, are 0.05 s there.
     """
     with open(FOLDER / "granite" / "specimens.json") as file:
-        one = json.load(file)["SP1"]
+        specimen = json.load(file)["SP1"]
     with np.load(FOLDER / "granite" / "motions.npz") as file:
         samples, dt = file[f"a{number:03d}"].astype(float), float(file["dt"])
     with open(FOLDER / "granite" / "tests.csv", newline="") as file:
         row = next(row for row in csv.DictReader(file) if row["id"] == str(number))
     assert row["toppled_sp1"] == "1"
-    vertices = np.array(one["hull_vertices_m"]) - (0.0, 0.0, one["com_height_at_rest_m"])
-    (ax, ay, _), (bx, by, _), (cx, cy, _) = one["resting_contact_points_m"]
+    vertices = np.array(specimen["hull_vertices_m"]) - (0.0, 0.0, specimen["com_height_at_rest_m"])
+    (ax, ay, _), (bx, by, _), (cx, cy, _) = specimen["resting_contact_points_m"]
     area = 0.5 * abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay))
     stiffness = 5e10 * area / 3.0
     below = vertices[vertices[:, 2] < 0.3]  # the rest touches nothing before 45°
-    body = Body(one["mass_kg"], one["inertia_about_com_kg_m2"], below, stiffness, 0.5 * stiffness, 0.7, 0.5)
+    body = Body(specimen["mass_kg"], specimen["inertia_about_com_kg_m2"], below, stiffness, 0.5 * stiffness, 0.7, 0.5)
     time = np.arange(len(samples)) * dt
     begins = time[np.argmax(np.abs(samples) > 0.5)]
 
@@ -76,7 +76,7 @@ def test_a_boulder_topples_when_and_where_it_does_here(number):
         return matrix(y[3:7])[2, 2] - math.sqrt(0.5)
 
     fallen.terminal = True
-    height = one["com_height_at_rest_m"]
+    height = specimen["com_height_at_rest_m"]
     start = np.concatenate(([0.0, 0.0, height], [1.0, 0.0, 0.0, 0.0], np.zeros(6)))
     times = np.array([begins - 0.1, begins + 3.0])
     moved = body.move(start, times, lambda t: np.interp(t, time, samples), 1e-4, 1e-4, fallen, "RK23")

@@ -53,7 +53,7 @@ def test_equations_are_what_the_models_carry_out():
     """Equations 1 to 8 and Fig. 3: every row of theirs holds, Eq. 2 with the accelerations that are meant."""
     rows = equation_statements()
     kinds = {row.section: row.verdict for row in rows}
-    assert [one for one, verdict in kinds.items() if verdict.kind != HOLDS] == ["2.1 ¶3, Eq. 2"]
+    assert [section for section, verdict in kinds.items() if verdict.kind != HOLDS] == ["2.1 ¶3, Eq. 2"]
     assert kinds["2.1 ¶3, Eq. 2"].kind == PARTLY
     assert kinds["2.1 ¶3, Eq. 2"].part.startswith("with ü")
 
@@ -65,7 +65,7 @@ def test_every_equation_and_figure_of_the_paper_has_a_row_in_its_order():
     for kind, number in (("Eq", 8), ("Fig", 9)):
         named = " ".join(re.findall(rf"{kind}s?\. ([\d, ]+)", "; ".join(places)))
         assert set(map(int, re.findall(r"\d+", named))) >= set(range(1, number + 1))
-    ordered = [order(one.removeprefix("§")) for one in places]
+    ordered = [order(place.removeprefix("§")) for place in places]
     assert ordered == sorted(ordered)
 
 
@@ -93,8 +93,8 @@ def test_figure_3_is_what_the_paper_draws():
     stiffness = 5e10 * seen.joint_second_moments[0]
     phi = np.array([-0.1, -1e-6, 1e-6, 0.01, 0.1, 1.2 * alpha])
     lines = np.minimum(stiffness * abs(phi), ultimate * np.minimum(0.7, 1.0 - abs(phi) / alpha)) * np.sign(phi)
-    found = joint_law(RigidBeam.paper(moment_law="trilinear", xi=0.7), column, 1, phi)
-    np.testing.assert_allclose(found, lines, rtol=1e-12)
+    moments = joint_law(RigidBeam.paper(moment_law="trilinear", xi=0.7), column, 1, phi)
+    np.testing.assert_allclose(moments, lines, rtol=1e-12)
     rigid = joint_law(RigidBeam.paper(moment_law="housner"), column, 1, phi[3:])
     np.testing.assert_allclose(rigid, ultimate * (1.0 - phi[3:] / alpha), rtol=1e-12)
 

@@ -36,7 +36,7 @@ def test_a_record_that_is_there_twice_counts_once(tmp_path):
         (tmp_path / folder).mkdir(exist_ok=True)
         write_csv(half_sine_pulse(1.0, size, 4.0), tmp_path / folder / f"{name}.csv")
     suite = read_suite(tmp_path / "a")
-    assert [one.name for one in suite.motions] == ["copy.csv"]
+    assert [motion.name for motion in suite.motions] == ["copy.csv"]
     assert suite.refused == {"one.csv": "it holds the motion of 'copy.csv' once more; a record counts once"}
     with pytest.raises(InputError, match=r"two records are called 'one\.csv'"):
         read_suite([tmp_path / folder / "one.csv" for folder in "ab"])

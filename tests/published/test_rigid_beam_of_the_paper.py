@@ -19,8 +19,8 @@ MONOLITH, DRUMS = preset("paper-monolithic"), preset("paper-12-drums")
 
 def collapses(column, model, frequency: float, amplitudes, duration: float = 10.0) -> np.ndarray:
     cases = [Case(column, harmonic(frequency, float(a) * g, duration)) for a in amplitudes]
-    found = dict(run_cases(cases, model, threads=1))
-    return np.array([found[i].collapsed for i in range(len(cases))])
+    measures = dict(run_cases(cases, model, threads=1))
+    return np.array([measures[i].collapsed for i in range(len(cases))])
 
 
 def half_collapse(column, model, frequency: float) -> float:

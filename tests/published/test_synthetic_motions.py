@@ -66,9 +66,9 @@ def test_spectrum_rises_with_the_square_of_frequency_and_its_level_is_the_moment
 
 
 def test_a_seed_is_a_motion():
-    one, same, other = (stochastic_motion(6.0, 15e3, seed=seed) for seed in (7, 7, 8))
-    assert one.digest == same.digest != other.digest
-    assert stochastic_motion(6.0, 15e3, seed=7, horizontal=2).samples == pytest.approx(one.samples)
+    motion, same, other = (stochastic_motion(6.0, 15e3, seed=seed) for seed in (7, 7, 8))
+    assert motion.digest == same.digest != other.digest
+    assert stochastic_motion(6.0, 15e3, seed=7, horizontal=2).samples == pytest.approx(motion.samples)
     assert 0.05 < stochastic_motion(6.5, 10e3).pga / g < 0.6  # of the size that such earthquakes have on rock
 
 
@@ -97,7 +97,7 @@ def test_union_with_a_pulse():
 def test_as_typed():
     motion = parse_synthetic("greece, 6.5Mw, 20 km, seed=3")
     assert motion.digest == stochastic_motion(6.5, 20e3, "greece", seed=3).digest
-    for text, said in [
+    for text, message in [
         ("atlantis,6.5Mw,20km", "region is 'atlantis'"),
         ("greece,6.5Mw", "no distance"),
         ("greece,20km", "no magnitude"),
@@ -106,5 +106,5 @@ def test_as_typed():
         ("greece,6.5Mw,6Mw,20km", "two values of mw"),
         ("", "region|no magnitude"),
     ]:
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             parse_synthetic(text)

@@ -28,7 +28,7 @@ MEASURED = ((0.1378, 0.075), (0.1252, 0.107))
 
 def wall(stiffness):
     """Two halves and the slice, held at the top of a face by a tie so long that it stays level: a hundredth and a half."""
-    drums = [st.Drum(one, THICK, THICK, 1800.0, depth=WIDE) for one in HEIGHTS]
+    drums = [st.Drum(height, THICK, THICK, 1800.0, depth=WIDE) for height in HEIGHTS]
     joints = [st.Joint(stiffness, 0.5 * stiffness, friction_coefficient=0.7)] * 3
     tie = st.Tie(axial_stiffness=1e7, axial_capacity=1e6, at=(-100.0, 0.0), to=(-0.5 * THICK, 0.0), to_height=HIGH)
     return st.Column(drums, joints=joints, name="wall", links=[tie])
@@ -70,9 +70,9 @@ def test_the_multiplier_of_the_limit_analysis_is_that_of_the_mechanism():
 
 def test_the_path_follows_the_mechanism_down_to_nothing():
     """On stiff joints; 1e-4 g is the leaning tie's and the joints' part."""
-    found = path(5e10)
+    pushover = path(5e10)
     out = np.array([0.1, 0.3, 0.5, 0.7, 0.9]) * THICK
-    assert np.interp(out, found.displacement, found.multiplier) == pytest.approx(rigid(out), abs=1e-4)
+    assert np.interp(out, pushover.displacement, pushover.multiplier) == pytest.approx(rigid(out), abs=1e-4)
 
 
 @pytest.mark.parametrize(("push", "place", "stiffness"), [(*MEASURED[0], 1.3e8), (*MEASURED[1], 9.4e7)])
@@ -82,6 +82,6 @@ def test_joints_that_give_way_where_the_wall_did_bear_what_it_bore(push, place, 
     0.1355 and 0.1312: 1.7 % less and 4.8 % more than measured, which has no spread; each of the two measured peaks is 4.8 %
     from their mean, and that, rounded up, is the tolerance.
     """
-    found = path(stiffness)
-    assert found.peak_displacement / THICK == pytest.approx(place, abs=5e-3)
-    assert found.collapse_multiplier == pytest.approx(push, rel=0.05)
+    pushover = path(stiffness)
+    assert pushover.peak_displacement / THICK == pytest.approx(place, abs=5e-3)
+    assert pushover.collapse_multiplier == pytest.approx(push, rel=0.05)

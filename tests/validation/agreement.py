@@ -43,8 +43,8 @@ def rotations() -> tuple[np.ndarray, dict[str, np.ndarray], float, float]:
     """Times, rotations by model, time of Housner's first impact, and of the second one of the other two."""
     time = np.linspace(0.0, 5.0, 1001)
     turns = {
-        name: np.interp(time, one.histories.time, one.histories.drum_rotation[:, 0])
-        for name, one in histories().items()
+        name: np.interp(time, response.histories.time, response.histories.drum_rotation[:, 0])
+        for name, response in histories().items()
     }
 
     def impacts(turn: np.ndarray) -> np.ndarray:
@@ -167,15 +167,15 @@ def narrow_neck():
     reason="the fixed step",
 )
 def fixed_and_adaptive():
-    found = []
+    differences = []
     for settings in ({}, {"moment_law": "bilinear", "second_order": "law"}, {"sliding": True, "time_step": 5e-4}):
         column = soft_stack().with_joint(friction_coefficient=0.17) if "sliding" in settings else soft_stack()
         fixed, adaptive = (
             run_as(solver, column, shaken(0.24 * g), RigidBeam(**({"time_step": 1e-4} | settings)))
             for solver in ("fixed", "adaptive")
         )
-        found.append(fixed.peak_top_displacement / adaptive.peak_top_displacement - 1.0)
-    return found
+        differences.append(fixed.peak_top_displacement / adaptive.peak_top_displacement - 1.0)
+    return differences
 
 
 @case(
@@ -189,10 +189,10 @@ def batch_and_single():
     column, differing = preset("paper-monolithic"), 0
     motions = [harmonic(0.5 + 0.1 * k, 0.25 * g, 3.0) for k in range(12)]
     for model in (DistinctElement2D(), RigidBlock(), RigidBeam(), HousnerBlock()):
-        one, two = (simulate_many(column, motions, model, threads=n).drop(columns="wall_s") for n in (1, 2))
-        differing += int(not one.equals(two))
+        serial, parallel = (simulate_many(column, motions, model, threads=n).drop(columns="wall_s") for n in (1, 2))
+        differing += int(not serial.equals(parallel))
         for k in (0, 5, 11):
             row = simulate(column, motions[k], model).measures.row()
-            same = [row[name] == one[name][k] or row[name] is None for name in row]
+            same = [row[name] == serial[name][k] or row[name] is None for name in row]
             differing += len(same) - sum(same)
     return differing

@@ -20,7 +20,7 @@ KINDS = ("closed forms", "conservation", "convergence", "agreement", "paper", "o
 class Criterion(Protocol):
     """What a computed value must be."""
 
-    def holds(self, found: ArrayLike) -> bool:
+    def holds(self, values: ArrayLike) -> bool:
         """Whether the value is as it must be."""
         ...
 
@@ -43,9 +43,9 @@ class Near:
     rel: float = 0.0
     abs: float = 0.0
 
-    def holds(self, found: ArrayLike) -> bool:
+    def holds(self, values: ArrayLike) -> bool:
         """Whether every value is near its own."""
-        value, seen = np.atleast_1d(self.value), np.atleast_1d(found)
+        value, seen = np.atleast_1d(self.value), np.atleast_1d(values)
         return seen.shape == value.shape and bool(np.all(np.abs(seen - value) <= self.rel * np.abs(value) + self.abs))
 
     @property
@@ -67,9 +67,9 @@ class AtMost:
 
     limit: float
 
-    def holds(self, found: ArrayLike) -> bool:
+    def holds(self, values: ArrayLike) -> bool:
         """Whether no value is larger."""
-        return bool(np.all(np.abs(found) <= self.limit))
+        return bool(np.all(np.abs(values) <= self.limit))
 
     @property
     def expected(self) -> str:
@@ -89,9 +89,9 @@ class Between:
     low: float
     high: float
 
-    def holds(self, found: ArrayLike) -> bool:
+    def holds(self, values: ArrayLike) -> bool:
         """Whether every value is inside."""
-        seen = np.atleast_1d(found)
+        seen = np.atleast_1d(values)
         return bool(np.all((self.low <= seen) & (seen <= self.high)))
 
     @property

@@ -16,12 +16,12 @@ from . import tapered_column as tapered
 from .case import KINDS, Case
 
 CASES: list[Case] = [
-    one
+    case
     for kind in KINDS
     for module in (
         *(rocking, overturning, round_columns, round_contact, sliding, statics),
         *(conservation, convergence, agreement, paper, tapered),
     )
-    for one in module.CASES
-    if one.kind == kind
+    for case in module.CASES
+    if case.kind == kind
 ]

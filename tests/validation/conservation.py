@@ -132,13 +132,13 @@ def ledger_beam():
         RigidBeam(time_step=1e-4, sliding=True),
         RigidBeam.paper(time_step=1e-4),
     )
-    found = []
+    imbalances = []
     for model in models:
         column = soft_stack().with_joint(friction_coefficient=0.16) if model.sliding else soft_stack()
         response = simulate(column, shaken(0.25 * g), model)
         assert response.peak_rotation > 1e-3
-        found.append(float(np.abs(response.imbalance).max() / response.energy["input"].max()))
-    return found
+        imbalances.append(float(np.abs(response.imbalance).max() / response.energy["input"].max()))
+    return imbalances
 
 
 # -- symmetry and similarity ---------------------------------------------------------------------------------------
@@ -230,10 +230,10 @@ def similarity_dem():
     small = DistinctElement2D(time_step=step, stiffness_damping=2.0**-15, mass_damping=0.25)
     large = DistinctElement2D(time_step=2.0 * step, stiffness_damping=2.0**-14, mass_damping=0.125)
     motion = harmonic(1.0, 0.35 * g, 4.0)
-    one = simulate(TWELVE, motion, small)
+    original = simulate(TWELVE, motion, small)
     four = simulate(scaled(TWELVE, 4.0), motion.replace(dt=2.0 * motion.dt), large, output_interval=0.02)
-    assert one.peak_top_displacement > 0.02
-    return float(np.abs(four.drum_x - 4.0 * one.drum_x).max())
+    assert original.peak_top_displacement > 0.02
+    return float(np.abs(four.drum_x - 4.0 * original.drum_x).max())
 
 
 @case(
@@ -244,11 +244,11 @@ def similarity_dem():
     reason="rounding",
 )
 def left_alone():
-    found = []
+    deviations = []
     for column in (MONOLITH, TWELVE):
         response = simulate(column, Motion(30.0, np.zeros(3)), DistinctElement2D(), output_interval=0.5)
         assert str(response.outcome) == "at_rest"
         assert response.decided
         names = ("drum_x", "drum_z", "drum_rotation", "joint_opening", "joint_slip")
-        found.append(max(float(np.abs(getattr(response, name)).max()) for name in names))
-    return max(found)
+        deviations.append(max(float(np.abs(getattr(response, name)).max()) for name in names))
+    return max(deviations)

@@ -162,7 +162,7 @@ def dem_moment(column: Column, points: int, phi: float) -> float:
         drum["th"][1, 0], drum["c"][1, 0], drum["s"][1, 0] = phi, np.cos(phi), np.sin(phi)
         drum["x"][1, 0], drum["z"][1, 0] = -height * np.sin(phi), height * np.cos(phi) - sunk
         records.joint["fs"] = 0.0
-        return np.array([one[1] for one in records.forces(0)])
+        return np.array([component[1] for component in records.forces(0)])
 
     width = column.base_width
     sunk = brentq(lambda s: forces(s)[1] - weight, -width * phi, width * phi + 1e-3, xtol=1e-16)
@@ -243,7 +243,7 @@ def refined_verdicts() -> list[np.ndarray]:
         simulate_many(MONOLITH, motions, DistinctElement2D(step_factor=factor))["collapsed"].to_numpy()
         for factor in (0.4, 0.2, 0.1)
     ]
-    assert min(one.sum() for one in fell) > 30
+    assert min(verdicts.sum() for verdicts in fell) > 30
     return fell
 
 

@@ -63,15 +63,15 @@ def overturning() -> Figure:
         "one cosine": (pulses.one_cosine, np.geomspace(0.4, 2.6, 60), "-."),
     }
     for name, (closed, w, dashes) in curves.items():
-        right.plot(w, [closed(one) for one in w], color=GREY, linestyle=dashes, label=name)
-    for w, found in (
+        right.plot(w, [closed(frequency) for frequency in w], color=GREY, linestyle=dashes, label=name)
+    for w, amplitudes in (
         (pulses.HALF_SINE, pulses.half_sine_pulse()),
         (pulses.HALF_SINE, pulses.one_sine_pulse()),
         (pulses.ONE_COSINE, pulses.one_cosine_pulse()),
     ):
-        right.plot(w, found, linestyle="", **MARKS["housner"])
-    for found in (pulses.half_sine_pulse_dem(), pulses.one_sine_pulse_dem()):
-        right.plot(pulses.HALF_SINE, found, linestyle="", **MARKS["dem2d"])
+        right.plot(w, amplitudes, linestyle="", **MARKS["housner"])
+    for amplitudes in (pulses.half_sine_pulse_dem(), pulses.one_sine_pulse_dem()):
+        right.plot(pulses.HALF_SINE, amplitudes, linestyle="", **MARKS["dem2d"])
     right.set(xlabel="frequency of the pulse, ω/p [-]", title="Pulses, without impact")
     right.legend()
     for axes, across, up in ((left, pulses.PT, (1, 2, 3, 4, 5)), (right, (0.5, 1, 2, 4, 8), (1, 2, 5, 10, 15))):
@@ -132,10 +132,10 @@ def static_paths() -> Figure:
     """Pushover curves and tan(α − θ)."""
     figure = Figure(figsize=(WIDTH, 3.6))
     axes = figure.subplots()
-    for (name, found), line in zip(statics.paths().items(), CYCLE, strict=False):
-        axes.plot(-found.rotation[:, 0], found.multiplier, label=name, **line)
+    for (name, path), line in zip(statics.paths().items(), CYCLE, strict=False):
+        axes.plot(-path.rotation[:, 0], path.multiplier, label=name, **line)
     turn = np.linspace(0.0, 0.22, 50)
-    for i, alpha in enumerate(sorted({round(one.slenderness, 9) for one in statics.COLUMNS.values()})):
+    for i, alpha in enumerate(sorted({round(column.slenderness, 9) for column in statics.COLUMNS.values()})):
         label = "tan(α − θ)" if i == 0 else None
         axes.plot(turn[turn < alpha], np.tan(alpha - turn[turn < alpha]), "|", color=GREY, markersize=8, label=label)
     for value, place in ((0.205, 0.06), (0.16, 0.012)):
@@ -154,12 +154,12 @@ def ledgers() -> Figure:
     """Missing energy over the step."""
     figure = Figure(figsize=(WIDTH, 3.4))
     axes = figure.subplots()
-    found = {
+    series = {
         "dem2d, monolith": (conservation.monolith_dem(), {"marker": "x", "color": RED, "linestyle": "-"}),
         "dem2d, 12 drums": (conservation.drums_dem(), {"marker": "x", "color": RED, "linestyle": "--"}),
         "rigid-block, 12 drums": (conservation.drums_block(), {**MARKS["rigid-block"], "linestyle": "-."}),
     }
-    for name, (medians, line) in found.items():
+    for name, (medians, line) in series.items():
         axes.plot(conservation.FACTORS, medians, label=name, **line)
     axes.plot((0.1, 0.4), (1e-4, 16e-4), color=GREY, linewidth=0.8, label="second order")
     axes.set(xscale="log", yscale="log", xlabel="step over the largest stable one [-]")
@@ -176,14 +176,14 @@ def orders() -> Figure:
     """Error over the step."""
     figure = Figure(figsize=(WIDTH, 3.4))
     axes = figure.subplots()
-    found = {
+    series = {
         "housner, between impacts": (convergence.housner_errors(False), {**MARKS["housner"], "linestyle": "-"}),
         "housner, through impacts": (convergence.housner_errors(True), {**MARKS["housner"], "linestyle": "--"}),
         "rigid-beam": (convergence.beam_errors(False), {**MARKS["rigid-beam"], "linestyle": "-"}),
         "rigid-beam, sliding": (convergence.beam_errors(True), {**MARKS["rigid-beam"], "linestyle": "--"}),
         "dem2d": (convergence.dem_errors(), {**MARKS["dem2d"], "linestyle": "-"}),
     }
-    for name, (errors, line) in found.items():
+    for name, (errors, line) in series.items():
         axes.plot(convergence.REFINED, errors / errors[0], label=name, **line)
     for order in (2, 4):
         axes.plot(convergence.REFINED, convergence.REFINED**order, color=GREY, linewidth=0.8)
@@ -229,7 +229,7 @@ def unsafe_cells() -> Figure:
         "rigid beam,\nsliding": paper.RigidBeam(sliding=True),
         "distinct\nelements": paper.DistinctElement2D(),
     }
-    counts = np.array([[int(one.sum()) for one in paper.cells(model)] for model in models.values()])
+    counts = np.array([[int(cells.sum()) for cells in paper.cells(model)] for model in models.values()])
     places = np.arange(len(models))
     for k, (label, fill, shift) in enumerate((("monolith", SAND, -0.2), ("12 drums", "#a6372f", 0.2))):
         bars = axes.bar(

@@ -90,8 +90,8 @@ def number(value, form: str = "{:.3f}") -> str:
 def settings() -> str:
     """Engines, versions and settings."""
     engines: dict[str, tuple[str, str]] = {}
-    for variant, one in results()["engines"].items():
-        engines.setdefault(variant.split(",")[0], (str(one.get("version", "–")), str(one.get("settings", "–"))))
+    for variant, entry in results()["engines"].items():
+        engines.setdefault(variant.split(",")[0], (str(entry.get("version", "–")), str(entry.get("settings", "–"))))
     return markdown(["engine", "version", "settings"], [[name, *both] for name, both in engines.items()])
 
 
@@ -105,7 +105,7 @@ def plane_table() -> str:
         if "failed" in seen or not seen:
             rows.append([variant, seen.get("failed", "–"), *["–"] * 5])
             continue
-        both = [", ".join(f"{one:.3f}" for one in swings(variant, name)[:5]) for name in ("monolith", "drums")]
+        both = [", ".join(f"{swing:.3f}" for swing in swings(variant, name)[:5]) for name in ("monolith", "drums")]
         seconds = " / ".join(f"{seen[name]['wall']:.2g}" for name in ("monolith", "drums"))
         rows.append(
             [variant, *(number(seen.get(key, math.nan)) for key in ("static", "quarter", "kept")), *both, seconds]
@@ -115,7 +115,7 @@ def plane_table() -> str:
 
 def agreeing(variant: str, part: str, column: str | None = None) -> str:
     """Cells with the same verdict as the first engine's, and how many each collapses."""
-    mine, other = (verdicts(one, part, column) for one in ("stylobate", variant))
+    mine, other = (verdicts(engine, part, column) for engine in ("stylobate", variant))
     cells = [cell for cell in mine if cell in other]
     if not cells:
         return "–"
@@ -168,19 +168,25 @@ def round_table() -> str:
                     number(100.0 * float(rolling["lost"]), "{:.2f} %"),
                 ]
             )
-            depth = ", ".join(number(1e3 * float(one), "{:.2f}") for one in seen["sinking"])
-            rows.append([*name, ", ".join(number(one, "{:.4f}") for one in seen["static"]), *turning, depth])
+            depth = ", ".join(number(1e3 * float(sinking), "{:.2f}") for sinking in seen["sinking"])
+            rows.append(
+                [*name, ", ".join(number(threshold, "{:.4f}") for threshold in seen["static"]), *turning, depth]
+            )
     return markdown(head, rows)
 
 
 def passing() -> dict[str, dict]:
     """What each variant with a round primitive finds of passes nearly in a plane."""
-    return {one: parts(one)["passes"] for one in (*LINES, *EXPERIMENTS) if "kept" in parts(one).get("passes", {})}
+    return {
+        variant: parts(variant)["passes"]
+        for variant in (*LINES, *EXPERIMENTS)
+        if "kept" in parts(variant).get("passes", {})
+    }
 
 
 def fallen(variant: str) -> int:
     """How many columns of a variant's population collapse."""
-    return sum(not math.isfinite(float(one)) for one in passing()[variant]["population"])
+    return sum(not math.isfinite(float(peak)) for peak in passing()[variant]["population"])
 
 
 def passes_table() -> str:
@@ -190,7 +196,7 @@ def passes_table() -> str:
     head += ["collapses", "peaks: least, median [m]"]
     rows = []
     for variant, seen in passing().items():
-        peaks = [float(one) for one in seen["population"]]
+        peaks = [float(peak) for peak in seen["population"]]
         middle = peaks[len(peaks) // 2]
         rows.append(
             [
@@ -216,18 +222,20 @@ AFTER_IMPACT = (
 def after_impact(variant: str) -> dict[str, list[float]]:
     """What a variant finds after an impact, case by case, by the names of :data:`AFTER_IMPACT`."""
     plane, passed = parts(variant).get("plane", {}), parts(variant).get("passes", {})
-    found = [[abs(one) for one in swings(variant, name)[:5]] if name in plane else [] for name in ("monolith", "drums")]
-    found += [passed.get("kept", []), parts(variant).get("0", {}).get("peaks", []), passed.get("population", [])]
-    return {name: [float(one) for one in some] for name, some in zip(AFTER_IMPACT, found, strict=True)}
+    series = [
+        [abs(swing) for swing in swings(variant, name)[:5]] if name in plane else [] for name in ("monolith", "drums")
+    ]
+    series += [passed.get("kept", []), parts(variant).get("0", {}).get("peaks", []), passed.get("population", [])]
+    return {name: [float(value) for value in values] for name, values in zip(AFTER_IMPACT, series, strict=True)}
 
 
 def within(variant: str) -> dict[str, tuple[int, int]]:
     """In how many cases a variant of ours lies between the least and the largest of the other engines, and of how many."""
-    others = [after_impact(one) for one in results()["engines"] if not one.startswith("stylobate")]
+    others = [after_impact(engine) for engine in results()["engines"] if not engine.startswith("stylobate")]
     counts = {}
     for name, mine in after_impact(variant).items():
-        told = [(x, [one[name][k] for one in others if k < len(one[name])]) for k, x in enumerate(mine)]
-        cases = [(x, all_) for x, all_ in told if len(all_) > 1]
+        pairs = [(x, [other[name][k] for other in others if k < len(other[name])]) for k, x in enumerate(mine)]
+        cases = [(x, all_) for x, all_ in pairs if len(all_) > 1]
         counts[name] = sum(min(all_) <= x <= max(all_) for x, all_ in cases), len(cases)
     return counts
 
@@ -235,12 +243,12 @@ def within(variant: str) -> dict[str, tuple[int, int]]:
 def within_table() -> str:
     """Cases after an impact in which ours lie within the spread of the other engines."""
     rows = []
-    for variant in (one for one in results()["engines"] if one.startswith("stylobate")):
+    for variant in (engine for engine in results()["engines"] if engine.startswith("stylobate")):
         counts = within(variant)
         around = [counts[name] for name in AFTER_IMPACT if name.startswith("round")]
         whole = tuple(map(sum, zip(*around, strict=True)))
-        told = [f"{hit} of {of}" if of else "–" for hit, of in (*counts.values(), whole)]
-        rows.append([variant, *told[:-1], f"{told[-1]} ({100 * whole[0] / whole[1]:.0f} %)" if whole[1] else "–"])
+        cells = [f"{hit} of {of}" if of else "–" for hit, of in (*counts.values(), whole)]
+        rows.append([variant, *cells[:-1], f"{cells[-1]} ({100 * whole[0] / whole[1]:.0f} %)" if whole[1] else "–"])
     return markdown(["here", *AFTER_IMPACT, "round, together"], rows)
 
 
@@ -284,7 +292,7 @@ def engines_compared() -> Figure:
         zero_line(axes)
     left, right = grid[1]
     for variant, line in LINES.items():
-        peaks = [float(one) for one in round_part(variant).get("peaks", [])]
+        peaks = [float(peak) for peak in round_part(variant).get("peaks", [])]
         if peaks:
             left.plot(range(len(peaks)), np.clip(np.nan_to_num(peaks, posinf=1.2), None, 1.2), markersize=4, **line)
     left.set_xticks(range(6), ("0", "10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"))

@@ -93,8 +93,8 @@ def overturning(model_name: str, kind: str, sizes: tuple[float, ...]) -> list[fl
     ratios = 1.0 + spread * np.linspace(-1.0, 1.0, 16)
     motions = []
     for size in sizes:
-        one = pulse(kind, size, column.frequency_parameter, quiet)
-        motions += [one.scaled(closed(size) * ratio * unit) for ratio in ratios]
+        unit_pulse = pulse(kind, size, column.frequency_parameter, quiet)
+        motions += [unit_pulse.scaled(closed(size) * ratio * unit) for ratio in ratios]
     fell = fallen_left(column, motions, model, tail).reshape(len(sizes), -1)
     return [closed(size) * edge(row, ratios) for size, row in zip(sizes, fell, strict=True)]
 
@@ -159,8 +159,8 @@ def one_sine_nonlinear():
     width = 5.0 * math.tan(0.25)
     column = Column.of_drums([Drum(5.0, width, width, 1600.0)], Joint(5e10, 2.5e10, friction_coefficient=5.0))
     ratios = np.arange(1.150, 2.450, 0.0025)
-    one = pulse("one sine", 2.0, column.frequency_parameter)
-    motions = [one.scaled(ratio * g * math.tan(0.25)) for ratio in ratios]
+    unit_pulse = pulse("one sine", 2.0, column.frequency_parameter)
+    motions = [unit_pulse.scaled(ratio * g * math.tan(0.25)) for ratio in ratios]
     table = simulate_many(column, motions, HousnerBlock(restitution=0.9), tail=12.0)
     assert table["decided"].all()
     fell = table["collapsed"].to_numpy()
@@ -179,13 +179,13 @@ def constant_pulse_beam():
     column = Column.of_drums([Drum(5.0, 0.5, 0.5, 1600.0)], joint)
     p = math.sqrt(column.mass * g * 2.5 / (column.mass * 6.25 + column.inertias[0]))  # about the middle of the joint
     ratios = 1.0 + 5e-3 * np.linspace(-1.0, 1.0, 16)
-    found = []
+    amplitudes = []
     for pt in (0.5, 1.0, 2.0):
-        one = Motion(pt / p / 1000, np.ones(1001))
-        motions = [one.scaled(constant(pt) * ratio * 0.1 * g) for ratio in ratios]
+        unit_pulse = Motion(pt / p / 1000, np.ones(1001))
+        motions = [unit_pulse.scaled(constant(pt) * ratio * 0.1 * g) for ratio in ratios]
         fell = simulate_many(column, motions, RigidBeam(moment_law="bilinear"), tail=4.0)["collapsed"].to_numpy()
-        found.append(constant(pt) * edge(fell, ratios))
-    return found
+        amplitudes.append(constant(pt) * edge(fell, ratios))
+    return amplitudes
 
 
 @case(

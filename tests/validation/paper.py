@@ -119,7 +119,7 @@ def dem_of_drums():
 )
 def sliding_closes_the_gap():
     reference = cells(DistinctElement2D())[1]
-    without, with_ = ((cells(RigidBeam(sliding=one))[1] != reference).sum() for one in (False, True))
+    without, with_ = ((cells(RigidBeam(sliding=sliding))[1] != reference).sum() for sliding in (False, True))
     return float(with_ / without)
 
 

@@ -178,13 +178,13 @@ def quarter_period_dem():
 )
 def loss_at_an_impact():
     column = preset("paper-monolithic")
-    found = []
+    losses = []
     for e in (0.0, 0.5, 0.9):
         model = HousnerBlock(restitution=e, initial_rotation=0.5 * column.slenderness)
         response = simulate(column, Motion(0.12, np.zeros(11)), model, output_interval=0.01)
         block = model.block(column)
-        found.append(response.energy["impact"][-1] / (block.inertia * block.potential(0.5 * column.slenderness)))
-    return found
+        losses.append(response.energy["impact"][-1] / (block.inertia * block.potential(0.5 * column.slenderness)))
+    return losses
 
 
 def restitutions(column: Column, model: DistinctElement2D, count: int = 6) -> np.ndarray:
@@ -240,15 +240,15 @@ OPENINGS = tuple((section, stiffness) for section in ("rectangular", "circular")
 @case(
     "dem2d",
     "acceleration that opens the base joint [g]: trapezium with $k_n$ = 10⁸ and 10¹⁰ N/m³, cone with the same",
-    Near(tuple(by_statics(*one) for one in OPENINGS), rel=1e-3),
+    Near(tuple(by_statics(*opening) for opening in OPENINGS), rel=1e-3),
     source="statics, [Eq. D4](../theory/distinct_element_2d.md); rigid: $B_1 / 2 z_C$ = 0.2046 g, 0.2187 g",
     reason="vibration that the ramp leaves in the soft joint",
 )
 def uplift():
-    found = []
+    accelerations = []
     for section, stiffness in OPENINGS:
         column, model = opens(section, stiffness)
         response = simulate(column, ramp(0.25 * g, 12.0), model, output_interval=1e-4)
         first = int(np.argmax(response.joint_opening[:, 0] > 1e-9))
-        found.append(response.ground_acceleration[first] / g)
-    return found
+        accelerations.append(response.ground_acceleration[first] / g)
+    return accelerations

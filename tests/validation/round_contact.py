@@ -91,8 +91,8 @@ def uplift_on_the_bed():
     reason="rounding and bisection",
 )
 def uplift_in_any_direction():
-    found = [resistance(round_column(), near * TILTS, law) for law, near in (("rim", 1.06e-3), ("bed", 3.45e-3))]
-    return [float(np.ptp(one) / one.mean()) for one in found]
+    resistances = [resistance(round_column(), near * TILTS, law) for law, near in (("rim", 1.06e-3), ("bed", 3.45e-3))]
+    return [float(np.ptp(values) / values.mean()) for values in resistances]
 
 
 # -- sliding and spinning ------------------------------------------------------------------------------------------

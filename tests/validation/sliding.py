@@ -104,10 +104,10 @@ def elastic_bed():
     for area, second, bed, width_at in sections:
         opening = load / (area * half)
         for ratio in (0.3, 0.99, 1.5, 4.0, 30.0, 400.0):
-            found = np.empty(1)
+            moment = np.empty(1)
             law = np.array([[second], [load * half], [opening], [0.0], [0.0]])
-            moment_law.moments(np.array([ratio * opening]), 1.0, law, bed, found)
-            worst = max(worst, abs(found[0] - pressed(width_at, half, load, ratio * opening)) / (load * half))
+            moment_law.moments(np.array([ratio * opening]), 1.0, law, bed, moment)
+            worst = max(worst, abs(moment[0] - pressed(width_at, half, load, ratio * opening)) / (load * half))
     return worst
 
 
@@ -123,12 +123,12 @@ def laws_of_lines():
     ultimate, alpha = column.joint_weights[0] * 0.405, math.atan2(0.405, 2.5)
     stiffness = 5e10 * column.joint_second_moments[0]
     model = RigidBeam(moment_law="trilinear", xi=0.8, second_order="law")
-    found = []
+    ratios = []
     for phi in (0.4 * ultimate / stiffness, 0.1 * alpha, 0.3 * alpha, -0.6 * alpha, 1.2 * alpha):
         out = np.empty(1)
         moment_law.moments(np.array([phi]), 1.0, model.joints(column), None, out)
-        found.append(out[0] / ultimate)
-    return found
+        ratios.append(out[0] / ultimate)
+    return ratios
 
 
 @case(

@@ -84,7 +84,7 @@ def rolling(column: Column, tilt: float, precession: float, spin: float, duratio
         def moment(turning):
             return inertia @ turning - np.cross(arm, -m * np.cross(turning, arm))
 
-        matrix = np.stack([moment(one) for one in np.eye(3)], axis=1)
+        matrix = np.stack([moment(axis) for axis in np.eye(3)], axis=1)
         given = np.cross(arm, m * (np.cross(frame, v) + column.gravity * up)) - np.cross(frame, inertia @ w)
         turning = np.linalg.solve(matrix, given)
         return [w[1], phi_dot, w[2] - phi_dot * math.cos(theta), *turning]

@@ -53,7 +53,7 @@ def paths() -> dict[str, PushoverResult]:
     reason="the joints' elasticity lowers the peak",
 )
 def peaks():
-    return [one.collapse_multiplier for one in paths().values()]
+    return [path.collapse_multiplier for path in paths().values()]
 
 
 @case(
@@ -64,8 +64,8 @@ def peaks():
     reason="the elastic joints above turn as well",
 )
 def zeros():
-    found = paths()
-    return [-found[name].rotation_at_zero(1) / column.slenderness for name, column in COLUMNS.items()]
+    curves = paths()
+    return [-curves[name].rotation_at_zero(1) / column.slenderness for name, column in COLUMNS.items()]
 
 
 @case(
@@ -77,10 +77,10 @@ def zeros():
 )
 def softening():
     worst = 0.0
-    for name, one in paths().items():
-        behind = slice(one.peak + 5, None)
-        exact = np.tan(COLUMNS[name].slenderness + one.rotation[behind, 0])
-        worst = max(worst, float(np.abs(one.multiplier[behind] - exact).max()))
+    for name, path in paths().items():
+        behind = slice(path.peak + 5, None)
+        exact = np.tan(COLUMNS[name].slenderness + path.rotation[behind, 0])
+        worst = max(worst, float(np.abs(path.multiplier[behind] - exact).max()))
     return worst
 
 
@@ -96,8 +96,8 @@ def overturning():
     for column in COLUMNS.values():
         exact = float((column.joint_uplift_accelerations / column.gravity).min())
         for flow in ("associated", "non-associated"):
-            found = limit_analysis(column, flow=flow)
-            worst = max(worst, abs(found.lower / exact - 1.0), abs(found.upper / exact - 1.0))
+            result = limit_analysis(column, flow=flow)
+            worst = max(worst, abs(result.lower / exact - 1.0), abs(result.upper / exact - 1.0))
     return worst
 
 
@@ -137,8 +137,8 @@ TILT = math.radians(3.0)
     reason="tolerance of the linear programme",
 )
 def other_mechanisms():
-    found = [limit_analysis(one).multiplier for one in (SLIPPERY, STICKY, inclined())]
-    return [*found, limit_analysis(preset("paper-monolithic"), base_tilt=3.0).multiplier]
+    multipliers = [limit_analysis(column).multiplier for column in (SLIPPERY, STICKY, inclined())]
+    return [*multipliers, limit_analysis(preset("paper-monolithic"), base_tilt=3.0).multiplier]
 
 
 @case(

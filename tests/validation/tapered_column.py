@@ -112,26 +112,28 @@ def verdicts(runs: list[tuple[Column, float, float]], model, tail: float = TAIL)
 def bounds(columns: list[Column], model, step: float) -> dict[float, list[tuple[float | None, float | None]]]:
     """First collapse of each column, and the amplitude from which on all collapse [g], by length."""
     grids = {length: amplitudes(length, min(step, 0.01) if length > 0.3 else step) for length in LENGTHS}
-    runs = [(one, length, a) for length, sizes in grids.items() for one in columns for a in sizes]
+    runs = [(column, length, a) for length, sizes in grids.items() for column in columns for a in sizes]
     seen = iter(verdicts(runs, model))
-    found = {}
+    limits = {}
     for length, sizes in grids.items():
         each = [[next(seen) for _ in sizes] for _ in columns]
-        found[length] = [(v.first_collapse(sizes, one), v.all_collapse_above(sizes, one)) for one in each]
-    return found
+        limits[length] = [
+            (v.first_collapse(sizes, outcomes), v.all_collapse_above(sizes, outcomes)) for outcomes in each
+        ]
+    return limits
 
 
 def computed_thresholds(name: str) -> list[tuple[float | None, float | None]]:
     """Smallest amplitude that collapses the column, and from which on every one does, of each length [g]."""
     model, square, step = MODELS[name]
-    return [one for (one,) in bounds([column(square=square)], model, step).values()]
+    return [pair for (pair,) in bounds([column(square=square)], model, step).values()]
 
 
 def computed_replicates() -> list[list[float]]:
     """First collapse of every slightly different column in the plane, of each length [g]."""
     columns = list(twins_of(column(), ALIKE, REPLICATES, seed=0))
-    found = bounds(columns, DistinctElement2D(), 0.02)
-    return [[first for first, _ in each if first is not None] for each in found.values()]
+    limits = bounds(columns, DistinctElement2D(), 0.02)
+    return [[first for first, _ in each if first is not None] for each in limits.values()]
 
 
 #: Lengths [s] and amplitudes [g] of the map, and the letters of its verdicts.
@@ -143,7 +145,7 @@ LETTERS = {v.COLLAPSED: "c", v.STANDS: "s"}
 def computed_map() -> list[str]:
     """Verdicts in the plane: a row of letters for each amplitude, c, s, or ? for what is undecided."""
     runs = [(column(), t, a) for a in MAP_SIZES for t in MAP_LENGTHS]
-    letters = [LETTERS.get(one, "?") for one in verdicts(runs, DistinctElement2D(), 8.0)]
+    letters = [LETTERS.get(verdict, "?") for verdict in verdicts(runs, DistinctElement2D(), 8.0)]
     return ["".join(letters[k : k + MAP_LENGTHS.size]) for k in range(0, len(letters), MAP_LENGTHS.size)]
 
 
@@ -151,10 +153,10 @@ def case_digest() -> str:
     """Digest of what is computed: column, motions, grids, models."""
     models = {name: [model.title, model.parameters(), square, step] for name, (model, square, step) in MODELS.items()}
     grids = [*(amplitudes(length, 0.02) for length in LENGTHS), MAP_LENGTHS, MAP_SIZES]
-    grids = [[f"{one:.6f}" for one in row] for row in grids]
-    stones = [one.digest for one in (column(), column(square=True), motion(1.0))]
-    told = [stones, models, grids, TAIL, REPLICATES, ALIKE.given]
-    return hashlib.sha256(json.dumps(told).encode()).hexdigest()[:12]
+    grids = [[f"{number:.6f}" for number in row] for row in grids]
+    stones = [item.digest for item in (column(), column(square=True), motion(1.0))]
+    content = [stones, models, grids, TAIL, REPLICATES, ALIKE.given]
+    return hashlib.sha256(json.dumps(content).encode()).hexdigest()[:12]
 
 
 def renew() -> None:
@@ -166,8 +168,8 @@ def renew() -> None:
     kept = {
         "date": date.today().isoformat(),
         "case": case_digest(),
-        "thresholds": {name: [list(map(short, one)) for one in computed_thresholds(name)] for name in MODELS},
-        "replicates": [list(map(short, one)) for one in computed_replicates()],
+        "thresholds": {name: [list(map(short, pair)) for pair in computed_thresholds(name)] for name in MODELS},
+        "replicates": [list(map(short, firsts)) for firsts in computed_replicates()],
         "map": computed_map(),
     }
     fresh = FILE.with_suffix(".new")
@@ -194,7 +196,7 @@ def replicates() -> dict[float, list[float]]:
 def plane_map() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Lengths [s], amplitudes [g] and whether the column collapses in the plane (NaN: undecided), for the picture."""
     value = {"c": 1.0, "s": 0.0, "?": np.nan}
-    return MAP_LENGTHS, MAP_SIZES, np.array([[value[one] for one in row] for row in stored()["map"]])
+    return MAP_LENGTHS, MAP_SIZES, np.array([[value[letter] for letter in row] for row in stored()["map"]])
 
 
 @case(
@@ -213,8 +215,8 @@ def plane_thresholds():
         middle = 0.5 * (min(rows) + max(rows))
         sizes = middle * (0.85 + 0.01 * np.arange(31))
         seen = verdicts([(column(), length, a) for a in sizes], DistinctElement2D())
-        found = sizes[0] + 0.01 * middle * (sum(one != v.COLLAPSED for one in seen) - 0.5)
-        out.append(max(min(rows) - found, found - max(rows), 0.0) / middle)
+        threshold = sizes[0] + 0.01 * middle * (sum(verdict != v.COLLAPSED for verdict in seen) - 0.5)
+        out.append(max(min(rows) - threshold, threshold - max(rows), 0.0) / middle)
     return out
 
 

@@ -37,10 +37,10 @@ def thresholds_of_codes() -> Figure:
     firsts = column.replicates()
     axes.errorbar(
         list(firsts),
-        [float(np.median(one)) for one in firsts.values()],
+        [float(np.median(amplitudes)) for amplitudes in firsts.values()],
         yerr=[
-            [float(np.median(one)) - min(one) for one in firsts.values()],
-            [max(one) - float(np.median(one)) for one in firsts.values()],
+            [float(np.median(amplitudes)) - min(amplitudes) for amplitudes in firsts.values()],
+            [max(amplitudes) - float(np.median(amplitudes)) for amplitudes in firsts.values()],
         ],
         fmt="s", color=RED, markersize=3.5, capsize=3, label="dem2d, eight columns ±1 %: first collapse",
     )  # fmt: skip
@@ -66,14 +66,14 @@ def edges(centres: np.ndarray) -> np.ndarray:
 def table() -> str:
     """Published rows and ours, one line for each length of the pulse (Markdown)."""
     firsts = column.replicates()
-    found = {name: column.thresholds(name) for name in column.MODELS}
-    head = ["t_p [s]", *column.PUBLISHED, *found, "`dem2d`, eight columns ±1 %"]
+    thresholds = {name: column.thresholds(name) for name in column.MODELS}
+    head = ["t_p [s]", *column.PUBLISHED, *thresholds, "`dem2d`, eight columns ±1 %"]
     lines = [f"| {' | '.join(head)} |\n|{' --- |' * len(head)}\n"]
     for length in column.LENGTHS:
         cells = [f"{row[length]:.2f}" if length in row else "–" for row in column.PUBLISHED.values()]
-        cells += [mixed(*row[length]) for row in found.values()]
-        some = firsts[length]
-        cells.append(f"{min(some):.2f} – {np.median(some):.2f} – {max(some):.2f}")
+        cells += [mixed(*row[length]) for row in thresholds.values()]
+        amplitudes = firsts[length]
+        cells.append(f"{min(amplitudes):.2f} – {np.median(amplitudes):.2f} – {max(amplitudes):.2f}")
         lines.append(f"| {length:.2f} | {' | '.join(cells)} |\n")
     return "".join(lines) + f"\nOurs computed on {column.stored()['date']}.\n"
 

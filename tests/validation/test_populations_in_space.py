@@ -18,7 +18,7 @@ def test_turning_and_renumbering_change_no_more_verdicts_than_a_nudge():
     scenes, twins = sum(kept["families"].values()), kept["twins"]
     assert scenes == populations.SCENES
     assert set(twins) == set(populations.TWINS)
-    others = {key: told["other"][0] for key, told in twins.items()}
+    others = {key: counts["other"][0] for key, counts in twins.items()}
     assert others["turned"] <= 0.03 * scenes
     assert others["turned"] <= others["1e-07"] + 2.0 * math.sqrt(others["1e-07"] + 1.0)
 
@@ -26,12 +26,12 @@ def test_turning_and_renumbering_change_no_more_verdicts_than_a_nudge():
 def test_tumbles_account_for_their_energy():
     """1 % of what is set free at most; in free flight momenta stay to rounding."""
     kept = populations.stored()["tumbling"]
-    assert sum(told["tumbles"] for told in kept.values()) == populations.TUMBLES
-    for told in kept.values():
-        assert not told["failed"]
-        assert max(told["lost"], told["gained"]) < 0.01
-        assert told["deepest"] < 0.03
-        assert told["flight"] < 1e-10
+    assert sum(statistics["tumbles"] for statistics in kept.values()) == populations.TUMBLES
+    for statistics in kept.values():
+        assert not statistics["failed"]
+        assert max(statistics["lost"], statistics["gained"]) < 0.01
+        assert statistics["deepest"] < 0.03
+        assert statistics["flight"] < 1e-10
 
 
 def test_collapses_of_the_gallery_account_for_their_energy():
@@ -45,19 +45,19 @@ def test_collapses_of_the_gallery_account_for_their_energy():
 def test_scenes_that_bear_their_load_lie_still_and_others_go():
     """Under pushes and slopes that last, none falls below what it bears and all go above; few creep, by millimetres."""
     kinds = populations.stored()["resting"].values()
-    assert sum(told["below"] + told["above"] for told in kinds) == SCENES
-    assert sum(told["fell"] for told in kinds) == sum(told["stood"] for told in kinds) == 0
-    assert sum(told["crept"] for told in kinds) < 0.02 * SCENES
-    assert max(told["farthest"] for told in kinds) < 2e-3
+    assert sum(kind["below"] + kind["above"] for kind in kinds) == SCENES
+    assert sum(kind["fell"] for kind in kinds) == sum(kind["stood"] for kind in kinds) == 0
+    assert sum(kind["crept"] for kind in kinds) < 0.02 * SCENES
+    assert max(kind["farthest"] for kind in kinds) < 2e-3
 
 
 @pytest.mark.parametrize("number", [4, 76, 110])
 def test_a_scene_at_rest_again(number):
     """A drum, a box pushed askew, which slid by decimetres, and a leaning wall, which fell."""
-    found = rests(number)
-    assert found["share"] < 1.0
-    assert not found["fell"]
-    assert found["crept"] < CREEPS
+    result = rests(number)
+    assert result["share"] < 1.0
+    assert not result["fell"]
+    assert result["crept"] < CREEPS
 
 
 def joined(assembly):
@@ -72,9 +72,11 @@ def test_a_scene_stands_on_the_same_faces_however_it_is_turned(number):
     family, stones, motion = scene(number)
     order = np.random.default_rng(number).permutation(len(stones))
     there, shaking = turned(stones, motion, 1.0, order)
-    one, other = (joined(st.SpatialAssembly(tuple(some), populations.LAWS[0], family)) for some in (stones, there))
-    assert [row[:2] for row in one] == [row[:2] for row in other]
-    assert [row[2] for row in one] == pytest.approx([row[2] for row in other], rel=1e-9)
+    joints, other = (
+        joined(st.SpatialAssembly(tuple(bodies), populations.LAWS[0], family)) for bodies in (stones, there)
+    )
+    assert [row[:2] for row in joints] == [row[:2] for row in other]
+    assert [row[2] for row in joints] == pytest.approx([row[2] for row in other], rel=1e-9)
     assert np.hypot(shaking.acceleration, shaking.lateral) == pytest.approx(
         np.hypot(motion.acceleration, motion.lateral), abs=1e-12
     )
@@ -90,12 +92,14 @@ def test_turned_and_renumbered_stones_go_the_same_ways(number, most):
     short = slice(0, round(0.2 / motion.dt))
     motion = st.Motion(motion.dt, motion.acceleration[short], lateral=motion.lateral[short])
     there, shaking = turned(stones, motion, 1.0, np.arange(len(stones))[::-1])
-    one, other = (
-        st.simulate(st.SpatialAssembly(tuple(some), populations.LAWS[0], "s"), shakes, st.DistinctElement3D(), tail=0.0)
-        for some, shakes in ((stones, motion), (there, shaking))
+    response, other = (
+        st.simulate(
+            st.SpatialAssembly(tuple(bodies), populations.LAWS[0], "s"), shakes, st.DistinctElement3D(), tail=0.0
+        )
+        for bodies, shakes in ((stones, motion), (there, shaking))
     )
-    assert one.time[-1] == pytest.approx(0.2, abs=0.01)
-    assert populations.apart(one, other, 1.0)[1] < most
+    assert response.time[-1] == pytest.approx(0.2, abs=0.01)
+    assert populations.apart(response, other, 1.0)[1] < most
 
 
 def test_stones_that_tumble_begin_apart():

@@ -27,17 +27,17 @@ FAST = (
 @needs_references
 @pytest.mark.parametrize("name", FAST)
 def test_fast_families_are_met(name):
-    for one in study.judged(name, study.families()[name]):
-        assert one.verdict != MISSED, one
+    for result in study.judged(name, study.families()[name]):
+        assert result.verdict != MISSED, result
 
 
 @needs_references
 def test_every_row_is_kept_and_is_the_one_of_the_table():
-    told, kept = study.families(), study.stored()["rows"]
-    assert list(kept) == list(told)
-    for name, rows in told.items():
-        mine = [{key: one[key] for key in study.named(rows[0])} for one in kept[name]]
-        assert mine == [study.named(one) for one in rows]
+    groups, kept = study.families(), study.stored()["rows"]
+    assert list(kept) == list(groups)
+    for name, rows in groups.items():
+        mine = [{key: entry[key] for key in study.named(rows[0])} for entry in kept[name]]
+        assert mine == [study.named(entry) for entry in rows]
     assert sum(map(len, kept.values())) == len(rows_of(""))
 
 
@@ -60,7 +60,7 @@ def row(value, unit, spread):
 
 
 @pytest.mark.parametrize(
-    ("one", "most"),
+    ("entry", "most"),
     [
         (row("2.0", "m/s", "1 %"), 0.02),
         (row("2.0", "m/s2", "1e-3"), 2e-3),
@@ -72,16 +72,16 @@ def row(value, unit, spread):
         (row("0.25", "-", "closed form 2 t/h"), None),
     ],
 )
-def test_spreads_as_rows_write_them(one, most):
-    assert allowed(one) == (None if most is None else pytest.approx(most))
+def test_spreads_as_rows_write_them(entry, most):
+    assert allowed(entry) == (None if most is None else pytest.approx(most))
 
 
 def test_a_row_can_be_missed():
-    one = row("2.0", "m/s", "1 %")
-    assert [near(one, ours).verdict for ours in (2.019, 2.021, float("nan"))] == [MET, MISSED, MISSED]
+    entry = row("2.0", "m/s", "1 %")
+    assert [near(entry, ours).verdict for ours in (2.019, 2.021, float("nan"))] == [MET, MISSED, MISSED]
     assert near(row("2.0", "m/s", ""), 2.0).verdict == NONE
-    assert both_sides(one, True, False, "a|b").verdict == MET
-    assert both_sides(one, True, True, "a|b").verdict == MISSED
+    assert both_sides(entry, True, False, "a|b").verdict == MET
+    assert both_sides(entry, True, True, "a|b").verdict == MISSED
 
 
 def test_plane_assemblies_in_space_swing_as_in_the_plane():

@@ -10,11 +10,11 @@ KEPT = stored()
 @pytest.mark.parametrize("which", ["calibration", "calibration_of_more"])
 def test_ranks_are_even_and_intervals_hold_what_they_say(which, name):
     # Intervals hold 50 and 90 % within 3 %, and three standard errors of so many ruins besides.
-    told, ruins = KEPT[which][name], KEPT[which]["ruins"]
+    statistics, ruins = KEPT[which][name], KEPT[which]["ruins"]
     assert ruins + KEPT[which]["too_few_matched"] in (200, 1000)
-    assert told["p_ranks"] > 0.01
+    assert statistics["p_ranks"] > 0.01
     for share in (0.5, 0.9):
-        assert told[f"cover_{100 * share:.0f}"] == pytest.approx(
+        assert statistics[f"cover_{100 * share:.0f}"] == pytest.approx(
             share, abs=0.03 + 3.0 * (share * (1 - share) / ruins) ** 0.5
         )
 
@@ -23,10 +23,10 @@ def test_ranks_are_even_and_intervals_hold_what_they_say(which, name):
 def test_intervals_hold_by_each_kind_of_observation(kind):
     # Within three standard errors of so many ruins, and 3 % as above: azimuths that nothing tells count from the middle of
     # the draws, and hold less; axes that offsets tell lie either side of it, and hold more.
-    told = KEPT["by_kind"][kind]
-    assert told["ruins"] >= 200
+    statistics = KEPT["by_kind"][kind]
+    assert statistics["ruins"] >= 200
     for name in UNITS:
-        assert told[name] == pytest.approx(0.9, abs=0.03 + 3.0 * (0.09 / told["ruins"]) ** 0.5), name
+        assert statistics[name] == pytest.approx(0.9, abs=0.03 + 3.0 * (0.09 / statistics["ruins"]) ** 0.5), name
 
 
 def test_what_tells_nothing_leaves_what_else_is_told():
@@ -40,15 +40,15 @@ def test_what_tells_nothing_leaves_what_else_is_told():
 
 def test_ruins_of_another_law_of_contact_are_held():
     # Asked for: a 90 % interval holds at least 80 % where the law of contact is the wrong one.
-    for told in KEPT["other_law"].values():
-        assert all(told[name] >= 0.8 for name in UNITS)
+    for statistics in KEPT["other_law"].values():
+        assert all(statistics[name] >= 0.8 for name in UNITS)
 
 
 def test_what_hands_have_moved_stands_out():
-    told = KEPT["moved_by_hand"]
-    assert min(told["taken_down"], told["pushed_out"]) >= 18  # of 20, as asked for
+    counts = KEPT["moved_by_hand"]
+    assert min(counts["taken_down"], counts["pushed_out"]) >= 18  # of 20, as asked for
     assert (
-        told["false_alarms"] <= 0.15 * told["of_shaken"]
+        counts["false_alarms"] <= 0.15 * counts["of_shaken"]
     )  # 5 % over states and 5 % over the rest, and three standard errors
 
 
@@ -57,6 +57,6 @@ def test_slips_tell_more_than_states():
     # have no errors. One on the runs of here (scikit-learn 1.9.1, 400 trees, out of bag, no ruin that matches fewer than a
     # hundred draws, as here) leaves these; an error over 1,450 ruins is known to 2 %, of which two are let through.
     forest = {"stout": (0.699, 0.477, 0.406), "slender": (0.597, 0.418, 0.368)}
-    for columns, told in forest.items():
-        for said, error in zip(("states", "1 mm", "exact"), told, strict=True):
-            assert KEPT["what_slips_tell"][f"{columns}, {said}"] < 1.04 * error
+    for columns, errors in forest.items():
+        for label, error in zip(("states", "1 mm", "exact"), errors, strict=True):
+            assert KEPT["what_slips_tell"][f"{columns}, {label}"] < 1.04 * error

@@ -11,10 +11,10 @@ from validation.figures import FIGURES
 
 @pytest.mark.parametrize("case", CASES, ids=[case.name for case in CASES])
 def test_case(case):
-    found = case.compute()
-    assert np.all(np.isfinite(found))
-    assert case.criterion.holds(found), (
-        f"{case.quantity}: {texts(found)}, expected {case.criterion.expected} {case.criterion.tolerance}"
+    values = case.compute()
+    assert np.all(np.isfinite(values))
+    assert case.criterion.holds(values), (
+        f"{case.quantity}: {texts(values)}, expected {case.criterion.expected} {case.criterion.tolerance}"
     )
 
 

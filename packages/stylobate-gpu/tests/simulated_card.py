@@ -140,7 +140,7 @@ def sliding() -> tuple:
         st.Column.tapered(**SIZE | {"joint": st.Joint(5e8, 2.5e8, friction_angle=angle)}, bottom_width=0.6, drums=3)
         for angle in (15.0, 25.0)
     ]
-    columns = [dataclasses.replace(one, as_found=st.AsFound(base_tilt=2.0)) for one in columns]
+    columns = [dataclasses.replace(column, as_found=st.AsFound(base_tilt=2.0)) for column in columns]
     return columns, [shaken(2.0, 0.3), shaken(1.0, 0.2)], st.DistinctElement2D(), RunOptions(tail=0.05)
 
 
@@ -178,33 +178,33 @@ BATCHES = {
 }
 
 
-def told(measures: Any) -> dict:
+def numbers_of(measures: Any) -> dict:
     """All numbers of a run, as text where bits count."""
-    left = {
+    residuals = {
         f.name: np.asarray(getattr(measures.residuals, f.name)).tolist() for f in dataclasses.fields(measures.residuals)
     }
     row = measures.row() | {"energy_imbalance": 0.0, "computed_by": ""}
-    return {"steps": measures.steps, "bits": repr((row, left)), "by": measures.computed_by,
+    return {"steps": measures.steps, "bits": repr((row, residuals)), "by": measures.computed_by,
             "outcome": str(measures.outcome), "energy_imbalance": measures.energy_imbalance}  # fmt: skip
 
 
 def main(names: list[str]) -> None:
     """Run every batch by the loop, by the card, and by the card in shorter launches."""
-    found, device = {}, Simulated()
+    results, device = {}, Simulated()
     card_check.check = lambda *_: None  # it is tried with a card that computes wrongly, elsewhere
     for name in names:
         columns, motions, model, options = BATCHES[name]()
-        cases = [Case(*one) for one in zip(columns, motions, strict=True)]
+        cases = [Case(*pair) for pair in zip(columns, motions, strict=True)]
         engine = engine_for(model, columns[0])
         ways = {"loop": engine.run_many(cases, options, 1)}
         for way, chunks in (("card", 500), ("cut", 3)):
             lanes.CHUNKS_PER_LAUNCH = chunks
             ways[way] = list(engine.run_on_card(GraphicsCard(device), cases, options, 1))
-        found[name] = {
+        results[name] = {
             "drums": columns[0].n,
-            **{way: [told(one) for _, one in sorted(runs)] for way, runs in ways.items()},
+            **{way: [numbers_of(measures) for _, measures in sorted(runs)] for way, runs in ways.items()},
         }
-    json.dump(found, sys.stdout)
+    json.dump(results, sys.stdout)
 
 
 if __name__ == "__main__":

@@ -37,11 +37,11 @@ def ended(client, job, limit=15.0):
     """A job when it is over."""
     end = time.monotonic() + limit
     while time.monotonic() < end:
-        found = client.get(f"/api/jobs/{job}").json()
-        if found["state"] not in ("waiting", "running"):
-            return found
+        answer = client.get(f"/api/jobs/{job}").json()
+        if answer["state"] not in ("waiting", "running"):
+            return answer
         time.sleep(0.02)
-    raise AssertionError(found)
+    raise AssertionError(answer)
 
 
 #: Ratio of the luminances of text and what is behind it, at least (WCAG 2.2, AA): of text, and of large text; and what tells

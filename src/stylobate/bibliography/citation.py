@@ -93,14 +93,14 @@ class Reference:
 @cache
 def bibliography() -> Mapping[str, Reference]:
     """All entries of the bibliography file, by key, in the order of the file."""
-    return MappingProxyType({one.key: one for one in parse(FILE.read_text(encoding="utf-8"))})
+    return MappingProxyType({reference.key: reference for reference in parse(FILE.read_text(encoding="utf-8"))})
 
 
 def parse(text: str) -> list[Reference]:
     """Entries of a BibTeX text laid out as this package writes it: one field a line, the closing brace alone."""
     return [
-        Reference(found["key"], found["kind"], MappingProxyType(dict(_FIELD.findall(found["fields"]))))
-        for found in _ENTRY.finditer(text)
+        Reference(match["key"], match["kind"], MappingProxyType(dict(_FIELD.findall(match["fields"]))))
+        for match in _ENTRY.finditer(text)
     ]
 
 
@@ -160,14 +160,14 @@ class Citation:
     @property
     def bibtex(self) -> str:
         """The package and the sources as BibTeX."""
-        return "\n\n".join(one.bibtex for one in (PACKAGE, *self.references))
+        return "\n\n".join(reference.bibtex for reference in (PACKAGE, *self.references))
 
     def summary(self) -> dict:
         """The JSON object of ``stylobate cite``."""
         return {
             "about": self.about,
             "version": __version__,
-            "references": [one.summary() for one in (PACKAGE, *self.references)],
+            "references": [reference.summary() for reference in (PACKAGE, *self.references)],
             "motion": dict(self.motion),
             "unknown": list(self.unknown),
             "text": self.text,
@@ -196,10 +196,10 @@ def cite_run(provenance: Mapping[str, Any]) -> Citation:
     """
     metadata = dict(provenance.get("motion_metadata") or {})
     about = [f"{kind} {provenance[kind]}" for kind in ("model", "motion") if kind in provenance]
-    found = cite(provenance.get("references", ()), ", ".join(about))
+    citation = cite(provenance.get("references", ()), ", ".join(about))
     source = {key: str(metadata[key]) for key in _SOURCE if metadata.get(key) not in (None, "", "None")}
     if set(source) <= {"reference"}:  # a formula or a simulation: its sources are in the references
         source = {}
     elif set(source) == {"file"}:
         source["file"] += " (it names no source: say who recorded or computed it, and where you have it from)"
-    return Citation(found.about, found.references, source, found.unknown)
+    return Citation(citation.about, citation.references, source, citation.unknown)

@@ -122,7 +122,7 @@ class Campaign:
             if campaign is None
             else check_kind("campaign", campaign, cls, allowed="a Campaign, such as Campaign(replicates=30)")
         )
-        names = [one.name for one in fields(cls) if one.name not in without]
+        names = [option.name for option in fields(cls) if option.name not in without]
         for name, typed in settings.items():
             if name not in names:
                 raise TypeError(
@@ -134,9 +134,9 @@ class Campaign:
                     f"`{name}` is {as_typed(typed)}, and {as_typed(stated)} in the campaign; give it in one of the two.",
                     name,
                 )
-        for one in fields(cls):
-            if one.name not in names and getattr(value, one.name) != one.default:
-                raise InputError(f"{function} takes no {one.name}; leave it out of the campaign.")
+        for field in fields(cls):
+            if field.name not in names and getattr(value, field.name) != field.default:
+                raise InputError(f"{function} takes no {field.name}; leave it out of the campaign.")
         return replace(value, **settings)
 
     @property

@@ -113,7 +113,7 @@ class Study:
         if len(set(names)) < len(names):
             raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
         must_be_alike(self.columns, "study")
-        without = next((one for one in self.columns if not (one.stack or one).scattered), None)
+        without = next((column for column in self.columns if not (column.stack or column).scattered), None)
         if campaign.replicates and without is not None:
             raise InputError(
                 f"{without.name!r} is {without.described}, and only columns and assemblies in space have realisations; "
@@ -138,11 +138,11 @@ class Study:
     @property
     def size(self) -> int:
         """Number of cases."""
-        return int(np.prod([float(one) for one in self.shape]))
+        return int(np.prod([float(count) for count in self.shape]))
 
     def case(self, number: int) -> Case:
         """A case by its number; its model is ``models[number // (size // len(models))]``."""
-        model, column, motion, level, realisation = (int(one) for one in np.unravel_index(number, self.shape))
+        model, column, motion, level, realisation = (int(index) for index in np.unravel_index(number, self.shape))
         stands = self.stands[model][column][realisation]
         return Case(stands, self.motions[motion].scaled(float(self.factors[motion, level])))
 
@@ -155,18 +155,18 @@ class Study:
         """The columns as they stand: by model, column and realisation."""
         if not self.campaign.replicates:
             return [[[column] for column in self.columns] for _ in self.models]
-        return [[one.columns for one in some] for some in self.twins]
+        return [[twins.columns for twins in of_model] for of_model in self.twins]
 
     @cached_property
     def twins(self) -> list[list[Twins]]:
         """Twins by model and column; none without replicates."""
         models = self.models if self.campaign.replicates else ()
-        return [[the_twins(one, model, self.campaign) for one in self.columns] for model in models]
+        return [[the_twins(column, model, self.campaign) for column in self.columns] for model in models]
 
     @property
     def of_one_law(self) -> list[Model]:
         """Models in which not all columns vary by the law of their joints, so that doubts about it stand."""
-        vary = [all(one.groups for one in some) for some in self.twins] or [False] * len(self.models)
+        vary = [all(twins.groups for twins in of_model) for of_model in self.twins] or [False] * len(self.models)
         return [model for model, does in zip(self.models, vary, strict=True) if not does]
 
     @cached_property
@@ -182,9 +182,9 @@ class Study:
         number = 0
         for model, columns in zip(self.models, self.stands, strict=True):
             hasher = Hasher(model, self.campaign.options)
-            ends = [[hasher.of_motion(motion, size, quiet) for size in some] for motion, some, quiet in each]
-            for some in columns:
-                starts = [hasher.of_column(one) for one in some]
+            ends = [[hasher.of_motion(motion, size, quiet) for size in row] for motion, row, quiet in each]
+            for realisations in columns:
+                starts = [hasher.of_column(column) for column in realisations]
                 for motion in ends:
                     for end in motion:
                         for start in starts:
@@ -206,7 +206,7 @@ class Study:
                 yield numbers, model, replace(self.campaign.options, quiet=quiet)
 
     def _axes(self) -> dict[str, Any]:
-        def one(motion: Motion) -> dict[str, Any]:
+        def entry_of(motion: Motion) -> dict[str, Any]:
             direction = motion.metadata.get("direction") or {}
             known = (motion.metadata.get("azimuths") or {}).get("x")
             return {
@@ -221,16 +221,16 @@ class Study:
         scatter = sizes.given if sizes is not None and number else None
         if number and sizes is None:  # by material, and in space by the laws of joints
             usual = {
-                f"{one.name}, {model.name}": twins.scatter.given
-                for model, some in zip(self.models, self.twins, strict=True)
-                for one, twins in zip(self.columns, some, strict=True)
+                f"{column.name}, {model.name}": twins.scatter.given
+                for model, twins_by_column in zip(self.models, self.twins, strict=True)
+                for column, twins in zip(self.columns, twins_by_column, strict=True)
             }
-            same = len({str(one) for one in usual.values()}) == 1
+            same = len({str(spreads) for spreads in usual.values()}) == 1
             scatter = next(iter(usual.values())) if same else usual
         return {
             "models": [{"model": model.name, "parameters": model.parameters()} for model in self.models],
             "columns": [{"column": column.name, **column.widths} for column in self.columns],
-            "motions": [one(motion) for motion in self.motions],
+            "motions": [entry_of(motion) for motion in self.motions],
             "intensities": self._intensities(),
             "powers": powers_by_column(),
             "measure": "factor" if self.im is None else self.im.name,
@@ -238,7 +238,7 @@ class Study:
             "levels": list(self.levels),
             "factors": self.factors.tolist(),
             "realisations": number,
-            "laws": [[list(one.groups) for one in some] for some in self.twins],
+            "laws": [[list(twins.groups) for twins in of_model] for of_model in self.twins],
             "scatter": scatter,
             "seed": self.campaign.seed,
             "tail_s": self.campaign.tail,
@@ -261,7 +261,7 @@ class Study:
             if name in RELATIVE and all(angle is None for angle in angles):
                 continue
             sizes = [abs(motion.factor) ** power for motion in self.motions]
-            each = [[one.get(name) for one in seen[samples_of(motion)]] for motion in self.motions]
+            each = [[measures.get(name) for measures in seen[samples_of(motion)]] for motion in self.motions]
             if any(value is not None for values in each for value in values):
                 intensities[name] = [
                     [None if value is None else value * size for value in values]
@@ -324,10 +324,10 @@ class Plan:
 
     def known(self, ledger: Path) -> Rows:
         """Rows of the cases that a ledger holds."""
-        found = Rows(len(self))
+        rows = Rows(len(self))
         for number, row in finished_rows(ledger, self.digests):
-            found[number] = row
-        return found
+            rows[number] = row
+        return rows
 
     def labels(self) -> pandas.DataFrame:
         """Identity of each case: column, record, direction, level, factor, intensities as scaled, model and realisation."""
@@ -340,14 +340,14 @@ class Plan:
             kept = pandas.Series(values)
             return kept.to_numpy()[index]
 
-        table = {name: picked([one[name] for one in axes["columns"]], column) for name in axes["columns"][0]}
+        table = {name: picked([entry[name] for entry in axes["columns"]], column) for name in axes["columns"][0]}
         for name in ("record", "motion", "azimuth_deg", "reversed"):
-            table[name] = picked([one[name] for one in axes["motions"]], motion)
+            table[name] = picked([entry[name] for entry in axes["motions"]], motion)
         factor = np.array(axes["factors"])[motion, level]
         table |= {"measure": axes["measure"], "im": np.array(axes["levels"])[level], "factor": factor}
         for name, values in axes["intensities"].items():
             table[name] = np.array(values, dtype=float)[motion, column] * factor ** axes["powers"][name]
-        table |= {"model": picked([one["model"] for one in axes["models"]], model)}
+        table |= {"model": picked([entry["model"] for entry in axes["models"]], model)}
         table |= {"realisation": realisation + 1 if axes["realisations"] else np.zeros(len(self), dtype=np.int64)}
         laws = axes.get("laws") or []
         if any(of_column for of_model in laws for of_column in of_model):
@@ -383,7 +383,7 @@ class Plan:
                 f"{folder} is no folder of a study: it has no {PLAN_FILE}; give that in which a study keeps its runs."
             )
         try:
-            with np.load(place, allow_pickle=False) as found:
-                return cls(json.loads(found["axes"].tobytes()), Digests(found["digests"]))
+            with np.load(place, allow_pickle=False) as archive:
+                return cls(json.loads(archive["axes"].tobytes()), Digests(archive["digests"]))
         except Exception:  # whatever a damaged archive makes of it
             raise InputError(f"{place} is damaged; run the study again, which finds its finished runs there.") from None

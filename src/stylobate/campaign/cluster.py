@@ -113,10 +113,10 @@ def _connect(client: type[Client], address: str) -> Client:
     try:
         get_address_host_port(address)
         threading.Thread(target=ask, daemon=True).start()  # what takes a connection and says nothing is not waited for
-        found = answers.get(timeout=PATIENCE)
-        if isinstance(found, BaseException):
-            raise found
-        return found
+        answer = answers.get(timeout=PATIENCE)
+        if isinstance(answer, BaseException):
+            raise answer
+        return answer
     except Exception as error:  # of whichever library finds the address wrong
         why = " ".join(str(error).split()) or f"nothing within {PATIENCE:g} s"
         raise InputError(
@@ -237,15 +237,15 @@ class HandOut:
             except queue.Empty:
                 self._check()
                 continue
-            name, some = came
-            if isinstance(some, bytes):
-                yield from self._new(name, some)
-            elif isinstance(some, str):
-                self._more(name, some)
-            elif isinstance(some, float):
-                self._time(some, self._sizes.get(name, 1))
+            name, content = came
+            if isinstance(content, bytes):
+                yield from self._new(name, content)
+            elif isinstance(content, str):
+                self._more(name, content)
+            elif isinstance(content, float):
+                self._time(content, self._sizes.get(name, 1))
             elif name in self._running:
-                yield from self._ended(name, some)
+                yield from self._ended(name, content)
 
     def end(self) -> None:
         """Take back what is under way; nothing is waited for."""
@@ -270,16 +270,16 @@ class HandOut:
     def _take(self) -> list[int]:
         if self._again:
             return self._again.popleft()
-        left = len(self.cases) - self._next
-        if not left:
+        remaining = len(self.cases) - self._next
+        if not remaining:
             return []
-        share = math.ceil(SHARE * left / self._threads)
+        share = math.ceil(SHARE * remaining / self._threads)
         if math.isnan(self._each):  # few cases are spread over all threads
-            count = min(max(share, FEWEST_UNTIMED), FIRST, math.ceil(left / self._threads))
+            count = min(max(share, FEWEST_UNTIMED), FIRST, math.ceil(remaining / self._threads))
         else:
             shortest = max(FEWEST, math.ceil(SHORTEST / self._each))
             count = min(max(share, shortest), max(int(LENGTH / self._each), shortest), GROWTH * self._largest, MOST)
-        count = min(count, left)
+        count = min(count, remaining)
         self._next += count
         return list(range(self._next - count, self._next))
 
@@ -298,14 +298,14 @@ class HandOut:
             names.append(shaking.name)
         self._made += 1
         name = f"{self._topic}-{self._made}"
-        listed = [one for _, one in stones.values()]
+        listed = [structure for _, structure in stones.values()]
         chunk = Chunk(name, law(), self.model, self.options, numbers, listed, stone, motion, factors, names)
-        needed = [one for _, one, _ in motions.values()]
+        needed = [samples for _, samples, _ in motions.values()]
         where = {"workers": [self._asking.popleft()], "allow_other_workers": True} if self._asking else {}
         future = self.client.submit(run_chunk, pack(chunk), needed, self._topic, key=name, pure=False, **where)
         self._running[name], self._sizes[name] = (future, set(numbers)), len(numbers)
         self._full.add(name)
-        future.add_done_callback(lambda one: self._inbox.put((name, one)))
+        future.add_done_callback(lambda completed: self._inbox.put((name, completed)))
         return name
 
     def _sent(self, key: tuple, motion: Motion) -> Future:
@@ -340,12 +340,12 @@ class HandOut:
             self._full.remove(name)
             self._asking.append(worker)
 
-    def _new(self, name: str, some: bytes) -> Iterator[tuple[int, Measures]]:
+    def _new(self, name: str, packed: bytes) -> Iterator[tuple[int, Measures]]:
         """Values that are new: a chunk that is computed again sends everything again."""
-        left = self._running[name][1] if name in self._running else set()
-        for number, measures in unpack(some):
-            if number in left:
-                left.remove(number)
+        outstanding = self._running[name][1] if name in self._running else set()
+        for number, measures in unpack(packed):
+            if number in outstanding:
+                outstanding.remove(number)
                 yield number, measures
 
     def _ended(self, name: str, future: Future) -> Iterator[tuple[int, Measures]]:

@@ -87,23 +87,23 @@ class Hasher:
 
     def of_product(self, what: Any, maker: str) -> str:
         """The digest of what is made of a run besides its row: plain values that decide it, and the file that makes it."""
-        said = json.dumps([what, digest_of_file(Path(maker))], sort_keys=True, default=str)
-        return hashlib.sha256(f"{self._head} {said}".encode()).hexdigest()[: 2 * LENGTH]
+        description = json.dumps([what, digest_of_file(Path(maker))], sort_keys=True, default=str)
+        return hashlib.sha256(f"{self._head} {description}".encode()).hexdigest()[: 2 * LENGTH]
 
     @staticmethod
     def ended(column: Any, motion: bytes) -> bytes:
         """The digest of a case from its two parts."""
-        found = column.copy()
-        found.update(motion)
-        return found.digest()[:LENGTH]
+        hash_state = column.copy()
+        hash_state.update(motion)
+        return hash_state.digest()[:LENGTH]
 
     def of_cases(self, cases: Sequence[Case], quiet: Sequence[float]) -> np.ndarray:
         """Digests of cases one by one, each with its share of quiet, shape (cases, 16)."""
-        found = np.empty((len(cases), LENGTH), dtype=np.uint8)
+        digests = np.empty((len(cases), LENGTH), dtype=np.uint8)
         for number, ((column, motion), share) in enumerate(zip(cases, quiet, strict=True)):
             end = self.of_motion(motion, motion.factor, share)
-            found[number] = np.frombuffer(self.ended(self.of_column(column), end), np.uint8)
-        return found
+            digests[number] = np.frombuffer(self.ended(self.of_column(column), end), np.uint8)
+        return digests
 
 
 def samples_of(motion: Motion) -> tuple:
@@ -132,7 +132,7 @@ class Digests:
     @classmethod
     def of(cls, each: Sequence[str]) -> Digests:
         """Digests that are given as texts."""
-        return cls(np.array([list(bytes.fromhex(one)) for one in each], dtype=np.uint8).reshape(len(each), LENGTH))
+        return cls(np.array([list(bytes.fromhex(text)) for text in each], dtype=np.uint8).reshape(len(each), LENGTH))
 
     @cached_property
     def keys(self) -> np.ndarray:

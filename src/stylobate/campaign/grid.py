@@ -148,15 +148,15 @@ def _values(
     if not isinstance(given, list):
         raise InputError(f"{name} is {as_typed(given)}; it must be a list, or a text such as first:last:number.")
     values = []
-    for one in given:
-        if isinstance(one, str):
-            values.append(parse(one))
-        elif isinstance(one, bool) or not isinstance(one, (int, float)):
+    for value in given:
+        if isinstance(value, str):
+            values.append(parse(value))
+        elif isinstance(value, bool) or not isinstance(value, (int, float)):
             raise InputError(
-                f"one of the {name} is {as_typed(one)}; it must be a number, or a text with a number and its unit."
+                f"one of the {name} is {as_typed(value)}; it must be a number, or a text with a number and its unit."
             )
         elif unit is None:
-            raise InputError(f"one of the {name} is {one:g}, without a unit; write it as a text such as '0.3g'.")
+            raise InputError(f"one of the {name} is {value:g}, without a unit; write it as a text such as '0.3g'.")
         else:
-            values.append(float(one))
+            values.append(float(value))
     return np.array(values)

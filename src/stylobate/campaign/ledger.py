@@ -341,8 +341,8 @@ def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple
 def finished_runs_in(path: str | Path, wanted: np.ndarray | None = None) -> int:
     """Number of runs in a ledger, or of those wanted that it holds; 0 where there is none."""
     with closing(_opened(path)) as file, suppress(*_DAMAGE):
-        held = np.fromiter((number for (number,) in file.execute("SELECT number FROM runs")), np.int64)
-        return len(held) if wanted is None else int(np.isin(wanted, held).sum())
+        numbers = np.fromiter((number for (number,) in file.execute("SELECT number FROM runs")), np.int64)
+        return len(numbers) if wanted is None else int(np.isin(wanted, numbers).sum())
     return 0
 
 

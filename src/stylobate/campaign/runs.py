@@ -97,11 +97,13 @@ class Stopped(KeyboardInterrupt):
     def __init__(
         self, done: int, total: int, ledger: str | Path | None = None, rows: Rows | None = None, part: str = ""
     ) -> None:
-        said = f"interrupted after {done} of {total} runs; nothing is kept: with `out=DIR` it would go on from there."
+        message = (
+            f"interrupted after {done} of {total} runs; nothing is kept: with `out=DIR` it would go on from there."
+        )
         if ledger is not None:
             kept = f"{done} of {total} runs are kept in {Path(ledger).parent}{part and f', and {part}'}"
-            said = f"interrupted; {kept}: the same command goes on from there."
-        super().__init__(said)
+            message = f"interrupted; {kept}: the same command goes on from there."
+        super().__init__(message)
         self.rows, self.done, self.total = Rows(total) if rows is None else rows, done, total
 
 
@@ -165,11 +167,13 @@ class Runs:
             yield number, row
         todo[digests.doubles] = False
         for numbers, model, options in request.groups:
-            left = numbers[todo[numbers]]
-            if len(left):
-                with closing(executor()(_some(request.cases, left), model, options, self.campaign.threads)) as finished:
+            remaining = numbers[todo[numbers]]
+            if len(remaining):
+                with closing(
+                    executor()(_some(request.cases, remaining), model, options, self.campaign.threads)
+                ) as finished:
                     for index, measures in finished:
-                        yield from self._keep(digests, int(left[index]), measures.row())
+                        yield from self._keep(digests, int(remaining[index]), measures.row())
 
     def rows(self, request: Request, progress: Progress | None = None) -> Rows:
         """Rows of all cases; ``progress`` is called instead of that of the campaign.
@@ -253,8 +257,8 @@ class Runs:
             self._book.record(key, {"case": digests[number], **row})
         self.made += len(alike)
         self.kept += len(alike)
-        for one in alike:
-            yield one, row
+        for case_number in alike:
+            yield case_number, row
 
     def _sum_of(self, name: str) -> str | None:
         if self.path is None:
@@ -303,12 +307,12 @@ def its_turn(
     ledger: Path, digests: Digests, progress: Progress | None, waiting: Callable[[], None] | None
 ) -> Callable[[], None]:
     """Notice while another process is at work on the ledger: told once, and followed."""
-    told: list[bool] = []
+    looks: list[bool] = []
 
     def look() -> None:
-        if waiting and not told:
+        if waiting and not looks:
             waiting()
-        told.append(True)
+        looks.append(True)
         started = time.perf_counter()
         if progress:
             progress(finished_runs_in(ledger, digests.keys), len(digests))

@@ -143,10 +143,10 @@ def read_plan(path: str | Path) -> tuple[Study, dict[str, str]]:
     InputError
         The file cannot be read or describes no study; the message names the file and the remedy.
     """
-    found = parse_toml(path)
-    if "frequencies" in found or "amplitudes" in found:
+    content = parse_toml(path)
+    if "frequencies" in content or "amplitudes" in content:
         return _of_grid(path), {}
-    if "motions" not in found:
+    if "motions" not in content:
         raise InputError(f"{printable(path)} names no record; add [motions] with files = [...].")
     table = read_table(path, StudyFile)
     with within(printable(path)):
@@ -186,11 +186,11 @@ def _motions(table: MotionsTable, folder: Path) -> tuple[Sequence[Motion], dict[
     if not table.files and not table.sequences:
         raise InputError("the study names no record; give files = [...] in [motions], or [[motions.sequences]].")
     suite = expanded(table.files) if table.files else Suite((), {})
-    found = list(suite.motions)
-    for number, one in enumerate(table.sequences or [], 1):
+    motions = list(suite.motions)
+    for number, sequence in enumerate(table.sequences or [], 1):
         with within(f"sequence {number} of [motions]"):
-            found += _in_sequence(one, [expanded([file]) for file in one.files])
-    return found, dict(suite.refused)
+            motions += _in_sequence(sequence, [expanded([file]) for file in sequence.files])
+    return motions, dict(suite.refused)
 
 
 def _in_sequence(table: SequenceTable, parts: Sequence[Suite]) -> list[Motion]:
@@ -242,10 +242,10 @@ def listed(patterns: Sequence[str], folder: Path, table: str = "[motions]", file
     table, file : str
         What messages call the table, and the file that it stands in.
     """
-    found: list[str | Path] = []
+    sources: list[str | Path] = []
     for pattern in patterns:
         if pattern.startswith(PREFIX):
-            found.append(pattern)
+            sources.append(pattern)
             continue
         if any(mark in pattern for mark in "*?["):
             matches: list[Path] = sorted(folder.glob(pattern)) if not Path(pattern).is_absolute() else [Path(pattern)]
@@ -253,22 +253,22 @@ def listed(patterns: Sequence[str], folder: Path, table: str = "[motions]", file
                 raise InputError(
                     f"no file matches {pattern!r} in {table}; paths start from the folder of the {file} file."
                 )
-            found += matches
+            sources += matches
         else:
-            found.append(folder / pattern)
-    if not found:
+            sources.append(folder / pattern)
+    if not sources:
         raise InputError(f"the {file} names no record; give some in {table}.")
-    return found
+    return sources
 
 
-def _component(asked: str | None) -> str | None:
-    return None if asked in (None, "x") else asked
+def _component(component: str | None) -> str | None:
+    return None if component in (None, "x") else component
 
 
-def _azimuths(asked: Any) -> tuple[float, ...]:
-    if asked is None:
+def _azimuths(value: Any) -> tuple[float, ...]:
+    if value is None:
         return ()
-    text = asked if isinstance(asked, str) else ",".join(map(str, asked)) if isinstance(asked, list) else str(asked)
+    text = value if isinstance(value, str) else ",".join(map(str, value)) if isinstance(value, list) else str(value)
     return tuple(azimuth_range(text).tolist())
 
 
@@ -284,7 +284,7 @@ def levels_of(im: str, given: Any) -> tuple[IntensityMeasure | None, list[float]
                 f"levels are {as_typed(given)}; write them as first:last:number, such as 0.1m/s:1.0m/s:10."
             )
         return measure, np.linspace(first, last, int(number)).tolist()
-    return measure, [_level(one, unit) for one in (given if isinstance(given, list) else [given])]
+    return measure, [_level(level, unit) for level in (given if isinstance(given, list) else [given])]
 
 
 def _level(value: Any, unit: str) -> float:

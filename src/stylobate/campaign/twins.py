@@ -102,15 +102,15 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
     if not replicates:
         raise InputError(f"replicates is 0; allowed is a whole number from 1 to {MAX_TWINS}.")
     usual = usual_with_laws(stands, model) if laws else usual_scatter(stands)
-    asked = usual if campaign.scatter is None else campaign.scatter
-    if unknown := [name for name in asked.given if name not in stands.scattered]:
+    scatter = usual if campaign.scatter is None else campaign.scatter
+    if unknown := [name for name in scatter.given if name not in stands.scattered]:
         raise InputError(
             f"the scatter has {' and '.join(unknown).replace('_', ' ')}, by which twins of {column.described} such as "
             f"{column.name!r} do not vary; leave it out, known are {', '.join(stands.scattered)}.",
             "scatter",
         )
-    left_out = tuple(name for name in asked.given if name in _not_taken(stands, model))
-    size = dataclasses.replace(asked, **dict.fromkeys(left_out, 0.0))
+    left_out = tuple(name for name in scatter.given if name in _not_taken(stands, model))
+    size = dataclasses.replace(scatter, **dict.fromkeys(left_out, 0.0))
     if alone and not size.given:  # as many runs of one column are no population
         why = f", as {model.name} does not take {' and '.join(left_out)}" if left_out else ""
         raise InputError(
@@ -121,12 +121,12 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
     stiffness = None if of_laws is None else of_laws.stiffness
     drawn = drawn_twins(stands, size, replicates, seed, space=space, stiffness=stiffness)
     reduced = None if stands.space_joints is None else sum(share < 1.0 for _, share in drawn)
-    twins = [one for one, _ in drawn]
+    twins = [twin for twin, _ in drawn]
     if of_laws is None:
         one_law = stands.stack is not None and usual_with_laws(stands, model) != usual_scatter(stands)
         return Twins(twins, size, seed, left_out, stands.like, reduced, one_law=one_law)
     laws_of = zip(twins, of_laws.losses, of_laws.factors.tolist(), strict=True)
-    twins = [with_stiffness(one, factor).unwarned(losses=losses) for one, losses, factor in laws_of]
+    twins = [with_stiffness(twin, factor).unwarned(losses=losses) for twin, losses, factor in laws_of]
     return Twins(twins, size, seed, left_out, stands.like, reduced, of_laws.groups)
 
 
@@ -209,7 +209,7 @@ def drawn_laws(column: Structure, model: Model, size: Scatter, number: int, seed
     rolling = rolling if rolling or not size.rolling_resistance else ROLLING.value
     beta = damping * np.exp(spread_of(size.stiffness_damping) * both[:, 0])
     c = rolling * np.exp(spread_of(size.rolling_resistance) * both[:, 1])
-    other = {one: LAWS[1 - i] for i, one in enumerate(LAWS)}[acting.law]
+    other = {name: LAWS[1 - i] for i, name in enumerate(LAWS)}[acting.law]
     law = np.where(even[:, 3] < size.law, other, acting.law)
     losses = tuple(Losses(*each) for each in zip(beta.tolist(), c.tolist(), law.tolist(), strict=True))
     factors = unknown_stiffness(column, even[:, 2]) ** size.unknown_stiffness

@@ -61,17 +61,17 @@ class Part:
 
     def take(self, timeout: float) -> list[tuple[int, Measures]]:
         """(index, measures) of what has finished; the first is waited for no longer than so [s]."""
-        found: list[tuple[int, Measures]] = []
+        results: list[tuple[int, Measures]] = []
         while self.left:
             try:
-                one = self._results.get(timeout=0.0 if found else timeout)
+                result = self._results.get(timeout=0.0 if results else timeout)
             except queue.Empty:
                 break
-            if isinstance(one, BaseException):
-                raise one
-            found.append(one)
+            if isinstance(result, BaseException):
+                raise result
+            results.append(result)
             self.left -= 1
-        return found
+        return results
 
 
 class Stream:
@@ -123,8 +123,10 @@ class Stream:
         except BaseException as error:  # raised again where it is waited for
             with self._lock:
                 parts = {id(part): part for part, _ in [*feed.given.values(), (first, 0)]}
-                self._waiting = deque(one for one in self._waiting if id(one) not in parts)
-            self._ended(len(feed.given) + sum(len(one.cases) - one.given for one in parts.values()))
+                self._waiting = deque(waiting_part for waiting_part in self._waiting if id(waiting_part) not in parts)
+            self._ended(
+                len(feed.given) + sum(len(failed_part.cases) - failed_part.given for failed_part in parts.values())
+            )
             for part in parts.values():
                 part.put(error)
 
@@ -163,11 +165,11 @@ class _Feed(Sequence[Case]):
         return self
 
     def __next__(self) -> Case:
-        found = self.stream.next_of(self.first.kind)
-        if found is None:
+        next_case = self.stream.next_of(self.first.kind)
+        if next_case is None:
             raise StopIteration
-        part, number = found
-        self.given[self._count] = found
+        part, number = next_case
+        self.given[self._count] = next_case
         self._count += 1
         return part.cases[number]
 
@@ -240,8 +242,8 @@ def run_chunk(packed: bytes, motions: Sequence[Samples], topic: str) -> None:
 
     with _FIRST:
         streams = _STREAMS.setdefault(id(worker), [Stream() for _ in range(worker.state.nthreads)])
-    stream = min(streams, key=lambda one: one.left)
-    results_of(chunk, motions, lambda some: worker.log_event(topic, some), worker.address, stream, more)
+    stream = min(streams, key=lambda candidate: candidate.left)
+    results_of(chunk, motions, lambda message: worker.log_event(topic, message), worker.address, stream, more)
 
 
 #: Streams of the workers in this process, one for each thread.
@@ -289,13 +291,13 @@ def results_of(
     kind = pickle.dumps((chunk.model, chunk.options, sorted({type(stone).__name__ for stone in chunk.stones})))
     part = Part(Cases(len(chunk.numbers), case), chunk.model, chunk.options, kind)
     started = sent = time.perf_counter()
-    before, asked = stream.finished, False
+    before, request_sent = stream.finished, False
     stream.add(part)
     ready: list[tuple[int, Measures]] = []
     while part.left:
         ready += [(chunk.numbers[index], measures) for index, measures in part.take(LOOK)]
-        if not asked and stream.wants_more:
-            asked = True
+        if not request_sent and stream.wants_more:
+            request_sent = True
             more()
         if ready and time.perf_counter() - sent > SEND_INTERVAL:
             send((chunk.name, pack(ready)))

@@ -72,6 +72,6 @@ def animate(
                 )
     duration = float(loaded.time[-1])
     doubt = doubt_of(loaded)
-    found = {"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label, "doubt": doubt}
-    if not execution.emits(found):
+    summary = {"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label, "doubt": doubt}
+    if not execution.emits(summary):
         console.say(f"{loaded.sentence} {doubt}".rstrip(), {"film": f"{duration:.2f} s, {to}"}, [target])

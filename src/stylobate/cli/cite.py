@@ -28,19 +28,19 @@ def cite(
 
     given = [
         name
-        for name, one in (("RESULT", result), ("`model`", model), ("`all`", everything))
-        if one not in (None, False)
+        for name, value in (("RESULT", result), ("`model`", model), ("`all`", everything))
+        if value not in (None, False)
     ]
     if len(given) > 1:
         raise InputError(f"{' and '.join(given)} are both given; give one of RESULT, `model` and `all`.", "result")
-    found = _citation(result, model, everything)
+    citation = _citation(result, model, everything)
     with execution.files("cite", "citation.txt", "citation.bib") as files:
         if files.wanted:
-            files.append(console.write_text(files / "citation.txt", found.text))
-            files.append(console.write_text(files / "citation.bib", found.bibtex))
-    if execution.emits(found.summary() | {"files": files.names}):
+            files.append(console.write_text(files / "citation.txt", citation.text))
+            files.append(console.write_text(files / "citation.bib", citation.bibtex))
+    if execution.emits(citation.summary() | {"files": files.names}):
         return
-    print(found.bibtex if bibtex else found.text)
+    print(citation.bibtex if bibtex else citation.text)
     if not given and not bibtex:
         print("\nFor what a result rests on: stylobate cite RESPONSE.nc; for a model: --model NAME; BibTeX: --bibtex.")
 

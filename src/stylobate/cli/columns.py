@@ -36,23 +36,23 @@ def columns(
 
     known = [known_column(name) for name in which or PRESETS] if catalogue else []
     chosen: list[Any] = [load_structure(name) for name in which or PRESETS]
-    other = next((one for one in chosen if one.stack is None), None)
+    other = next((stone for stone in chosen if stone.stack is None), None)
     if execution.out is not None and other is not None:
         raise InputError(
             f"`out` writes column files, and {other.name!r} is {other.described}; leave one of the two out.",
             "out",
         )
-    names = [f"{Path(one.name).name or 'column'}.toml" for one in chosen]
+    names = [f"{Path(stone.name).name or 'column'}.toml" for stone in chosen]
     double = next((name for name in names if names.count(name) > 1), None)
     if execution.out is not None and double is not None:
         raise InputError(f"two of the columns would be written to {double}; give each a name of its own.", "columns")
     with execution.files("columns", *names) as files:
         if files.wanted:
-            files += [write_column(one, files / name) for one, name in zip(chosen, names)]
-    listed = {"catalogue": [one.to_dict() for one in known]} if catalogue else {}
+            files += [write_column(stone, files / name) for stone, name in zip(chosen, names)]
+    listed = {"catalogue": [preset.to_dict() for preset in known]} if catalogue else {}
     if execution.emits(
         {
-            "columns": [properties(one) if one.stack is not None else parts_of(one) for one in chosen],
+            "columns": [properties(stone) if stone.stack is not None else parts_of(stone) for stone in chosen],
             **listed,
             "files": files.names,
         }
@@ -60,9 +60,9 @@ def columns(
         return
     if catalogue:
         _print_catalogue(known)
-    for name, one in zip(which or PRESETS, () if catalogue else chosen):
-        facts = _facts(one) if one.stack is not None else _assembled(one)
-        console.say(one.name, facts | (_sourced(CATALOGUE[name]) if which and name in CATALOGUE else {}))
+    for name, structure in zip(which or PRESETS, () if catalogue else chosen):
+        facts = _facts(structure) if structure.stack is not None else _assembled(structure)
+        console.say(structure.name, facts | (_sourced(CATALOGUE[name]) if which and name in CATALOGUE else {}))
     console.print_files(files)
 
 
@@ -72,8 +72,8 @@ def _print_catalogue(known: list[KnownColumn]) -> None:
 
     from . import console
 
-    def shown(one: KnownColumn, name: str) -> str:
-        figure = one.figures[name]
+    def shown(column: KnownColumn, name: str) -> str:
+        figure = column.figures[name]
         return f"{figure.value:.4g}" + ("" if figure.measured else "*")
 
     heads = {
@@ -84,8 +84,8 @@ def _print_catalogue(known: list[KnownColumn]) -> None:
         "density": "kg/m³",
     }
     rows = [
-        {"column": one.name} | {head: shown(one, name) for name, head in heads.items()} | {"what": one.title}
-        for one in known
+        {"column": column.name} | {head: shown(column, name) for name, head in heads.items()} | {"what": column.title}
+        for column in known
     ]
     console.print_table(pandas.DataFrame(rows))
     print(
@@ -97,7 +97,7 @@ def _sourced(known: KnownColumn) -> dict[str, str]:
     """Figures of a preset with their sources, and the sources."""
     from ..bibliography import bibliography
 
-    figures = {f"its {name.replace('_', ' ')}": one.text for name, one in known.figures.items()}
+    figures = {f"its {name.replace('_', ' ')}": figure.text for name, figure in known.figures.items()}
     return (
         {"what": known.title}
         | figures
@@ -113,15 +113,15 @@ def parts_of(structure: Structure) -> dict:
         [part.mesh(48).vertices for body in structure.bodies if not body.fixed for part in body.placed]
     )
     moving = [body for body in structure.bodies if not body.fixed]
-    heaviest = max(moving, key=lambda one: one.mass)
+    heaviest = max(moving, key=lambda body: body.mass)
     joints = structure.joined_faces
     return {
         "name": structure.name,
         "kind": structure.kind,
-        "bodies": [{"name": one.name, "mass_kg": one.mass} for one in moving],
+        "bodies": [{"name": body.name, "mass_kg": body.mass} for body in moving],
         "fixed": [body.name for body in structure.bodies if body.fixed],
         "joints": len(joints),
-        "mass_kg": sum(one.mass for one in moving),
+        "mass_kg": sum(body.mass for body in moving),
         "heaviest": heaviest.name,
         "heaviest_mass_kg": heaviest.mass,
         "height_m": structure.height,
@@ -135,11 +135,11 @@ def parts_of(structure: Structure) -> dict:
 def _assembled(structure: Structure) -> dict[str, str]:
     p = parts_of(structure)
     fixed = [name for name in p["fixed"] if name != "ground"]
-    held = f", {len(fixed)} fixed" if fixed else ""
+    fixed_words = f", {len(fixed)} fixed" if fixed else ""
     x, y, z = p["extent_m"]
     return {
         "kind": p["kind"],
-        "bodies": f"{len(p['bodies'])} that can move{held}",
+        "bodies": f"{len(p['bodies'])} that can move{fixed_words}",
         "joints": f"{p['joints']}",
         "height": f"{p['height_m']:g} m",
         "extent": f"{x:.4g} m along x, {y:.4g} m along y, {z:.4g} m along z",
@@ -220,11 +220,11 @@ def _stone(structure: Structure) -> dict[str, str]:
 
 def _resistance_words(link: dict) -> str:
     """Resistance of a link, in words."""
-    held = []
+    capacities = []
     for kind, name in (("shear", "shear"), ("tension", "axial")):
         if capacity := link[f"{name}_capacity_n"]:
-            held.append(f"{capacity / 1e3:.4g} kN in {kind}")
-    limit = f"holds {' and '.join(held)}" if held else "without a limit"
+            capacities.append(f"{capacity / 1e3:.4g} kN in {kind}")
+    limit = f"holds {' and '.join(capacities)}" if capacities else "without a limit"
     pulled = f", pretensioned with {link['pretension_n'] / 1e3:.4g} kN" if link["pretension_n"] else ""
     return f"{limit}{pulled}" + (f"; {link['governs']}" if link["governs"] else "")
 
@@ -251,7 +251,7 @@ def _as_found(column: Column) -> dict[str, str]:
         towards = f"towards azimuth {azimuth:g}°" if azimuth else "to the right"
         facts["as found, base"] = f"slopes by {column.as_found.base_tilt:g}°, up {towards}"
     for drum in column.as_found.drums:
-        said = [
+        phrases = [
             f"{word} {getattr(drum, name):g} {unit}" + _azimuth(drum, name)
             for name, word, unit in (("offset", "offset", "m"), ("tilt", "tilted", "degrees"))
             if getattr(drum, name) != 0.0
@@ -259,8 +259,8 @@ def _as_found(column: Column) -> dict[str, str]:
         for name, word, towards in CHIPPED:
             if size := getattr(drum, name):
                 azimuth = (drum.chip_azimuth + towards) % 360.0
-                said.append(f"chipped {f'towards {azimuth:g}°' if drum.chip_azimuth else word} by {size:g} m")
-        said += [f"turned by {drum.turn:g} degrees"] if drum.turn else []
-        if said:
-            facts[f"as found, drum {drum.drum}"] = ", ".join(said)
+                phrases.append(f"chipped {f'towards {azimuth:g}°' if drum.chip_azimuth else word} by {size:g} m")
+        phrases += [f"turned by {drum.turn:g} degrees"] if drum.turn else []
+        if phrases:
+            facts[f"as found, drum {drum.drum}"] = ", ".join(phrases)
     return facts

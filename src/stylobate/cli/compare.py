@@ -72,10 +72,10 @@ def compare(
         if following.whole:
             raise InputError("`whole` is for records, and a domain has none; leave it out.", "whole")
         grid = frequency_range(frequencies), amplitude_range(amplitudes), duration
-        each = [one for name in names for one in (f"domain-{_stem(name)}.nc", f"domain-{_stem(name)}")]
+        each = [file_name for name in names for file_name in (f"domain-{_stem(name)}.nc", f"domain-{_stem(name)}")]
         with execution.files("compare", "comparison.csv", "comparison", *each) as files:
-            with files.campaign(campaign, "cells") as asked:
-                domains = compare_domains(stone, chosen, *grid, labels=names, campaign=asked)
+            with files.campaign(campaign, "cells") as tracked_campaign:
+                domains = compare_domains(stone, chosen, *grid, labels=names, campaign=tracked_campaign)
             if files.wanted:
                 _write_domains(domains, files)
                 files.write_request(**what, duration_s=grid[2])
@@ -86,9 +86,11 @@ def compare(
         shaking = motions.request().motion(stone.frequency_parameter)
         each = [f"response-{_stem(name)}.nc" for name in names]
         with execution.files("compare", "comparison.csv", "comparison", *WRITES, *each) as files:
-            places = [files / one for one in each] if files.wanted else []
-            with files.campaign(campaign.of_runs, "models") as asked:
-                comparison = compare_models(stone, shaking, chosen, labels=names, files=places, campaign=asked)
+            places = [files / file_name for file_name in each] if files.wanted else []
+            with files.campaign(campaign.of_runs, "models") as tracked_campaign:
+                comparison = compare_models(
+                    stone, shaking, chosen, labels=names, files=places, campaign=tracked_campaign
+                )
             designed = design_values(comparison)
             if files.wanted:
                 from .. import plots
@@ -99,10 +101,10 @@ def compare(
                 write_design(designed, files)
                 files.write_request(**what, motions=[shaking])
         runs = [
-            response.summary() | {"left_out": o.input_facts(one.taken(shaking))["left_out"]}
-            for one, response in zip(chosen, comparison.responses, strict=True)
+            response.summary() | {"left_out": o.input_facts(model.taken(shaking))["left_out"]}
+            for model, response in zip(chosen, comparison.responses, strict=True)
         ]
-        shared = keep_axes(shaking, "".join(one.axes for one in chosen))  # what some of the models take
+        shared = keep_axes(shaking, "".join(model.axes for model in chosen))  # what some of the models take
         table, facts = comparison.table, o.input_lines(shared)
         result |= o.input_facts(shared) | {"runs": runs, "design_values": designed.to_dict("records")}
     result["files"] = files.names
@@ -114,8 +116,10 @@ def compare(
     if over_domain:
         console.print_table(table)
     else:
-        told = table.drop(columns="bodies", errors="ignore")  # each has measures of its own, which the files hold
-        console.print_side_by_side(told)
+        shown_table = table.drop(
+            columns="bodies", errors="ignore"
+        )  # each has measures of its own, which the files hold
+        console.print_side_by_side(shown_table)
         describe_design(designed)
     console.print_files(files)
 

@@ -152,7 +152,7 @@ def _width() -> int:
 def _as_text(value: Any) -> str:
     """A value of a table for people."""
     if isinstance(value, (list, tuple)):
-        return " ".join(_as_text(one) for one in value) or MISSING
+        return " ".join(_as_text(element) for element in value) or MISSING
     if value is None or value == "" or (isinstance(value, float) and math.isnan(value)):
         return MISSING
     return f"{value:.4g}" if isinstance(value, float) else str(value)
@@ -172,9 +172,9 @@ MOST_LEFT_OUT = 12
 
 def print_left_out(inputs: Sequence[Mapping[str, Any]]) -> None:
     """Say what of the motions the model does not take."""
-    left_out = [one for one in inputs if one["left_out"]]
-    for one in left_out[:MOST_LEFT_OUT]:
-        print(f"left out of {one['motion']}: {'; '.join(one['left_out'])}")
+    left_out = [facts for facts in inputs if facts["left_out"]]
+    for entry in left_out[:MOST_LEFT_OUT]:
+        print(f"left out of {entry['motion']}: {'; '.join(entry['left_out'])}")
     if len(left_out) > MOST_LEFT_OUT:
         print(f"and of {len(left_out) - MOST_LEFT_OUT} more motions; --json names all of them")
 
@@ -306,11 +306,11 @@ class Lines:
 
     def __call__(self, done: float, total: float) -> None:
         """So many are done, of so many."""
-        left, now = self.pace.remaining(done, total), time.monotonic()
+        time_left, now = self.pace.remaining(done, total), time.monotonic()
         if now - self.began < self.due or done <= max(self.told, 0.0) or done >= total:
             return
         self.due, self.told = 1.5 * (now - self.began), done
-        to_go = "" if left is None else f", about {left} to go"
+        to_go = "" if time_left is None else f", about {time_left} to go"
         so_far = f"{done:.0f}" if float(done).is_integer() else f"{done:.3g}"
         logging.getLogger("stylobate").info("%s of %.10g %s%s.", so_far, total, self.title, to_go)
 
@@ -332,8 +332,8 @@ def progress(title: str) -> Iterator[Callable[[float, float], None]]:
         task, pace = bar.add_task(title, total=None, left=""), Pace()
 
         def update(done: float, total: float) -> None:
-            left = pace.remaining(done, total)
-            bar.update(task, completed=done, total=total, left="" if left is None else f"about {left} to go")
+            time_left = pace.remaining(done, total)
+            bar.update(task, completed=done, total=total, left="" if time_left is None else f"about {time_left} to go")
 
         yield update
 
@@ -349,9 +349,9 @@ def length(value: float) -> str:
 
 def _finite(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return {str(key): _finite(one) for key, one in value.items()}
+        return {str(key): _finite(element) for key, element in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_finite(one) for one in value]
+        return [_finite(element) for element in value]
     if isinstance(value, float) and not math.isfinite(value):
         return None
     if isinstance(value, Path):

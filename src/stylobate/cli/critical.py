@@ -74,8 +74,8 @@ def critical(
         make = partial(critical_amplitude, stone, shaking, how, *grid, nominal=nominal)
         make.keywords["twin_amplitudes"] = None if given else TWIN_AMPLITUDES
     with execution.files("critical", "critical.csv", "critical.json", "critical", *writes) as files:
-        with files.campaign(campaign) as asked:
-            result: Any = make(campaign=asked)
+        with files.campaign(campaign) as tracked_campaign:
+            result: Any = make(campaign=tracked_campaign)
         summary = result.summary() | ({"refused": suite.refused} if request.several else o.input_facts(taken[0]))
         if files.wanted:
             (write_suite if request.several else write)(result, summary, files)

@@ -31,8 +31,10 @@ class Grid(o.Group):
         from ..motion.specs import amplitude_range, frequency_range
 
         if Path(what).is_file() and is_grid(what):
-            given = {"set" if name == "settings" else name: one for name, one in (vars(self) | vars(modelling)).items()}
-            if (name := next((name for name, one in given.items() if one is not None), None)) is not None:
+            given = {
+                "set" if name == "settings" else name: value for name, value in (vars(self) | vars(modelling)).items()
+            }
+            if (name := next((name for name, value in given.items() if value is not None), None)) is not None:
                 raise InputError(f"{what} is a study file and `{name}` is given as well; state it in the file.", name)
             return read_grid(what)
         for name, example in (("frequencies", "0.33:4:24"), ("amplitudes", "0.05g:0.6g:32")):
@@ -83,20 +85,20 @@ def domain(
         o.for_replicates("motion_scatter", motion_scatter)
     name, pair = "probability" if likely else "domain", None
     with execution.files("domain", *(f"{name}{end}" for end in (".nc", ".csv", ".json", ""))) as files:
-        with files.campaign(campaign, "runs" if likely else "cells") as asked:
+        with files.campaign(campaign, "runs" if likely else "cells") as tracked_campaign:
             if likely:
                 result: Any = collapse_probability(
-                    *grid, motion_scatter=motion_scatter, out=files.folder, campaign=asked
+                    *grid, motion_scatter=motion_scatter, out=files.folder, campaign=tracked_campaign
                 )
             elif half_step:
-                pair = compare_steps(*grid, campaign=asked)
+                pair = compare_steps(*grid, campaign=tracked_campaign)
                 result = pair.domain
             else:
-                result = collapse_domain(*grid, campaign=asked)
+                result = collapse_domain(*grid, campaign=tracked_campaign)
         summary = result.summary() | ({"half_step": pair.summary()} if pair else {})
         summary["doubt"] = caveat([study.column], study.model)
         if not result.complete:
-            raise Stopped(summary["runs"], summary["runs"] + summary["not_run"], asked.ledger)
+            raise Stopped(summary["runs"], summary["runs"] + summary["not_run"], tracked_campaign.ledger)
         if files.wanted:
             (write_probability if likely else write)(result, summary, files)
             files.write_request(
@@ -172,9 +174,9 @@ def describe(result: Domain, files: list[Path]) -> None:
     sentence = f"{counts['collapsed']} of {cells} cells collapse, {counts['stands']} stand."
     cure = to_decide(result.column, result.provenance["parameters"], float(result.provenance["tail"]))
     far = f"ended far from rest ({cure})"
-    for one, meaning in (("undecided", far), ("failed", "could not be computed")):
-        if counts[one]:
-            sentence += f" {counts[one]} {meaning} and are not counted as collapse."
+    for outcome, meaning in (("undecided", far), ("failed", "could not be computed")):
+        if counts[outcome]:
+            sentence += f" {counts[outcome]} {meaning} and are not counted as collapse."
     f, a = result.frequencies, result.amplitudes / g
     facts = {
         "column": result.column.name,

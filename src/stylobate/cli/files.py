@@ -62,13 +62,13 @@ class Files(list[Path]):
 
     @contextmanager
     def campaign(
-        self, asked: Campaign, title: str = "runs", *, in_folder: bool = False, waits: bool = False
+        self, campaign: Campaign, title: str = "runs", *, in_folder: bool = False, waits: bool = False
     ) -> Iterator[Campaign]:
         """What is asked for, with the ledger of the folder and a bar of progress while it is under way.
 
         Parameters
         ----------
-        asked : Campaign
+        campaign : Campaign
         title : str
             What is counted.
         in_folder : bool
@@ -78,7 +78,7 @@ class Files(list[Path]):
         """
         ledger = console.ledger(self.folder, waits=waits)
         with console.progress(title) as progress:
-            yield dataclasses.replace(asked, ledger=None if in_folder else ledger, progress=progress)
+            yield dataclasses.replace(campaign, ledger=None if in_folder else ledger, progress=progress)
 
     def table(self, table: pandas.DataFrame, name: str) -> None:
         """Write a table as CSV."""
@@ -115,18 +115,18 @@ class Files(list[Path]):
 
         assert self.folder is not None
         earlier = what.pop("earlier", ())
-        found = CommandRequest.of(console.COMMAND, **what)
-        if self.before is not None and not self.replaces and not found.holds(self.before):
+        request = CommandRequest.of(console.COMMAND, **what)
+        if self.before is not None and not self.replaces and not request.holds(self.before):
             self.replaces = True
             console.note(_replaced(self.folder, self.before, " of what its files held then"))
         others = others_in(self.folder, self.command)
-        if others and not any(Path(one["path"]).resolve() == self.folder.resolve() for one in found.sources):
+        if others and not any(Path(source["path"]).resolve() == self.folder.resolve() for source in request.sources):
             console.note(
                 f"{self.folder} holds the result of {' and '.join(others)} too, and a report of the folder tells all of "
                 "them; give each result an `out` of its own to keep them apart."
             )
-        found = dataclasses.replace(found, warnings=(*earlier, *console.WARNED))
-        self.json(found.to_dict(), asked_file(self.command))
+        request = dataclasses.replace(request, warnings=(*earlier, *console.WARNED))
+        self.json(request.to_dict(), asked_file(self.command))
 
     def summary(self, result: dict[str, Any], name: str) -> None:
         """Write the JSON object of the command, which lists its files, as the last of them."""
@@ -158,34 +158,34 @@ def files(out: Path | None, command: str, *writes: str) -> Iterator[Files]:
                     f"warning: {folder} holds the result of {' and '.join(others)}, and its {', '.join(names)} may be "
                     "replaced; give another `out` to keep both."
                 )
-        found = Files(command, folder, before)
-        if before is not None and found.replaces:
+        output = Files(command, folder, before)
+        if before is not None and output.replaces:
             console.note(_replaced(folder, before))
-        yield found
-        if found.replaces:  # what the other question had and this one has not would be taken for a part of its result
+        yield output
+        if output.replaces:  # what the other question had and this one has not would be taken for a part of its result
             own = OwnFiles(folder)
             for name in console.file_names(writes):
-                if folder / name not in found:
+                if folder / name not in output:
                     own.remove(folder / name)
 
 
 def _question(words: Sequence[str]) -> list[str]:
     """The words of a command line that say what is asked."""
-    found, left = [], iter(words)
-    for word in left:
+    question, remaining = [], iter(words)
+    for word in remaining:
         name, equals, _ = word.partition("=")
         if name not in ELSEWHERE:
-            found.append(word)
+            question.append(word)
         elif ELSEWHERE[name] and not equals:
-            next(left, None)
-    return found
+            next(remaining, None)
+    return question
 
 
-def _replaced(folder: Path, before: CommandRequest, held: str = "") -> str:
+def _replaced(folder: Path, before: CommandRequest, detail: str = "") -> str:
     """What is said where the result of another question is replaced."""
     line = shlex.join(("stylobate", *before.command))
     return (
-        f"warning: {folder} held the result of another question, asked on {before.day}{held}: '{line}'. The new result "
+        f"warning: {folder} held the result of another question, asked on {before.day}{detail}: '{line}'. The new result "
         "replaces it; give another `out` to keep both (finished runs in the folder serve either)."
     )
 
@@ -221,28 +221,28 @@ def describe_design(values: pandas.DataFrame) -> None:
     words = f"{where(values)}: not exceeded under 84 % of the motions, with the 95 % interval {basis_of(values)}."
     if len(worst := worst_of(values)):
         print(f"Design values{words}")
-        some = as_read(worst.groupby("state", sort=False).head(6))
-        told: dict[str, Any] = {key: some[key] for key in ("state", *level, "link", "quantity", "unit")}
-        told |= {"84 %": some["value_84"], "from": some["low_84"], "to": some["high_84"]}
-        told |= {
-            "over capacity": some["use_value_84"],
-            "at most": some["use_high_84"],
-            "limited by": some["limited_by"],
+        rows = as_read(worst.groupby("state", sort=False).head(6))
+        table: dict[str, Any] = {key: rows[key] for key in ("state", *level, "link", "quantity", "unit")}
+        table |= {"84 %": rows["value_84"], "from": rows["low_84"], "to": rows["high_84"]}
+        table |= {
+            "over capacity": rows["use_value_84"],
+            "at most": rows["use_high_84"],
+            "limited by": rows["limited_by"],
         }
-        told |= {"at [s]": some["instant_84_s"], "towards [°]": some["azimuth_84_deg"]}
-        console.print_table(pandas.DataFrame(told), digits=3)
-        if not np.isfinite(some["high_84"].to_numpy(dtype=float)).all():
+        table |= {"at [s]": rows["instant_84_s"], "towards [°]": rows["azimuth_84_deg"]}
+        console.print_table(pandas.DataFrame(table), digits=3)
+        if not np.isfinite(rows["high_84"].to_numpy(dtype=float)).all():
             print(OPEN)
-        if len(some) < len(worst):
+        if len(rows) < len(worst):
             print(
-                f"{len(some)} of {len(worst)} rows, of the links used most; design.csv in --out has all, at every level."
+                f"{len(rows)} of {len(worst)} rows, of the links used most; design.csv in --out has all, at every level."
             )
     if len(wide := clearances(values)):
         print(f"Clearance that layers need [m]{words}")
-        told = {key: wide[key] for key in ("state", *level, "link")} | {
+        table = {key: wide[key] for key in ("state", *level, "link")} | {
             "84 %": wide["value_84"],
             "from": wide["low_84"],
         }
-        console.print_table(pandas.DataFrame(told | {"to": wide["high_84"]}), digits=3)
+        console.print_table(pandas.DataFrame(table | {"to": wide["high_84"]}), digits=3)
     if level:
         print(WHICH_LEVEL)

@@ -43,16 +43,18 @@ class Curves(o.Group):
         if not 0 <= self.seed < 2**63:
             raise InputError(f"`seed` is {self.seed}; allowed is a whole number from 0.", "seed")
         how = {"method": method, "seed": self.seed, "records_are_one": self.records_are_one}
-        found, used = fitted(sources, self.im, self.state, self.of, single=single, **how)
-        told = [text for source in used if source.asked is not None for text in source.asked.warnings if DRIFTS in text]
-        for text in dict.fromkeys(told) if any("pgv" in one.summary()["im"] for one in found) else ():
+        curves, used = fitted(sources, self.im, self.state, self.of, single=single, **how)
+        warnings = [
+            text for source in used if source.asked is not None for text in source.asked.warnings if DRIFTS in text
+        ]
+        for text in dict.fromkeys(warnings) if any("pgv" in curve.summary()["im"] for curve in curves) else ():
             warn(text)
-        return found, used
+        return curves, used
 
     def one(self, source: Path) -> tuple[Fragility, list[Source]]:
         """The one fragility of a source, for commands that go on from it, and the runs that it rests on."""
-        (found,), used = self.fitted([source], single=True)
-        return found, used
+        (curve,), used = self.fitted([source], single=True)
+        return curve, used
 
 
 def fragility(
@@ -61,7 +63,7 @@ def fragility(
         "Folder of a study, an IDA, a suite or states, or a CSV file with the columns record, im, collapsed.",
     ),
     *,
-    asked: Curves,
+    curves: Curves,
     method: str | None = o.option("M", "runs: every run counts; records: the capacity under each record."),
     nrml: Path | None = o.option("FILE.xml", "Write the curves as NRML 0.5, for OpenQuake; nothing may be there."),
     execution: o.Plain,
@@ -76,11 +78,11 @@ def fragility(
 
     if nrml is not None:
         check_nrml(nrml)
-    found, used = asked.fitted(sources, method)
-    summaries = [one.summary() for one in found]
-    result = summaries[0] | ({"curves": summaries} if len(found) > 1 else {})
+    fragilities, used = curves.fitted(sources, method)
+    summaries = [curve.summary() for curve in fragilities]
+    result = summaries[0] | ({"curves": summaries} if len(fragilities) > 1 else {})
     if nrml is not None:
-        result |= {"nrml": str(write_nrml(found, nrml))}
+        result |= {"nrml": str(write_nrml(fragilities, nrml))}
     with execution.files("fragility", "fragility.csv", "fragility.json", "fragility") as files:
         if files.wanted:
             import pandas
@@ -92,39 +94,39 @@ def fragility(
                 for summary in summaries
             ]
             files.table(pandas.DataFrame(rows), "fragility.csv")
-            files.picture(plots.draw_fragility(found), "fragility")
-            files.write_request(**kept_of(used), state=asked.state, im=asked.im, method=method)
+            files.picture(plots.draw_fragility(fragilities), "fragility")
+            files.write_request(**kept_of(used), state=curves.state, im=curves.im, method=method)
             files.summary(result, "fragility.json")
     if execution.emits(result):
         return
-    for doubt in dict.fromkeys(one.evidence.doubt for one in found if one.evidence.doubt):
+    for doubt in dict.fromkeys(curve.evidence.doubt for curve in fragilities if curve.evidence.doubt):
         print(doubt)
-    for one in found:
-        describe(one)
+    for fragility_curve in fragilities:
+        describe(fragility_curve)
     if nrml is not None:
         print(f"written: {nrml}")
     console.print_files(files)
 
 
-def describe(found: Fragility) -> None:
+def describe(curve: Fragility) -> None:
     """A curve in words."""
     from ..probability.fragility import between
     from ..verdicts.limit_states import known_end, median_words, within
     from . import console
 
-    s = found.summary()
+    s = curve.summary()
     unit = "" if s["unit"] == "-" else f" {s['unit']}"
-    counts = [f"{s[one]} {one}" for one in ("undecided", "failed") if s[one]]
+    counts = [f"{s[outcome]} {outcome}" for outcome in ("undecided", "failed") if s[outcome]]
     open_ = ""
     if counts:
-        low, high = (within(known_end(s, one), s["levels"]) for one in ("if_open_exceed", "if_open_do_not"))
+        low, high = (within(known_end(s, bound), s["levels"]) for bound in ("if_open_exceed", "if_open_do_not"))
         open_ = f"; with the {' and '.join(counts)} all exceeding it {low}, all not exceeding it {high}"
     known = median_words(s) if s["outside"] else f"{s['median']:.4g}{unit}"
     median = f"{known} (95 %: {between(s['median_low'], s['median_high'])}){open_}"
     if s.get("laws"):
         alone = between(s["median_of_columns_low"], s["median_of_columns_high"])
         median += f"; by records and columns alone {alone}, the rest by the law of the joints"
-        median += f" ({found.few_laws})" if found.few_laws else ""
+        median += f" ({curve.few_laws})" if curve.few_laws else ""
     limits = between(s["beta_low"], s["beta_high"], digits=2)
     spread = f"not seen in these runs (95 %: {limits})" if s["beta"] is None else f"{s['beta']:.3f} (95 %: {limits})"
     records = ", each taken for a record of its own" if s["records_are_one"] else f" of {s['records']} records"

@@ -48,14 +48,14 @@ def ida(
     known = facts_of_records(about, sources, records.motions)
     names = "runs.csv", "capacities.csv", "fractiles.csv", "measures.csv", "ida.json", "ida", "measures"
     with execution.files("ida", *names) as files:
-        with files.campaign(campaign) as asked:
-            found = analyse(
+        with files.campaign(campaign) as tracked_campaign:
+            analysis = analyse(
                 stone, records.motions, how, measure, levels=stripes, runs=runs, largest_factor=largest, about=known,
-                watch=console.show, campaign=asked,
+                watch=console.show, campaign=tracked_campaign,
             )  # fmt: skip
-        curves = found.curves(edp)
-        best = which_tells_most(found.runs, edp=edp)
-        result = found.summary() | {
+        curves = analysis.curves(edp)
+        best = which_tells_most(analysis.runs, edp=edp)
+        result = analysis.summary() | {
             "edp": edp,
             "measures": best.astype(object).where(best.notna(), None).to_dict("records"),
             "refused": records.refused,
@@ -63,10 +63,10 @@ def ida(
         if files.wanted:
             from .. import plots
 
-            files.table(found.runs, "runs.csv")
-            files.table(found.capacities, "capacities.csv")
-            files.table(found.fractiles(edp), "fractiles.csv")
-            files.picture(plots.draw_ida(found, edp), "ida")
+            files.table(analysis.runs, "runs.csv")
+            files.table(analysis.capacities, "capacities.csv")
+            files.table(analysis.fractiles(edp), "fractiles.csv")
+            files.picture(plots.draw_ida(analysis, edp), "ida")
             if len(best):
                 files.table(best, "measures.csv")
                 files.picture(plots.draw_efficiency(best), "measures")
@@ -75,7 +75,7 @@ def ida(
                 "models": [how],
                 "motions": [how.taken(motion) for motion in records.motions],
             }
-            files.write_request(**what, runs=found.runs, im=measure.name, edp=edp, tail_s=campaign.tail)
+            files.write_request(**what, runs=analysis.runs, im=measure.name, edp=edp, tail_s=campaign.tail)
             files.summary(result, "ida.json")
     if execution.emits(result):
         return
@@ -88,7 +88,7 @@ def ida(
         "resurrections": f"{console.counted(result['resurrections'], 'run')} above a collapse that stand, in "
         f"{console.counted(result['curves_with_resurrections'], 'curve')}",
     }
-    if (drawn := found.twins) is not None:
+    if (drawn := analysis.twins) is not None:
         facts[f"{drawn.like} like this"] = drawn.words
     if result["undecided"] or result["failed"]:
         facts["open"] = (

@@ -54,8 +54,8 @@ def limit(
             all_round = limit_directions(stone, azimuths, progress=progress, **loads) if around else None
         plane = all_round is None or all_round.dims == "xz"
         weakest = 0.0 if all_round is None else all_round.weakest.azimuth
-        found = limit_analysis(stone, flow=flow, direction=weakest, **loads) if plane else None
-        summary = {} if found is None else found.summary()
+        plane_limit = limit_analysis(stone, flow=flow, direction=weakest, **loads) if plane else None
+        summary = {} if plane_limit is None else plane_limit.summary()
         if all_round is not None:
             summary = all_round.summary() | summary
         if summary["links"]:
@@ -65,8 +65,8 @@ def limit(
             from ..statics.limit import towards
 
             files.json(summary, "limit.json")
-            if found is not None:
-                files.picture(plots.draw_mechanism(towards(stone, weakest), found), "limit")
+            if plane_limit is not None:
+                files.picture(plots.draw_mechanism(towards(stone, weakest), plane_limit), "limit")
             if all_round is not None:
                 files.picture(plots.draw_limit_directions(all_round, stone.name), "directions")
             files.write_request(structures=[stone], **({"flow": flow} if stone.stack is not None else {}), **loads)
@@ -95,12 +95,12 @@ def limit(
                 "fell at up to a fifth less"
             )
         facts["strongest direction"] = f"{all_round.azimuths[most]:g} degrees: {all_round.multipliers[most]:.4g} g"
-    if found is not None:
+    if plane_limit is not None:
         facts |= {
-            "static and kinematic bound": f"{found.lower:.6g} and {found.upper:.6g} g",
-            "mechanism": "; ".join(f"joint {item.joint} {item.mode}" for item in found.active)
+            "static and kinematic bound": f"{plane_limit.lower:.6g} and {plane_limit.upper:.6g} g",
+            "mechanism": "; ".join(f"joint {item.joint} {item.mode}" for item in plane_limit.active)
             + (", seen from behind" if weakest else ""),
-            "joints at their strength": ", ".join(map(str, found.at_limit)),
+            "joints at their strength": ", ".join(map(str, plane_limit.at_limit)),
         }
     names = [link["link"] for link in summary["links"]]
     for link in summary["links"]:

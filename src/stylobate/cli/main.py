@@ -47,7 +47,7 @@ from .options import WIDTH, Command, takes
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
 
 # Base of typer's own complaints about a command line.
-_UsageError: type[Exception] = next(one for one in typer.BadParameter.__mro__ if one.__name__ == "ClickException")
+_UsageError: type[Exception] = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
 
 app = typer.Typer(
     name="stylobate",
@@ -139,7 +139,7 @@ def parameters(name: str) -> dict[str, Any]:
     if (command := commands().commands.get(name)) is None:
         place = missing("commands", name)
         raise InputError(f"{name} is a command of {place}" if place else f"there is no command {name!r}.")
-    return {one.opts[0].strip("-").replace("-", "_"): one for one in command.params}
+    return {parameter.opts[0].strip("-").replace("-", "_"): parameter for parameter in command.params}
 
 
 def run_request(request: Mapping[str, Any]) -> int:
@@ -156,11 +156,11 @@ def run_request(request: Mapping[str, Any]) -> int:
         for name in request.keys() - known.keys() - {"command"}:
             raise InputError(f"{request['command']} takes no {name!r}; leave it out.", name)
         values, context = {}, typer.Context(command)
-        for name, one in known.items():
-            value = one.get_default(context) if request.get(name) is None else request[name]
-            if value is None and one.required:
+        for name, parameter in known.items():
+            value = parameter.get_default(context) if request.get(name) is None else request[name]
+            if value is None and parameter.required:
                 raise InputError(f"`{name}` is missing; give it.", name)
-            values[one.name] = one.process_value(context, value)
+            values[parameter.name] = parameter.process_value(context, value)
         with context:
             command.callback(**values)
 
@@ -171,11 +171,11 @@ def words_of(request: Mapping[str, Any]) -> list[str]:
     """The command line that asks the same as a request, without the program's name: what has no flag comes first."""
     named, words, known = [request["command"]], [], parameters(request["command"])
     for name, value in request.items():
-        one, values = known.get(name), value if isinstance(value, list) else [value]
+        parameter, values = known.get(name), value if isinstance(value, list) else [value]
         flag = f"--{name.replace('_', '-')}"
         if isinstance(value, bool):
-            words += [flag] if value else getattr(one, "secondary_opts", [])[:1]
-        elif getattr(one, "param_type_name", "") == "argument":
+            words += [flag] if value else getattr(parameter, "secondary_opts", [])[:1]
+        elif getattr(parameter, "param_type_name", "") == "argument":
             named += values
         elif name != "command" and value is not None:
             words += [f"{flag}={text}" for text in values]
@@ -253,7 +253,7 @@ def _usage(error: Any) -> str:
     context, message = getattr(error, "ctx", None), " ".join(error.format_message().split()).rstrip(".")
     where = context.command_path if context is not None else "stylobate"
     kinds = {"valid integer": "a whole number", "valid number": "a number"}
-    for kind in (kinds[said] for said in kinds if said in message):
+    for kind in (kinds[phrase] for phrase in kinds if phrase in message):
         for place, word in enumerate(console.COMMAND):
             name, sign, value = word.partition("=")
             if name in error.param.opts and (sign or place + 1 < len(console.COMMAND)):

@@ -26,8 +26,8 @@ def materials(
     from . import console
 
     chosen = [material(name) for name in which] if which else list(MATERIALS.values())
-    lost = {name: dataclasses.asdict(one) | {"cited": one.cited} for name, one in LOST.items()}
-    summary: dict = {"materials": [one.to_dict() for one in chosen], "losses": lost, "files": []}
+    lost = {name: dataclasses.asdict(quantity) | {"cited": quantity.cited} for name, quantity in LOST.items()}
+    summary: dict = {"materials": [entry.to_dict() for entry in chosen], "losses": lost, "files": []}
     with execution.files("materials", "materials.json") as files:
         if files.wanted:
             files.json(summary, "materials.json")
@@ -35,12 +35,14 @@ def materials(
     if execution.emits(summary):
         return
     if which:
-        for one in chosen:
-            console.say(one.name, {name.replace("_", " "): _in_full(q) for name, q in (one.quantities | LOST).items()})
+        for stone in chosen:
+            console.say(
+                stone.name, {name.replace("_", " "): _in_full(q) for name, q in (stone.quantities | LOST).items()}
+            )
     else:
         import pandas
 
-        console.print_table(pandas.DataFrame([_row(one) for one in chosen]))
+        console.print_table(pandas.DataFrame([_row(entry) for entry in chosen]))
         print("Ranges in brackets. Sources and notes: stylobate materials 'marble, worn'. In a file: material = \"…\"")
     if summary["files"]:
         print(f"1 file in {summary['files'][0]}")

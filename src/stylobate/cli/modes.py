@@ -68,27 +68,27 @@ def modes(
             f"`measured` is of columns, and {stone.name!r} is {stone.described}; leave it out.", "measured"
         )
     with execution.files("modes", "modes.json", "drops.csv", "modes", "column.toml", "scatter.toml") as files:
-        found = modes_of(stone, how)
-        drops = frequency_drops(found, left, number) if stone.stack is not None else []
-        summary = found.summary(number) | {"left": left, "drops": drops}
+        natural_modes = modes_of(stone, how)
+        drops = frequency_drops(natural_modes, left, number) if stone.stack is not None else []
+        summary = natural_modes.summary(number) | {"left": left, "drops": drops}
         joints = None
         if frequencies is not None:
             joints = joints_from_frequencies(stone, frequencies, how, under, draws=DRAWS if draws is None else draws)
             summary["inferred"] = joints.summary()
-            summary["sentence"] = joined(" ", [found.sentence, joints.sentence])
+            summary["sentence"] = joined(" ", [natural_modes.sentence, joints.sentence])
         if files.wanted:
             from .. import plots
 
             if drops:
                 files.table(_table(drops), "drops.csv")
-            files.picture(plots.draw_modes(found, stone.name), "modes")
+            files.picture(plots.draw_modes(natural_modes, stone.name), "modes")
             if joints is not None:
                 _write_joints(files, joints)
             files.write_request(structures=[stone], models=[how], measured=measured, ground=ground)
             files.summary(summary, "modes.json")
     if execution.emits(summary):
         return
-    facts = _facts(found, number, drops, left) | ({} if joints is None else _inferred(joints))
+    facts = _facts(natural_modes, number, drops, left) | ({} if joints is None else _inferred(joints))
     console.say(summary["sentence"], facts, files)
 
 
@@ -97,7 +97,7 @@ def _table(drops: list[dict[str, Any]]) -> Any:
     import pandas as pd
 
     return pd.DataFrame(
-        [{"joint": row["joint"]} | {_called(one): one["drop"] for one in row["drops"]} for row in drops]
+        [{"joint": row["joint"]} | {_called(drop): drop["drop"] for drop in row["drops"]} for row in drops]
     )
 
 
@@ -107,9 +107,9 @@ def _called(mode: dict[str, Any]) -> str:
     return f"{mode['kind']} {mode['number']}" + ("" if towards is None else f" at {towards:.0f}°")
 
 
-def _facts(found: Modes, number: int, drops: list[dict[str, Any]], left: float) -> dict[str, str]:
+def _facts(natural_modes: Modes, number: int, drops: list[dict[str, Any]], share_left: float) -> dict[str, str]:
     """Frequencies, joints and drops for people."""
-    summary, facts = found.summary(number), {"model": found.model}
+    summary, facts = natural_modes.summary(number), {"model": natural_modes.model}
     for mode in summary["modes"]:
         unit = "rad" if mode["kind"] == "torsion" else "m"
         holds = mode[f"holds_to_{unit}"]
@@ -121,23 +121,23 @@ def _facts(found: Modes, number: int, drops: list[dict[str, Any]], left: float) 
         value = summary[name]
         if isinstance(value, float):
             facts[words] = f"{value:.4g} N/m³"
-        elif value and found.structure.stack is not None:
+        elif value and natural_modes.structure.stack is not None:
             facts[words] = f"{min(value):.4g} to {max(value):.4g} N/m³, from joint to joint"
-    if found.structure.stack is not None:
-        solid = found.solid_modulus / 1e9
+    if natural_modes.structure.stack is not None:
+        solid = natural_modes.solid_modulus / 1e9
         facts["bends as solid stone of"] = f"{solid.min():.3g} to {solid.max():.3g} GPa"
-    if found.doubt:
-        facts["mind"] = found.doubt
-    notes = found.standing.left_out
+    if natural_modes.doubt:
+        facts["mind"] = natural_modes.doubt
+    notes = natural_modes.standing.left_out
     if notes:
         more = f"; and {len(notes) - 3} more, in the JSON" if len(notes) > 3 else ""
         facts["at rest"] = "; ".join(notes[:3]) + more
-    if found.structure.stack is not None:
+    if natural_modes.structure.stack is not None:
         for row in drops:
             words = ", ".join(
-                f"{_called(one)} {100.0 * one['drop']:.2g} %" for one in row["drops"] if one["kind"] == "bending"
+                f"{_called(drop)} {100.0 * drop['drop']:.2g} %" for drop in row["drops"] if drop["kind"] == "bending"
             )
-            facts[f"{100.0 * left:g} % of {row['joint']} left"] = words
+            facts[f"{100.0 * share_left:g} % of {row['joint']} left"] = words
     return facts
 
 
@@ -146,8 +146,8 @@ def _inferred(joints: MeasuredJoints) -> dict[str, str]:
     facts = {}
     for name, words in (("joint_bending_stiffness", "k_b/J_A"), ("joint_shear_stiffness", "k_s")):
         sides = joints.bounded_by[name]
-        told = [f"{side} side by {which}" for side, which in sides.items() if which is not None]
-        facts[f"{words} bounded"] = ", ".join(told) or "by nothing measured"
+        bounds = [f"{side} side by {which}" for side, which in sides.items() if which is not None]
+        facts[f"{words} bounded"] = ", ".join(bounds) or "by nothing measured"
     if joints.open_words:
         facts["open"] = "; ".join(joints.open_words)
     return facts
@@ -159,7 +159,9 @@ def _write_joints(files: Any, joints: MeasuredJoints) -> None:
 
     tables, scatter = joints.tables(), joints.scatter
     if tables is not None:
-        measured = ", ".join(f"{one.name} {one.frequency:g} Hz ± {100.0 * one.spread:g} %" for one in joints.measured)
+        measured = ", ".join(
+            f"{mode.name} {mode.frequency:g} Hz ± {100.0 * mode.spread:g} %" for mode in joints.measured
+        )
         files.data(
             toml_text(tables, [f"Joints from measured frequencies: {measured}", joints.sentence]).encode(),
             "column.toml",

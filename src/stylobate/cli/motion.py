@@ -32,21 +32,21 @@ def motion(
         )
     if samples:
         return _list_samples(execution)
-    found = motions.request(motion=files).motion()
-    summary = motion_summary(found)
-    warn_of_drift(found)
+    record = motions.request(motion=files).motion()
+    summary = motion_summary(record)
+    warn_of_drift(record)
     with execution.files("motion", "motion.json", "motion.csv", "motion", "spectra") as written:
         if written.wanted:
             from .. import plots
             from ..motion.motion import write_csv
 
             written.json(summary, "motion.json")
-            written.append(write_csv(found, written / "motion.csv"))
-            written.picture(plots.draw_motion(found), "motion")
-            written.picture(plots.draw_spectra(found), "spectra")
+            written.append(write_csv(record, written / "motion.csv"))
+            written.picture(plots.draw_motion(record), "motion")
+            written.picture(plots.draw_spectra(record), "spectra")
             summary = summary | {"files": written.names}
     if not execution.emits(summary):
-        console.say(found.describe(), _facts(summary), written)
+        console.say(record.describe(), _facts(summary), written)
 
 
 def _list_samples(execution: o.Execution) -> None:
@@ -72,7 +72,7 @@ def _facts(summary: dict) -> dict[str, str]:
     facts = {}
     for key, value in summary.items():
         if isinstance(value, dict):  # an azimuth that is not known, and a label that is the axis, tell nothing
-            value = {axis: one for axis, one in value.items() if one is not None and one != axis}
+            value = {axis: entry for axis, entry in value.items() if entry is not None and entry != axis}
         if key in ("name", "files") or value in (None, [], {}):
             continue
         ending = next((unit for unit in _UNITS if key.endswith(unit)), "")
@@ -83,7 +83,7 @@ def _facts(summary: dict) -> dict[str, str]:
 
 def _text(value: object) -> str:
     if isinstance(value, dict):
-        return ", ".join(f"{key} {_text(one)}" for key, one in value.items() if one is not None)
+        return ", ".join(f"{key} {_text(entry)}" for key, entry in value.items() if entry is not None)
     if isinstance(value, list):
-        return ", ".join(_text(one) for one in value)
+        return ", ".join(_text(entry) for entry in value)
     return f"{value:.4g}" if isinstance(value, float) else str(value)

@@ -48,8 +48,8 @@ class Option:
             kind = str | None if default is None else str
         words: Any = {"metavar": self.metavar, "help": self.help, "autocompletion": self.complete}
         flag = f"--{name.replace('_', '-')}" if self.flag is None else self.flag
-        told = Annotated[kind, typer.Option(flag, **words) if flag else typer.Argument(**words)]
-        return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=told)
+        annotation = Annotated[kind, typer.Option(flag, **words) if flag else typer.Argument(**words)]
+        return inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
     def value(self, name: str, typed: Any) -> Any:
         """What is meant by what was typed for the option of that name, which errors are about."""
@@ -108,7 +108,7 @@ def takes(command: Callable[..., None], within: Callable[[], AbstractContextMana
             every: dict[str, Any] = {field.name: field.default for field in fields(kind)}
             left_out = {name: every.pop(name) for note in notes if isinstance(note, Without) for name in note.names}
             types = get_type_hints(kind)
-            options += [one.parameter(name, types[name]) for name, one in every.items()]
+            options += [option.parameter(name, types[name]) for name, option in every.items()]
             groups[parameter.name] = kind, every, left_out
 
     @wraps(command)
@@ -116,12 +116,14 @@ def takes(command: Callable[..., None], within: Callable[[], AbstractContextMana
         with within():
             values = {}
             for name, (kind, every, left_out) in groups.items():
-                stated = {key: one.value(key, given.pop(key)) for key, one in every.items()}
-                values[name] = kind(**stated, **{key: one.value(key, one.default) for key, one in left_out.items()})
-            command(**given | {key: one.value(key, given[key]) for key, one in own.items()}, **values)
+                stated = {key: option.value(key, given.pop(key)) for key, option in every.items()}
+                values[name] = kind(
+                    **stated, **{key: option.value(key, option.default) for key, option in left_out.items()}
+                )
+            command(**given | {key: option.value(key, given[key]) for key, option in own.items()}, **values)
 
     taking.__signature__ = inspect.Signature(options)  # type: ignore[attr-defined]
-    taking.__annotations__ = {one.name: one.annotation for one in options}
+    taking.__annotations__ = {option.name: option.annotation for option in options}
     return taking
 
 
@@ -157,14 +159,14 @@ class Command(TyperCommand):
         options = [param for param in self.params if isinstance(param, TyperOption)]
         few = ctx.meta.get(_ALL) or len(options) <= FEW
         rare = [] if few else [option for option in options if option.name in RARE]
-        for one in rare:
-            one.hidden = True
+        for rare_option in rare:
+            rare_option.hidden = True
         super().format_options(ctx, formatter)
-        for one in rare:
-            one.hidden = False
+        for rare_option in rare:
+            rare_option.hidden = False
         if rare:
             with formatter.section("More options, which --help-all explains"):
-                names = " ".join(one.opts[0] for one in rare)
+                names = " ".join(option.opts[0] for option in rare)
                 for line in wrap(names, formatter.width - formatter.current_indent, break_on_hyphens=False):
                     formatter.write_text(line)
 
@@ -243,10 +245,10 @@ def _columns(incomplete: str) -> list[str]:
     files = (
         sorted(path for path in there.glob("*") if path.is_dir() or path.suffix == ".toml") if there.is_dir() else []
     )
-    found = [
+    completions = [
         f"{folder}/{file.name}" if "/" in incomplete else file.name for file in files if file.name.startswith(start)
     ]
-    return [*(name for name in (*PRESETS, *ASSEMBLIES) if name.startswith(incomplete)), *found]
+    return [*(name for name in (*PRESETS, *ASSEMBLIES) if name.startswith(incomplete)), *completions]
 
 
 #: What stands: a column; a column or an assembly.
@@ -503,34 +505,34 @@ def input_facts(motion: Motion) -> dict[str, Any]:
 def input_lines(motion: Motion) -> dict[str, str]:
     """The same for people, where there is something to say."""
     facts = input_facts(motion)
-    found = {"motion": motion.describe()}
+    lines = {"motion": motion.describe()}
     if facts["azimuth_deg"] is not None:
-        found["direction"] = f"x to azimuth {facts['azimuth_deg']:g}°"
+        lines["direction"] = f"x to azimuth {facts['azimuth_deg']:g}°"
     if facts["left_out"]:
-        found["left out"] = "; ".join(facts["left_out"])
+        lines["left out"] = "; ".join(facts["left_out"])
     done = [text for text in facts["processing"] if not text.startswith("left out: ")]
     if done:
-        found["processing"] = "; ".join(done)
-    return found
+        lines["processing"] = "; ".join(done)
+    return lines
 
 
-def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> Campaign:
+def with_twins(stone: Structure, model: Model, campaign: Campaign, given: bool) -> Campaign:
     """What is asked for, with as many columns like this one as cost nothing where no number is ``given``."""
     from ..campaign.twins import the_twins
     from ..column.scatter import usual_scatter
     from ..models.engine import engine_for
 
-    number = asked.replicates if given else engine_for(model, stone).twins
+    number = campaign.replicates if given else engine_for(model, stone).twins
     # unasked they ride along, and what rides along is of one law
-    scatter = asked.scatter if given or not number else asked.scatter or usual_scatter(stone.stack or stone)
-    made = dataclasses.replace(asked, replicates=number, scatter=scatter)
+    scatter = campaign.scatter if given or not number else campaign.scatter or usual_scatter(stone.stack or stone)
+    made = dataclasses.replace(campaign, replicates=number, scatter=scatter)
     try:
         if number:
             the_twins(stone, model, made)
     except InputError:
         if given:
             raise
-        return asked  # so close to falling as it was found that no twin of it stands
+        return campaign  # so close to falling as it was found that no twin of it stands
     return made
 
 

@@ -63,13 +63,13 @@ def records(
         )
     suite = motions.request(motion=sources, separate=True).expand()
     known = facts_of_records(about, sources, suite.motions)
-    found = select_records(
+    selection = select_records(
         suite.motions, aim, count, periods=between, horizontal=horizontal, factors=limits, least=least,
         per_event=per_event, wanted=ranges, about=known,
     )  # fmt: skip
-    names = _file_names([str(name) for name in found.table["record"]])
-    summary = found.summary()
-    summary["refused"] = refused = suite.refused | found.refused
+    names = _file_names([str(name) for name in selection.table["record"]])
+    summary = selection.summary()
+    summary["refused"] = refused = suite.refused | selection.refused
     with execution.files("records", "records.csv", "records.json", "records") as files:
         if files.wanted:
             from .. import plots
@@ -77,7 +77,7 @@ def records(
             from ..motion.motion import write_csv
 
             place = files / "scaled"
-            there = sorted(one.name for one in place.iterdir()) if place.is_dir() else []
+            there = sorted(path.name for path in place.iterdir()) if place.is_dir() else []
             others = [name for name in there if name[0] != "." and name not in names]
             if others:
                 raise InputError(
@@ -86,19 +86,19 @@ def records(
                     "out",
                 )
             with output_folder(place, names):
-                for motion, name in zip(found.motions, names, strict=True):
+                for motion, name in zip(selection.motions, names, strict=True):
                     files.append(write_csv(motion, place / name))
-            files.table(found.table.assign(file=[f"scaled/{name}" for name in names]), "records.csv")
-            files.picture(plots.draw_record_selection(found), "records")
+            files.table(selection.table.assign(file=[f"scaled/{name}" for name in names]), "records.csv")
+            files.picture(plots.draw_record_selection(selection), "records")
             chosen: dict[str, object] = {"target": target, "count": count, "periods_s": list(between)}
-            files.write_request(motions=list(found.motions), factors=list(limits), **chosen)
+            files.write_request(motions=list(selection.motions), factors=list(limits), **chosen)
             files.summary(summary, "records.json")
     if execution.emits(summary):
         return
-    print(f"Target: {aim.words}. {found.sentence}")
-    shown = found.table.filter(list(PRINTED_COLUMNS)).dropna(axis="columns", how="all")
+    print(f"Target: {aim.words}. {selection.sentence}")
+    shown = selection.table.filter(list(PRINTED_COLUMNS)).dropna(axis="columns", how="all")
     console.print_table(shown, digits=3)
-    for row in found.table.to_dict("records"):
+    for row in selection.table.to_dict("records"):
         if row["drift_m"]:
             cure = row["cure"]
             steps = cure.split(THEN) if isinstance(cure, str) else []
@@ -129,9 +129,9 @@ def _range_of_measure(text: str) -> RecordRange:
     if not sign:
         raise InputError(f"`where` is {text!r}; write it as pgv=0.1m/s:0.8m/s.", "where")
     if name in ABOUT:
-        return RecordRange(name, *_pair("where", span, lambda one: parse_number(name, one), f"{name}=6:7"))
+        return RecordRange(name, *_pair("where", span, lambda bound: parse_number(name, bound), f"{name}=6:7"))
     measure = parse_measure(name)
-    return RecordRange(measure, *_pair("where", span, lambda one: parse_level(one, measure), "pgv=0.1m/s:0.8m/s"))
+    return RecordRange(measure, *_pair("where", span, lambda bound: parse_level(bound, measure), "pgv=0.1m/s:0.8m/s"))
 
 
 def _file_names(names: list[str]) -> list[str]:

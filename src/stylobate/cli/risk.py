@@ -18,7 +18,7 @@ def risk(
     ),
     hazard: Path = o.option("FILE", "Hazard curve: annual_rate and pga_g, pgv_m_s …; or OpenQuake's.", ...),
     *,
-    asked: Curves,
+    curves: Curves,
     site: str | None = SITE,
     execution: o.Plain,
 ) -> None:
@@ -29,9 +29,9 @@ def risk(
     from . import console
 
     curve = read_hazard(hazard, the_site(site))
-    fragility, used = asked.one(source)
-    found = rate_of(fragility, curve)
-    result = found.summary()
+    fragility, used = curves.one(source)
+    estimate = rate_of(fragility, curve)
+    result = estimate.summary()
     with execution.files("risk", "risk.csv", "risk.json", "risk") as files:
         if files.wanted:
             import pandas
@@ -39,19 +39,19 @@ def risk(
             from .. import plots
 
             files.table(pandas.DataFrame(result["deaggregation"]), "risk.csv")
-            files.picture(plots.draw_risk(found), "risk")
-            files.write_request(**kept_of(used), **hazards_of([hazard], site), state=asked.state, im=asked.im)
+            files.picture(plots.draw_risk(estimate), "risk")
+            files.write_request(**kept_of(used), **hazards_of([hazard], site), state=curves.state, im=curves.im)
             files.summary(result, "risk.json")
     if execution.emits(result):
         return
-    most = max(result["deaggregation"], key=lambda one: one["annual_rate"])
+    most = max(result["deaggregation"], key=lambda row: row["annual_rate"])
     console.say(
-        found.sentence,
+        estimate.sentence,
         {
-            "annual rate": f"{found.rate:.3g} (95 %: {found.low:.3g} to {found.high:.3g})",
+            "annual rate": f"{estimate.rate:.3g} (95 %: {estimate.low:.3g} to {estimate.high:.3g})",
             "mostly from": f"{most['from']:.3g} to {most['to']:.3g} {result['unit']} ({result['im']})",
             "hazard": curve.called,
-            **{f"note {k}": text for k, text in enumerate(found.warnings, 1)},
+            **{f"note {k}": text for k, text in enumerate(estimate.warnings, 1)},
         },
         files,
     )

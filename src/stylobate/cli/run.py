@@ -62,8 +62,8 @@ class Settings:
             return simulate(self.stone, motion, self.model, **options), None
         kept = None if campaign.ledger is None else Path(campaign.ledger).with_name("response.nc")
         stone = self.stone.stack or self.stone
-        found = certainty(stone, motion, self.model, kept=kept, campaign=replace(campaign, whole=False), **options)
-        return found.response, found.population
+        outcome = certainty(stone, motion, self.model, kept=kept, campaign=replace(campaign, whole=False), **options)
+        return outcome.response, outcome.population
 
 
 #: Pictures of what a model in space computes, besides those of every column.
@@ -101,15 +101,15 @@ def run(
     how = modelling.model(model)
     if until_rest:
         stone = engine_for(how, stone).followed()
-    found = request.expand(stone.frequency_parameter)
+    suite = request.expand(stone.frequency_parameter)
     campaign, given = execution.campaign(following, population), population.replicates is not None
     if given or not (until_end or until_rest):
         campaign = o.with_twins(stone, how, campaign, given)
     drawn = RunPictures(pictures, pictures and given and campaign.replicates > 0)
-    asked = Settings(stone, how, campaign, output_interval, until_end, until_rest)
+    settings = Settings(stone, how, campaign, output_interval, until_end, until_rest)
     out = execution.out
     if request.several:
-        summaries = each_record(asked, found.motions, out, drawn)
+        summaries = each_record(settings, suite.motions, out, drawn)
         if not execution.as_json:
             console.print_doubt(*summaries)
             console.print_table(table_of_runs(summaries), digits=3)
@@ -117,14 +117,14 @@ def run(
             if out is not None:
                 print(f"{len(summaries)} folders with a run each in {out}")
     else:
-        summaries = [conclude(asked, found.motions[0], out, execution.as_json, drawn)]
-    several: dict[str, Any] = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
+        summaries = [conclude(settings, suite.motions[0], out, execution.as_json, drawn)]
+    several: dict[str, Any] = {"runs": summaries, "refused": suite.refused, "worst": worst(summaries)}
     if len(request.azimuths) > 1 or request.signs == "both":
         several["sentence"] = directions(summaries, stone, how, out, campaign.tail)
         if not execution.as_json and several["sentence"]:
             print(several["sentence"])
     if not execution.emits(several if request.several else summaries[0]):
-        console.print_refused(found.refused)
+        console.print_refused(suite.refused)
 
 
 def directions(summaries: Sequence[dict], stone: Structure, model: Model, out: Path | None, tail: float) -> str:
@@ -134,17 +134,17 @@ def directions(summaries: Sequence[dict], stone: Structure, model: Model, out: P
     from . import console
 
     chances = compass_of_chances(summaries, to_decide(stone, model.parameters(), tail))
-    found = worst(summaries, chances)
+    worst_direction = worst(summaries, chances)
     if out is not None and len(chances.bearings) > 1:
         from .. import plots
 
         with console.folder(out, "directions") as folder:
             assert folder is not None
             plots.save(plots.draw_directions(chances, f"{stone.name}, {model.name}"), folder / "directions")
-    return "" if found is None else harm_words(found, chances)
+    return "" if worst_direction is None else harm_words(worst_direction, chances)
 
 
-def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, drawn: RunPictures) -> list[dict]:
+def each_record(settings: Settings, motions: Sequence[Motion], out: Path | None, drawn: RunPictures) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     import numpy as np
 
@@ -159,10 +159,14 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
     places: list[Path | None] = []
     for motion in motions:
         places.append(None if out is None else out / safe_name(motion.name, places))
-    stone, model, campaign = asked.stone, asked.model, asked.campaign
-    options = run_options(campaign.tail, until_decided=True, **asked.options)
+    stone, model, campaign = settings.stone, settings.model, settings.campaign
+    options = run_options(campaign.tail, until_decided=True, **settings.options)
     hasher = Hasher(model, options)
-    made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **asked.options}
+    made = {
+        "twins": [campaign.replicates, campaign.scatter, campaign.seed],
+        "whole": campaign.whole,
+        **settings.options,
+    }
     each = [
         hasher.of_product(
             {"run": [stone.digest, motion.name, motion.digest, place and place.name], "drawn": drawn, **made}, __file__
@@ -177,7 +181,7 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
     def make(number: int) -> dict[str, Any]:
         if len(motions) > 1 and wait > console.FIRST_LINE:
             console.note(f"run {number + 1} of {len(motions)}: {motions[number].name}")
-        summary = conclude(asked, motions[number], places[number], True, drawn)
+        summary = conclude(settings, motions[number], places[number], True, drawn)
         files = {} if out is None else {"files": [str(Path(file).relative_to(out)) for file in summary["files"]]}
         return {"summary": json.loads(console.as_json(summary)), **files}
 
@@ -185,7 +189,7 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
     with console.folder(out) as folder:
         ledger = console.ledger(folder)
         twins = f", each with {campaign.replicates} like it," if campaign.replicates else ""
-        wait = wait_for(stone.stack or stone, motions, model, campaign, options, asked.followed)
+        wait = wait_for(stone.stack or stone, motions, model, campaign, options, settings.followed)
         log_expected_time(f"{len(motions)} runs{twins} take", wait, stone)
         try:
             with closing(Runs(Campaign(ledger=ledger))) as runs:
@@ -200,7 +204,7 @@ def each_record(asked: Settings, motions: Sequence[Motion], out: Path | None, dr
     return [summaries[number] for number in range(len(motions))]
 
 
-def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, drawn: RunPictures) -> dict:
+def conclude(settings: Settings, motion: Motion, out: Path | None, quiet: bool, drawn: RunPictures) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..motion.motion import write_csv
     from ..verdicts.directions import direction_of
@@ -213,17 +217,17 @@ def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, dra
     with files_of(out, "run", *names, *pictures) as files:
         console.ledger(files.folder)
         with console.progress("seconds of motion") as progress:
-            campaign = replace(asked.campaign.kept_in(files.folder), progress=progress)
-            response, population = replace(asked, campaign=campaign).run(motion)
+            campaign = replace(settings.campaign.kept_in(files.folder), progress=progress)
+            response, population = replace(settings, campaign=campaign).run(motion)
         console.show(response)
-        model, taken = asked.model, asked.model.taken(motion)
+        model, taken = settings.model, settings.model.taken(motion)
         summary = response.summary() | o.input_facts(taken) | direction_of(motion)
         if population is not None:
             summary |= population.summary(summary)
         elif response.measures.blocks is not None:  # carried along by no run
             summary["replicates"] = 0
         laws = None
-        if population is not None and not population.drawn.groups and not asked.followed:
+        if population is not None and not population.drawn.groups and not settings.followed:
             laws = other_laws(response, motion, model, campaign)
         if laws is not None:
             summary |= {
@@ -236,7 +240,7 @@ def conclude(asked: Settings, motion: Motion, out: Path | None, quiet: bool, dra
             files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
             if population is not None:
                 write_population(population, motion, model, response, files, drawn.median)
-            files.write_request(structures=[asked.stone], models=[model], motions=[taken])
+            files.write_request(structures=[settings.stone], models=[model], motions=[taken])
             files.summary(summary, "run.json")
     if not quiet:
         describe(response, taken, files, population, laws)
@@ -268,9 +272,11 @@ def write_population(
 
 def safe_name(name: str, taken: Sequence[Path | None]) -> str:
     """Name of a folder for a record: its own, without what file systems dislike, numbered if it is taken."""
-    plain = "".join(one if one.isalnum() or one in "-_." else "_" for one in name.split(",")[0]).strip("._") or "record"
+    plain = (
+        "".join(char if char.isalnum() or char in "-_." else "_" for char in name.split(",")[0]).strip("._") or "record"
+    )
     used = {path.name for path in taken if path is not None}
-    return next(one for one in (plain, *(f"{plain}-{i}" for i in range(2, len(used) + 3))) if one not in used)
+    return next(folder for folder in (plain, *(f"{plain}-{i}" for i in range(2, len(used) + 3))) if folder not in used)
 
 
 def write(response: Response, motion: Motion, folder: Path, figures: bool = True) -> list[Path]:
@@ -310,8 +316,8 @@ def describe(
     from ..response.words import doubt_of, opening_words
     from . import console
 
-    found = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
-    sentence, what, facts = found
+    description = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
+    sentence, what, facts = description
     if population is not None:
         sentence = f"{sentence} {population.sentence} {population.beside(response.summary())}".rstrip()
         facts |= population_facts(population)
@@ -333,14 +339,14 @@ def describe(
 
 def losses_facts(response: Response) -> dict[str, str]:
     """What joints lost by name, in numbers."""
-    told = response.summary()
-    if told["losses"] in (None, "none") or "steps_over_undamped" not in response.provenance:
+    summary = response.summary()
+    if summary["losses"] in (None, "none") or "steps_over_undamped" not in response.provenance:
         return {}
-    acting, more = told["losses_acting"], response.provenance["steps_over_undamped"]
+    acting, more = summary["losses_acting"], response.provenance["steps_over_undamped"]
     words = ", ".join(f"{name.replace('_', ' ')} {value:.2g}" for name, value in acting.items())
     stack = response.structure.stack
-    slips = "" if stack is None or stack.n == 1 or told["losses"] != "stone" else SLIPPING_STACK
-    return {"losses": f"{told['losses']}: {words}; {more:.2g} times as many steps as undamped{slips}"}
+    slips = "" if stack is None or stack.n == 1 or summary["losses"] != "stone" else SLIPPING_STACK
+    return {"losses": f"{summary['losses']}: {words}; {more:.2g} times as many steps as undamped{slips}"}
 
 
 def quiet_facts(response: Response) -> dict[str, str]:
@@ -362,11 +368,13 @@ def population_facts(population: Population) -> dict[str, str]:
     spreads = {name.split("_")[0]: spread for name, spread in population.spread.items() if "displacement" in name}
     for name, words in (("peak", "their peak, 16/50/84 %"), ("residual", "their residual, 16/50/84 %")):
         if (spread := spreads[name]) is not None:
-            facts[words] = ", ".join("collapse" if one == float("inf") else console.length(one) for one in spread)
+            facts[words] = ", ".join(
+                "collapse" if length == float("inf") else console.length(length) for length in spread
+            )
     listed = not_safe(population.bodies)
     for body in listed[:MOST_BODIES]:
-        half, most = (console.length(one) for one in body.radii)
-        x, y = (console.length(one) for one in body.middle)
+        half, most = (console.length(radius) for radius in body.radii)
+        x, y = (console.length(coordinate) for coordinate in body.middle)
         open_ = f", {body.open} undecided" * bool(body.open)
         facts[f"body {body.name}"] = (
             f"fell in {body.fell} of {body.runs}{open_} ({percents(*body.interval(population.confidence))}); at the end, "
@@ -423,8 +431,10 @@ def measure_facts(response: Response, until: str) -> dict[str, str]:
     from . import console
 
     m, facts, base = response.measures, {}, response.structure.base_width
-    for one, value in m.shown():
-        when = "" if not m.collapsed else until if one.peak else ", at the end"
-        share = f" ({value / base:.2f} base widths)" if one.peak and one.of == TOP and base is not None else ""
-        facts[one.label + when] = (console.length(value) if one.unit == "m" else f"{value:.4f} {one.unit}") + share
+    for measure, value in m.shown():
+        when = "" if not m.collapsed else until if measure.peak else ", at the end"
+        share = f" ({value / base:.2f} base widths)" if measure.peak and measure.of == TOP and base is not None else ""
+        facts[measure.label + when] = (
+            console.length(value) if measure.unit == "m" else f"{value:.4f} {measure.unit}"
+        ) + share
     return facts | {"energy imbalance": f"{m.energy_imbalance:.1e} of the energy at stake"}

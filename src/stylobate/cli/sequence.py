@@ -78,16 +78,16 @@ def sequence(
         from ..verdicts.sequence import earthquakes_until_fall
 
         with execution.files("sequence", "until_fall.csv", "sequence.json") as files:
-            with files.campaign(campaign) as asked:
-                told = earthquakes_until_fall(stone, kinds, how, until_fall, rest=rest, campaign=asked)
-            summary = told.summary() | {"rest_s": rest, "model": how.name, "files": []}
+            with files.campaign(campaign) as tracked_campaign:
+                counts = earthquakes_until_fall(stone, kinds, how, until_fall, rest=rest, campaign=tracked_campaign)
+            summary = counts.summary() | {"rest_s": rest, "model": how.name, "files": []}
             if files.wanted:
-                files.table(told.table, "until_fall.csv")
+                files.table(counts.table, "until_fall.csv")
                 taken = [how.taken(motion) for motion in kinds]
                 files.write_request(structures=[stone], models=[how], motions=taken, rest_s=rest, most=until_fall)
                 files.summary(summary, "sequence.json")
         if not execution.emits(summary):
-            describe_counts(told)
+            describe_counts(counts)
         return
     execution.refuse_for_one("computes many runs, and this is one; leave it out, or give `until_fall`.")
     options: dict[str, Any] = {"rest": rest, "repeat": repeat, "until_end": until_end}
@@ -108,13 +108,13 @@ def the_kinds(motions: o.Motions, stone: Structure) -> list[Motion]:
         )
     if not motions.motion:
         return [motions.request().motion(frequency)]
-    found: list[Motion] = []
+    kinds: list[Motion] = []
     for path in motions.motion:
         suite = motions.request(motion=[path]).expand(frequency)
         for name, reason in suite.refused.items():
             raise InputError(f"{name} of {path} cannot be used, and no earthquake is left out: {reason}", "files")
-        found += suite.motions
-    return found
+        kinds += suite.motions
+    return kinds
 
 
 def scaled(motions: list[Motion], factors: str | None) -> list[Motion]:
@@ -123,7 +123,7 @@ def scaled(motions: list[Motion], factors: str | None) -> list[Motion]:
 
     if factors is None:
         return motions
-    sizes = [parse_number("`factors`", one.strip(), "such as 1,0.6,0.4") for one in factors.split(",")]
+    sizes = [parse_number("`factors`", text.strip(), "such as 1,0.6,0.4") for text in factors.split(",")]
     if len(motions) == 1:
         motions = motions * len(sizes)
     if len(motions) != len(sizes):
@@ -146,62 +146,62 @@ def _run(
     drawn = ("histories", "filmstrip", "joints", "energy", "motion", *SPACE_PICTURES, "sequence", "ends")
     with execution.files("run", *names, *drawn) as files:
         with console.progress("seconds of motion") as progress:
-            asked = replace(campaign, progress=progress).kept_in(files.folder)
-            found = run_sequence(stone, kinds, how, campaign=asked, **options)
-        console.show(found.response)
-        taken = how.taken(found.motion)
-        summary = found.summary() | o.input_facts(taken) | {"rest_s": options["rest"], "files": []}
+            tracked_campaign = replace(campaign, progress=progress).kept_in(files.folder)
+            result = run_sequence(stone, kinds, how, campaign=tracked_campaign, **options)
+        console.show(result.response)
+        taken = how.taken(result.motion)
+        summary = result.summary() | o.input_facts(taken) | {"rest_s": options["rest"], "files": []}
         if files.folder is not None:
-            files += [*write(found.response, taken, files.folder, pictures), write_csv(taken, files / "motion.csv")]
-            files.table(found.table, "events.csv")
-            if pictures and found.events:
+            files += [*write(result.response, taken, files.folder, pictures), write_csv(taken, files / "motion.csv")]
+            files.table(result.table, "events.csv")
+            if pictures and result.events:
                 from .. import plots
 
-                files.picture(plots.draw_sequence(found.response, found.events), "sequence")
-                files.picture(plots.draw_ends(found.response, found.events), "ends")
-            if found.population is not None:
-                write_population(found.population, found.motion, how, found.response, files, False)
+                files.picture(plots.draw_sequence(result.response, result.events), "sequence")
+                files.picture(plots.draw_ends(result.response, result.events), "ends")
+            if result.population is not None:
+                write_population(result.population, result.motion, how, result.response, files, False)
             files.write_request(structures=[stone], models=[how], motions=[taken])
             files.summary(summary, "run.json")
     if not execution.emits(summary):
-        describe(found, taken)
+        describe(result, taken)
         console.print_files(files)
 
 
-def describe(found: SequenceResult, motion: Motion) -> None:
+def describe(result: SequenceResult, motion: Motion) -> None:
     """Print what became of the structure, earthquake by earthquake."""
     from ..response.words import doubt_of
     from . import console
     from .run import quiet_facts
 
-    print(found.sentence)
-    table = _printed_columns(found.table)
+    print(result.sentence)
+    table = _printed_columns(result.table)
     if len(table):
         console.print_table(table, digits=3)
-    if found.falls is not None and found.falls.low:
-        print(f"Earthquakes until those like it fall, {found.falls.sentence}.")
-    if found.unsettled:
-        numbers = ", ".join(map(str, found.unsettled))
+    if result.falls is not None and result.falls.low:
+        print(f"Earthquakes until those like it fall, {result.falls.sentence}.")
+    if result.unsettled:
+        numbers = ", ".join(map(str, result.unsettled))
         print(f"Something still moved at the end of the rest after earthquake {numbers}: give a longer --rest.")
-    for name, value in (o.input_lines(motion) | quiet_facts(found.response)).items():
+    for name, value in (o.input_lines(motion) | quiet_facts(result.response)).items():
         print(f"  {name}: {value}")
-    doubt = (found.population.doubt if found.population is not None else "") or doubt_of(found.response)
+    doubt = (result.population.doubt if result.population is not None else "") or doubt_of(result.response)
     if doubt:
         print(doubt)
 
 
-def describe_counts(told: UntilFall) -> None:
+def describe_counts(counts: UntilFall) -> None:
     """Print how many earthquakes of each kind it takes."""
     from . import console
 
-    console.print_table(told.table.filter(["motion", "earthquakes"]))
-    if len(told.each) > 1:
-        print(f"Over the kinds, {told.over_motions.sentence}.")
+    console.print_table(counts.table.filter(["motion", "earthquakes"]))
+    if len(counts.each) > 1:
+        print(f"Over the kinds, {counts.over_motions.sentence}.")
 
 
 def _printed_columns(table: pandas.DataFrame) -> pandas.DataFrame:
     """Columns that are printed; of what never happened none."""
     never = [name for name in ("fallen", "links_broken") if name in table and not any(table[name])]
     if "at_rest" in table:
-        table = table.assign(at_rest=["yes" if one else "no" for one in table["at_rest"]])
+        table = table.assign(at_rest=["yes" if rests else "no" for rests in table["at_rest"]])
     return table.filter([name for name in PRINTED_COLUMNS if name not in never]).rename(columns=PRINTED_COLUMNS)

@@ -103,13 +103,13 @@ def _not_raised(what: sys.UnraisableHookArgs) -> None:
 
 
 def _watch(ear: socket.socket, _: socket.socket, heard: set[int], interrupted: int) -> None:
-    while not (told := heard.intersection(ear.recv(64))):
+    while not (numbers := heard.intersection(ear.recv(64))):
         pass
     end = time.monotonic() + PATIENCE
-    while (left := end - time.monotonic()) > 0.0:
-        if _thrown_away.wait(left):
+    while (time_left := end - time.monotonic()) > 0.0:
+        if _thrown_away.wait(time_left):
             time.sleep(_AGAIN)
-            _send(min(told))
+            _send(min(numbers))
     end_now(interrupted)
 
 

@@ -76,17 +76,17 @@ def response(
     spectra = {axis: response_spectrum(motion, periods, damping, component=axis) for axis in motion.components}
     first = next(iter(spectra.values()))
     columns: dict[str, Any] = {"period_s": first.period}
-    for axis, one in spectra.items():
-        columns |= {f"sd_{axis}_m": one.sd, f"sv_{axis}_m_s": one.sv, f"sa_{axis}_g": one.sa / g}
-        columns |= {f"psv_{axis}_m_s": one.psv, f"psa_{axis}_g": one.psa / g}
+    for axis, spectrum in spectra.items():
+        columns |= {f"sd_{axis}_m": spectrum.sd, f"sv_{axis}_m_s": spectrum.sv, f"sa_{axis}_g": spectrum.sa / g}
+        columns |= {f"psv_{axis}_m_s": spectrum.psv, f"psa_{axis}_g": spectrum.psa / g}
     if motion.y_samples is not None:
         rotated = rotated_spectrum(motion, (50.0, 100.0), periods, damping)
         columns |= {"psa_rotd50_g": rotated[50.0] / g, "psa_rotd100_g": rotated[100.0] / g}
     result = {"damping": damping} | {key: values.tolist() for key, values in columns.items()}
-    said = {}
-    for axis, one in spectra.items():
-        top = int(one.psa.argmax())
-        said[f"largest PSA, {axis}"] = f"{one.psa[top] / g:.3g} g at {one.period[top]:.3g} s"
+    facts = {}
+    for axis, spectrum in spectra.items():
+        top = int(spectrum.psa.argmax())
+        facts[f"largest PSA, {axis}"] = f"{spectrum.psa[top] / g:.3g} g at {spectrum.period[top]:.3g} s"
     if files.wanted:
         import pandas
 
@@ -94,7 +94,7 @@ def response(
 
         files.table(pandas.DataFrame(columns), "spectrum.csv")
         files.picture(plots.draw_spectra(motion, spectra=spectra), "spectrum")
-    return result, said
+    return result, facts
 
 
 def rocking(motion: Motion, blocks: dict[str, Any], files: Files) -> tuple[dict[str, Any], dict[str, str]]:
@@ -102,20 +102,20 @@ def rocking(motion: Motion, blocks: dict[str, Any], files: Files) -> tuple[dict[
     from ..response.words import longer_tail
     from ..verdicts.rocking_spectrum import rocking_spectrum
 
-    found = rocking_spectrum(motion, **blocks)
-    summary = found.summary()
-    said = {
+    spectrum = rocking_spectrum(motion, **blocks)
+    summary = spectrum.summary()
+    facts = {
         "blocks": f"{summary['cells']}: {summary['closed_cells']} stay closed, "
         f"{summary['collapsed_cells']} overturn, {summary['undecided_cells']} end far from rest "
         f"(try {longer_tail(blocks['tail'])}), {summary['failed_cells']} could not be computed",
-        "strongest pulse": f"{found.pulse_period:.3g} s",
+        "strongest pulse": f"{spectrum.pulse_period:.3g} s",
     }
     if files.wanted:
         from .. import plots
 
-        files.table(found.table, "spectrum.csv")
-        files.picture(plots.draw_rocking_spectrum(found), "spectrum")
-    return summary, said
+        files.table(spectrum.table, "spectrum.csv")
+        files.picture(plots.draw_rocking_spectrum(spectrum), "spectrum")
+    return summary, facts
 
 
 def _only_for(kind: str, needed: str, given: dict[str, Any]) -> None:

@@ -21,16 +21,16 @@ def the_states(
     as_built: str | None, as_found: str | None, strengthened: list[str] | None, fewest: int = 2
 ) -> dict[str, str]:
     """Columns to be compared, by label; those with a measure are called after their files."""
-    found = {name: text for name, text in (("as built", as_built), ("as found", as_found)) if text is not None}
+    columns = {name: text for name, text in (("as built", as_built), ("as found", as_found)) if text is not None}
     for text in strengthened or ():
         label = Path(text).stem
-        if label in found:
+        if label in columns:
             raise InputError(f"two of the states are called {label!r}; rename one of the files.", "states")
-        found[label] = text
-    if len(found) < fewest:
-        given = f"only the state {next(iter(found))!r} is given" if found else "no state is given"
+        columns[label] = text
+    if len(columns) < fewest:
+        given = f"only the state {next(iter(columns))!r} is given" if columns else "no state is given"
         raise InputError(f"{given}; give two or more of `as_built`, `as_found` and `with`.", "states")
-    return found
+    return columns
 
 
 def the_candidates(
@@ -51,14 +51,14 @@ def the_candidates(
         except ValueError:
             raise InputError(f"{text!r} is no number; write it in SI without a unit, such as 0.02.", "vary") from None
 
-    asked: dict[str, list[float]] = {}
+    variations: dict[str, list[float]] = {}
     for text in vary:
         name, equals, values = text.partition("=")
-        if not equals or name in asked:
+        if not equals or name in variations:
             why = "is given twice" if equals else "has no values"
             raise InputError(f"{name!r} of `vary` {why}; write each once, such as dowel.diameter=0.02:0.06:5.", "vary")
-        asked[name] = values_of("vary", values, number, "0.02:0.06:5").tolist()
-    return candidates(columns[Path(strengthened[0]).stem], asked)
+        variations[name] = values_of("vary", values, number, "0.02:0.06:5").tolist()
+    return candidates(columns[Path(strengthened[0]).stem], variations)
 
 
 def the_design_level(text: str, im: str | None, levels: list[float]) -> float:
@@ -68,11 +68,11 @@ def the_design_level(text: str, im: str | None, levels: list[float]) -> float:
     if im is None:
         raise InputError("`design_level` is one of `levels`; give `im` and `levels` with it.", "design_level")
     level = levels_of(im, text)[1][0]
-    found = next((one for one in levels if abs(one - level) < 1e-6 * level), None)
-    if found is None:
-        known = ", ".join(f"{one:g}" for one in levels)
+    design_level = next((run_level for run_level in levels if abs(run_level - level) < 1e-6 * level), None)
+    if design_level is None:
+        known = ", ".join(f"{run_level:g}" for run_level in levels)
         raise InputError(f"`design_level` is {text}; allowed is one of `levels`: {known}.", "design_level")
-    return found
+    return design_level
 
 
 def states(
@@ -127,7 +127,7 @@ def states(
             "as_built",
         )
     tried = the_candidates(vary, strengthened or [], columns)
-    columns = {label: one for label, one in columns.items() if not tried or label in NO_MEASURE} | tried
+    columns = {label: column for label, column in columns.items() if not tried or label in NO_MEASURE} | tried
     if (im is None) != (levels is None):
         raise InputError("records are scaled by `im` and `levels` together; give both, such as `im` pgv `levels` "
                          "0.2m/s:1.6m/s:8.", "im")  # fmt: skip
@@ -136,31 +136,31 @@ def states(
     level = None if design_level is None else the_design_level(design_level, im, sizes)
     suite = request.expand()
     with execution.files("states", "states.csv", "links.csv", "states.json", "states", *WRITES) as files:
-        with files.campaign(campaign, in_folder=True) as asked:
-            found = compare_states(
-                columns, suite.motions, how, sizes, measure, state=state, out=files.folder, campaign=asked
+        with files.campaign(campaign, in_folder=True) as tracked_campaign:
+            comparison = compare_states(
+                columns, suite.motions, how, sizes, measure, state=state, out=files.folder, campaign=tracked_campaign
             )
         if not execution.as_json:
-            describe(found)  # first: for design values the runs that govern are computed once more
+            describe(comparison)  # first: for design values the runs that govern are computed once more
             sys.stdout.flush()
-        designed = design_values(found, level=level)
-        summary = found.summary() | {
+        designed = design_values(comparison, level=level)
+        summary = comparison.summary() | {
             "design_values": designed.to_dict("records"),
             "model": how.name,
             "refused": suite.refused,
             "files": [],
         }
-        best = best_of(found, list(tried), seed=campaign.seed) if tried else None
+        best = best_of(comparison, list(tried), seed=campaign.seed) if tried else None
         summary |= {} if best is None else {"best": best.summary()}
         if files.wanted:
             from .. import plots
 
-            files.table(found.table, "states.csv")
-            files.table(found.links, "links.csv")
-            files.picture(plots.draw_states(found), "states")
+            files.table(comparison.table, "states.csv")
+            files.table(comparison.links, "links.csv")
+            files.picture(plots.draw_states(comparison), "states")
             write_design(designed, files)
             what: dict[str, Any] = {"structures": list(columns.values()), "models": [how], "states": list(columns)}
-            what |= {"motions": [how.taken(motion) for motion in suite.motions], "runs": found.table}
+            what |= {"motions": [how.taken(motion) for motion in suite.motions], "runs": comparison.table}
             what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": campaign.tail}
             files.write_request(**what, **_twins(columns, how, campaign) if population.replicates is not None else {})
             files.summary(summary, "states.json")
@@ -179,26 +179,28 @@ def _twins(columns: dict[str, Structure], model: Model, campaign: Campaign) -> d
     """How twins of the columns are drawn, as it is kept beside the results."""
     from ..campaign.twins import usual_with_laws
 
-    sizes = {label: (campaign.scatter or usual_with_laws(one, model)).describe() for label, one in columns.items()}
+    sizes = {
+        label: (campaign.scatter or usual_with_laws(column, model)).describe() for label, column in columns.items()
+    }
     same = len(set(sizes.values())) == 1
-    told = sizes.values() if same else (f"{label}: {one}" for label, one in sizes.items())
-    return {"replicates": campaign.replicates, "scatter": "; ".join(dict.fromkeys(told)), "seed": campaign.seed}
+    descriptions = sizes.values() if same else (f"{label}: {size}" for label, size in sizes.items())
+    return {"replicates": campaign.replicates, "scatter": "; ".join(dict.fromkeys(descriptions)), "seed": campaign.seed}
 
 
-def describe(found: StateComparison) -> None:
+def describe(comparison: StateComparison) -> None:
     """Print the answer for people."""
     import pandas
 
     from ..verdicts.limit_states import median_name, median_words
     from . import console
 
-    if found.doubt:
-        print(found.doubt)
-    for difference in found.differences:
+    if comparison.doubt:
+        print(comparison.doubt)
+    for difference in comparison.differences:
         print(difference.sentence)
-    how = "collapse" if found.state == "collapse" else "exceed"
-    rows, curves = [], [None if one is None else one.summary() for one in found.curves]
-    for share, curve in zip(found.shares, curves, strict=True):
+    how = "collapse" if comparison.state == "collapse" else "exceed"
+    rows, curves = [], [None if fragility is None else fragility.summary() for fragility in comparison.curves]
+    for share, curve in zip(comparison.shares, curves, strict=True):
         row = {"state": share.label, "same runs": share.runs, how: share.exceeded, "do not": share.not_exceeded}
         row |= {
             "undecided": share.undecided,
@@ -209,9 +211,9 @@ def describe(found: StateComparison) -> None:
         row[median_name(*curves)] = console.MISSING if curve is None else median_words(curve)
         rows.append(row)
     console.print_table(pandas.DataFrame(rows), digits=3)
-    links = found.links
+    links = comparison.links
     if len(links):
         worst = links.sort_values(["broken", "largest_over_capacity"], ascending=False).groupby("state", sort=False)
-        console.print_table(some := worst.head(3), digits=3)
-        if len(some) < len(links):
-            print(f"{len(some)} of {len(links)} links, those used most of each state; links.csv in --out has all.")
+        console.print_table(most_used := worst.head(3), digits=3)
+        if len(most_used) < len(links):
+            print(f"{len(most_used)} of {len(links)} links, those used most of each state; links.csv in --out has all.")

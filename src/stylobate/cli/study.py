@@ -34,8 +34,8 @@ def run(
     study, refused = read_plan(file)
     with files_of(out, "study", "study.parquet", "study.csv", "study.json") as files:
         another = f"another process is at work in {out}; this one goes on when that one ends."
-        with files.campaign(campaign, in_folder=True, waits=True) as asked:
-            result = run_study(study, out, waiting=lambda: console.note(another), campaign=asked)
+        with files.campaign(campaign, in_folder=True, waits=True) as tracked_campaign:
+            result = run_study(study, out, waiting=lambda: console.note(another), campaign=tracked_campaign)
         with console.progress("histories") as progress:
             files += keep_histories(study, result, out, progress)
         files.append(write_table(result.table, out / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))
@@ -100,16 +100,16 @@ def export(
 
 def sentence(result: StudyResult) -> str:
     """State and results of a study."""
-    found = result.summary()
-    said = f"{found['finished']} of {found['cases']} cases are finished: "
-    said += f"{found['collapsed']} collapse, {found['stands']} stand"
-    for one in ("undecided", "failed"):
-        if found[one]:
-            said += f", {found[one]} {'are ' if one == 'undecided' else ''}{one}"
-    said += "."
-    if found["computed"]:
-        said += f" {found['computed']} were computed now, in {found['wall_s']:.1f} s."
-    return said
+    summary = result.summary()
+    text = f"{summary['finished']} of {summary['cases']} cases are finished: "
+    text += f"{summary['collapsed']} collapse, {summary['stands']} stand"
+    for outcome in ("undecided", "failed"):
+        if summary[outcome]:
+            text += f", {summary[outcome]} {'are ' if outcome == 'undecided' else ''}{outcome}"
+    text += "."
+    if summary["computed"]:
+        text += f" {summary['computed']} were computed now, in {summary['wall_s']:.1f} s."
+    return text
 
 
 def has_parquet() -> bool:

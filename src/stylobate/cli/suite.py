@@ -64,8 +64,8 @@ def suite(
     how = modelling.model(model)
     records = motions.request(motion=sources, separate=True).expand()
     with execution.files("suite", "suite.csv", "suite.json", "suite", "directions", *WRITES) as files:
-        with files.campaign(campaign) as asked:
-            table = suite_table(stones, records.motions, how, campaign=asked)
+        with files.campaign(campaign) as tracked_campaign:
+            table = suite_table(stones, records.motions, how, campaign=tracked_campaign)
         turned = any(
             "direction" in motion.metadata for motion in records.motions
         )  # else azimuths are those of instruments
@@ -91,8 +91,8 @@ def suite(
         result["worst"] = worst(result["runs"], compass if swept else None)
         if swept and result["worst"] is not None:
             result |= {"sentence": harm_words(result["worst"], compass), "undecided_directions_deg": compass.undecided}
-        found = suite_shares(result["runs"])
-        result["shares"] = [{"column": one.label, **one.counts} for one in found]
+        shares = suite_shares(result["runs"])
+        result["shares"] = [{"column": share.label, **share.counts} for share in shares]
         if files.wanted:
             from .. import plots
 
@@ -109,8 +109,8 @@ def suite(
         return
     console.print_doubt(result)
     table["chance"] = [chance_words(row) for row in result["runs"]]
-    for one, (_, rows) in zip(found, table.groupby("column", sort=False), strict=True):
-        print(one.collapses)
+    for column_share, (_, rows) in zip(shares, table.groupby("column", sort=False), strict=True):
+        print(column_share.collapses)
         shown = rows.filter(list(PRINTED_COLUMNS))
         shown = shown.rename(columns={"chance": CHANCE}) if any(shown["chance"]) else shown.drop(columns="chance")
         console.print_table(shown, digits=3)

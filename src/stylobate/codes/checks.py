@@ -280,7 +280,7 @@ def code_check(stack: BlockStack, path: PushoverResult, site: CodeSite) -> CodeC
     """
     levels, table = KNOWLEDGE[site.code]
     factor = levels[site.knowledge]
-    found = capacity_spectrum_check(stack, path, site.spectrum, confidence_factor=factor)
+    spectrum_check = capacity_spectrum_check(stack, path, site.spectrum, confidence_factor=factor)
     kinematic = "Circolare 617/2009, C8A.4.2.3"
     coefficients = (
         *site.spectrum.coefficients,
@@ -302,4 +302,4 @@ def code_check(stack: BlockStack, path: PushoverResult, site: CodeSite) -> CodeC
             "the grid of a_g, F0 and Tc*: give those of your site",
         ]
     demand = site.spectrum.ground_acceleration * site.spectrum.soil_factor / BEHAVIOUR
-    return CodeCheck(site.code, found, demand, coefficients, tuple(left_out))
+    return CodeCheck(site.code, spectrum_check, demand, coefficients, tuple(left_out))

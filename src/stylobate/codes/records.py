@@ -68,10 +68,12 @@ def facts_of_records(
             )
     elif about is not None:
         table = tables.read(about, 10_000_000, "record", "the columns record, and magnitude or distance_km")
-        known = [one for one in ABOUT if one in table.columns]
+        known = [fact for fact in ABOUT if fact in table.columns]
         if not known:
             raise InputError(f"{about} needs the columns record, and magnitude or distance_km.", "about")
-        for name, *values in zip(table.texts("record"), *(table.numbers(one, math.nan) for one in known), strict=True):
+        for name, *values in zip(
+            table.texts("record"), *(table.numbers(fact, math.nan) for fact in known), strict=True
+        ):
             facts[name] = dict(zip(known, values, strict=True))
     return facts
 
@@ -94,8 +96,8 @@ def _of_manifest(path: Path, names: set[str]) -> dict[str, dict[str, float]]:
         rows = pandas.read_csv(path, dtype=str).fillna("").to_dict("records")
     except (OSError, ValueError) as error:
         raise InputError(f"{path} cannot be read as CSV ({' '.join(str(error).split())[:120]}).", "about") from None
-    found = {str(row.get("file")): _MAGNITUDE.search(" ".join(map(str, row.values()))) for row in rows}
-    return {file: {"magnitude": float(told[1])} for file, told in found.items() if told and file in names}
+    matches = {str(row.get("file")): _MAGNITUDE.search(" ".join(map(str, row.values()))) for row in rows}
+    return {file: {"magnitude": float(match[1])} for file, match in matches.items() if match and file in names}
 
 
 def _of_one_earthquake(about: Path, sources: Sequence[Path], motions: Sequence[Motion]) -> dict[str, dict[str, float]]:
@@ -125,7 +127,9 @@ def best_set(
     own = np.sqrt((logs**2).mean(axis=1))
 
     def allowed(chosen: list[int], k: int) -> bool:
-        return k not in chosen and (per_event is None or sum(events[one] == events[k] for one in chosen) < per_event)
+        return k not in chosen and (
+            per_event is None or sum(events[member] == events[k] for member in chosen) < per_event
+        )
 
     def misfit(chosen: list[int]) -> float:
         mean = ratios[chosen].mean(axis=0)
@@ -219,8 +223,8 @@ class RecordRange:
         else:
             value = self.measure.of(motion)
         inside = self.low <= value <= self.high
-        said = say("its {w.name} is {value:.3g}, and {w.low:g} to {w.high:g} is asked for", w=self, value=value)
-        return None if inside else said
+        reason = say("its {w.name} is {value:.3g}, and {w.low:g} to {w.high:g} is asked for", w=self, value=value)
+        return None if inside else reason
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,7 +300,7 @@ class RecordSelection(NotebookSummary):
                     "({bounds} is asked for)")  # fmt: skip
         several = say("The mean of {count} records is {low:.2f} to {high:.2f} times the target between {first:g} and "
                       "{last:g} s ({bounds} is asked for)")  # fmt: skip
-        said = (alone if count == 1 else several).of(
+        text = (alone if count == 1 else several).of(
             count=count,
             low=self.ratio.min(),
             high=self.ratio.max(),
@@ -305,9 +309,9 @@ class RecordSelection(NotebookSummary):
             bounds=bounds,
         )
         if self.pga_over_target is not None:
-            said += say(", and {zero:.2f} times it at a period of 0 (at least 1)", zero=self.pga_over_target)
+            text += say(", and {zero:.2f} times it at a period of 0 (at least 1)", zero=self.pga_over_target)
         no = say(": the set does not meet it; allow larger factors, a shorter range of periods, or give more records.")
-        words = [said + (say(": the set meets it.") if self.meets else no)]
+        words = [text + (say(": the set meets it.") if self.meets else no)]
         if count < fewest:
             words.append(say("The code wants {count} records at least.", count=fewest))
         elif count < FOR_MEANS:
@@ -316,8 +320,8 @@ class RecordSelection(NotebookSummary):
             )
             words.append(fewer)
         if count > 1 and not self.unknown_events:
-            one = say("They are of one earthquake.")
-            words.append(say("They are of {count} earthquakes.", count=self.events) if self.events > 1 else one)
+            same_event = say("They are of one earthquake.")
+            words.append(say("They are of {count} earthquakes.", count=self.events) if self.events > 1 else same_event)
         if self.unknown_events:
             unknown = say(
                 "The files of {names} do not tell of which earthquake they are: see that it is none of the others'."
@@ -432,7 +436,7 @@ def select_records(
     for k, other in again.items():
         name = usable[other][0].name
         refused[usable[k][0].name] = say("it is the recording of {name!r} once more; a record counts once", name=name)
-    chosen_from = [one for k, one in enumerate(usable) if k not in again]
+    chosen_from = [candidate for k, candidate in enumerate(usable) if k not in again]
     kept = [motion for motion, _, _ in chosen_from]
     spectra, sizes = [spectrum for _, spectrum, _ in chosen_from], [size for _, _, size in chosen_from]
     if len(kept) < count:
@@ -452,7 +456,7 @@ def select_records(
     peaks = np.array([_peak(kept[k], horizontal) for k in chosen])
     own = np.array([sizes[k] for k in chosen])
     size = lifted(own, np.array([spectra[k] for k in chosen]), peaks, aim, zero, least, factors[1])
-    found = tuple(_scaled(kept[k], float(x)) for k, x in zip(chosen, size, strict=True))
+    scaled_motions = tuple(_scaled(kept[k], float(x)) for k, x in zip(chosen, size, strict=True))
     rows = size[:, None] * np.array([spectra[k] for k in chosen])
     table = pandas.DataFrame(
         [
@@ -462,7 +466,7 @@ def select_records(
     )
     ratio = None if zero is None else float((size * peaks).mean() / zero)
     most = np.inf if target.most is None else target.most
-    return RecordSelection(target, t, aim, found, rows, table, least, most, ratio, refused, unknown)
+    return RecordSelection(target, t, aim, scaled_motions, rows, table, least, most, ratio, refused, unknown)
 
 
 def _considered(
@@ -474,7 +478,9 @@ def _considered(
     about: Mapping[str, float],
 ) -> tuple[str | None, np.ndarray, float]:
     """Why a record is left out, or None; its spectrum [m/s²], and the factor that makes it follow the target best."""
-    reason = next((told for one in wanted if (told := one.refusal(motion, about)) is not None), None)
+    reason = next(
+        (refusal for record_range in wanted if (refusal := record_range.refusal(motion, about)) is not None), None
+    )
     if reason is not None:
         return reason, aim, 1.0
     spectrum = _spectrum(motion, periods, horizontal)
@@ -487,7 +493,7 @@ def _other_factors(
     kept: Sequence[Motion], beyond: Sequence[tuple[Motion, float]], count: int, factors: tuple[float, float]
 ) -> str:
     """Limits of the factor within which as many records can be used as are asked for; empty where none would do."""
-    nearest = sorted(beyond, key=lambda one: abs(np.log(one[1])))
+    nearest = sorted(beyond, key=lambda pair: abs(np.log(pair[1])))
     again = recorded_again([*kept, *(motion for motion, _ in nearest)])
     recordings = {again.get(k, k) for k in range(len(kept))}
     wider: list[float] = []  # a record that is one of those again lets in no other
@@ -526,8 +532,8 @@ def _peak(motion: Motion, horizontal: str) -> float:
 
 
 def _scaled(motion: Motion, factor: float) -> Motion:
-    said = say("multiplied by {factor:.6g}: scaled to a target spectrum", factor=factor)
-    return motion.scaled(factor).replace(processing=(*motion.processing, said))
+    note = say("multiplied by {factor:.6g}: scaled to a target spectrum", factor=factor)
+    return motion.scaled(factor).replace(processing=(*motion.processing, note))
 
 
 def _row(
@@ -555,5 +561,5 @@ def _row(
 
 def on_a_structure(motion: Motion) -> bool:
     """Whether the name of the station of a record says that it stands on a structure, and not on the ground."""
-    told = (str(motion.metadata.get(key) or "") for key in ("station", "station_name", "location"))
-    return bool(ON_A_STRUCTURE.search(" ".join(told)))
+    texts = (str(motion.metadata.get(key) or "") for key in ("station", "station_name", "location"))
+    return bool(ON_A_STRUCTURE.search(" ".join(texts)))

@@ -124,8 +124,10 @@ class EurocodeSpectrum:
         """Values taken from the code."""
         table = f"EN 1998-1:2004, Table 3.{self.kind + 1}"
         names = ("S", "T_B [s]", "T_C [s]", "T_D [s]")
-        found = [Coefficient(*one, table) for one in zip(names, GROUND_TYPES[self.kind][self.ground_type], strict=True)]
-        return (*found, Coefficient("η", _damping(self.damping), "EN 1998-1:2004, Eq. 3.6"))
+        values = [
+            Coefficient(*pair, table) for pair in zip(names, GROUND_TYPES[self.kind][self.ground_type], strict=True)
+        ]
+        return (*values, Coefficient("η", _damping(self.damping), "EN 1998-1:2004, Eq. 3.6"))
 
     def acceleration(self, period: float) -> float:
         """S_e(T) [m/s²].
@@ -178,8 +180,8 @@ class NtcSpectrum:
     def soil_factor(self) -> float:
         """S = S_S S_T [-]."""
         low, a, b, high, _, _ = SOILS[self.soil]
-        found = min(max(a - b * self.amplification * self.ground_acceleration / g, low), high)
-        return found * TOPOGRAPHY[self.topography]
+        soil_amplification = min(max(a - b * self.amplification * self.ground_acceleration / g, low), high)
+        return soil_amplification * TOPOGRAPHY[self.topography]
 
     @property
     def corners(self) -> tuple[float, float, float]:
@@ -328,7 +330,7 @@ def parse_code(text: str, more: Mapping[str, Mapping[str, str]] | None = None) -
     example = ",".join((code, *known.values()))
     given: dict[str, str] = {}
     for part in parts:
-        key, sign, value = (one.strip() for one in part.partition("="))
+        key, sign, value = (piece.strip() for piece in part.partition("="))
         if not sign or key not in known:
             raise InputError(f"{part!r} says nothing to {code}; write it as {example}.")
         if key in given:
@@ -465,9 +467,9 @@ def target_spectrum(text: str) -> TargetSpectrum:
 _CODE = dict(zip(CODES, ("EN 1998-1:2004, 3.2.2.2", "prEN 1998-1-1:2019, 5.2.2.2", "NTC 2018, 3.2.3.2"), strict=True))
 
 
-def correlation(one: float, other: float) -> float:
+def correlation(period: float, other: float) -> float:
     """Correlation of the logarithms of spectral accelerations at two periods [s] (Baker and Jayaram 2008, Eq. 5 to 8)."""
-    low, high = sorted((one, other))
+    low, high = sorted((period, other))
     c1 = 1.0 - math.cos(math.pi / 2.0 - 0.366 * math.log(high / max(low, 0.109)))
     c2 = 0.0
     if high < 0.2:
@@ -483,24 +485,26 @@ def correlation(one: float, other: float) -> float:
 
 def _conditional_mean(text: str) -> TargetSpectrum:
     """ln Sa(T) = ln median + ρ ε σ, where ε at the conditioning period makes Sa what is asked for (Baker 2011, Eq. 4)."""
-    found = _CONDITIONAL.fullmatch(text)
-    if found is None:
+    match = _CONDITIONAL.fullmatch(text)
+    if match is None:
         raise InputError(f"target {text!r} cannot be read; write it as cms:FILE.csv,T=1s,sa=0.4g.")
-    at, level = parse_time(found["period"]), parse_acceleration(found["level"])
-    period, median, sigma = _read(found["file"], "median", "sigma_ln")
-    for one in (float(period[0]), float(period[-1]), at):
-        check_range(f"period of {text}", one, *CORRELATED, unit="s", remedy="the correlations are known between")
+    at, level = parse_time(match["period"]), parse_acceleration(match["level"])
+    period, median, sigma = _read(match["file"], "median", "sigma_ln")
+    for checked_period in (float(period[0]), float(period[-1]), at):
+        check_range(
+            f"period of {text}", checked_period, *CORRELATED, unit="s", remedy="the correlations are known between"
+        )
     check_range(f"T of {text}", at, float(period[0]), float(period[-1]), unit="s")
     check_range(f"sa of {text}", level, 0.0, 100.0, unit="m/s²", open_low=True)
-    bad = next((one for one in sigma if not 0.0 < one <= 2.0), None)
+    bad = next((spread for spread in sigma if not 0.0 < spread <= 2.0), None)
     if bad is not None:
         raise InputError(
-            f"sigma_ln of {found['file']} is {bad:g}; allowed is above 0 up to 2, of the natural logarithm."
+            f"sigma_ln of {match['file']} is {bad:g}; allowed is above 0 up to 2, of the natural logarithm."
         )
     x = np.log(period)
-    median_there, sigma_there = (float(np.interp(math.log(at), x, one)) for one in (np.log(median), sigma))
+    median_there, sigma_there = (float(np.interp(math.log(at), x, ordinates)) for ordinates in (np.log(median), sigma))
     epsilon = (math.log(level) - median_there) / sigma_there
-    rho = np.array([correlation(float(one), at) for one in period])
+    rho = np.array([correlation(float(other_period), at) for other_period in period])
     mean = np.log(median) + rho * epsilon * sigma
     # the conditioning period is a point of its own: there the spectrum is what is asked for
     k = int(np.searchsorted(period, at))

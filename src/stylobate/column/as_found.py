@@ -107,13 +107,13 @@ class FoundDrum:
         return any(self.chips)
 
 
-def _into_plane(one: Any, value: str, azimuth: str) -> None:
+def _into_plane(state: Any, value: str, azimuth: str) -> None:
     """Give what lies in the plane of x and z the azimuth 0."""
-    angle, amount = getattr(one, azimuth), getattr(one, value)
+    angle, amount = getattr(state, azimuth), getattr(state, value)
     if abs(angle) == 180.0:
-        object.__setattr__(one, value, -amount)
+        object.__setattr__(state, value, -amount)
     if amount == 0.0 or angle % 180.0 == 0.0:
-        object.__setattr__(one, azimuth, 0.0)
+        object.__setattr__(state, azimuth, 0.0)
 
 
 @dataclass(frozen=True)
@@ -171,20 +171,20 @@ class AsFound:
 
     def place(self, drum: int) -> tuple[float, float]:
         """How far the offsets up to a drum leave it from its place as built: amount [m], azimuth from 0 to 360 [degrees]."""
-        each = [(one.offset, one.offset_azimuth * DEGREE) for one in self.drums if one.drum <= drum]
+        each = [(state.offset, state.offset_azimuth * DEGREE) for state in self.drums if state.drum <= drum]
         x, y = (sum(size * way(angle) for size, angle in each) for way in (math.cos, math.sin))
         far = math.hypot(x, y)
         return (0.0, 0.0) if far < IN_LINE else (far, math.degrees(math.atan2(y, x)) % 360.0)
 
     def displaced(self, drum: int) -> bool:
         """Whether a drum is not where it was built on its base: shifted, leaning or turned, or on one that leans."""
-        below = [one for one in self.drums if one.drum <= drum]
-        turned = any(one.turn for one in below if one.drum == drum)
-        return turned or any(one.tilt for one in below) or self.place(drum)[0] > 0.0
+        below = [state for state in self.drums if state.drum <= drum]
+        turned = any(state.turn for state in below if state.drum == drum)
+        return turned or any(state.tilt for state in below) or self.place(drum)[0] > 0.0
 
     def of(self, drum: int) -> FoundDrum:
         """State as found of a drum, numbered from 1."""
-        return next((one for one in self.drums if one.drum == drum), None) or _as_built(drum)
+        return next((state for state in self.drums if state.drum == drum), None) or _as_built(drum)
 
 
 @lru_cache(maxsize=256)

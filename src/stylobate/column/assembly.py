@@ -49,10 +49,10 @@ def check_fields(assembly: Any, bodies: str, kind: type) -> None:
     for name, each in ((bodies, kind), ("links", Link)):
         object.__setattr__(assembly, name, tuple(check_all(name, getattr(assembly, name), each)))
     object.__setattr__(assembly, "overrides", tuple(check_kind("overrides", assembly.overrides, (tuple, list))))
-    for one in assembly.overrides:
+    for override in assembly.overrides:
         kinds = (str, str, Joint)
-        if not isinstance(one, (tuple, list)) or len(one) != 3 or not all(map(isinstance, one, kinds)):
-            raise InputError(f"an override is {as_typed(one)}; allowed is (name, name, Joint), of two blocks.")
+        if not isinstance(override, (tuple, list)) or len(override) != 3 or not all(map(isinstance, override, kinds)):
+            raise InputError(f"an override is {as_typed(override)}; allowed is (name, name, Joint), of two blocks.")
     check_kind("joint", assembly.joint, Joint)
     check_name("the name of an assembly", assembly.name)
 
@@ -137,15 +137,15 @@ class Assembly(Structure):
             raise InputError(
                 f"a joint of {self.name!r} has a ring_width, and rings are those of round drums; leave it out."
             )
-        pairs = [frozenset((one, other)) for one, other, _ in self.overrides]
+        pairs = [frozenset((block, other)) for block, other, _ in self.overrides]
         known = {block.name for block in self.bodies}
-        for (one, other, _), pair in zip(self.overrides, pairs, strict=True):
-            missing = next((name for name in (one, other) if name not in known), None)
+        for (first, other, _), pair in zip(self.overrides, pairs, strict=True):
+            missing = next((name for name in (first, other) if name not in known), None)
             if missing is not None:
                 raise InputError(f"a joint_override names block {missing!r}, which does not exist; correct its name.")
             if len(pair) == 1 or pairs.count(pair) > 1:
                 raise InputError(
-                    f"a joint_override names {one!r} and {other!r} twice; name two blocks, each pair once."
+                    f"a joint_override names {first!r} and {other!r} twice; name two blocks, each pair once."
                 )
         touched = self._contacts[1]
         for i, block in enumerate(self.bodies):
@@ -158,14 +158,14 @@ class Assembly(Structure):
         """All links in numbers, in their order."""
         return place_between(Scene(self.bodies, self.joints), self.links, self.name)
 
-    def law_between(self, one: Block, other: Block) -> Joint:
+    def law_between(self, block: Block, other: Block) -> Joint:
         """Law of the contacts of two bodies, the second of which comes later; with what lies between them."""
-        law = self._laws.get(frozenset((one.name, other.name))) or other.surface or self.joint
-        return self.with_links_between(one.name, other.name, law)
+        law = self._laws.get(frozenset((block.name, other.name))) or other.surface or self.joint
+        return self.with_links_between(block.name, other.name, law)
 
     @cached_property
     def _laws(self) -> dict[frozenset[str], Joint]:
-        return {frozenset((one, other)): law for one, other, law in self.overrides}
+        return {frozenset((first, other)): law for first, other, law in self.overrides}
 
     @cached_property
     def bodies(self) -> tuple[Block, ...]:
@@ -203,7 +203,7 @@ class Assembly(Structure):
     @property
     def beds(self) -> tuple[Bed, ...]:
         """The joints as where and how they carry."""
-        return tuple(self._bed(*one) for one in zip(self.joints, self.face_pairs, strict=True))
+        return tuple(self._bed(*pair) for pair in zip(self.joints, self.face_pairs, strict=True))
 
     def _bed(self, joint: FaceJoint, pair: FacePair) -> Bed:
         right, left = self.bodies[joint.lower].side(joint.lower_face)
@@ -223,12 +223,12 @@ class Assembly(Structure):
     def laws_of_pairs(self) -> tuple[tuple[int, int, Joint], ...]:
         """Other laws of such contacts: overrides, and of what is linked what the links make of it."""
         numbers = {block.name: i for i, block in enumerate(self.bodies)}
-        told = [(numbers[one], numbers[other], law) for one, other, law in self.overrides]
-        found = [(min(i, h), max(i, h), law) for i, h, law in told]
+        overrides = [(numbers[first], numbers[other], law) for first, other, law in self.overrides]
+        laws = [(min(i, h), max(i, h), law) for i, h, law in overrides]
         for link in self.placed_links:
             i, h = sorted((link.lower, link.upper))
-            found.append((i, h, self.law_between(self.bodies[i], self.bodies[h])))
-        return tuple(found)
+            laws.append((i, h, self.law_between(self.bodies[i], self.bodies[h])))
+        return tuple(laws)
 
     @cached_property
     def _contacts(self) -> tuple[tuple[FaceJoint, ...], set[int]]:
@@ -236,7 +236,7 @@ class Assembly(Structure):
         bodies = self.bodies
         low = np.array([block.corners.min(axis=0) for block in bodies])
         high = np.array([block.corners.max(axis=0) for block in bodies])
-        found: list[FaceJoint] = []
+        face_joints: list[FaceJoint] = []
         leaning: set[int] = set()
         for i, a in enumerate(bodies):
             for j in range(i + 1, len(bodies)):
@@ -255,8 +255,8 @@ class Assembly(Structure):
                 leaning |= {i, j}
                 faces = touching_faces(a.corners, b.corners, near)
                 if faces is not None and smallest_turn(a.corners, faces[0], b.corners, faces[1]) > FLATTEST:
-                    found.append(FaceJoint(i, j, *faces, self.law_between(a, b)))
-        return tuple(found), leaning
+                    face_joints.append(FaceJoint(i, j, *faces, self.law_between(a, b)))
+        return tuple(face_joints), leaning
 
     def to_dict(self) -> dict:
         """Everything that defines the assembly, as plain values in SI units."""

@@ -114,7 +114,7 @@ def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:
             "solid": None if solid is None else tuple(solid),
         }
         blocks.append(Block(**(dict(fields) | special)))
-    overrides = tuple((one, other, Joint(**law)) for one, other, law in data["overrides"])
+    overrides = tuple((first, other, Joint(**law)) for first, other, law in data["overrides"])
     special = {"blocks": tuple(blocks), "joint": Joint(**data["joint"]), "overrides": overrides}
     special["links"] = tuple(link_from_dict(fields) for fields in data.get("links", ()))
     return Assembly(**(dict(data) | special))
@@ -128,26 +128,26 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
     common = table.density if table.density is not None or stone is None else stone.density.value
     if table.joint is None and stone is None and not standing:
         raise InputError("key 'joint' is missing; add it, or name a material.")
-    for i, one in enumerate(table.block or []):
-        name = one.name if one.name is not None else f"block {i + 1}"
-        density = density_of(f"block {name!r}", one.density, common, 0.0 if one.fixed else None)
-        corners = tuple(tuple(corner) for corner in one.vertices)
-        surface = None if one.surface is None else _law(one.surface, stone, f"the surface of block {name!r}")
-        depth = one.depth if one.depth is not None else table.depth
-        blocks.append(Block(corners, density, name, depth, one.fixed, surface))  # pyright: ignore[reportArgumentType]
+    for i, entry in enumerate(table.block or []):
+        name = entry.name if entry.name is not None else f"block {i + 1}"
+        density = density_of(f"block {name!r}", entry.density, common, 0.0 if entry.fixed else None)
+        corners = tuple(tuple(corner) for corner in entry.vertices)
+        surface = None if entry.surface is None else _law(entry.surface, stone, f"the surface of block {name!r}")
+        depth = entry.depth if entry.depth is not None else table.depth
+        blocks.append(Block(corners, density, name, depth, entry.fixed, surface))  # pyright: ignore[reportArgumentType]
     blocks = standing + blocks
-    for i, one in enumerate(table.beam or []):
-        name = one.name or ("architrave" if len(table.beam or []) == 1 else f"architrave {i + 1}")
+    for i, entry in enumerate(table.beam or []):
+        name = entry.name or ("architrave" if len(table.beam or []) == 1 else f"architrave {i + 1}")
         last = standing[-1].density if standing else None
-        density = density_of(f"beam {name!r}", one.density, common, last)
-        surface = None if one.surface is None else _law(one.surface, stone, f"the surface of beam {name!r}")
-        blocks.append(lay(one, name, density, laid, surface))
+        density = density_of(f"beam {name!r}", entry.density, common, last)
+        surface = None if entry.surface is None else _law(entry.surface, stone, f"the surface of beam {name!r}")
+        blocks.append(lay(entry, name, density, laid, surface))
     overrides = []
-    for one in table.joint_override or []:
-        if len(one.between) != 2:
-            raise InputError(f"a joint_override is between {len(one.between)} blocks; name two, e.g. ['a', 'b'].")
-        where = f"the [[joint_override]] between {one.between[0]!r} and {one.between[1]!r}"
-        overrides.append((*one.between, _law(one, stone, where)))
+    for entry in table.joint_override or []:
+        if len(entry.between) != 2:
+            raise InputError(f"a joint_override is between {len(entry.between)} blocks; name two, e.g. ['a', 'b'].")
+        where = f"the [[joint_override]] between {entry.between[0]!r} and {entry.between[1]!r}"
+        overrides.append((*entry.between, _law(entry, stone, where)))
     if table.ground is True:
         raise InputError("ground is true; give its level in m, or false for none.")
     ground = None if table.ground is False else float(table.ground)
@@ -157,8 +157,8 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
         joint = _law(table.joint, stone, "[joint]")
     links += links_between(table.link or [])
     alone = blocks[len(standing) :]
-    laws = [joint, *(one.surface for one in alone if one.surface), *(law for _, _, law in overrides)]
-    pieces = [_piece(one, one.surface or joint) for one in alone if not one.fixed]
+    laws = [joint, *(block.surface for block in alone if block.surface), *(law for _, _, law in overrides)]
+    pieces = [_piece(block, block.surface or joint) for block in alone if not block.fixed]
     for doubt in piece_doubts(pieces, laws, table.gravity):
         warn(doubt)
     return Assembly(

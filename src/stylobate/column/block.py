@@ -207,7 +207,7 @@ def separation(a: np.ndarray, b: np.ndarray) -> float:
 
 def touching_faces(a: np.ndarray, b: np.ndarray, near: float) -> tuple[int, int] | None:
     """Faces of two convex polygons that touch along most of their length, to a distance [m]; None if none do."""
-    best, found = 0.0, None
+    best, faces = 0.0, None
     for i in range(len(a)):
         p, along = a[i], a[(i + 1) % len(a)] - a[i]
         length = math.hypot(along[0], along[1])
@@ -221,8 +221,8 @@ def touching_faces(a: np.ndarray, b: np.ndarray, near: float) -> tuple[int, int]
                 continue
             over = min(length, float(q @ t)) - max(0.0, float(r @ t))
             if over > max(best, near):
-                best, found = over, (i, k)
-    return found
+                best, faces = over, (i, k)
+    return faces
 
 
 def smallest_turn(a: np.ndarray, face: int, b: np.ndarray, other: int) -> float:
@@ -230,8 +230,8 @@ def smallest_turn(a: np.ndarray, face: int, b: np.ndarray, other: int) -> float:
     angles = []
     for corners, k in ((a, face), (b, other)):
         side = np.roll(corners, -1, axis=0) - corners
-        for one, next_one in ((side[k - 1], side[k]), (side[k], side[(k + 1) % len(side)])):
-            angles.append(math.atan2(one[0] * next_one[1] - one[1] * next_one[0], float(one @ next_one)))
+        for edge, next_edge in ((side[k - 1], side[k]), (side[k], side[(k + 1) % len(side)])):
+            angles.append(math.atan2(edge[0] * next_edge[1] - edge[1] * next_edge[0], float(edge @ next_edge)))
     return min(angles)
 
 

@@ -100,17 +100,17 @@ class KnownColumn:
     def figures(self) -> dict[str, Figure]:
         """What is known of it, by name."""
         names = ("height", "bottom_width", "top_width", "drums", "density", "base", "capital")
-        return {name: one for name in names if (one := getattr(self, name)) is not None}
+        return {name: figure for name in names if (figure := getattr(self, name)) is not None}
 
     @property
     def sources(self) -> list[str]:
         """Keys in the bibliography of all figures, each once."""
-        return list(dict.fromkeys(one.source for one in self.figures.values() if one.source is not None))
+        return list(dict.fromkeys(figure.source for figure in self.figures.values() if figure.source is not None))
 
     @property
     def shaft(self) -> float:
         """Height of the shaft [m]."""
-        return self.height.value - sum(one.value for one in (self.base, self.capital) if one is not None)
+        return self.height.value - sum(figure.value for figure in (self.base, self.capital) if figure is not None)
 
     @cached_property
     def column(self) -> Column:
@@ -134,9 +134,9 @@ class KnownColumn:
         return {
             "name": self.name,
             "title": self.title,
-            "figures": {name: one.to_dict() for name, one in known.items()},
-            "measured": [name for name, one in known.items() if one.measured],
-            "assumed": [name for name, one in known.items() if not one.measured],
+            "figures": {name: figure.to_dict() for name, figure in known.items()},
+            "measured": [name for name, figure in known.items() if figure.measured],
+            "assumed": [name for name, figure in known.items() if not figure.measured],
             "sources": [bibliography()[key].text for key in self.sources],
         }
 
@@ -297,7 +297,7 @@ _COLUMNS = (
 )  # fmt: skip
 
 #: All columns by the names of their presets, the paper's first.
-CATALOGUE = {one.name: one for one in _COLUMNS}
+CATALOGUE = {column.name: column for column in _COLUMNS}
 
 
 # Presets: the columns of the catalogue by name.

@@ -156,14 +156,14 @@ class Column(DrumStack):
         """The base and the drums as they stand."""
         at, slope = geometry(self), self.as_found.base_tilt * DEGREE
         space, turn = None if self.as_found.in_plane else space_geometry(self), base_axes(self)
-        found: list[Body] = [ground_block(0.0)]
+        bodies: list[Body] = [ground_block(0.0)]
         for i, (drum, shape) in enumerate(zip(self.drums, self.shapes, strict=True)):
             place, angle = (float(at.centroid[i, 0]), float(at.centroid[i, 1])), float(at.lean[i] + at.tilt[i])
             pose = None if space is None else (turn @ space.centroid[i], turn @ space.axes[i])
             what = f"drum {i + 1}", shape, float(self.masses[i]), float(self.inertias[i])
             fields = *what, place, angle, slope, float(at.lean[i]), pose
-            found.append(StandingDrum(*fields, drum=drum, found=self.as_found.of(i + 1)))
-        return tuple(found)
+            bodies.append(StandingDrum(*fields, drum=drum, found=self.as_found.of(i + 1)))
+        return tuple(bodies)
 
     @cached_property
     def _turns(self) -> tuple[list[float], list[float]]:
@@ -174,25 +174,25 @@ class Column(DrumStack):
     @cached_property
     def upper_faces(self) -> tuple[Face, ...]:
         """Upper face of the base and of each drum, which may be inclined to its lower one."""
-        found = [Face((1.0, 0.0), 0.0, FAR_AWAY, FAR_AWAY)]
+        faces = [Face((1.0, 0.0), 0.0, FAR_AWAY, FAR_AWAY)]
         for drum, *turn in zip(self.drums, *self._turns, strict=True):
             half = 0.5 * drum.top_width
-            found.append(Face((turn[0], turn[1]), drum.height - drum.centroid_height, half, half))
-        return tuple(found)
+            faces.append(Face((turn[0], turn[1]), drum.height - drum.centroid_height, half, half))
+        return tuple(faces)
 
     @cached_property
     def face_pairs(self) -> tuple[FacePair, ...]:
         """Each joint, between the upper face of what is below and what chips leave of the lower face of the drum."""
-        found, face = [], 2  # the upper one of the base among its sides, counter-clockwise from the lower left
+        pairs, face = [], 2  # the upper one of the base among its sides, counter-clockwise from the lower left
         pressed = zip(self.joint_laws, self.joint_areas.tolist(), self.joint_widths.tolist(), strict=True)
         for i, (drum, cosine, sine, how) in enumerate(zip(self.drums, *self._turns, pressed)):
-            one, half, high = self.as_found.of(i + 1), 0.5 * drum.bottom_width, drum.centroid_height
-            ends = half - one.chip_left - high * sine, half - one.chip_right + high * sine
-            left, right = one.chip_left > 0.0, one.chip_right > 0.0
+            found_drum, half, high = self.as_found.of(i + 1), 0.5 * drum.bottom_width, drum.centroid_height
+            ends = half - found_drum.chip_left - high * sine, half - found_drum.chip_right + high * sine
+            left, right = found_drum.chip_left > 0.0, found_drum.chip_right > 0.0
             above = Face((1.0, 0.0), high * cosine, *ends)
-            found.append(FacePair(i, i + 1, self.upper_faces[i], above, *how, (face, int(left))))
+            pairs.append(FacePair(i, i + 1, self.upper_faces[i], above, *how, (face, int(left))))
             face = 2 + left + right
-        return tuple(found)
+        return tuple(pairs)
 
     @cached_property
     def placed_links(self) -> tuple[PlacedLink, ...]:
@@ -384,7 +384,7 @@ class Column(DrumStack):
     def to_dict(self) -> dict:
         """Everything that defines the column, as plain values in SI units."""
         plain = {name: value for name, value in stated_fields(self).items() if name not in ("as_found", "links")}
-        plain |= {name: [stated_fields(one) for one in plain[name]] for name in ("drums", "joints")}
+        plain |= {name: [stated_fields(part) for part in plain[name]] for name in ("drums", "joints")}
         plain |= {"as_found": self.as_found.to_dict()} if self.as_found else {}
         plain |= {"losses": stated_fields(self.losses)} if self.losses else {}
         return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})

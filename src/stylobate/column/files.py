@@ -87,9 +87,9 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     """The column that :meth:`Column.to_dict` described."""
     drums = tuple(Drum(**fields) for fields in data["drums"])
     joints = tuple(Joint(**fields) for fields in data["joints"])
-    found = data.get("as_found", {"drums": (), "base_tilt": 0.0})
+    state = data.get("as_found", {"drums": (), "base_tilt": 0.0})
     as_found = AsFound(
-        tuple(FoundDrum(**drum) for drum in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
+        tuple(FoundDrum(**drum) for drum in state["drums"]), state["base_tilt"], state.get("base_azimuth", 0.0)
     )
     links = tuple(link_from_dict(fields) for fields in data.get("links", ()))
     who = {"name": data["name"], "gravity": data["gravity"]} | {key: data.get(key) for key in ("material", "north")}
@@ -105,15 +105,15 @@ def _joint_fields(joint: Joint) -> dict[str, float]:
     return {key: value for key, value in fields.items() if key != drop}
 
 
-def _as_found_fields(found: AsFound) -> dict[str, Any]:
-    table: dict[str, Any] = {"base_tilt": found.base_tilt}
-    if found.base_azimuth:
-        table["base_azimuth"] = found.base_azimuth
-    if found.drums:
+def _as_found_fields(as_found: AsFound) -> dict[str, Any]:
+    table: dict[str, Any] = {"base_tilt": as_found.base_tilt}
+    if as_found.base_azimuth:
+        table["base_azimuth"] = as_found.base_azimuth
+    if as_found.drums:
         table["drum"] = [
             {"index": drum.drum}
             | {key: value for key, value in dataclasses.asdict(drum).items() if key != "drum" and value != 0.0}
-            for drum in found.drums
+            for drum in as_found.drums
         ]
     return table
 
@@ -172,13 +172,13 @@ def read_losses(path: str | Path) -> Losses:
     InputError
         The file cannot be read, or is no file of losses.
     """
-    found = read_table(path, LossFile)
+    table = read_table(path, LossFile)
     with within(printable(path)):
-        if found.stylobate_losses != FORMAT:
+        if table.stylobate_losses != FORMAT:
             raise InputError(
-                f"stylobate_losses is {found.stylobate_losses}, a format that this version does not know; it reads {FORMAT}."
+                f"stylobate_losses is {table.stylobate_losses}, a format that this version does not know; it reads {FORMAT}."
             )
-        return Losses(found.stiffness_damping, found.rolling_resistance or 0.0, found.law)
+        return Losses(table.stiffness_damping, table.rolling_resistance or 0.0, table.law)
 
 
 def write_losses(
@@ -203,8 +203,8 @@ def write_losses(
     table: dict[str, Any] = {"stylobate_losses": FORMAT, "stiffness_damping": losses.stiffness_damping}
     table |= {"rolling_resistance": losses.rolling_resistance} if losses.rolling_resistance else {}
     table |= {"law": losses.law} if losses.law is not None else {}
-    for name, one in (("interval", interval), ("measured", measured)):
-        table |= {name: dict(one)} if one else {}
+    for name, content in (("interval", interval), ("measured", measured)):
+        table |= {name: dict(content)} if content else {}
     with replacing(path) as partial:
         partial.write_text(tomli_w.dumps(table), encoding="utf-8")
     return Path(path)

@@ -96,19 +96,19 @@ def space_geometry(column: DrumStack, closing: np.ndarray | None = None) -> Spac
     frame, origin, turned = np.eye(3), np.zeros(3), 0.0
     up = np.array([0.0, 0.0, 1.0])
     for i, drum in enumerate(column.drums):
-        one = column.as_found.of(i + 1)
-        azimuth = one.offset_azimuth * DEGREE
-        offset = one.offset * np.array([math.cos(azimuth), math.sin(azimuth)])
+        found_drum = column.as_found.of(i + 1)
+        azimuth = found_drum.offset_azimuth * DEGREE
+        offset = found_drum.offset * np.array([math.cos(azimuth), math.sin(azimuth)])
         gap, first, second = (0.0, 0.0, 0.0) if closing is None else closing[i]
         out.frame[i], out.origin[i], out.offset[i] = frame, origin, offset
         middle = origin + frame @ (*offset, gap)
         size = math.hypot(first, second)
         if size > 0.0:
             frame = frame @ rotation(np.array([first / size, second / size, 0.0]), size)
-        azimuth = one.tilt_azimuth * DEGREE
-        lean = rotation(np.array([math.sin(azimuth), -math.cos(azimuth), 0.0]), one.tilt * DEGREE)
+        azimuth = found_drum.tilt_azimuth * DEGREE
+        lean = rotation(np.array([math.sin(azimuth), -math.cos(azimuth), 0.0]), found_drum.tilt * DEGREE)
         frame = frame @ lean
-        turned += one.turn * DEGREE
+        turned += found_drum.turn * DEGREE
         spin = rotation(up, turned)
         out.turned[i], out.axes[i], out.bed[i] = turned, frame @ spin, spin.T @ lean.T @ spin
         out.centroid[i] = middle + drum.centroid_height * frame[:, 2]
@@ -118,17 +118,17 @@ def space_geometry(column: DrumStack, closing: np.ndarray | None = None) -> Spac
 
 def shares_left(column: DrumStack) -> np.ndarray:
     """Share of each drum's lower face that its chips leave [-], shape (n,)."""
-    left = np.ones(column.n)
-    for one in column.as_found.drums:
-        drum = column.drums[one.drum - 1]
+    shares = np.ones(column.n)
+    for found_drum in column.as_found.drums:
+        drum = column.drums[found_drum.drum - 1]
         width, depth = drum.bottom_width, drum.depth
         if drum.circular:
-            lost = sum(_segment(0.5 * width, chip) for chip in (one.chip_left, one.chip_right))
-            left[one.drum - 1] -= lost / (0.25 * math.pi * width**2)
+            lost = sum(_segment(0.5 * width, chip) for chip in (found_drum.chip_left, found_drum.chip_right))
+            shares[found_drum.drum - 1] -= lost / (0.25 * math.pi * width**2)
         else:
-            a, b, c, d = one.chips
-            left[one.drum - 1] = (width - a - b) * (depth - c - d) / (width * depth)
-    return left
+            a, b, c, d = found_drum.chips
+            shares[found_drum.drum - 1] = (width - a - b) * (depth - c - d) / (width * depth)
+    return shares
 
 
 def _segment(radius: float, height: float) -> float:
@@ -185,7 +185,7 @@ class Edges(NamedTuple):
 
 def overlap_edges(column: DrumStack, at: SpaceGeometry, joint: int) -> Edges:
     """Edges of the overlap of the faces of a joint 0 … n−1."""
-    drum, one = column.drums[joint], column.as_found.of(joint + 1)
+    drum, found_drum = column.drums[joint], column.as_found.of(joint + 1)
     below = column.drums[joint - 1] if joint else None
     half, middle = 0.5 * drum.bottom_width, at.offset[joint]
     discs: list[tuple[np.ndarray, float]] = []
@@ -196,16 +196,16 @@ def overlap_edges(column: DrumStack, at: SpaceGeometry, joint: int) -> Edges:
             if ends is not None:
                 sides.extend((sign * axis, end + sign * float(axis @ own)) for sign, end in zip((1.0, -1.0), ends))
 
-    along = half - one.chip_right, half - one.chip_left
-    angle = at.turned[joint] + one.chip_azimuth * DEGREE
+    along = half - found_drum.chip_right, half - found_drum.chip_left
+    angle = at.turned[joint] + found_drum.chip_azimuth * DEGREE
     if drum.circular:
         discs.append((middle, half))
-        if one.chipped:
+        if found_drum.chipped:
             straight(angle, middle, along, None)
         if below is not None:
             discs.append((np.zeros(2), 0.5 * below.top_width))
         return Edges(tuple(discs), tuple(sides))
-    straight(angle, middle, along, (0.5 * drum.depth - one.chip_back, 0.5 * drum.depth - one.chip_front))
+    straight(angle, middle, along, (0.5 * drum.depth - found_drum.chip_back, 0.5 * drum.depth - found_drum.chip_front))
     if below is not None:
         wide, deep = 0.5 * below.top_width, 0.5 * below.upper_depth
         straight(at.turned[joint - 1], np.zeros(2), (wide, wide), (deep, deep))
@@ -288,20 +288,20 @@ class Geometry(NamedTuple):
 
 def geometry(column: DrumStack) -> Geometry:
     """Places of a column's drums and contacts."""
-    n, found = column.n, [column.as_found.of(i + 1) for i in range(column.n)]
-    offset = np.array([one.offset for one in found])
-    tilt = np.array([one.tilt * DEGREE for one in found])
+    n, found_drums = column.n, [column.as_found.of(i + 1) for i in range(column.n)]
+    offset = np.array([state.offset for state in found_drums])
+    tilt = np.array([state.tilt * DEGREE for state in found_drums])
     lean = np.concatenate(([0.0], np.cumsum(tilt)[:-1]))
     centroid = np.array([drum.centroid_height for drum in column.drums])
     foot = -centroid * np.sin(tilt)
     low, high = np.empty(n), np.empty(n)
     origins, centroids = np.empty((n, 2)), np.empty((n, 2))
     origin = np.zeros(2)
-    for i, (drum, one) in enumerate(zip(column.drums, found, strict=True)):
+    for i, (drum, found_drum) in enumerate(zip(column.drums, found_drums, strict=True)):
         b = 0.5 * drum.bottom_width
         under = 0.5 * column.drums[i - 1].top_width if i else math.inf
-        low[i] = max(offset[i] - b + one.chip_left, -under)
-        high[i] = min(offset[i] + b - one.chip_right, under)
+        low[i] = max(offset[i] - b + found_drum.chip_left, -under)
+        high[i] = min(offset[i] + b - found_drum.chip_right, under)
         origins[i] = origin
         middle = origin + offset[i] * np.array([math.cos(lean[i]), math.sin(lean[i])])
         axis = lean[i] + tilt[i]
@@ -343,9 +343,9 @@ def joint_load(column: DrumStack, at: Geometry, joint: int) -> JointLoad:
 def _pulled_load(column: DrumStack, at: Geometry, joint: int, weight: np.ndarray, along: np.ndarray) -> JointLoad:
     """As :func:`joint_load`, with the pull of pretensioned links."""
     angle = at.lean + at.tilt
-    c, s, none, one = np.cos(angle), np.sin(angle), np.zeros(column.n), np.ones(column.n)
-    axes = np.stack((c, none, -s, none, one, none, s, none, c), axis=1).reshape(-1, 3, 3)
-    centroids = np.stack((at.centroid[:, 0], none, at.centroid[:, 1]), axis=1)
+    c, s, zeros, ones = np.cos(angle), np.sin(angle), np.zeros(column.n), np.ones(column.n)
+    axes = np.stack((c, zeros, -s, zeros, ones, zeros, s, zeros, c), axis=1).reshape(-1, 3, 3)
+    centroids = np.stack((at.centroid[:, 0], zeros, at.centroid[:, 1]), axis=1)
     force, moment = pull_on_part(column.placed_links, centroids, axes, joint)
     mass, origin = column.masses[joint:], at.origin[joint]
     arm = mass @ at.centroid[joint:] / mass.sum() - origin
@@ -478,13 +478,13 @@ class StandingDrum(Standing):
     @cached_property
     def polygon(self) -> np.ndarray:
         """Corners from its centroid in these axes, counter-clockwise from the lower left [m], shape (k, 2)."""
-        drum, one = self.drum, self.found
-        tilt = one.tilt * DEGREE
+        drum, found_drum = self.drum, self.found
+        tilt = found_drum.tilt * DEGREE
         c, s = math.cos(tilt), math.sin(tilt)
         half, high = 0.5 * drum.top_width, drum.height
         top = {side: np.array([c * side * half - s * high, s * side * half + c * high]) for side in (-1, 1)}
         corners = []
-        for side, chip in ((-1, one.chip_left), (1, one.chip_right)):
+        for side, chip in ((-1, found_drum.chip_left), (1, found_drum.chip_right)):
             edge = np.array([side * 0.5 * drum.bottom_width, 0.0])
             flank = edge + min(CHIP_SLOPE * chip / drum.height, 0.5) * (top[side] - edge)
             face = edge - (side * chip, 0.0)

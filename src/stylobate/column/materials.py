@@ -86,8 +86,8 @@ class Material:
     @property
     def quantities(self) -> dict[str, Quantity]:
         """Known values, by name."""
-        found = {name: getattr(self, name) for name in ("density", *JOINT_VALUES)}
-        return {name: one for name, one in found.items() if one is not None}
+        quantities = {name: getattr(self, name) for name in ("density", *JOINT_VALUES)}
+        return {name: quantity for name, quantity in quantities.items() if quantity is not None}
 
     def joint_values(self, given: dict[str, Any], where: str = "[joint]") -> dict[str, Any]:
         """Fields of a joint of this material, those given by hand first.
@@ -104,11 +104,11 @@ class Material:
         InputError
             Something is neither given nor published.
         """
-        said = {name: value for name, value in given.items() if value is not None}
-        known = {name: one.value for name, one in self.quantities.items() if name in JOINT_VALUES}
-        if "friction_angle" in said:
+        stated = {name: value for name, value in given.items() if value is not None}
+        known = {name: quantity.value for name, quantity in self.quantities.items() if name in JOINT_VALUES}
+        if "friction_angle" in stated:
             known.pop("friction_coefficient", None)
-        joint_values = known | said
+        joint_values = known | stated
         if "friction_angle" not in joint_values and "friction_coefficient" not in joint_values:
             raise InputError(
                 f"no friction of {self.name!r} is published in a source that is known here; add friction_angle to {where}."
@@ -126,7 +126,7 @@ class Material:
 
     def to_dict(self) -> dict[str, Any]:
         """Under the names of the JSON object of ``stylobate materials``."""
-        known = {name: asdict(one) | {"cited": one.cited} for name, one in self.quantities.items()}
+        known = {name: asdict(quantity) | {"cited": quantity.cited} for name, quantity in self.quantities.items()}
         unknown = [name for name in ("density", *JOINT_VALUES) if name not in known and name != "cohesion"]
         return {"material": self.name, "stone": self.stone, "state": self.state, **known, "not_published": unknown}
 
@@ -140,12 +140,12 @@ def material(name: str) -> Material:
         There is none; the message gives the nearest names.
     """
     key = ", ".join(part.strip().lower() for part in str(name).split(","))
-    found = MATERIALS.get(key) or MATERIALS.get(f"{key}, dry")
-    if found is None:
+    entry = MATERIALS.get(key) or MATERIALS.get(f"{key}, dry")
+    if entry is None:
         near = _nearest(key)
         nearest = f"the nearest are {', '.join(map(repr, near))}" if near else f"stones are {', '.join(_STONES)}"
         raise InputError(f"there is no material {name!r}; {nearest} (states are {', '.join(_STATES)}).")
-    return found
+    return entry
 
 
 #: Likeness of two words of which one is taken for a misspelling of the other [-].
@@ -162,7 +162,7 @@ def _nearest(key: str) -> list[str]:
 
 def _unit_weight(low: float, high: float, source: str, note: str) -> Quantity:
     """A density from unit weights [kN/m³]."""
-    low, high = (1000.0 * one / STANDARD_GRAVITY for one in (low, high))
+    low, high = (1000.0 * unit_weight / STANDARD_GRAVITY for unit_weight in (low, high))
     return Quantity(round(0.5 * (low + high), -1), round(low), round(high), "kg/m³", source, note)
 
 

@@ -59,14 +59,14 @@ def _boxes(structure: Structure) -> list[Column]:
     share /= np.maximum(share.sum(axis=0), 1.0)
     mass, high = np.array([(0.0, 0.0) if body.fixed else (body.mass, body.place[1]) for body in bodies]).T
     carried, moment = np.linalg.lstsq(np.eye(count) - share, np.stack((mass, mass * high), axis=1), rcond=None)[0].T
-    found = []
+    boxes = []
     for number in np.flatnonzero(~fixed):
         own = [bed for bed in beds if bed.upper == number and fixed[bed.lower]]
         middle = moment[number] / carried[number] - min((bed.level for bed in own), default=math.inf)
         if middle > 0.0:
             weighs = carried[number] * float(share[fixed, number].sum())
-            found.append(_box(own, float(weighs), float(2.0 * middle), structure))
-    return found
+            boxes.append(_box(own, float(weighs), float(2.0 * middle), structure))
+    return boxes
 
 
 def _upright(bed: Bed) -> Bed:

@@ -69,9 +69,9 @@ def unit_doubts(column: Stack) -> list[str]:
 
 def law_doubts(column: Stack) -> list[str]:
     """Joints of a column beyond what was measured, or that close more than joints of stone."""
-    found = joint_doubts(column.joints)
+    doubts = joint_doubts(column.joints)
     closures = zip(column.joint_closures.tolist(), column.joints, strict=True)
-    return found or closing_doubts(
+    return doubts or closing_doubts(
         (say("joint {i}", i=i), closure, law) for i, (closure, law) in enumerate(closures, 1)
     )
 
@@ -79,9 +79,9 @@ def law_doubts(column: Stack) -> list[str]:
 def size_doubts(column: Stack) -> list[str]:
     """Sizes and densities of a column beyond what is known, each kind once."""
     drums = column.drums
-    widths = [(one.bottom_width, one.top_width) for one in drums]
+    widths = [(drum.bottom_width, drum.top_width) for drum in drums]
     doubts = length_doubts(
-        column.heights.tolist(), widths, [one.depth for one in drums if column.section != "circular"]
+        column.heights.tolist(), widths, [drum.depth for drum in drums if column.section != "circular"]
     )
     if not doubts:
         width = statistics.median(0.5 * sum(pair) for pair in widths)
@@ -90,7 +90,9 @@ def size_doubts(column: Stack) -> list[str]:
             doubts = TALL.doubts(
                 [(say("the height of drums over their width"), statistics.median(column.heights) / width)]
             )
-    return doubts + DENSITY.doubts((say("the density of drum {i}", i=i), one.density) for i, one in enumerate(drums, 1))
+    return doubts + DENSITY.doubts(
+        (say("the density of drum {i}", i=i), drum.density) for i, drum in enumerate(drums, 1)
+    )
 
 
 def length_doubts(
@@ -112,9 +114,9 @@ def length_doubts(
         for i, pair in enumerate(widths, 1)
         for face, width in zip(("lower", "upper"), pair, strict=True)
     ]
-    high = DRUM.doubts((say("the height of drum {i}", i=i), one) for i, one in enumerate(heights, 1))
+    high = DRUM.doubts((say("the height of drum {i}", i=i), height) for i, height in enumerate(heights, 1))
     high = high or COLUMN.doubts([(say("the height of the column"), sum(heights))])
-    deep = WIDTH.doubts((say("the depth of drum {i}", i=i), one) for i, one in enumerate(depths, 1))
+    deep = WIDTH.doubts((say("the depth of drum {i}", i=i), depth) for i, depth in enumerate(depths, 1))
     return high + WIDTH.doubts(faces) + deep
 
 
@@ -141,10 +143,10 @@ class Piece(NamedTuple):
 
 def piece_doubts(pieces: Sequence[Piece], laws: Iterable[Joint], gravity: float) -> list[str]:
     """Stones of an assembly and laws of its joints beyond what is known, each kind once."""
-    sizes = [(say("the size of block {one.name!r}", one=one), sorted(one.sides)) for one in pieces]
+    sizes = [(say("the size of block {one.name!r}", one=piece), sorted(piece.sides)) for piece in pieces]
     doubts = STONE.doubts((name, sides[-1]) for name, sides in sizes)
     doubts = doubts or WIDTH.doubts((say("{name} across", name=name), sides[-2]) for name, sides in sizes)
-    doubts += DENSITY.doubts((say("the density of block {one.name!r}", one=one), one.density) for one in pieces)
+    doubts += DENSITY.doubts((say("the density of block {one.name!r}", one=piece), piece.density) for piece in pieces)
     closed = (
         (say("the joint under block {name!r}", name=name), density * gravity * sides[-1] / law.normal_stiffness, law)
         for name, sides, density, law in pieces
@@ -159,11 +161,11 @@ def bulk_doubts(name: str, sides: Sequence[float]) -> list[str]:
 
 def joint_doubts(laws: Iterable[Joint]) -> list[str]:
     """Values of joints beyond all that was measured on stone, each kind once."""
-    some = list(dict.fromkeys(laws))
-    found = FRICTION.doubts(("friction_coefficient", law.tan_phi) for law in some)
+    distinct_laws = list(dict.fromkeys(laws))
+    doubts = FRICTION.doubts(("friction_coefficient", law.tan_phi) for law in distinct_laws)
     for name in ("normal_stiffness", "shear_stiffness"):
-        found += STIFFNESS.doubts((name, getattr(law, name)) for law in some)
-    return found
+        doubts += STIFFNESS.doubts((name, getattr(law, name)) for law in distinct_laws)
+    return doubts
 
 
 def closing_doubts(closures: Iterable[tuple[str, float, Joint]]) -> list[str]:
@@ -187,10 +189,10 @@ def found_doubts(column: Any) -> list[str]:
     drums = column.as_found.drums
     return OFFSET.doubts(
         (
-            say("the offset of drum {one.drum} over its width", one=one),
-            abs(one.offset) / column.drums[one.drum - 1].bottom_width,
+            say("the offset of drum {one.drum} over its width", one=drum),
+            abs(drum.offset) / column.drums[drum.drum - 1].bottom_width,
         )
-        for one in drums
+        for drum in drums
     )
 
 

@@ -50,14 +50,14 @@ def projected(column: Column, azimuth: float) -> Column:
     OutOfRangeWarning
         What lies across the plane and is lost.
     """
-    found = project(column, azimuth)
-    none, some = say("nothing of it lies across"), say("left out is what lies across it: {lost}")
-    lost = some.of(lost=joined("; ", found.lost)) if found.lost else none
+    projection = project(column, azimuth)
+    none, left_out = say("nothing of it lies across"), say("left out is what lies across it: {lost}")
+    lost = left_out.of(lost=joined("; ", projection.lost)) if projection.lost else none
     words = say(
         "{name!r} is projected onto the vertical plane of azimuth {azimuth:g}°, along which x of the motion acts; {lost}."
     )
     warn(words.of(name=column.name, azimuth=azimuth, lost=lost))
-    return found.column
+    return projection.column
 
 
 def project(column: Column, azimuth: float) -> Projection:
@@ -84,11 +84,11 @@ def project(column: Column, azimuth: float) -> Projection:
     angle = check_range("the azimuth of a projection", azimuth, -360.0, 360.0, unit="degrees", field="azimuth")
     way = _exact(angle)
     drums = column.drums if column.section == "circular" else tuple(_across(drum, way, column) for drum in column.drums)
-    found, at = column.as_found, space_geometry(column)
-    ones = [found.of(i + 1) for i in range(column.n)]
-    offsets = [_parts(one.offset, one.offset_azimuth, angle) for one in ones]
-    leans = [_angles(one.tilt, one.tilt_azimuth, angle) for one in ones]
-    slope = _angles(found.base_tilt, found.base_azimuth, angle)
+    state, at = column.as_found, space_geometry(column)
+    ones = [state.of(i + 1) for i in range(column.n)]
+    offsets = [_parts(found_drum.offset, found_drum.offset_azimuth, angle) for found_drum in ones]
+    leans = [_angles(found_drum.tilt, found_drum.tilt_azimuth, angle) for found_drum in ones]
+    slope = _angles(state.base_tilt, state.base_azimuth, angle)
     whole = AsFound(
         tuple(FoundDrum(i, offset[0], lean[0]) for i, (offset, lean) in enumerate(zip(offsets, leans, strict=True), 1)),
         slope[0],
@@ -100,15 +100,17 @@ def project(column: Column, azimuth: float) -> Projection:
         plane = column.replace(drums=drums, as_found=whole, name=name, links=links, north=north)
         chips = [_chips(column, plane, j, way) for j in range(column.n)]
         kept = tuple(
-            dataclasses.replace(one, chip_left=left, chip_right=right)
-            for one, (left, right) in zip(whole.drums, chips, strict=True)
+            dataclasses.replace(found_drum, chip_left=left, chip_right=right)
+            for found_drum, (left, right) in zip(whole.drums, chips, strict=True)
         )
-        as_found = AsFound(tuple(one for one in kept if one != FoundDrum(one.drum)), slope[0])
+        as_found = AsFound(
+            tuple(found_drum for found_drum in kept if found_drum != FoundDrum(found_drum.drum)), slope[0]
+        )
         result = plane.replace(as_found=as_found or AS_BUILT)
     across = [
-        _most("offsets", "mm", [1e3 * one[1] for one in offsets]),
-        _most("leans", "°", [one[1] for one in leans]),
-        _most("turns", "°", [one.turn for one in ones]),
+        _most("offsets", "mm", [1e3 * offset[1] for offset in offsets]),
+        _most("leans", "°", [lean[1] for lean in leans]),
+        _most("turns", "°", [found_drum.turn for found_drum in ones]),
         f"the slope of the base across, {abs(slope[1]):.3g}°" if abs(slope[1]) > NOTHING else "",
         _chipped(ones, kept),
         _beside(links),
@@ -213,21 +215,21 @@ def _most(what: str, unit: str, values: list[float]) -> str:
 
 def _chipped(ones: list[FoundDrum], kept: tuple[FoundDrum, ...]) -> str:
     """The chips of which the plane shows something else, to a tenth of a millimetre."""
-    told = []
-    for one, now in zip(ones, kept, strict=True):
-        before, after = (sorted(part for part in drum.chips if part > SMALLEST_CHIP) for drum in (one, now))
+    phrases = []
+    for found_drum, now in zip(ones, kept, strict=True):
+        before, after = (sorted(part for part in drum.chips if part > SMALLEST_CHIP) for drum in (found_drum, now))
         if before and not (len(before) == len(after) and np.allclose(before, after, rtol=1e-6)):
-            words, left = (" and ".join(f"{1e3 * part:.3g} mm" for part in parts) for parts in (before, after))
-            shown = f"{left} at the ends of its faces" if left else "none"
-            told.append(f"of the chips of drum {one.drum}, {words} deep, the plane shows {shown}")
-    return ", ".join(told)
+            words, plane_words = (" and ".join(f"{1e3 * part:.3g} mm" for part in parts) for parts in (before, after))
+            shown = f"{plane_words} at the ends of its faces" if plane_words else "none"
+            phrases.append(f"of the chips of drum {found_drum.drum}, {words} deep, the plane shows {shown}")
+    return ", ".join(phrases)
 
 
 def _beside(links: tuple[Link, ...]) -> str:
     """The links that are beside the plane."""
     ends = [(link.at, getattr(link, "to", None) or link.at) for link in links]
     far = [max(abs(_in_plan(end)[1]) for end in pair) for pair in ends]
-    beside = [one for one in far if one > NOTHING]
+    beside = [distance for distance in far if distance > NOTHING]
     if not beside:
         return ""
     number = "a link acts" if len(beside) == 1 else f"{len(beside)} links act"

@@ -98,7 +98,9 @@ class Scatter:
     def describe(self) -> str:
         """The sizes in words."""
         name_and_size = say("{name} {size:.3g} %")
-        words = (name_and_size.of(name=say(key.replace("_", " ")), size=100.0 * one) for key, one in self.given.items())
+        words = (
+            name_and_size.of(name=say(key.replace("_", " ")), size=100.0 * size) for key, size in self.given.items()
+        )
         return joined(", ", words) or say("nothing")
 
 
@@ -122,8 +124,8 @@ def usual_scatter(structure: Structure) -> Scatter:
     return dataclasses.replace(usual, **changes)
 
 
-def _same(one: float, other: float) -> bool:
-    return math.isclose(one, other, rel_tol=1e-9)
+def _same(value: float, other: float) -> bool:
+    return math.isclose(value, other, rel_tol=1e-9)
 
 
 def factors_of(size: Scatter, common: np.ndarray, own: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -138,7 +140,10 @@ def factors_of(size: Scatter, common: np.ndarray, own: np.ndarray) -> tuple[np.n
     material = math.sqrt(0.5) * (common[:, None] + own[:3])
     factors = np.exp(
         np.vstack((material, own[3:5]))
-        * [[spread_of(one)] for one in (size.friction, size.joint_stiffness, size.density, size.width, size.height)]
+        * [
+            [spread_of(spread)]
+            for spread in (size.friction, size.joint_stiffness, size.density, size.width, size.height)
+        ]
     )
     return (*factors, own[5:])
 
@@ -164,8 +169,8 @@ def drawn_column(
     if not size.offset:
         return varied, 1.0
     shifts = size.offset * varied.joint_widths * np.array([aside, across if space else np.zeros(column.n)])
-    found = tuple(_shifted(column.as_found.of(i + 1), *shifts[:, i]) for i in range(column.n))
-    return varied.unwarned(as_found=dataclasses.replace(column.as_found, drums=found)), 1.0
+    drums = tuple(_shifted(column.as_found.of(i + 1), *shifts[:, i]) for i in range(column.n))
+    return varied.unwarned(as_found=dataclasses.replace(column.as_found, drums=drums)), 1.0
 
 
 def _rebuilt(
@@ -284,9 +289,9 @@ def varied(
     )
     numbers = {body.name: i - first for i, body in enumerate(assembly.bodies)}
     overrides = []
-    for one, other, law in assembly.overrides:
-        later = max(numbers[one], numbers[other])
-        overrides.append((one, other, _law(law, rough[later], stiff[later])))
+    for block, other, law in assembly.overrides:
+        later = max(numbers[block], numbers[other])
+        overrides.append((block, other, _law(law, rough[later], stiff[later])))
     moved = _shifts(assembly, shifts, first)
     changes: dict[str, Any] = {"overrides": tuple(overrides), "name": name}
     for halved in range(HALVED + 1):
@@ -335,11 +340,11 @@ def _shifts(assembly: SpatialAssembly, shifts: np.ndarray, first: int) -> np.nda
         for i in (joint.lower - first, joint.upper - first):
             if i >= 0:
                 narrowest[group[i]] = min(narrowest.get(group[i], np.inf), float(np.sqrt(joint.area)))
-    held = {group[i] for i, stone in enumerate(assembly.stones) if stone.fixed} | {-1}
+    fixed_groups = {group[i] for i, stone in enumerate(assembly.stones) if stone.fixed} | {-1}
     return np.array(
         [
-            np.zeros(2) if one in held else narrowest.get(one, 0.0) * shifts[one]
-            for one in group
+            np.zeros(2) if leader in fixed_groups else narrowest.get(leader, 0.0) * shifts[leader]
+            for leader in group
         ]
     )  # fmt: skip
 
@@ -356,8 +361,8 @@ def _groups(assembly: SpatialAssembly, first: int) -> list[int]:
         pair = lower - first, upper - first
         if level.get(pair, False):
             continue
-        one, other = (-1 if i < 0 else group[i] for i in pair)
-        group = [min(one, other) if mine in (one, other) else mine for mine in group]
+        leader, other = (-1 if i < 0 else group[i] for i in pair)
+        group = [min(leader, other) if mine in (leader, other) else mine for mine in group]
     return group
 
 
@@ -385,7 +390,7 @@ def twins_of(structure: Structure, scatter: Scatter, number: int, seed: int, *, 
     space : bool
         Offsets in any direction, for a model in space; along x otherwise.
     """
-    return [one for one, _ in drawn_twins(structure, scatter, number, seed, space=space)]
+    return [twin for twin, _ in drawn_twins(structure, scatter, number, seed, space=space)]
 
 
 def drawn_twins(
@@ -401,7 +406,7 @@ def drawn_twins(
 
     ``stiffness`` are draws of what the joints of each column have in common, where columns share them.
     """
-    shared = [()] * number if stiffness is None else [(float(one),) for one in stiffness]
+    shared = [()] * number if stiffness is None else [(float(draw),) for draw in stiffness]
     return [drawn_twin(structure, scatter, k, seed, *shared[k], space=space) for k in range(number)]
 
 

@@ -53,13 +53,13 @@ def quaternion_of(axes: np.ndarray) -> Quaternion:
         (skew[1], both[0], 0.25 * size * size, both[2]),
         (skew[2], both[1], both[2], 0.25 * size * size),
     )
-    w, x, y, z = (float(one) / size for one in rows[largest])
+    w, x, y, z = (float(component) / size for component in rows[largest])
     return (w, x, y, z) if w >= 0.0 else (-w, -x, -y, -z)
 
 
-def product(one: Quaternion, other: Quaternion) -> Quaternion:
+def product(turn: Quaternion, other: Quaternion) -> Quaternion:
     """The turn that is the second and then the first."""
-    a, b, c, d = one
+    a, b, c, d = turn
     e, f, g, h = other
     return (
         a * e - b * f - c * g - d * h,
@@ -230,7 +230,9 @@ class Chipped:
         points, numbers = np.unique(np.concatenate(polygons).round(SAME), axis=0, return_inverse=True)
         ends = np.cumsum([len(polygon) for polygon in polygons])[:-1]
         around_each = [part.tolist() for part in np.split(numbers.ravel(), ends)]
-        return Mesh(points, tuple(tuple(i for i, j in zip(one, one[1:] + one[:1]) if i != j) for one in around_each))
+        return Mesh(
+            points, tuple(tuple(i for i, j in zip(loop, loop[1:] + loop[:1]) if i != j) for loop in around_each)
+        )
 
 
 def cut(polygon: np.ndarray, normal: np.ndarray, distance: float) -> np.ndarray:
@@ -305,15 +307,17 @@ class ConvexSolid:
         from scipy.spatial import ConvexHull
 
         points = np.asarray(self.vertices, dtype=float)
-        found: Any = ConvexHull(points)
-        normals, groups = found.equations[:, :3], list(range(len(found.simplices)))
-        for one, beside in enumerate(found.neighbors):  # triangles of one plane are one face, called by its first one
+        hull: Any = ConvexHull(points)
+        normals, groups = hull.equations[:, :3], list(range(len(hull.simplices)))
+        for triangle, beside in enumerate(
+            hull.neighbors
+        ):  # triangles of one plane are one face, called by its first one
             for other in beside:
-                if other < one and np.linalg.norm(normals[one] - normals[other]) < ONE_PLANE:
-                    old, new = groups[one], groups[other]
+                if other < triangle and np.linalg.norm(normals[triangle] - normals[other]) < ONE_PLANE:
+                    old, new = groups[triangle], groups[other]
                     groups = [new if group == old else group for group in groups]
         return tuple(
-            _around(points, _rim(found.simplices[np.array(groups) == group]), normal)
+            _around(points, _rim(hull.simplices[np.array(groups) == group]), normal)
             for group, normal in enumerate(normals)
             if group in groups
         )
@@ -383,10 +387,10 @@ class Glued:
     def mesh(self, around: int = 32) -> Mesh:
         """The surfaces of all parts, one after another."""
         meshes, faces, first = [part.mesh(around) for part in self.parts], [], 0
-        for one in meshes:
-            faces += [tuple(first + i for i in face) for face in one.faces]
-            first += len(one.vertices)
-        return Mesh(np.concatenate([one.vertices for one in meshes]), tuple(faces))
+        for mesh in meshes:
+            faces += [tuple(first + i for i in face) for face in mesh.faces]
+            first += len(mesh.vertices)
+        return Mesh(np.concatenate([surface.vertices for surface in meshes]), tuple(faces))
 
 
 #: Interface of shapes: ``outline``, seen along y, ``depth`` along it, and ``mesh()``, its surface.
@@ -396,7 +400,7 @@ Shape = CircularFrustum | RectangularFrustum | Chipped | Prism | ConvexSolid | G
 DRUMS = (CircularFrustum, RectangularFrustum, Chipped)
 
 
-def shape_of(drum: Drum, found: FoundDrum) -> Shape:
+def shape_of(drum: Drum, found_drum: FoundDrum) -> Shape:
     """The shape of a drum, as it was found."""
     high = drum.centroid_height
     if drum.circular:
@@ -404,15 +408,15 @@ def shape_of(drum: Drum, found: FoundDrum) -> Shape:
     else:
         sides = (drum.bottom_width, drum.depth), (drum.top_width, drum.upper_depth)
         whole = RectangularFrustum(*sides, drum.height, high)
-    return Chipped(whole, chips_of(drum, found)) if found.chipped else whole
+    return Chipped(whole, chips_of(drum, found_drum)) if found_drum.chipped else whole
 
 
-def chips_of(drum: Drum, one: FoundDrum) -> np.ndarray:
+def chips_of(drum: Drum, found_drum: FoundDrum) -> np.ndarray:
     """Planes that cut the chips off a drum: outward normals, and distances from its centroid [m], shape (k, 4)."""
     planes = []
     for chip, azimuth, low, high in zip(
-        one.chips,
-        np.array([180.0, 0.0, 270.0, 90.0]) + one.chip_azimuth,
+        found_drum.chips,
+        np.array([180.0, 0.0, 270.0, 90.0]) + found_drum.chip_azimuth,
         (drum.bottom_width, drum.bottom_width, drum.depth, drum.depth),
         (drum.top_width, drum.top_width, drum.upper_depth, drum.upper_depth),
         strict=True,

@@ -121,7 +121,7 @@ class Specimen(Structure):
 
     def to_dict(self) -> dict:
         """Plain values that make the specimen anew."""
-        default = {one.name: one.default for one in fields(Joint)}
+        default = {field.name: field.default for field in fields(Joint)}
         joint = {name: value for name, value in stated_fields(self.joint).items() if value != default[name]}
         joint.pop("friction_angle")  # the coefficient tells it
         return {
@@ -194,20 +194,20 @@ def _hull_vertices(given: Any) -> np.ndarray:
             f"a vertex of a specimen is {np.abs(points).max():.4g} m from the centroid; allowed is up to 1000 m."
         )
     try:
-        found = ConvexHull(points)
+        hull = ConvexHull(points)
     except QhullError:
         raise InputError(
             "the vertices of a specimen lie in one plane or on one point; give those of a solid body."
         ) from None
-    if len(found.vertices) > MOST_VERTICES:
+    if len(hull.vertices) > MOST_VERTICES:
         raise InputError(
-            f"the hull of a specimen has {len(found.vertices)} vertices; allowed is up to {MOST_VERTICES}: thin them out."
+            f"the hull of a specimen has {len(hull.vertices)} vertices; allowed is up to {MOST_VERTICES}: thin them out."
         )
-    if (found.equations[:, 3] >= 0.0).any():
+    if (hull.equations[:, 3] >= 0.0).any():
         raise InputError(
             "the centroid of a specimen is outside the hull of its vertices; give vertices from the centroid."
         )
-    return points[np.sort(found.vertices)]
+    return points[np.sort(hull.vertices)]
 
 
 def _resting(vertices: np.ndarray) -> Resting:
@@ -215,10 +215,10 @@ def _resting(vertices: np.ndarray) -> Resting:
     from scipy.spatial import ConvexHull, QhullError
 
     size = float(np.ptp(vertices, axis=0).max())
-    found: Any = ConvexHull(vertices)
-    order = np.argsort(found.equations[:, 2])  # outward normals, the most downward first
+    hull: Any = ConvexHull(vertices)
+    order = np.argsort(hull.equations[:, 2])  # outward normals, the most downward first
     for facet in order:
-        outward, offset = found.equations[facet, :3], found.equations[facet, 3]
+        outward, offset = hull.equations[facet, :3], hull.equations[facet, 3]
         turn = math.acos(max(-1.0, min(1.0, -float(outward[2]))))
         below = np.flatnonzero(vertices @ outward + offset > -IN_PLANE * size)
         rotation = _turned_down(outward)

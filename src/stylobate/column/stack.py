@@ -143,7 +143,7 @@ class Stack:
     @cached_property
     def lowest_barrier(self) -> float:
         """Smallest energy that overturns the part above some joint of the upright column as one body [J]."""
-        parts = zip(*(one.tolist() for one in (*self.parts_above, 0.5 * self.joint_widths)), strict=True)
+        parts = zip(*(array.tolist() for array in (*self.parts_above, 0.5 * self.joint_widths)), strict=True)
         return min(self.gravity * mass * (math.hypot(half, height) - height) for mass, height, half in parts)
 
     @cached_property

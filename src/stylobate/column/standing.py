@@ -48,12 +48,14 @@ def links_of_column(
         Of the names of the links.
     """
     links = []
-    for link, one in zip(column.links, column.placed_links, strict=True):
-        between: Any = tuple(names[f"drum {body}" if body else "ground"] for body in (one.lower, one.upper))
-        places = ends(one)
+    for link, placed_link in zip(column.links, column.placed_links, strict=True):
+        between: Any = tuple(
+            names[f"drum {body}" if body else "ground"] for body in (placed_link.lower, placed_link.upper)
+        )
+        places = ends(placed_link)
         crossing = places[1:]  # what crosses a joint lies on the lower face of its upper drum
-        where = dict(zip(("at", "to"), places if one.straight else crossing, strict=False))
-        links.append(type(link)(between=between, name=prefix + one.name, numbers=one.alone, **where))
+        where = dict(zip(("at", "to"), places if placed_link.straight else crossing, strict=False))
+        links.append(type(link)(between=between, name=prefix + placed_link.name, numbers=placed_link.alone, **where))
     return links
 
 
@@ -144,7 +146,7 @@ def stand(
         A file that is no column, a column that an assembly cannot take, or a place that is missing.
     """
     blocks: list[Block] = []
-    found: list[Standing] = []
+    standing_columns: list[Standing] = []
     links: list[Link] = []
     if tables and isinstance(ground, bool):
         raise InputError("columns stand on the ground, and ground is false; give its level in m.")
@@ -157,7 +159,7 @@ def stand(
                 f"{column.name!r} has a gravity of {column.gravity:g} m/s² and the assembly {gravity:g} m/s²; give one."
             )
         for x in _places(table):
-            name = f"{table.name or 'column'} {len(found) + 1}"
+            name = f"{table.name or 'column'} {len(standing_columns) + 1}"
             stones = of_column(column).blocks
             drums = [_moved(stone, f"{name}, {stone.name}", x, float(ground)) for stone in stones]
             blocks += drums
@@ -170,8 +172,8 @@ def stand(
             else:
                 level = top[1][1]
             left, right = sorted(corner[0] for corner in top)
-            found.append(Standing(name, x, left, right, level, column.joints[-1]))
-    return blocks, found, links
+            standing_columns.append(Standing(name, x, left, right, level, column.joints[-1]))
+    return blocks, standing_columns, links
 
 
 def _places(table: ColumnsTable) -> list[float]:
@@ -205,18 +207,18 @@ def lay(table: BeamTable, name: str, density: float, columns: Sequence[Standing]
         Columns that are not there, tops that are not level with one another, or a beam that does not reach them.
     """
     under = _under(table, name, columns)
-    levels = [one.level for one in under]
+    levels = [support.level for support in under]
     if not max(levels) - min(levels) <= 1e-9 * max(1.0, max(levels)):
         raise InputError(
             f"beam {name!r} lies on tops at {', '.join(f'{level:g}' for level in levels)} m; give columns of one height "
             "that stand upright."
         )
-    left, right = _ends(table, name, [one.place for one in under])
+    left, right = _ends(table, name, [support.place for support in under])
     low, near = levels[0], 1e-9 * max(1.0, abs(left), abs(right))
-    for one in under:
-        if not left - near <= one.place <= right + near:
+    for top in under:
+        if not left - near <= top.place <= right + near:
             raise InputError(
-                f"beam {name!r} reaches from {left:g} to {right:g} m, and {one.name!r} stands at {one.place:g} m; make it "
+                f"beam {name!r} reaches from {left:g} to {right:g} m, and {top.name!r} stands at {top.place:g} m; make it "
                 "reach the axis, or say on which columns it lies: on = [...]."
             )
     corners = ((left, low), (right, low), (right, low + table.height), (left, low + table.height))
@@ -229,13 +231,13 @@ def _under(table: BeamTable, name: str, columns: Sequence[Standing]) -> list[Sta
         raise InputError(f"beam {name!r} has on and between; give one of the two.")
     if table.between is not None:
         named = {column.name: column for column in columns}
-        for one in table.between:
-            if one not in named:
+        for wanted in table.between:
+            if wanted not in named:
                 known = f"the columns are {', '.join(named) or 'none'}"
-                raise InputError(f"beam {name!r} lies between {one!r}; {suggest(one, named)}{known}.")
+                raise InputError(f"beam {name!r} lies between {wanted!r}; {suggest(wanted, named)}{known}.")
         if len(set(table.between)) != 2 or len(table.between) != 2:
             raise InputError(f"beam {name!r} lies between {len(table.between)} columns; name two different ones.")
-        return [named[one] for one in table.between]
+        return [named[column_name] for column_name in table.between]
     numbers = list(range(1, len(columns) + 1)) if table.on is None else table.on
     wrong = next((number for number in numbers if not 1 <= number <= len(columns)), None)
     if not numbers or wrong is not None:
@@ -258,7 +260,7 @@ def _ends(table: BeamTable, name: str, places: Sequence[float]) -> tuple[float, 
     given = table.overhang if isinstance(table.overhang, list) else [table.overhang or 0.0] * 2
     if len(given) != 2:
         raise InputError(f"overhang of beam {name!r} has {len(given)} values; give one, or that on the left and right.")
-    left, right = (check_range(f"overhang of beam {name!r}", one, 0.0, 100.0, unit="m") for one in given)
+    left, right = (check_range(f"overhang of beam {name!r}", overhang, 0.0, 100.0, unit="m") for overhang in given)
     if last + right - first + left <= 0.0:
         raise InputError(f"beam {name!r} lies on one axis and has no length; give it one, or an overhang [m].")
     return first - left, last + right

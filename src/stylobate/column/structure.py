@@ -114,14 +114,14 @@ def described(structure: Any) -> str:
     moving = [body for body in structure.bodies if not body.fixed]
     mass = sum(body.mass for body in moving)
     links = f" with {_number(len(structure.placed_links), ('link', 'links'))}" if structure.placed_links else ""
-    found = ", as found" if structure.as_found else ""
-    said = f"{structure.name}: {structure.described} of {_number(len(moving), structure.counted)}{links}{found}, "
-    said += f"{structure.height:g} m high, {mass / 1e3:.4g} t."
+    state_words = ", as found" if structure.as_found else ""
+    text = f"{structure.name}: {structure.described} of {_number(len(moving), structure.counted)}{links}{state_words}, "
+    text += f"{structure.height:g} m high, {mass / 1e3:.4g} t."
     if structure.slenderness is not None and structure.frequency_parameter is not None:
-        said += f" Slenderness {structure.slenderness:.3f} rad, p = {structure.frequency_parameter:.3f} rad/s."
+        text += f" Slenderness {structure.slenderness:.3f} rad, p = {structure.frequency_parameter:.3f} rad/s."
     if structure.uplift_acceleration is not None:
-        said += f" A steady {structure.uplift_acceleration / g:.3f} g opens the first joint."
-    return said
+        text += f" A steady {structure.uplift_acceleration / g:.3f} g opens the first joint."
+    return text
 
 
 def as_html(structure: Any) -> str:
@@ -327,9 +327,9 @@ class Structure:
         """Places of a link on its two bodies in the axes of their faces [m], shape (3,), and in which direction it slips."""
         return *link.arms, link.along
 
-    def with_links_between(self, one: str, other: str, law: Joint) -> Joint:
+    def with_links_between(self, first: str, other: str, law: Joint) -> Joint:
         """Law of the contacts of two bodies by name with what lies between them: pads, and the friction of layers."""
-        for numbers in self._beds.get(frozenset((one, other)), ()):
+        for numbers in self._beds.get(frozenset((first, other)), ()):
             law = numbers.joint_law(law)
         return law
 

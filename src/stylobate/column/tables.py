@@ -180,8 +180,10 @@ def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
         warn(say("{column.name!r}: {doubt}", column=column, doubt=doubt))
     changes: dict[str, Any] = {}
     if table.as_found is not None:
-        some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())
-        changes["as_found"] = AsFound(some, table.as_found.base_tilt, table.as_found.base_azimuth)
+        found_drums = tuple(
+            FoundDrum(row.index, **row.model_dump(exclude={"index"})) for row in table.as_found.drum or ()
+        )
+        changes["as_found"] = AsFound(found_drums, table.as_found.base_tilt, table.as_found.base_azimuth)
     if table.link:
         changes["links"] = links_of(table.link, column.n)
     if not changes:
@@ -258,7 +260,7 @@ def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
             gravity=table.gravity,
         )
     elif table.drum:
-        drums = [_drum(i, one, table, density) for i, one in enumerate(table.drum)]
+        drums = [_drum(i, row, table, density) for i, row in enumerate(table.drum)]
         column = kind.of_drums(drums, joint, overrides=overrides, name=name, gravity=table.gravity)
     else:
         raise InputError("there is neither [tapered] nor [[drum]]; add one of the two.")
@@ -267,20 +269,20 @@ def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
     return column.replace(**more) if more else column
 
 
-def _drum(i: int, one: DrumTable, table: ColumnTable, common: float | None) -> Drum:
-    density, path = common if one.density is None else one.density, f"drum.{i + 1}"
+def _drum(i: int, row: DrumTable, table: ColumnTable, common: float | None) -> Drum:
+    density, path = common if row.density is None else row.density, f"drum.{i + 1}"
     if density is None:
         raise InputError(
             f"[[drum]] number {i + 1} has no density; add one to it, or a common one at the top [kg/m³].",
             f"{path}.density",
         )
-    if table.section == "circular" and one.depth is not None:
+    if table.section == "circular" and row.depth is not None:
         raise InputError(
             f"[[drum]] number {i + 1} has a depth but a circular section; leave the depth out.", f"{path}.depth"
         )
-    depth = one.depth if one.depth is not None else table.depth if table.depth is not None else 1.0
+    depth = row.depth if row.depth is not None else table.depth if table.depth is not None else 1.0
     with within(f"[[drum]] number {i + 1}", path):
-        return Drum(one.height, one.bottom_width, one.top_width, density, table.section, depth, one.top_depth)
+        return Drum(row.height, row.bottom_width, row.top_width, density, table.section, depth, row.top_depth)
 
 
 def _overridden(common: Joint, override: OverrideTable) -> Joint:

@@ -66,7 +66,7 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
             f"{name} is the table of a spreadsheet; of a survey `stylobate convert` makes a column file first."
         )
     try:
-        found = tomllib.loads(data.decode("utf-8-sig"))
+        content = tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
         raise InputError(f"{name} is not a text file in UTF-8; give a TOML file, saved in UTF-8.") from None
     except tomllib.TOMLDecodeError as error:
@@ -80,8 +80,8 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
         raise InputError(f"{name} is nested too deeply; {_NESTING}.") from None
     except ValueError:  # what Python refuses to turn into an integer
         raise InputError(f"{name} holds a whole number of thousands of digits; {_DIGITS}.") from None
-    check_values(found, name)
-    return found
+    check_values(content, name)
+    return content
 
 
 #: Endings of files that spreadsheets save.
@@ -150,9 +150,9 @@ def check_values(data: dict[str, Any], name: str) -> None:
     InputError
         Something in ``data``, which messages call ``name``, is none of that.
     """
-    left: list[tuple[Any, int]] = [(data, 0)]
-    while left:
-        value, depth = left.pop()
+    pending: list[tuple[Any, int]] = [(data, 0)]
+    while pending:
+        value, depth = pending.pop()
         if isinstance(value, int) and abs(value) > LARGEST:
             raise InputError(f"{name} holds a whole number beyond {LARGEST:g}; {_DIGITS}.")
         if isinstance(value, str) and (half := _HALF.search(value)):
@@ -160,7 +160,9 @@ def check_values(data: dict[str, Any], name: str) -> None:
         if isinstance(value, (dict, list)):
             if depth > DEEPEST:
                 raise InputError(f"{name} is nested too deeply; {_NESTING}.")
-            left += [(one, depth + 1) for one in ((*value, *value.values()) if isinstance(value, dict) else value)]
+            pending += [
+                (child, depth + 1) for child in ((*value, *value.values()) if isinstance(value, dict) else value)
+            ]
 
 
 def checked(data: dict[str, Any], schema: type[T], source: str) -> T:
@@ -168,10 +170,10 @@ def checked(data: dict[str, Any], schema: type[T], source: str) -> T:
     try:
         return schema.model_validate(data)
     except ValidationError as error:
-        found = error.errors()
+        errors = error.errors()
     # A misspelt key is also a missing one: the spelling is what helps.
-    first = next((item for item in found if item["type"] == "extra_forbidden"), found[0])
-    sentence, place = _sentence(first, schema, found)
+    first = next((item for item in errors if item["type"] == "extra_forbidden"), errors[0])
+    sentence, place = _sentence(first, schema, errors)
     error = InputError(sentence, _path(data, schema, first["loc"]))
     error.places = (place,)
     error.place(source)
@@ -312,9 +314,9 @@ def toml_text(tables: Mapping[str, Any], comments: Iterable[str] = ()) -> str:
     parts.append(tomli_w.dumps({key: value for key, value in tables.items() if not _headed(value)}))
     for key, value in tables.items():
         if isinstance(value, Mapping) and _headed(value):
-            inner = {name: one for name, one in value.items() if not _listed(one)}
+            inner = {name: entry for name, entry in value.items() if not _listed(entry)}
             parts.append(f"\n[{key}]\n{tomli_w.dumps(inner)}" if inner or not value else "")
-            parts += [_list_of_tables(f"{key}.{name}", one) for name, one in value.items() if _listed(one)]
+            parts += [_list_of_tables(f"{key}.{name}", entry) for name, entry in value.items() if _listed(entry)]
         elif isinstance(value, list) and _listed(value):
             parts.append(_list_of_tables(key, value))
     return re.sub(r"(?<== )\[[\[\]\d\s.,e+-]*\](?=\n)", lambda array: _in_a_line(array[0]), "".join(parts))
@@ -328,21 +330,23 @@ def _in_a_line(array: str) -> str:
 def _headed(value: Any) -> bool:
     """Whether a value is a table, or a list of tables, that stands under headings of its own; deeper ones do not."""
     if isinstance(value, Mapping):
-        return all(_listed(one) or not (isinstance(one, Mapping) or _deep(one)) for one in value.values())
+        return all(_listed(item) or not (isinstance(item, Mapping) or _deep(item)) for item in value.values())
     return _listed(value)
 
 
 def _listed(value: Any) -> bool:
-    return isinstance(value, list) and bool(value) and all(isinstance(one, Mapping) and not _deep(one) for one in value)
+    return (
+        isinstance(value, list) and bool(value) and all(isinstance(item, Mapping) and not _deep(item) for item in value)
+    )
 
 
 def _deep(value: Any) -> bool:
     """Whether a table, or a list, holds tables."""
     inner = value.values() if isinstance(value, Mapping) else value if isinstance(value, list) else ()
-    return any(isinstance(one, Mapping) or _deep(one) for one in inner)
+    return any(isinstance(item, Mapping) or _deep(item) for item in inner)
 
 
 def _list_of_tables(key: str, tables: Sequence[Mapping[str, Any]]) -> str:
     import tomli_w
 
-    return "".join(f"\n[[{key}]]\n{tomli_w.dumps(one)}" for one in tables)
+    return "".join(f"\n[[{key}]]\n{tomli_w.dumps(table)}" for table in tables)

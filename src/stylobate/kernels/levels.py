@@ -55,13 +55,13 @@ def levels_of(machine: str, features: Mapping[str, bool]) -> list[str]:
     kind = machine.lower()
     if kind in ("aarch64", "arm64"):
         return list(ARM)
-    found: list[str] = []
+    levels: list[str] = []
     if kind in ("x86_64", "amd64"):
         for name, level in X86.items():
             if not all(features.get(feature) for feature in level.needs):
                 break
-            found.append(name)
-    return found
+            levels.append(name)
+    return levels
 
 
 def levels_here() -> list[str]:

@@ -78,11 +78,11 @@ def record_field(context: Any, builder: Any, record: Any, value: Any, name: str)
 
 def _description(context: Any, field: Any) -> Any:
     """A constant that describes an array of a shape, without its address."""
-    whole = [context.get_constant(types.intp, one) for one in (field.nitems, field.size)]
+    whole = [context.get_constant(types.intp, number) for number in (field.nitems, field.size)]
     values = dict(zip(("nitems", "itemsize"), whole, strict=True))
-    for one in ("shape", "strides"):
-        numbers = [context.get_constant(types.intp, number) for number in getattr(field, one)]
-        values[one] = ir.Constant(ir.ArrayType(numbers[0].type, len(numbers)), numbers)
+    for attribute in ("shape", "strides"):
+        numbers = [context.get_constant(types.intp, number) for number in getattr(field, attribute)]
+        values[attribute] = ir.Constant(ir.ArrayType(numbers[0].type, len(numbers)), numbers)
     kind = context.get_value_type(field)
     model = context.data_model_manager[field]
     parts = [
@@ -103,7 +103,7 @@ def _whole_numbers(indices: Any) -> Sequence[Any]:
 def _is_element(field: Any, indices: Any) -> bool:
     """Whether indices name a single number of a field."""
     each = _whole_numbers(indices)
-    return len(each) == field.ndim and all(isinstance(one, types.Integer) for one in each)
+    return len(each) == field.ndim and all(isinstance(kind, types.Integer) for kind in each)
 
 
 def _element(context: Any, builder: Any, field: Any, value: Any, indices: Any, index: Any) -> Any:
@@ -111,13 +111,13 @@ def _element(context: Any, builder: Any, field: Any, value: Any, indices: Any, i
     kinds = _whole_numbers(indices)
     each = cgutils.unpack_tuple(builder, index, len(kinds)) if isinstance(indices, types.BaseTuple) else [index]
     place = None
-    for size, kind, one in zip(field.shape, kinds, each, strict=True):
+    for size, kind, subscript in zip(field.shape, kinds, each, strict=True):
         length = context.get_constant(types.intp, size)
-        one = context.cast(builder, one, kind, types.intp if kind.signed else types.uintp)
+        subscript = context.cast(builder, subscript, kind, types.intp if kind.signed else types.uintp)
         if kind.signed:
-            from_end = builder.icmp_signed("<", one, ir.Constant(one.type, 0))
-            one = builder.select(from_end, builder.add(one, length), one)
-        place = one if place is None else builder.add(builder.mul(place, length), one)
+            from_end = builder.icmp_signed("<", subscript, ir.Constant(subscript.type, 0))
+            subscript = builder.select(from_end, builder.add(subscript, length), subscript)
+        place = subscript if place is None else builder.add(builder.mul(place, length), subscript)
     return builder.gep(builder.extract_value(value, _place_of_data(context, field)), [place])
 
 

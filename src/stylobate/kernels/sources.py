@@ -30,23 +30,23 @@ def module_digest(module: str, root: Path) -> str:
         Folder of that package.
     """
     digest = hashlib.sha256()
-    for one in sorted(modules_of(module, root)):
-        path = _file(one, root)
+    for name in sorted(modules_of(module, root)):
+        path = _file(name, root)
         assert path is not None
-        digest.update(one.encode())
+        digest.update(name.encode())
         digest.update(path.read_bytes())
     return digest.hexdigest()
 
 
 def modules_of(module: str, root: Path) -> set[str]:
     """Modules and packages that the code of a module is compiled from, by their names inside the package of the kernels."""
-    found, todo = set[str](), [module]
+    modules, todo = set[str](), [module]
     while todo:
-        one = todo.pop()
-        if one not in found and _file(one, root) is not None:
-            found.add(one)
-            todo += _imported(one, root)
-    return found
+        name = todo.pop()
+        if name not in modules and _file(name, root) is not None:
+            modules.add(name)
+            todo += _imported(name, root)
+    return modules
 
 
 def _file(module: str, root: Path) -> Path | None:

@@ -75,10 +75,10 @@ class Engine:
         left_out = beyond_axes(motion, axes)
         if "y" in left_out and structure.section == "circular":
             warn(ROUND_IN_THE_PLANE, PlaneOnlyWarning)
-        for one in left_out.values():
+        for component in left_out.values():
             takes = say("left out of {motion!r}: {what}; {model} takes {axes}.")
             axes_ = joined(say(" and "), axes)
-            warn(takes.of(motion=motion.name, what=one, model=name, axes=axes_), LeftOutWarning)
+            warn(takes.of(motion=motion.name, what=component, model=name, axes=axes_), LeftOutWarning)
 
     def check_start(self) -> None:
         """Refuse a start from a pose."""

@@ -31,8 +31,8 @@ def model_class(name: str) -> type[Model]:
         There is no model of that name.
     """
     if name not in MODELS:
-        said = f"there is no model {name!r}; {suggest(name, MODELS)}models are {', '.join(MODELS)}."
-        raise InputError(said, "model", value=name)
+        message = f"there is no model {name!r}; {suggest(name, MODELS)}models are {', '.join(MODELS)}."
+        raise InputError(message, "model", value=name)
     module, attribute = MODELS[name]
     return getattr(importlib.import_module(f"{__package__}.{module}"), attribute)
 
@@ -48,10 +48,10 @@ def make_model(name: str, settings: Mapping[str, str] | None = None, losses: str
     losses : str, optional
         Losses by name, or the path of a file of losses.
     """
-    found = None if losses is None else losses_by(losses)
-    named = {} if found is None else {"losses": found if isinstance(found, str) else NAMED[0]}
+    chosen = None if losses is None else losses_by(losses)
+    named = {} if chosen is None else {"losses": chosen if isinstance(chosen, str) else NAMED[0]}
     made: Any = model_class(name).from_settings({**(settings or {}), **named})
-    return dataclasses.replace(made, losses=found) if isinstance(found, Losses) else made
+    return dataclasses.replace(made, losses=chosen) if isinstance(chosen, Losses) else made
 
 
 def make_models(named: Sequence[tuple[str, Mapping[str, str]]], losses: str | None = None) -> list[Model]:

@@ -43,7 +43,9 @@ class Start:
             raise InputError(
                 f"angular_velocity of a start is {as_typed(spin)}; give three components, about x, y and z [rad/s]."
             )
-        spin = tuple(check_range("angular_velocity of a start", one, -1e4, 1e4, unit="rad/s") for one in spin)
+        spin = tuple(
+            check_range("angular_velocity of a start", component, -1e4, 1e4, unit="rad/s") for component in spin
+        )
         object.__setattr__(self, "angular_velocity", spin)
 
 
@@ -115,9 +117,11 @@ class Toss:
             given = tuple(getattr(self, name))
             if len(given) != length:
                 raise InputError(f"{name} of a toss has {len(given)} components; give {length}.")
-            checked = tuple(check_range(f"{name} of a toss", one, -limit, limit, unit=unit) for one in given)
+            checked = tuple(
+                check_range(f"{name} of a toss", component, -limit, limit, unit=unit) for component in given
+            )
             object.__setattr__(self, name, checked)
         size = math.hypot(*self.orientation)
         if size < 1e-9:
             raise InputError("orientation of a toss is a quaternion of zeros; give one of length 1, real part first.")
-        object.__setattr__(self, "orientation", tuple(one / size for one in self.orientation))
+        object.__setattr__(self, "orientation", tuple(component / size for component in self.orientation))

@@ -360,10 +360,10 @@ def sa_of(motion: Motion, period: float, damping: float = 0.05) -> float:
     return float(pseudo_acceleration(motion, [period], damping)[0])
 
 
-def _scaled_to(motion: Motion, wanted: float, found: float, text: str) -> Motion:
-    if found == 0.0:
+def _scaled_to(motion: Motion, wanted: float, current: float, text: str) -> Motion:
+    if current == 0.0:
         raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to a {text}.")
-    factor = wanted / found
+    factor = wanted / current
     step = say("scaled by {factor:.6g} to a {what}", factor=factor, what=text)
     scaled = motion.replace(factor=motion.factor * factor, processing=(*motion.processing, step))
     warn_of_scaling(scaled)
@@ -509,13 +509,13 @@ def conditioned_alike(motions: Sequence[Motion], text: str) -> list[Motion]:
     """Apply one step to directions of one record; where it scales, all have the factor of the strongest."""
     step, values = _step(text)
     if step.size is None or len(motions) < 2:
-        return [step.apply(one, *values) for one in motions]
-    sizes = [step.size(one, *values) for one in motions]
+        return [step.apply(motion, *values) for motion in motions]
+    sizes = [step.size(motion, *values) for motion in motions]
     strongest = motions[sizes.index(max(sizes))]
     scaled = step.apply(strongest, *values)
     times = scaled.factor / strongest.factor
-    said = say("{step}, that of the strongest of these directions", step=scaled.processing[-1])
-    return [one.replace(factor=one.factor * times, processing=(*one.processing, said)) for one in motions]
+    note = say("{step}, that of the strongest of these directions", step=scaled.processing[-1])
+    return [motion.replace(factor=motion.factor * times, processing=(*motion.processing, note)) for motion in motions]
 
 
 def scales(text: str) -> bool:
@@ -610,13 +610,15 @@ def cure_of(motion: Motion) -> str | None:
     drifting = [values for values in motion.components.values() if drift_of(values, dt)]
     outside = any(_outside_shaking(values, dt) for values in drifting)  # of one component: the recorder drifts
     each = [cures_of(values, dt, outside=outside) for values in drifting]
-    left = {one: max(found[one] for found in each) for one in CURES if each and all(one in found for found in each)}
-    return best_of(left)
+    displacements = {
+        cure: max(cures[cure] for cures in each) for cure in CURES if each and all(cure in cures for cures in each)
+    }
+    return best_of(displacements)
 
 
-def best_of(left: Mapping[str, float]) -> str | None:
+def best_of(displacements: Mapping[str, float]) -> str | None:
     """Of conditionings with the displacements that they leave, the one that leaves least; two steps must halve it."""
-    return min(left, key=lambda one: left[one] * len(one.split(THEN)), default=None)
+    return min(displacements, key=lambda cure: displacements[cure] * len(cure.split(THEN)), default=None)
 
 
 def cures_of(values: np.ndarray, dt: float, fastest: float = np.inf, *, outside: bool = False) -> dict[str, float]:
@@ -636,8 +638,8 @@ def cures_of(values: np.ndarray, dt: float, fastest: float = np.inf, *, outside:
     outside : bool
         It is known from another component that the displacement comes before and after the shaking.
     """
-    peak, left, tops = float(np.abs(values).max()), {}, {}
-    for step in (one for one, period in CURES.items() if period <= dt * (len(values) - 1)):
+    peak, displacements, tops = float(np.abs(values).max()), {}, {}
+    for step in (cure for cure, period in CURES.items() if period <= dt * (len(values) - 1)):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
@@ -647,13 +649,13 @@ def cures_of(values: np.ndarray, dt: float, fastest: float = np.inf, *, outside:
         tops[step], rests = _end_velocity(mended, dt)
         same = KEPT <= float(np.abs(mended).max()) / peak <= 1.0 / KEPT if peak else False
         if same and rests and tops[step] <= fastest and not drift_of(mended, dt):
-            left[step] = float(np.abs(displacement(mended, dt)).max())
+            displacements[step] = float(np.abs(displacement(mended, dt)).max())
     own, rests = _end_velocity(values, dt)
     if outside or _outside_shaking(values, dt):
-        own = next((tops[one] for one in FILTERS if one in tops), own)
+        own = next((tops[cure] for cure in FILTERS if cure in tops), own)
     elif not rests:
-        own = min((tops[one] for one in ("detrend", "demean") if one in tops), default=own)
-    return {step: size for step, size in left.items() if tops[step] >= KEPT_VELOCITY * own}
+        own = min((tops[cure] for cure in ("detrend", "demean") if cure in tops), default=own)
+    return {step: size for step, size in displacements.items() if tops[step] >= KEPT_VELOCITY * own}
 
 
 def cured(motion: Motion, cure: str) -> Motion:

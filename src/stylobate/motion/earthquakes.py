@@ -103,15 +103,17 @@ def _only(many: list[Any], what: str) -> Any:
 def _nearest_to_moment(magnitudes: list[Any], name: str) -> Any:
     """The magnitude of the kind that comes first in :data:`KINDS`, where none is marked as preferred."""
     ranked: dict[int, list[Any]] = {}
-    for one in magnitudes:
-        kind = (one.magnitude_type or "m").lower()
-        ranked.setdefault(next(k for k, known in enumerate((*KINDS, "")) if kind.startswith(known)), []).append(one)
+    for magnitude in magnitudes:
+        kind = (magnitude.magnitude_type or "m").lower()
+        ranked.setdefault(next(k for k, known in enumerate((*KINDS, "")) if kind.startswith(known)), []).append(
+            magnitude
+        )
     return _only(ranked[min(ranked)] if ranked else [], f"{name}: magnitudes of the best kind")
 
 
 def places_of(files: Iterable[Source]) -> dict[str, tuple[float, float]]:
     """Latitude and longitude of stations by ``NET.STA``, of StationXML among files."""
-    found: dict[str, tuple[float, float]] = {}
+    places: dict[str, tuple[float, float]] = {}
     for source in filter(is_station_xml, files):
         obspy = obspy_for(f"{source.name} is StationXML")
         try:
@@ -124,8 +126,8 @@ def places_of(files: Iterable[Source]) -> dict[str, tuple[float, float]]:
             ) from None
         for network in inventory:
             for station in network:
-                found[f"{network.code}.{station.code}"] = (float(station.latitude), float(station.longitude))
-    return found
+                places[f"{network.code}.{station.code}"] = (float(station.latitude), float(station.longitude))
+    return places
 
 
 def station_of(metadata: Mapping[str, Any]) -> str | None:

@@ -55,9 +55,9 @@ class Span(NamedTuple):
     exact: bool
 
 
-def moment_of(said: str) -> Moment | None:
+def moment_of(line: str) -> Moment | None:
     """The time that a line states; None where it states no date."""
-    day = next((found for pattern in _DATES if (found := pattern.search(said))), None)
+    day = next((match for pattern in _DATES if (match := pattern.search(line))), None)
     if day is None:
         return None
     year, month = int(day["year"]), day["month"].lower()
@@ -65,11 +65,11 @@ def moment_of(said: str) -> Moment | None:
     try:
         at = datetime(year, int(month) if month.isdecimal() else _MONTHS.index(month[:3]) + 1, int(day["day"]))
         digit = DAY
-        if (clock := _COMPACT.search(said) or _CLOCK.search(said, day.end())) is not None:
+        if (clock := _COMPACT.search(line) or _CLOCK.search(line, day.end())) is not None:
             second = clock["second"] or ""
             at += timedelta(hours=int(clock["hour"]), minutes=int(clock["minute"]), seconds=float(second or 0.0))
             digit = 10.0 ** -len(second.partition(".")[2]) if second else 60.0
-        zone = _ZONE.search(said, day.end())
+        zone = _ZONE.search(line, day.end())
         return Moment(at - timedelta(hours=ZONES[zone["zone"]] if zone else 0), zone is not None, digit)
     except (ValueError, OverflowError):
         return None
@@ -100,14 +100,14 @@ def events_of(motions: Sequence[Motion]) -> list[int]:
     ids = [str(motion.metadata.get("event_id") or "") for motion in motions]
     spans = [span_of(motion) for motion in motions]
     numbers = list(range(len(motions)))
-    for one in range(len(motions)):
-        for other in range(one):
-            if ids[one] and ids[other]:
-                alike = ids[one] == ids[other]
+    for index in range(len(motions)):
+        for other in range(index):
+            if ids[index] and ids[other]:
+                alike = ids[index] == ids[other]
             else:
-                alike = names[one] == names[other] != "" and not _far(spans[one], spans[other])
-            if alike or _meet(spans[one], spans[other], bool(names[one] and names[other])):
-                old, new = numbers[one], numbers[other]
+                alike = names[index] == names[other] != "" and not _far(spans[index], spans[other])
+            if alike or _meet(spans[index], spans[other], bool(names[index] and names[other])):
+                old, new = numbers[index], numbers[other]
                 numbers = [new if number == old else number for number in numbers]
     return numbers
 
@@ -119,21 +119,21 @@ def unknown_events(motions: Sequence[Motion]) -> list[str]:
     return [motion.name for motion in unnamed if open_ or span_of(motion) is None] if len(motions) > 1 else []
 
 
-def _meet(one: Span | None, other: Span | None, named: bool) -> bool:
+def _meet(span: Span | None, other: Span | None, named: bool) -> bool:
     """Whether two records were taken at one time."""
-    if one is None or other is None or (named and not (one.exact and other.exact)):
+    if span is None or other is None or (named and not (span.exact and other.exact)):
         return False
-    return _gap(one, other) <= BETWEEN_STATIONS
+    return _gap(span, other) <= BETWEEN_STATIONS
 
 
-def _far(one: Span | None, other: Span | None) -> bool:
+def _far(span: Span | None, other: Span | None) -> bool:
     """Whether two records that name one event were taken so far apart that they are of two."""
-    return one is not None and other is not None and _gap(one, other) > ONE_NAME
+    return span is not None and other is not None and _gap(span, other) > ONE_NAME
 
 
-def _gap(one: Span, other: Span) -> float:
+def _gap(span: Span, other: Span) -> float:
     """Time between the end of one span and the beginning of the other [s], negative where they meet."""
-    return max(one.first - other.last, other.first - one.last).total_seconds()
+    return max(span.first - other.last, other.first - span.last).total_seconds()
 
 
 # Which records are one recording in several files: by the shapes of their spectra, and by their course in time.
@@ -165,11 +165,16 @@ def recorded_again(motions: Sequence[Motion]) -> dict[int, int]:
     order = sorted(range(len(motions)), key=lambda k: -len(motions[k].peaks))
     rank = {k: place for place, k in enumerate(order)}
     own = {k: list(_shapes(motions[k])) for k in order}
-    seen = {kind: _SpectrumShapes(sum(one == kind for some in own.values() for one, _ in some)) for kind in KINDS}
+    seen = {
+        kind: _SpectrumShapes(sum(own_kind == kind for shapes in own.values() for own_kind, _ in shapes))
+        for kind in KINDS
+    }
     again: dict[int, int] = {}
     for k in order:
         near = {other for kind, shape in own[k] for other in seen[kind].near(shape)}
-        owner = next((one for one in sorted(near, key=rank.__getitem__) if _correlated(motions[one], motions[k])), None)
+        owner = next(
+            (number for number in sorted(near, key=rank.__getitem__) if _correlated(motions[number], motions[k])), None
+        )
         if owner is not None:
             again[k] = owner
             continue
@@ -206,23 +211,23 @@ def _shapes(motion: Motion) -> Iterator[tuple[int, np.ndarray]]:
     if len(axes) < 2:
         return
     count = 1 << int(np.ceil(np.log2(max(1.0 / (RESOLUTION * motion.dt), motion.steps + 1))))
-    power = np.sum([np.abs(np.fft.rfft(one, count)) ** 2 for one in _horizontal(motion)], axis=0)
+    power = np.sum([np.abs(np.fft.rfft(samples, count)) ** 2 for samples in _horizontal(motion)], axis=0)
     edges = np.searchsorted(np.fft.rfftfreq(count, motion.dt), BANDS)
     bands = np.diff(np.concatenate([[0.0], np.cumsum(power)])[edges])
     if bands.min(initial=np.inf) > 0.0:
         yield TOGETHER, 0.5 * np.log(bands)
 
 
-def _correlated(one: Motion, other: Motion) -> bool:
+def _correlated(motion: Motion, other: Motion) -> bool:
     """Whether the accelerations of two motions have one course, at some lag: of a component of each, or of both in plan.
 
     Components in plan are a complex number, so that a turn is a factor of length 1.
     """
-    mine, theirs = _horizontal(one), _horizontal(other)
+    mine, theirs = _horizontal(motion), _horizontal(other)
     pairs = [(a, b) for a in mine for b in theirs]
     if len(mine) == len(theirs) == 2:
         pairs += [(mine[0] + 1j * mine[1], theirs[0] + sign * 1j * theirs[1]) for sign in (1.0, -1.0)]
-    return any(_correlation(a, one.dt, b, other.dt) >= CORRELATED for a, b in pairs)
+    return any(_correlation(a, motion.dt, b, other.dt) >= CORRELATED for a, b in pairs)
 
 
 def _correlation(a: np.ndarray, dt_a: float, b: np.ndarray, dt_b: float) -> float:
@@ -239,4 +244,4 @@ def _correlation(a: np.ndarray, dt_a: float, b: np.ndarray, dt_b: float) -> floa
 
 def _horizontal(motion: Motion) -> list[np.ndarray]:
     """Samples along the horizontal axes; those of one motion have one factor."""
-    return [one for one in (motion.samples, motion.y_samples) if one is not None]
+    return [samples for samples in (motion.samples, motion.y_samples) if samples is not None]

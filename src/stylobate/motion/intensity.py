@@ -77,9 +77,9 @@ def warn_of_velocity(motion: Motion, axes: str = "x") -> None:
             "take its strength from another measure, such as sa:1s, as no conditioning that is known here mends it"
         )
         if cure is not None:
-            left = peak_ground_velocity(cured(motion, cure), axis)
+            velocity = peak_ground_velocity(cured(motion, cure), axis)
             remedy = say(
-                "correct it first ({as_asked}), which leaves {left:.3g} m/s", as_asked=as_asked(cure), left=left
+                "correct it first ({as_asked}), which leaves {left:.3g} m/s", as_asked=as_asked(cure), left=velocity
             )
         warn(
             say(
@@ -180,7 +180,7 @@ def motion_summary(motion: Motion, *, spectrum: bool = True) -> dict[str, Any]:
     azimuths = facts.get("azimuths") or {}
     axes = motion.components
     dt = motion.dt
-    found: dict[str, Any] = {"name": motion.name}
+    summary: dict[str, Any] = {"name": motion.name}
     for key in (
         "format",
         "stage",
@@ -194,8 +194,8 @@ def motion_summary(motion: Motion, *, spectrum: bool = True) -> dict[str, Any]:
         "file",
     ):
         if key in facts:
-            found[key] = None if facts[key] is None else str(facts[key])
-    found |= {
+            summary[key] = None if facts[key] is None else str(facts[key])
+    summary |= {
         "components": list(axes),
         "azimuths_deg": {axis: azimuths.get(axis) for axis in axes if axis != "z"},
         "labels": {axis: str(label) for axis, label in (facts.get("labels") or {}).items()},
@@ -214,11 +214,11 @@ def motion_summary(motion: Motion, *, spectrum: bool = True) -> dict[str, Any]:
     }
     if motion.lateral is not None:
         rotated = rotated_pga(motion)
-        found |= {"pga_rotd50_g": rotated[50.0] / g, "pga_rotd100_g": rotated[100.0] / g}
+        summary |= {"pga_rotd50_g": rotated[50.0] / g, "pga_rotd100_g": rotated[100.0] / g}
     shaken = motion.pga > 0.0
     if shaken:
         pulse = pulse_match(motion)
-        found |= {
+        summary |= {
             "pgv_over_pga_s": peak_velocity(axes["x"], dt) / motion.pga,
             "pulse_period_s": pulse.period,
             "pulse_amplitude_g": pulse.amplitude / g,
@@ -227,9 +227,9 @@ def motion_summary(motion: Motion, *, spectrum: bool = True) -> dict[str, Any]:
     if spectrum and shaken:
         periods = [0.1, 0.2, 0.5, 1.0, 2.0, 4.0]
         psa = pseudo_acceleration(motion, periods) / g
-        found["psa_5_percent_g"] = {f"{period:g} s": float(value) for period, value in zip(periods, psa)}
-        found["housner_intensity_m"] = housner_intensity(motion)
-    return found | {"processing": list(motion.processing)}
+        summary["psa_5_percent_g"] = {f"{period:g} s": float(value) for period, value in zip(periods, psa)}
+        summary["housner_intensity_m"] = housner_intensity(motion)
+    return summary | {"processing": list(motion.processing)}
 
 
 # Intensity measures by the names that a person types: ``pga``, ``pgv@geomean``, ``sa:1.0s``, ``avgsa:0.5s-3s``.
@@ -433,19 +433,19 @@ def parse_measure(text: str) -> IntensityMeasure:
 
 
 def _measure(text: str) -> IntensityMeasure:
-    found = _SPEC.fullmatch(text.strip().lower())
-    if found is None or found["kind"] not in KINDS:
-        word = text if found is None else found["kind"]
+    match = _SPEC.fullmatch(text.strip().lower())
+    if match is None or match["kind"] not in KINDS:
+        word = text if match is None else match["kind"]
         raise InputError(
             f"intensity measure {text!r} is not known; {suggest(word, KINDS)}allowed is {', '.join(KINDS)}, "
             "such as pgv, sa:1.0s or pga@geomean."
         )
-    kind, component = found["kind"], found["component"] or "x"
+    kind, component = match["kind"], match["component"] or "x"
     if component not in COMPONENTS:
         raise InputError(f"intensity measure {text!r} is of no component known; allowed is {', '.join(COMPONENTS)}.")
     if component.startswith("rotd") and kind not in ("pga", "pgv", "sa", "avgsa"):
         raise InputError(f"{text!r} is not defined over directions; use {kind}@geomean or {kind}@larger.")
-    typed = found["periods"].split("-") if found["periods"] else []
+    typed = match["periods"].split("-") if match["periods"] else []
     if not all(typed):
         raise InputError(f"a period of intensity measure {text!r} is negative, or missing; write it as sa:1.0s.")
     with within(f"intensity measure {text!r}"):
@@ -467,7 +467,7 @@ def measure_of_column(name: str) -> IntensityMeasure | None:
     """The measure whose column in a table has this name; None where it is that of none."""
     for end in ENDS.values():
         stem, _, component = name.removesuffix(end).rpartition("_")
-        kind = next((one for one in ("sa_", "avgsa_") if name.startswith(one)), "")
+        kind = next((prefix for prefix in ("sa_", "avgsa_") if name.startswith(prefix)), "")
         for text in (name.removesuffix(end), f"{stem}@{component}"):
             try:
                 measure = parse_measure(f"{kind[:-1]}:{text.removeprefix(kind)}" if kind else text)
@@ -485,17 +485,17 @@ def measures_by_column(motion: Motion, columns: Sequence[tuple[float, float]]) -
     if motion.pga == 0.0:
         return [dict.fromkeys((measure.key for measure in measures), math.nan) for _ in columns]
     own = {measure.key: measure.of(motion) for measure in measures if not KINDS[measure.kind].column}
-    found = []
+    rows = []
     for column in columns:
         rocking = rocking_measures(motion, *column)
         related = {measure.key: rocking[measure.kind] for measure in measures if KINDS[measure.kind].column}
-        found.append(own | {key: math.nan if value is None else float(value) for key, value in related.items()})
-    return found
+        rows.append(own | {key: math.nan if value is None else float(value) for key, value in related.items()})
+    return rows
 
 
 def powers_by_column() -> dict[str, int]:
     """Powers of the factor of a motion with which these measures grow, by their columns."""
-    return {one.key: one.power for one in map(parse_measure, (*TABLE_MEASURES, *TWO_COMPONENT_MEASURES))}
+    return {measure.key: measure.power for measure in map(parse_measure, (*TABLE_MEASURES, *TWO_COMPONENT_MEASURES))}
 
 
 #: Units in which a level may be typed, by the unit of the measure.
@@ -517,16 +517,16 @@ def parse_level(text: str, measure: IntensityMeasure) -> float:
     InputError
         It has not the unit of the measure, or is not positive.
     """
-    found, units = _LEVEL.fullmatch(text), LEVEL_UNITS[measure.unit]
-    if found is None or found[2].lower() not in units or not float(found[1]) > 0.0:
+    match, units = _LEVEL.fullmatch(text), LEVEL_UNITS[measure.unit]
+    if match is None or match[2].lower() not in units or not float(match[1]) > 0.0:
         example = {"g": "0.3g", "m/s": "0.2m/s", "s": "1s", "-": "1.5"}[measure.unit]
-        if found is not None and not found[2] and float(found[1]) > 0.0:
-            example = found[1] + example.lstrip("0123456789.")
+        if match is not None and not match[2] and float(match[1]) > 0.0:
+            example = match[1] + example.lstrip("0123456789.")
             raise InputError(
                 f"level {text.strip()!r} of {measure.name} has no unit; write it with one, such as {example}."
             )
         raise InputError(f"level {text.strip()!r} of {measure.name} cannot be read; write it such as {example}.")
-    return float(found[1]) * units[found[2].lower()]
+    return float(match[1]) * units[match[2].lower()]
 
 
 def parse_levels(texts: str | Sequence[str], measure: IntensityMeasure) -> np.ndarray:

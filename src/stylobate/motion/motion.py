@@ -133,8 +133,8 @@ class Motion:
     @property
     def components(self) -> dict[str, np.ndarray]:
         """Components that are present, by axis name x, y, z [m/s²]."""
-        found = {"x": self.acceleration, "y": self.lateral, "z": self.vertical}
-        return {axis: values for axis, values in found.items() if values is not None}
+        by_axis = {"x": self.acceleration, "y": self.lateral, "z": self.vertical}
+        return {axis: values for axis, values in by_axis.items() if values is not None}
 
     @property
     def steps(self) -> int:
@@ -174,7 +174,7 @@ class Motion:
     @cached_property
     def _peaks(self) -> dict[str, float]:
         every = {"x": self.samples, "y": self.y_samples, "z": self.z_samples}
-        return {axis: float(np.abs(one).max()) for axis, one in every.items() if one is not None}
+        return {axis: float(np.abs(samples).max()) for axis, samples in every.items() if samples is not None}
 
     @property
     def horizontal_peak(self) -> tuple[float, str]:
@@ -265,12 +265,12 @@ class Motion:
     @cached_property
     def digest(self) -> str:
         """SHA-256 of step, factor and samples."""
-        found = hashlib.sha256(np.array([self.dt, self.factor]).tobytes())
+        hasher = hashlib.sha256(np.array([self.dt, self.factor]).tobytes())
         for label, values in (("x", self.samples), ("y", self.y_samples), ("z", self.z_samples)):
             if values is not None:
-                found.update(label.encode())
-                found.update(values.tobytes())
-        return found.hexdigest()
+                hasher.update(label.encode())
+                hasher.update(values.tobytes())
+        return hasher.hexdigest()
 
     def __repr__(self) -> str:
         return f"<Motion {self.describe()}>"
@@ -378,8 +378,8 @@ def time_above(acceleration: np.ndarray, dt: float, level: float) -> float:
         a = sign * acceleration[:-1] - level
         b = sign * acceleration[1:] - level
         both = (a > 0.0) & (b > 0.0)
-        one = (a > 0.0) != (b > 0.0)
-        share = np.maximum(a[one], b[one]) / np.abs(a[one] - b[one])
+        crossing = (a > 0.0) != (b > 0.0)
+        share = np.maximum(a[crossing], b[crossing]) / np.abs(a[crossing] - b[crossing])
         total += dt * (both.sum() + share.sum())
     return float(total)
 

@@ -57,7 +57,7 @@ def rotated(motion: Motion, azimuth: float) -> Motion:
             "azimuth",
         )
     wanted %= 360.0
-    (ca, sa), (cb, sb) = (_direction(one) for one in (known[0], known[1]))
+    (ca, sa), (cb, sb) = (_direction(bearing) for bearing in (known[0], known[1]))
     determinant = math.sin(math.radians(known[0] - known[1]))
     if abs(determinant) < 0.1:
         raise InputError(
@@ -103,12 +103,12 @@ def turned(motion: Motion, angle: float) -> Motion:
 
 def along(motion: Motion, azimuth: float) -> Motion:
     """The component along an azimuth as the only horizontal one, for a plane model; the rest is left out and said."""
-    found = rotated(motion, azimuth)
-    azimuths = {key: value for key, value in found.metadata["azimuths"].items() if key != "y"}
-    return found.replace(
+    rotated_motion = rotated(motion, azimuth)
+    azimuths = {key: value for key, value in rotated_motion.metadata["azimuths"].items() if key != "y"}
+    return rotated_motion.replace(
         lateral=None,
-        metadata={**found.metadata, "azimuths": azimuths},
-        processing=(*found.processing, say("the component across it left out")),
+        metadata={**rotated_motion.metadata, "azimuths": azimuths},
+        processing=(*rotated_motion.processing, say("the component across it left out")),
     )
 
 
@@ -120,16 +120,16 @@ def record_of(motion: Motion) -> str:
 def beyond_axes(motion: Motion, axes: str) -> dict[str, str]:
     """The components along other axes than those of ``axes`` and x, by axis, each in words with its peak."""
     azimuths = motion.metadata.get("azimuths") or {}
-    found: dict[str, str] = {}
+    components: dict[str, str] = {}
     for axis, word in OTHER_AXES.items():
         peak = motion.peaks.get(axis)
         if peak is not None and axis not in axes:
             where = "" if azimuths.get(axis) is None else say("azimuth {azimuths:g}°, ", azimuths=azimuths[axis])
             more = say(", more than along x") if axis == "y" and peak > motion.pga else ""
-            found[axis] = say(
+            components[axis] = say(
                 "{what} ({where}peak {peak:.3g} g{more})", what=say(word), where=where, peak=peak / g, more=more
             )
-    return found
+    return components
 
 
 def keep_axes(motion: Motion, axes: str) -> Motion:
@@ -153,7 +153,7 @@ def keep_axes(motion: Motion, axes: str) -> Motion:
         ay=None if "y" in gone else motion.y_samples,
         az=None if "z" in gone else motion.z_samples,
         metadata={**motion.metadata, "left_out": (*motion.metadata.get("left_out", ()), *gone.values())},
-        processing=(*motion.processing, *(say("left out: {what}", what=one) for one in gone.values())),
+        processing=(*motion.processing, *(say("left out: {what}", what=component) for component in gone.values())),
     )
 
 
@@ -210,7 +210,7 @@ def _with(motion: Motion, x: np.ndarray, y: np.ndarray, azimuths: tuple[float, f
             **motion.metadata,
             "azimuths": {**(motion.metadata.get("azimuths") or {}), **stated},
             # what the file calls its directions is no longer true of x and y
-            "labels": {axis: one for axis, one in (motion.metadata.get("labels") or {}).items() if axis == "z"},
+            "labels": {axis: label for axis, label in (motion.metadata.get("labels") or {}).items() if axis == "z"},
         },
         processing=(*motion.processing, text),
     )

@@ -377,9 +377,9 @@ def pulse_match(
     spectrum = np.fft.rfft(a, size) * motion.dt
     periods = np.geomspace(shortest, longest, max(2, round(per_octave * math.log2(longest / shortest)) + 1))
     match = _Match(spectrum, size, motion.dt)
-    best = max((match.at(kind, period) for kind in _WAVELETS for period in periods), key=lambda found: found[0])
+    best = max((match.at(kind, period) for kind in _WAVELETS for period in periods), key=lambda fit: fit[0])
     finer = best[2] * 2.0 ** (np.linspace(-1.0, 1.0, 17) / per_octave)
-    share, height, period, time, kind = max(match.at(best[4], float(one)) for one in finer)
+    share, height, period, time, kind = max(match.at(best[4], float(candidate)) for candidate in finer)
     if time > motion.duration + 0.5 * padding * motion.dt:  # periodic transform: it lies before the beginning
         time -= size * motion.dt
     return PulseMatch(period, abs(height), time, kind, share / energy)

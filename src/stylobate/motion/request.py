@@ -256,12 +256,12 @@ class MotionRequest:
         return Suite(tuple(map(_as_asked, motions)), refused)
 
     def _listed(self) -> list[Path]:
-        found: list[Path] = []
-        for one in map(Path, self.files):
-            found += sorted(p for p in one.iterdir() if p.is_file() and p.name[0] != ".") if one.is_dir() else [one]
-        if not found:
+        paths: list[Path] = []
+        for path in map(Path, self.files):
+            paths += sorted(p for p in path.iterdir() if p.is_file() and p.name[0] != ".") if path.is_dir() else [path]
+        if not paths:
             raise InputError(f"{' and '.join(map(str, self.files))} holds no file; give a folder of records, or files.")
-        return found
+        return paths
 
     def _source(self, frequency_parameter: float | None, amplitude_open: bool) -> Motion:
         """The motion as it is recorded or computed."""
@@ -294,17 +294,17 @@ class MotionRequest:
         for first in _as_x(motion, self.component):
             ready = []
             for azimuth in self.azimuths or (None,):
-                one = first if azimuth is None else self._turned(first, azimuth)
+                variant = first if azimuth is None else self._turned(first, azimuth)
                 if azimuth is not None or self.signs == "both":
-                    known = _direction(one, motion.name) | ({} if azimuth is None else {"azimuth": azimuth})
-                    one = one.replace(metadata={**one.metadata, "direction": known})
+                    known = _direction(variant, motion.name) | ({} if azimuth is None else {"azimuth": azimuth})
+                    variant = variant.replace(metadata={**variant.metadata, "direction": known})
                 if len(self.azimuths) > 1:
-                    one = one.replace(name=f"{one.name} at {azimuth:g}°")
-                ready += [one, _reversed(one, motion.name)] if self.signs == "both" else [one]
+                    variant = variant.replace(name=f"{variant.name} at {azimuth:g}°")
+                ready += [variant, _reversed(variant, motion.name)] if self.signs == "both" else [variant]
             for step in self.condition:
                 ready = conditioned_alike(ready, step)
-            strongest = max(ready, key=lambda one: one.pga)
-            variants += [self._sized(one, strongest) for one in ready]
+            strongest = max(ready, key=lambda variant: variant.pga)
+            variants += [self._sized(variant, strongest) for variant in ready]
         return variants
 
     def _turned(self, motion: Motion, azimuth: float) -> Motion:
@@ -315,8 +315,8 @@ class MotionRequest:
     def _sized(self, motion: Motion, strongest: Motion) -> Motion:
         """The motion as large as asked for; turned ones are that of one record, with the factor of the strongest."""
         if self.scale is not None:
-            said = (*motion.processing, say("multiplied by {self.scale:g}", self=self))
-            motion = motion.scaled(self.scale).replace(processing=said)
+            processing = (*motion.processing, say("multiplied by {self.scale:g}", self=self))
+            motion = motion.scaled(self.scale).replace(processing=processing)
         if self.pga is not None:
             times = strongest.scaled_to_pga(self.pga).factor / strongest.factor
             size = f"{self.pga / g:g} g"
@@ -345,9 +345,9 @@ def _as_x(motion: Motion, component: str | None) -> Iterator[Motion]:
         return
     second = turned(motion, 90.0)
     if component == "all":
-        said = {"direction": _direction(motion, motion.name)}
-        yield motion.replace(name=f"{motion.name} first component", metadata={**motion.metadata, **said})
-        yield second.replace(name=f"{motion.name} second component", metadata={**second.metadata, **said})
+        facts = {"direction": _direction(motion, motion.name)}
+        yield motion.replace(name=f"{motion.name} first component", metadata={**motion.metadata, **facts})
+        yield second.replace(name=f"{motion.name} second component", metadata={**second.metadata, **facts})
     else:
         yield motion if motion.pga >= second.pga else second
 

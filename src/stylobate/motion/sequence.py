@@ -81,7 +81,7 @@ def in_sequence(motions: Motion | Sequence[Motion], rest: float = REST, repeat: 
         )
     axes = [tuple(motion.components) for motion in once]
     if len(set(axes)) > 1:
-        other = next(k for k, one in enumerate(axes) if one != axes[0])
+        other = next(k for k, components in enumerate(axes) if components != axes[0])
         raise InputError(
             f"{once[0].name!r} has the components {', '.join(axes[0])} and {once[other].name!r} {', '.join(axes[other])}; "
             "give each earthquake of a sequence the same ones: name one `component` of each, and leave the vertical out.",
@@ -98,7 +98,7 @@ def in_sequence(motions: Motion | Sequence[Motion], rest: float = REST, repeat: 
         )
     samples: dict[str, list[np.ndarray]] = {axis: [] for axis in axes[0]}
     spans: list[Span] = []
-    place, said = 0, []
+    place, notes = 0, []
     for _ in range(repeat):
         for motion, part in zip(once, parts, strict=True):
             for axis, values in motion.components.items():
@@ -108,23 +108,23 @@ def in_sequence(motions: Motion | Sequence[Motion], rest: float = REST, repeat: 
             place += count + zeros
             spans.append(Span(motion.name, begins, quiet, (place - 1) * dt))
     for motion, part in zip(once, parts, strict=True):
-        said += [f"{motion.name}: {one}" for one in motion.processing]
+        notes += [f"{motion.name}: {step}" for step in motion.processing]
         if part > 1:
-            said.append(
+            notes.append(
                 f"{motion.name}: step of {motion.dt:g} s divided into {part} of {dt:.6g} s, linear between samples"
             )
     known: dict[str, Any] = {KEY: tuple(spans)}
-    if left_out := [f"{one.name}: {text}" for one in once for text in one.metadata.get("left_out", ())]:
+    if left_out := [f"{motion.name}: {text}" for motion in once for text in motion.metadata.get("left_out", ())]:
         known["left_out"] = tuple(dict.fromkeys(left_out))
     if all("format" in motion.metadata for motion in once):
         known["format"] = "sequence"
     azimuths = [motion.metadata.get("azimuths") for motion in once]
-    if azimuths[0] and all(one == azimuths[0] for one in azimuths):
+    if azimuths[0] and all(directions == azimuths[0] for directions in azimuths):
         known["azimuths"] = azimuths[0]
     if references := [key for motion in once for key in motion.metadata.get("references", ())]:
         known["references"] = tuple(dict.fromkeys(references))
     x, y, z = (np.concatenate(samples[axis]) if axis in samples else None for axis in "xyz")
-    return Motion(dt, x, y, z, name=_name(once, repeat), metadata=known, processing=tuple(dict.fromkeys(said)))
+    return Motion(dt, x, y, z, name=_name(once, repeat), metadata=known, processing=tuple(dict.fromkeys(notes)))
 
 
 def spans_of(motion: Motion) -> tuple[Span, ...]:
@@ -152,11 +152,11 @@ def _common_step(motions: Sequence[Motion]) -> float:
     steps = [motion.dt for motion in motions]
     if len(set(steps)) == 1:
         return steps[0]
-    found = [Fraction(step).limit_denominator(1_000_000) for step in steps]
-    exact = all(abs(float(one) - step) <= 1e-9 * step for one, step in zip(found, steps, strict=True))
-    whole = math.lcm(*(one.denominator for one in found))
-    common = Fraction(math.gcd(*(int(one * whole) for one in found)), whole)
-    if not exact or max(found) > FINEST * common:
+    fractions = [Fraction(step).limit_denominator(1_000_000) for step in steps]
+    exact = all(abs(float(fraction) - step) <= 1e-9 * step for fraction, step in zip(fractions, steps, strict=True))
+    whole = math.lcm(*(fraction.denominator for fraction in fractions))
+    common = Fraction(math.gcd(*(int(fraction * whole) for fraction in fractions)), whole)
+    if not exact or max(fractions) > FINEST * common:
         shortest, longest = min(steps), max(steps)
         raise InputError(
             f"the steps of the motions, {shortest:.6g} s and {longest:.6g} s, have no common one of at least a "

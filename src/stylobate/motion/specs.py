@@ -169,27 +169,27 @@ def parse_harmonic(
         The text cannot be understood; the message shows how to write it.
     """
     example = "1.0Hz,0.3g,10s"
-    found = _parts(text.split(","), text, "harmonic", example)
-    _only(found, ("frequency", "acceleration", "time"), text, "harmonic", example)
-    amplitude = _amplitude(found, text, "harmonic", example, allow_unknown)
-    unknown = math.isnan(found["acceleration"])
+    quantities = _parts(text.split(","), text, "harmonic", example)
+    _only(quantities, ("frequency", "acceleration", "time"), text, "harmonic", example)
+    amplitude = _amplitude(quantities, text, "harmonic", example, allow_unknown)
+    unknown = math.isnan(quantities["acceleration"])
     other = None if across is None else _across(across, unknown, allow_unknown)
-    motion = harmonic(found["frequency"], amplitude, found.get("time", 10.0), across=other)
+    motion = harmonic(quantities["frequency"], amplitude, quantities.get("time", 10.0), across=other)
     return (motion, unknown) if allow_unknown else motion
 
 
 def _across(text: str, unknown: bool, allow_unknown: bool) -> tuple[float, float, float]:
     example = "1.0Hz,0.15g,90deg"
-    found = _parts(text.split(","), text, "across", example)
-    _only(found, ("frequency", "acceleration", "angle"), text, "across", example)
-    if allow_unknown and unknown != math.isnan(found["acceleration"]):
+    quantities = _parts(text.split(","), text, "across", example)
+    _only(quantities, ("frequency", "acceleration", "angle"), text, "across", example)
+    if allow_unknown and unknown != math.isnan(quantities["acceleration"]):
         raise InputError(
             "`harmonic` and `across`: the amplitude of one is stated and that of the other looked for; write ?g for both, "
             "which are then the same.",
             "across.amplitude",
         )
-    amplitude = _amplitude(found, text, "across", example, allow_unknown)
-    return found["frequency"], amplitude, math.radians(found.get("angle", 0.0))
+    amplitude = _amplitude(quantities, text, "across", example, allow_unknown)
+    return quantities["frequency"], amplitude, math.radians(quantities.get("angle", 0.0))
 
 
 @overload
@@ -223,15 +223,15 @@ def parse_pulse(
     key = kind.strip().lower()
     check_choice("kind of pulse", key, PULSES, field="pulse", remedy=f"write it as {example!r}")
     example = f"{key},1.0Hz,0.3g"
-    found = _parts(parts, text, "pulse", example)
-    _only(found, ("frequency", "acceleration", "time"), text, "pulse", example)
-    amplitude = _amplitude(found, text, "pulse", example, allow_unknown)
-    length = found.get("time")
+    quantities = _parts(parts, text, "pulse", example)
+    _only(quantities, ("frequency", "acceleration", "time"), text, "pulse", example)
+    amplitude = _amplitude(quantities, text, "pulse", example, allow_unknown)
+    length = quantities.get("time")
     if length is None and default_length is not None:
-        alone = PULSES[key](found["frequency"], amplitude).metadata["pulse_length"]
+        alone = PULSES[key](quantities["frequency"], amplitude).metadata["pulse_length"]
         length = max(default_length, alone)
-    motion = PULSES[key](found["frequency"], amplitude, length)
-    return (motion, math.isnan(found["acceleration"])) if allow_unknown else motion
+    motion = PULSES[key](quantities["frequency"], amplitude, length)
+    return (motion, math.isnan(quantities["acceleration"])) if allow_unknown else motion
 
 
 def parse_synthetic(text: str) -> Motion:
@@ -244,7 +244,7 @@ def parse_synthetic(text: str) -> Motion:
     """
     example = "greece,6.5Mw,20km,seed=3"
     region, *parts = [part.strip() for part in text.split(",")]
-    found: dict[str, float] = {}
+    values: dict[str, float] = {}
     for part in parts:
         match = re.fullmatch(
             r"(?P<seed>seed)\s*=\s*(?P<number>\d{1,18})|(?P<value>\d+\.?\d*|\.\d+)\s*(?P<unit>mw|km)", part.lower()
@@ -252,13 +252,13 @@ def parse_synthetic(text: str) -> Motion:
         if match is None:
             raise InputError(f"`synthetic` {text!r}: {part!r} is not understood; write it as {example!r}.", "synthetic")
         key = match["seed"] or match["unit"]
-        if key in found:
+        if key in values:
             raise InputError(f"`synthetic` {text!r} holds two values of {key}; write it as {example!r}.", "synthetic")
-        found[key] = int(match["number"]) if match["seed"] else float(match["value"])
+        values[key] = int(match["number"]) if match["seed"] else float(match["value"])
     for key, word in (("mw", "magnitude such as 6.5Mw"), ("km", "distance such as 20km")):
-        if key not in found:
+        if key not in values:
             raise InputError(f"`synthetic` {text!r} holds no {word}; write it as {example!r}.", "synthetic")
-    return stochastic_motion(found["mw"], found["km"] * 1e3, region.lower(), seed=int(found.get("seed", 0)))
+    return stochastic_motion(values["mw"], values["km"] * 1e3, region.lower(), seed=int(values.get("seed", 0)))
 
 
 #: Fields of what is typed for a motion, in their usual order.
@@ -271,42 +271,42 @@ _FIELDS = {
 
 def _parts(parts: list[str], text: str, name: str, example: str) -> dict[str, float]:
     """Quantities by kind; the units say which is which. An acceleration that is looked for is NaN."""
-    found: dict[str, float] = {}
+    quantities: dict[str, float] = {}
     for part, place in zip_longest(parts, _FIELDS[name][: len(parts)], fillvalue=name):
         with within("", place):
             kind, value = _measure(part, f"`{name}` {text!r}", example)
-            if kind in found:
+            if kind in quantities:
                 raise InputError(f"`{name}` {text!r} holds two values of {kind}; write it as {example!r}.")
-        found[kind] = value
+        quantities[kind] = value
     for kind, sample, place in zip(("frequency", "acceleration"), ("1.0Hz", "0.3g"), _FIELDS[name]):
-        if kind not in found:
-            said = f"`{name}` {text!r} holds no {kind} such as {sample}; write it as {example!r}."
-            raise InputError(said, place)
-    return found
+        if kind not in quantities:
+            message = f"`{name}` {text!r} holds no {kind} such as {sample}; write it as {example!r}."
+            raise InputError(message, place)
+    return quantities
 
 
-def _only(found: dict[str, float], kinds: tuple[str, ...], text: str, name: str, example: str) -> None:
-    for kind in found:
+def _only(quantities: dict[str, float], kinds: tuple[str, ...], text: str, name: str, example: str) -> None:
+    for kind in quantities:
         if kind not in kinds:
             word = "an" if kind[0] in "aeiou" else "a"
-            said = f"`{name}` {text!r} holds {word} {kind}, which it has none of; write it as {example!r}."
-            raise InputError(said, name)
+            message = f"`{name}` {text!r} holds {word} {kind}, which it has none of; write it as {example!r}."
+            raise InputError(message, name)
 
 
-def _amplitude(found: dict[str, float], text: str, name: str, example: str, allow_unknown: bool) -> float:
-    value = found["acceleration"]
+def _amplitude(quantities: dict[str, float], text: str, name: str, example: str, allow_unknown: bool) -> float:
+    value = quantities["acceleration"]
     if not math.isnan(value):
         return value
     if not allow_unknown:
-        said = f"`{name}` {text!r} leaves the amplitude open; state it here, as in {example!r}."
-        raise InputError(said, _FIELDS[name][1])
+        message = f"`{name}` {text!r} leaves the amplitude open; state it here, as in {example!r}."
+        raise InputError(message, _FIELDS[name][1])
     return 1.0
 
 
 def _quantity(text: str, kind: str, example: str, name: str | None) -> float:
     with within("", *([name] if name else [])):
-        found, value = _measure(text, f"`{name}`" if name else f"{kind} {text!r}", example)
-        if found != kind or math.isnan(value):
+        actual_kind, value = _measure(text, f"`{name}`" if name else f"{kind} {text!r}", example)
+        if actual_kind != kind or math.isnan(value):
             what = f"`{name}`: {text!r}" if name else repr(text)
             raise InputError(f"{what} is not a value of {kind}; write it with its unit, as in {example!r}.")
     return value

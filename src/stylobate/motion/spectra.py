@@ -84,12 +84,12 @@ def response_spectrum(
     """
     from ..kernels.spectrum import peaks
 
-    found = motion.components
-    if component not in found:
-        raise InputError(f"motion {motion.name!r} has no component {component!r}; it has {', '.join(found)}.")
+    components = motion.components
+    if component not in components:
+        raise InputError(f"motion {motion.name!r} has no component {component!r}; it has {', '.join(components)}.")
     t, z = _checked(periods, damping)
     out = np.empty((len(t), 3))
-    peaks(found[component], motion.dt, t, z, STATES_PER_PERIOD, PARTS_OF_STEP, out)
+    peaks(components[component], motion.dt, t, z, STATES_PER_PERIOD, PARTS_OF_STEP, out)
     return ResponseSpectrum(t, z, out[:, 0], out[:, 1], out[:, 2])
 
 

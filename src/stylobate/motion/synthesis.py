@@ -113,11 +113,11 @@ def corner_frequency(magnitude: float, region: Region) -> float:
 
 def spreading(distance: float, region: Region) -> float:
     """Geometric spreading relative to a distance of 1 km [-]."""
-    found = 1.0
+    factor = 1.0
     for (start, power), end in zip(region.spreading, [*(d for d, _ in region.spreading[1:]), math.inf]):
         if distance > start or start == region.spreading[0][0]:
-            found *= (min(distance, end) / start) ** power
-    return found
+            factor *= (min(distance, end) / start) ** power
+    return factor
 
 
 def fourier_target(frequency: np.ndarray, magnitude: float, distance: float, region: Region) -> np.ndarray:

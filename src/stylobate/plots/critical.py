@@ -65,10 +65,10 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: 
     ceiling = 1.25 * max(float(finite.max()) if finite.size else 0.0, 0.1)
     shown = np.where((verdicts == v.COLLAPSED) | ~np.isfinite(peaks), ceiling, np.minimum(peaks, ceiling))
     figure, axes = panel(ax, (WIDTH, 3.4))
-    for one, mark in _MARKS.items():
-        chosen = verdicts == one
+    for verdict, mark in _MARKS.items():
+        chosen = verdicts == verdict
         if chosen.any():
-            counted = f"{one} ({int(chosen.sum())})"
+            counted = f"{verdict} ({int(chosen.sum())})"
             axes.plot(amplitudes[chosen], shown[chosen], linestyle="none", markersize=5.0, label=counted, **mark)
     if result.critical is not None:
         at = result.critical / g
@@ -150,15 +150,15 @@ def draw_record_verdicts(
     upper.set_ylabel("share of motions\nthat collapse it [-]")
     verdicts = suite.verdicts
     handles = []
-    for one, fill in FILL.items():
+    for verdict, fill in FILL.items():
         cells = [
             [(edges[j], i - 0.4), (edges[j + 1], i - 0.4), (edges[j + 1], i + 0.4), (edges[j], i + 0.4)]
-            for i, j in np.argwhere(verdicts == one)
+            for i, j in np.argwhere(verdicts == verdict)
         ]
         if cells:
             lower.add_collection(PolyCollection(cells, antialiaseds=False, **fill))
             frame = {"edgecolor": "#999999", "linewidth": 0.5}
-            handles.append(Patch(label=f"{one} ({len(cells)})", **(fill | frame if "hatch" not in fill else fill)))
+            handles.append(Patch(label=f"{verdict} ({len(cells)})", **(fill | frame if "hatch" not in fill else fill)))
     lower.set_yticks(range(count), [plain(_short(result.motion.name)) for result in suite.results], fontsize=7.5)
     lower.set_ylim(count - 0.5, -0.5)
     lower.set_xlim(edges[0], edges[-1])
@@ -190,7 +190,7 @@ def draw_directions(compass: Compass, title: str | None = None, *, figure: Figur
     axes = cast(PolarAxes, figure.add_subplot(projection="polar"))
     axes.set_theta_zero_location("N")
     axes.set_theta_direction(-1)
-    axes.set_thetagrids(np.arange(0, 360, 30), [f"{one}°" for one in range(0, 360, 30)])
+    axes.set_thetagrids(np.arange(0, 360, 30), [f"{azimuth}°" for azimuth in range(0, 360, 30)])
     values = compass.values
     seen = np.isfinite(values)
     rim = 1.15 * float(np.nanmax(np.where(seen, values, np.nan))) if seen.any() and values[seen].max() > 0 else 1.0
@@ -249,7 +249,7 @@ def draw_debris(
         ``Population.bodies``.
     """
     figure, axes = only_panel(ax, figure, (WIDTH, 5.6))
-    fallen = sorted((one for one in bodies if one.fell), key=lambda one: -one.fell)
+    fallen = sorted((body for body in bodies if body.fell), key=lambda body: -body.fell)
     for body in response.structure.bodies:
         if body.fixed and body.size > FAR_AWAY:
             continue
@@ -258,17 +258,20 @@ def draw_debris(
     names = response.bodies.names
     starts = dict(zip(names, response.body_position[0, :, :2], strict=True))
     handles = []
-    for number, one in enumerate(fallen):
+    for number, fallen_body in enumerate(fallen):
         colour = COLOURS[number] if number < len(COLOURS) else GREY
-        ends = starts[one.name] + one.ends
-        middle = starts[one.name] + one.middle
+        ends = starts[fallen_body.name] + fallen_body.ends
+        middle = starts[fallen_body.name] + fallen_body.middle
         axes.plot(*ends.T, ".", color=colour, markersize=4.0, zorder=3)
-        for radius, style in zip(one.radii, ("-", (0, (4, 2))), strict=True):
+        for radius, style in zip(fallen_body.radii, ("-", (0, (4, 2))), strict=True):
             x, y = (float(place) for place in middle)
             circle = Circle((x, y), radius, fill=False, edgecolor=colour, linewidth=0.9, linestyle=style, zorder=2)
             axes.add_patch(circle)
         if number < len(COLOURS):
-            label = f"{one.name}: fell in {one.fell} of {one.runs}" + f", {one.open} undecided" * bool(one.open)
+            label = (
+                f"{fallen_body.name}: fell in {fallen_body.fell} of {fallen_body.runs}"
+                + f", {fallen_body.open} undecided" * bool(fallen_body.open)
+            )
             handles.append(Line2D([], [], color=colour, marker=".", label=label))
     if len(fallen) > len(COLOURS):
         handles.append(Line2D([], [], color=GREY, marker=".", label=f"{len(fallen) - len(COLOURS)} more that fell"))
@@ -281,8 +284,8 @@ def draw_debris(
         axes.text(0.5, 0.02, "nothing fell in any of them", transform=axes.transAxes, ha="center", color=BLACK)
     runs = len(bodies[0].ends) if bodies else 0
     moving = not_yet_debris(bodies)
-    said = f"{response.structure.name}: where bodies were at the end of {runs} runs"
-    axes.set_title(in_lines(title or said + f"; {moving}" * bool(moving)))
+    heading = f"{response.structure.name}: where bodies were at the end of {runs} runs"
+    axes.set_title(in_lines(title or heading + f"; {moving}" * bool(moving)))
     lines = ["x [m]", "full circle: 50 %, dashed: 90 % of all runs, about the median place;"]
     lines += ["runs in which a body stands count, too", *filter(None, [only_as_seen(runs)])]
     axes.set_xlabel("\n".join(lines))

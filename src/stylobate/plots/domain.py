@@ -75,9 +75,9 @@ def draw_cells(axes: Axes, frequencies: np.ndarray, amplitudes: np.ndarray, verd
     """Fill the cells by verdict; returns what the legend shows, each with its number of cells."""
     x, y = edges_of(frequencies), edges_of(amplitudes / g)
     handles = []
-    for one, fill in FILL.items():
-        if number := fill_cells(axes, x, y, verdicts == one, fill):
-            handles.append(Patch(label=f"{one} ({number})", **framed(fill)))
+    for verdict, fill in FILL.items():
+        if number := fill_cells(axes, x, y, verdicts == verdict, fill):
+            handles.append(Patch(label=f"{verdict} ({number})", **framed(fill)))
     return handles
 
 
@@ -184,10 +184,10 @@ def message(result: CollapseProbability) -> str:
     facts = result.summary()
     open_cells = facts["no_verdict"]
     if open_cells:
-        said = f"{percent(open_cells / facts['cells'])} of the cells have no verdict: follow the column longer"
+        sentence = f"{percent(open_cells / facts['cells'])} of the cells have no verdict: follow the column longer"
         if open_cells == facts["cells"]:
-            return said
-        return f"{_about_the_others(result, facts)}\n{said}"
+            return sentence
+        return f"{_about_the_others(result, facts)}\n{sentence}"
     return _about_the_others(result, facts)
 
 
@@ -232,10 +232,12 @@ def draw_band(axes: Axes, result: CollapseProbability) -> list[Line2D]:
     x, edges = cell_edges(result.frequencies), cell_edges(result.amplitudes / g)
     low, high = result.band
     with np.errstate(invalid="ignore"):
-        below = [np.nan if np.isnan(one) else edges[np.searchsorted(result.amplitudes, one)] for one in low]
+        below = [
+            np.nan if np.isnan(amplitude) else edges[np.searchsorted(result.amplitudes, amplitude)] for amplitude in low
+        ]
         above = [
-            np.nan if np.isnan([one, first]).any() or beyond else edges[np.searchsorted(result.amplitudes, one) + 1]
-            for one, first, beyond in zip(high, low, result.band_is_open)
+            np.nan if np.isnan([upper, first]).any() or beyond else edges[np.searchsorted(result.amplitudes, upper) + 1]
+            for upper, first, beyond in zip(high, low, result.band_is_open)
         ]
     shapes: list[Line2D] = []
     lines: list[tuple[Any, Any, str]] = [

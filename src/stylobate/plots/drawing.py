@@ -69,10 +69,10 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     _width(axes, sheet, column.drums[0].bottom_width, _bottom(outlines[0]), -26.0, column.section)
     _width(axes, sheet, column.drums[-1].top_width, _top(outlines[-1]), 12.0, column.section)
     if slope:
-        found = column.as_found
+        as_found = column.as_found
         side = say("the right") if slope > 0.0 else say("the left")
-        to = side if found.base_azimuth in (0.0, 180.0) else f"{found.base_azimuth:g}°"
-        words = say("base rises by {angle:g}° to {to}", angle=abs(found.base_tilt), to=to)
+        to = side if as_found.base_azimuth in (0.0, 180.0) else f"{as_found.base_azimuth:g}°"
+        words = say("base rises by {angle:g}° to {to}", angle=abs(as_found.base_tilt), to=to)
         axes.annotate(words, (low[0], sheet.up(low[1], -40.0)), color=RED, fontsize=WORDS, ha="left")
     if title:
         axes.set_title(title)
@@ -134,15 +134,15 @@ def draw_chain(axes: Axes, sheet: Sheet, levels: Sequence[float], edge: float) -
     axes.plot([chain, chain], [levels[0], levels[-1]], color=BLACK, linewidth=0.6)
     every = math.ceil((len(levels) - 1) / WRITTEN)
     for low, high in list(pairwise(levels))[::every]:
-        said = digits(high - low, ".3f")
-        axes.text(sheet.up(chain, -3.0), 0.5 * (low + high), said, fontsize=WORDS, ha="right", va="center")
+        text = digits(high - low, ".3f")
+        axes.text(sheet.up(chain, -3.0), 0.5 * (low + high), text, fontsize=WORDS, ha="right", va="center")
     for z in (levels[0], levels[-1]):
         axes.plot([sheet.up(far, -4.0), sheet.up(chain, -4.0)], [z, z], color=GREY, linewidth=0.4)
         _tick(axes, far, z)
     axes.plot([far, far], [levels[0], levels[-1]], color=BLACK, linewidth=0.6)
     words = {"fontsize": 8.5, "ha": "right", "va": "center", "rotation": 90}
-    said = say("{value:.3f} m", value=levels[-1] - levels[0])
-    axes.text(sheet.up(far, -3.0), 0.5 * (levels[0] + levels[-1]), said, **words)
+    text = say("{value:.3f} m", value=levels[-1] - levels[0])
+    axes.text(sheet.up(far, -3.0), 0.5 * (levels[0] + levels[-1]), text, **words)
 
 
 def _tick(axes: Axes, x: float, z: float) -> None:
@@ -165,23 +165,23 @@ def _words_beside(axes: Axes, sheet: Sheet, column: Column, outlines: list[np.nd
         middle = shape.mean(axis=0)
         axes.text(float(middle[0]), float(middle[1]), str(i + 1), fontsize=8.0, ha="center", va="center", weight="bold")
         level = float(column.joint_heights[i])
-        said = say("joint {number}", number=i + 1)
+        label = say("joint {number}", number=i + 1)
         if abs(friction[i] - usual) > 1e-9:
-            said += say(", μ = {value:.3g}", value=friction[i])
+            label += say(", μ = {value:.3g}", value=friction[i])
         if column.joints[i].ring_width is not None:
-            said += say(", ring {width:g} m", width=column.joints[i].ring_width)
+            label += say(", ring {width:g} m", width=column.joints[i].ring_width)
         axes.plot([edge, sheet.up(near, -2.0)], [level, level], color=GREY, linewidth=0.4, linestyle=(0, (1, 1.5)))
-        axes.text(near, level, said, fontsize=6.5, ha="left", va="center" if i else "bottom", color=GREY)
+        axes.text(near, level, label, fontsize=6.5, ha="left", va="center" if i else "bottom", color=GREY)
         if drum.circular or drum.top_depth is None:
             wide = say("{round}{drum.bottom_width:.3f} – {drum.top_width:.3f}", round=round_, drum=drum)
         else:
             wide = say("{d.bottom_width:.3f} × {d.depth:.3f} – {d.top_width:.3f} × {d.upper_depth:.3f}", d=drum)
         height = level + 0.5 * drum.height
-        found = joined(", ", words_of_found(column.as_found, i + 1))
-        axes.text(far, height, wide, fontsize=WORDS, ha="left", va="bottom" if found and not tight else "center")
-        if found:
+        found_words = joined(", ", words_of_found(column.as_found, i + 1))
+        axes.text(far, height, wide, fontsize=WORDS, ha="left", va="bottom" if found_words and not tight else "center")
+        if found_words:
             place = (sheet.up(far, 76.0), height) if tight else (far, height)
-            axes.text(*place, found, fontsize=7.0, ha="left", va="center" if tight else "top", color=RED)
+            axes.text(*place, found_words, fontsize=7.0, ha="left", va="center" if tight else "top", color=RED)
 
 
 def _links(axes: Axes, sheet: Sheet, column: Column) -> None:
@@ -209,8 +209,8 @@ def _width(axes: Axes, sheet: Sheet, width: float, ends: np.ndarray, away: float
         axes.plot([x, x], [z, sheet.up(level, math.copysign(4.0, away))], color=GREY, linewidth=0.4)
         _tick(axes, float(x), level)
     axes.plot(ends[:, 0], [level, level], color=BLACK, linewidth=0.6)
-    said = say("{round}{width:.3f} m", round="⌀ " if section == "circular" else "", width=width)
-    axes.text(float(ends[:, 0].mean()), sheet.up(level, 3.0), said, fontsize=WORDS, ha="center", va="bottom")
+    text = say("{round}{width:.3f} m", round="⌀ " if section == "circular" else "", width=width)
+    axes.text(float(ends[:, 0].mean()), sheet.up(level, 3.0), text, fontsize=WORDS, ha="center", va="bottom")
 
 
 def _bottom(shape: np.ndarray) -> np.ndarray:
@@ -226,19 +226,19 @@ def _width_where(shape: np.ndarray, at: np.ndarray) -> np.ndarray:
     return face[[int(face[:, 0].argmin()), int(face[:, 0].argmax())]]
 
 
-def words_of_found(found: AsFound, number: int) -> list[str]:
+def words_of_found(as_found: AsFound, number: int) -> list[str]:
     """State as found of a drum, in words: its offset on what is below, and where that leaves it if elsewhere."""
-    drum = found.of(number)
+    drum = as_found.of(number)
     towards = lambda azimuth: say(" to {azimuth:g}°", azimuth=azimuth) if azimuth else ""  # noqa: E731
     parts = []
     if drum.offset:
         parts.append(
             say("offset {far} mm{to}", far=signed(1000.0 * drum.offset, ".0f"), to=towards(drum.offset_azimuth))
         )
-        net, azimuth = found.place(number)
+        net, azimuth = as_found.place(number)
         if not net:
             parts.append(say("back in line"))
-        elif any(one.offset for one in found.drums if one.drum < number):
+        elif any(lower.offset for lower in as_found.drums if lower.drum < number):
             parts.append(say("in all {far:.0f} mm to {azimuth:.0f}°", far=1000.0 * net, azimuth=azimuth))
     if drum.tilt:
         parts.append(say("lean {angle}°{to}", angle=signed(drum.tilt, "g"), to=towards(drum.tilt_azimuth)))
@@ -288,7 +288,7 @@ def _blocks(structure: Structure, shapes: list[np.ndarray], title: str | None, a
         axes.text(float(middle[0]), float(middle[1]), name, **words)
     for _, (*_, start), (*_, end) in strokes(structure.placed_links):
         axes.plot([start[0], end[0]], [start[2], end[2]], color=BLUE, linewidth=1.2, zorder=5)
-    for link in [one for one in structure.placed_links if one.mark == "sheet"]:
+    for link in [placed for placed in structure.placed_links if placed.mark == "sheet"]:
         ends = np.array(link.place)[:, None] + 12.0 * sheet.metres * np.outer(link.along, (-1.0, 1.0))
         axes.plot(*ends, color=BLUE, linewidth=2.4, zorder=5)
     for along, start, end in ((0, low, high), (1, low, high)):
@@ -305,8 +305,8 @@ def dimension(axes: Axes, sheet: Sheet, along: int, low: np.ndarray, high: np.nd
         axes.plot([low[0], high[0]], [level, level], color=BLACK, linewidth=0.6)
         for x in (float(low[0]), float(high[0])):
             _tick(axes, x, level)
-        said = say("{value:.3f} m", value=high[0] - low[0])
-        axes.text(0.5 * float(low[0] + high[0]), sheet.up(level, -3.0), said, fontsize=8.5, ha="center", va="top")
+        text = say("{value:.3f} m", value=high[0] - low[0])
+        axes.text(0.5 * float(low[0] + high[0]), sheet.up(level, -3.0), text, fontsize=8.5, ha="center", va="top")
         return
     place = sheet.up(float(low[0]), -22.0)
     axes.plot([place, place], [low[1], high[1]], color=BLACK, linewidth=0.6)
@@ -360,13 +360,13 @@ def solids_of(structure: Structure) -> tuple[list[Solid], list[str]]:
 
 def _near(structure: Structure) -> list[Body]:
     """Bodies that are drawn: all but a ground without ends."""
-    return [one for one in structure.bodies if not (one.fixed and one.size > FAR_AWAY)]
+    return [body for body in structure.bodies if not (body.fixed and body.size > FAR_AWAY)]
 
 
 def _proportions(solids: list[Solid]) -> tuple[float, float, list[float]]:
     """Extent along x and along y as drawn [m], and heights of the upper and the lower pictures [inch]."""
     size = np.ptp(np.concatenate([solid.vertices for solid in solids]), axis=0)
-    across, up, deep = (max(float(one), 0.05 * float(size.max())) for one in (size[0], size[2], size[1]))
+    across, up, deep = (max(float(extent), 0.05 * float(size.max())) for extent in (size[0], size[2], size[1]))
     share = 0.62 * WIDTH / (across + deep)
     return across, deep, [min(max(share * x + 1.0, least), most) for x, (most, least) in ((up, TALL), (deep, LOW))]
 
@@ -460,9 +460,9 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
     (front, side), (plan, oblique) = figure.subplots(2, 2, width_ratios=(ratio, 1.0), height_ratios=heights)
     sheets = [seen.sheet(axes, view) for axes, (view, _) in zip((front, side), VIEWS)]
     scale = max(sheet.metres for sheet in sheets)
-    for axes, (view, said) in zip((front, side, plan), VIEWS):
+    for axes, (view, caption) in zip((front, side, plan), VIEWS):
         seen.draw(axes, seen.sheet(axes, view, 0.0 if view is PLAN else scale), view)
-        axes.set_title(said, fontsize=8.5, color=GREY)
+        axes.set_title(caption, fontsize=8.5, color=GREY)
     _mark_north(plan, structure)
     _paint(oblique, seen.solids, OBLIQUE)
     _mark_links(oblique, structure, OBLIQUE)
@@ -476,8 +476,8 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
 
 def _levels(structure: Structure) -> list[float]:
     """Heights of the undersides and tops of bodies that can move, each once [m]; none of more than are written."""
-    bodies = [one for one in _near(structure) if not one.fixed]
-    ends = [end for one in bodies for part in one.placed for end in _ends(part.mesh().vertices[:, 2])]
+    bodies = [body for body in _near(structure) if not body.fixed]
+    ends = [end for body in bodies for part in body.placed for end in _ends(part.mesh().vertices[:, 2])]
     levels = sorted(dict.fromkeys(round(end, 3) for end in ends))
     return levels if len(levels) <= WRITTEN + 1 else []
 
@@ -504,8 +504,8 @@ def _feet(axes: Axes, sheet: Sheet, structure: Structure, view: View, edge: floa
             line = {"arrowstyle": "|-|,widthA=0.2,widthB=0.2", "lw": 0.6, "shrinkA": 0, "shrinkB": 0}
             axes.annotate("", (start, place), (end, place), arrowprops=line)
             paper = {"pad": 0.6, "facecolor": "white", "edgecolor": "none"}
-            said = digits(end - start, ".3f")
-            axes.text(0.5 * (start + end), place, said, fontsize=6.5, ha="center", va="center", bbox=paper)
+            text = digits(end - start, ".3f")
+            axes.text(0.5 * (start + end), place, text, fontsize=6.5, ha="center", va="center", bbox=paper)
 
 
 def _plain(surface: Surface) -> Surface:
@@ -567,13 +567,15 @@ def _names(axes: Axes, sheet: Sheet, solids: list[Solid], names: list[str], view
     shapes = [hull(view.across(solid.vertices)) for solid in solids]
     size = {number: float(np.prod(np.ptp(shape, axis=0))) for number, shape in enumerate(shapes)}
     # of the parts of one body the largest bears its name
-    bearing = {name: max((k for k, one in enumerate(names) if one == name), key=size.__getitem__) for name in names}
+    bearing = {name: max((k for k, owner in enumerate(names) if owner == name), key=size.__getitem__) for name in names}
     for place, number in enumerate(order):
         if bearing[names[number]] != number:
             continue
         shape = shapes[number]
         wide, high = np.ptp(shape, axis=0) / sheet.metres
-        name = next((one for one in _shorter(names[number]) if 4.2 * len(one) <= max(wide, high)), None)
+        name = next(
+            (candidate for candidate in _shorter(names[number]) if 4.2 * len(candidate) <= max(wide, high)), None
+        )
         if name is None or min(wide, high) < LEAST:
             continue
         turned = 90 if wide < 4.2 * len(name) else 0
@@ -582,7 +584,7 @@ def _names(axes: Axes, sheet: Sheet, solids: list[Solid], names: list[str], view
         ends = middle + np.outer((-half, 0.0, half), (0.0, 1.0) if turned else (1.0, 0.0))
         if any(_covers(shapes[other], end) for other in order[place + 1 :] for end in ends):
             continue
-        x, y = (float(one) for one in middle)
+        x, y = (float(coordinate) for coordinate in middle)
         axes.text(x, y, name, fontsize=6.5, ha="center", va="center", rotation=turned, zorder=5)
 
 
@@ -643,7 +645,7 @@ def joint_plans(structure: Structure) -> list[JointPlan]:
     """Plans of the joints of a column or of an assembly in space; those of one in the plane are lines and have none."""
     if structure.stack is not None:
         return _of_column(structure.stack)
-    found = []
+    plans = []
     for number, joint in enumerate(structure.space_joints or (), 1):
         names = [structure.bodies[body].name for body in (joint.lower, joint.upper)]
         corners = []
@@ -654,13 +656,13 @@ def joint_plans(structure: Structure) -> list[JointPlan]:
         pair = {joint.lower, joint.upper}
         links = [link for link in structure.placed_links if {link.lower, link.upper} == pair and not link.straight]
         crossing = [((np.array(link.middle) - joint.origin) @ joint.frame)[:2] for link in links]
-        said = f"{names[0]} –\n{names[1]}" if len("".join(names)) > 18 else f"{names[0]} – {names[1]}"
+        subtitle = f"{names[0]} –\n{names[1]}" if len("".join(names)) > 18 else f"{names[0]} – {names[1]}"
         sizes, words, offset = _of_round_faces(joint, on_ground)
-        said += f"\n{sizes}" * bool(sizes)
+        subtitle += f"\n{sizes}" * bool(sizes)
         below = None if on_ground else corners[0]
-        plan = JointPlan(say("joint {number}", number=number), below, corners[1], said, words, _pairs(crossing))
-        found.append(replace(plan, offset=offset, marked=bool(words)))
-    return found
+        plan = JointPlan(say("joint {number}", number=number), below, corners[1], subtitle, words, _pairs(crossing))
+        plans.append(replace(plan, offset=offset, marked=bool(words)))
+    return plans
 
 
 def _of_round_faces(joint: SpaceJoint, on_ground: bool) -> tuple[str, str, tuple[float, float]]:
@@ -668,7 +670,7 @@ def _of_round_faces(joint: SpaceJoint, on_ground: bool) -> tuple[str, str, tuple
     discs = [face.edges.discs for face in (joint.below, joint.above)]
     if len(discs[1]) != 1 or (not on_ground and len(discs[0]) != 1):
         return "", "", (0.0, 0.0)
-    radii = [0.0 if not one else one[0][1] for one in discs]
+    radii = [0.0 if not face_discs else face_discs[0][1] for face_discs in discs]
     same = on_ground or abs(radii[0] - radii[1]) < IN_LINE
     sizes = f"⌀ {2.0 * radii[1]:.3f}" + ("" if same else f" on ⌀ {2.0 * radii[0]:.3f}") + " m"
     words, off = [], (0.0, 0.0)
@@ -698,27 +700,29 @@ def _azimuth(way: np.ndarray) -> float:
 def _of_column(column: Column) -> list[JointPlan]:
     at, plans = space_geometry(column), []
     for j, drum in enumerate(column.drums):
-        one, middle = column.as_found.of(j + 1), at.offset[j]
+        found_drum, middle = column.as_found.of(j + 1), at.offset[j]
         above = _face(drum.circular, drum.bottom_width, drum.depth, float(at.turned[j])) + middle
-        if one.chipped:
-            turn = rotation(np.array([0.0, 0.0, 1.0]), float(at.turned[j]) + one.chip_azimuth * DEGREE)[:2, :2]
+        if found_drum.chipped:
+            turn = rotation(np.array([0.0, 0.0, 1.0]), float(at.turned[j]) + found_drum.chip_azimuth * DEGREE)[:2, :2]
             half = (0.5 * drum.bottom_width, 0.5 * (drum.bottom_width if drum.circular else drum.depth))
             for axis, sign, chip in ((0, -1, 0), (0, 1, 1), (1, -1, 2), (1, 1, 3)):
                 normal = sign * turn[:, axis]
-                above = cut(above, normal, float(normal @ middle) + half[axis] - one.chips[chip])
-        below, said = None, _size(drum.circular, drum.bottom_width, drum.depth)
+                above = cut(above, normal, float(normal @ middle) + half[axis] - found_drum.chips[chip])
+        below, subtitle = None, _size(drum.circular, drum.bottom_width, drum.depth)
         if j:
             lower = column.drums[j - 1]
             below = _face(lower.circular, lower.top_width, lower.upper_depth, float(at.turned[j - 1]))
             if (lower.top_width, lower.upper_depth) != (drum.bottom_width, drum.depth):
-                said += f" on {_size(lower.circular, lower.top_width, lower.upper_depth)}"
+                subtitle += f" on {_size(lower.circular, lower.top_width, lower.upper_depth)}"
         turn = rotation(np.array([0.0, 0.0, 1.0]), float(at.turned[j]))[:2, :2]
         crossing = [link for link in column.placed_links if link.crosses(j) and link.mark != "sheet"]
         places = [middle + turn @ np.array(link.middle[:2]) for link in crossing]
-        found = joined("\n", words_of_found(column.as_found, j + 1))
+        found_words = joined("\n", words_of_found(column.as_found, j + 1))
         offset = float(middle[0]), float(middle[1])
         title = say("joint {number}", number=j + 1)
-        plans.append(JointPlan(title, below, above, said + " m", found, _pairs(places), offset, bool(found)))
+        plans.append(
+            JointPlan(title, below, above, subtitle + " m", found_words, _pairs(places), offset, bool(found_words))
+        )
     return plans
 
 
@@ -778,7 +782,7 @@ def plan_axes(structure: Structure) -> str:
 def plan_reach(structure: Structure, plans: Sequence[JointPlan]) -> list[float]:
     """Half the side of the square around each plan [m]; of a column one for all, so that they can be laid on one another."""
     faces = [[_centred(plan), *([] if plan.below is None else [plan.below])] for plan in plans]
-    each = [1.06 * float(np.abs(np.concatenate(one)).max()) for one in faces]
+    each = [1.06 * float(np.abs(np.concatenate(outlines)).max()) for outlines in faces]
     return [max(each)] * len(each) if structure.stack is not None else each
 
 

@@ -273,7 +273,7 @@ def write_player(
     here = Path(__file__)
     template = Template(here.with_name("player.html").read_text(encoding="utf-8"), autoescape=True)
     scripts = SCRIPTS if response.dims == "xyz" else SCRIPTS[:1]
-    script = Markup("".join(here.with_name(one).read_text(encoding="utf-8") for one in scripts))
+    script = Markup("".join(here.with_name(script_name).read_text(encoding="utf-8") for script_name in scripts))
     page = template.render(
         title=title, sentence=scene.sentence, data=film_data(scene, indices, seen_from), script=script
     )
@@ -332,8 +332,8 @@ def _links(scene: Scene, shown: list[int]) -> list[list]:
         return [None if body is None else shown.index(body), place.round(5).tolist()]
 
     return [
-        [*end(*one.lower), *end(*one.upper), one.broken if math.isfinite(one.broken) else None]
-        for one in marks_of(scene)
+        [*end(*mark.lower), *end(*mark.upper), mark.broken if math.isfinite(mark.broken) else None]
+        for mark in marks_of(scene)
     ]
 
 
@@ -463,29 +463,29 @@ def draw_filmstrip(
     scene = scenes[0]
     frames = telling_states(response) if instants is None else _frames_at(response.time, instants)
     factor = _magnification(scenes) if magnification is None else magnification
-    outlines = [[one.outlines(i, factor) for i in frames] for one in scenes]
-    stood = np.ptp(np.concatenate([np.concatenate(one.outlines(0)) for one in scenes]), axis=0)
+    outlines = [[view_scene.outlines(i, factor) for i in frames] for view_scene in scenes]
+    stood = np.ptp(np.concatenate([np.concatenate(view_scene.outlines(0)) for view_scene in scenes]), axis=0)
     draw = _strip if stood[1] > TALL * stood[0] and not any(scene.fixed) else _grid
     figure, panels = draw(scenes, outlines, frames, figure)
-    peak = max(float(np.nanmax(np.abs(one.way[frames]))) for one in scenes)
+    peak = max(float(np.nanmax(np.abs(view_scene.way[frames]))) for view_scene in scenes)
     unit, size, places = ("m", 1.0, 2) if peak >= 0.1 else ("mm", 1000.0, 1)
 
-    shown = [(one, i, shapes) for one, strip in zip(scenes, outlines) for i, shapes in zip(frames, strip)]
-    for axes, (one, index, shapes) in zip(panels, shown, strict=True):
-        draw_bodies(axes, one, shapes)
-        draw_links(axes, one, index, factor)
-        way = round(size * one.way[index], places) + 0.0
+    shown = [(view_scene, i, shapes) for view_scene, strip in zip(scenes, outlines) for i, shapes in zip(frames, strip)]
+    for axes, (panel_scene, index, shapes) in zip(panels, shown, strict=True):
+        draw_bodies(axes, panel_scene, shapes)
+        draw_links(axes, panel_scene, index, factor)
+        way = round(size * panel_scene.way[index], places) + 0.0
         far = (signed if scene.signed else digits)(way, f".{places}f")
-        along = ("x ", "y ")[scenes.index(one)] if space and scene.signed else ""
+        along = ("x ", "y ")[scenes.index(panel_scene)] if space and scene.signed else ""
         if space and not scene.signed:
-            toward = "xy"[scenes.index(one)]
+            toward = "xy"[scenes.index(panel_scene)]
             axes.text(0.01, 0.0, f"{toward} →", transform=axes.transAxes, fontsize=6.5, color=GREY, ha="left", va="top")
         words = say("{time:.2f} s\n{along}{far} {unit}", time=scene.time[index], along=along, far=far, unit=unit)
         axes.set_title(words, fontsize=8.5, loc="center")
-    said = "" if factor == 1.0 else say(" (displacements × {factor:g})", factor=factor)
-    said += ONE_DRAW * (response.structure.space_joints is not None and response.collapsed)
+    suffix = "" if factor == 1.0 else say(" (displacements × {factor:g})", factor=factor)
+    suffix += ONE_DRAW * (response.structure.space_joints is not None and response.collapsed)
     figure.suptitle(
-        title + said if title == " " else in_lines((title or title_of(response)) + said),
+        title + suffix if title == " " else in_lines((title or title_of(response)) + suffix),
         x=0.01,
         ha="left",
         fontsize=10.0,
@@ -532,7 +532,7 @@ def _rows(widths: list[float], heights: list[float], together: int) -> tuple[lis
 
     A strip of so many panels begins a row.
     """
-    found: dict[int, tuple[list[list[int]], float]] = {}
+    layouts: dict[int, tuple[list[list[int]], float]] = {}
     least = len(widths) // together
     scale = LARGEST / (1.05 * max(heights))
     while True:
@@ -549,12 +549,12 @@ def _rows(widths: list[float], heights: list[float], together: int) -> tuple[lis
         high = scale * sum(max(heights[i] for i in row) for row in rows)
         smallest = scale * max(heights) < 0.2
         if smallest or (wide <= 0.96 * WIDTH and (len(rows) == least or high <= TALLEST)):
-            found.setdefault(len(rows), (rows, scale))
+            layouts.setdefault(len(rows), (rows, scale))
             if len(rows) == least or smallest:
                 break
         scale *= 0.98
-    largest = max(scale for _, scale in found.values())
-    return found[min(count for count, (_, scale) in found.items() if scale >= NEARLY * largest)]
+    largest = max(scale for _, scale in layouts.values())
+    return layouts[min(count for count, (_, scale) in layouts.items() if scale >= NEARLY * largest)]
 
 
 #: Fewer rows are taken where the scale is at least this share of the largest.
@@ -608,7 +608,7 @@ def _frames_at(recorded: np.ndarray, instants: Sequence[float]) -> list[int]:
 
 
 def _magnification(scenes: list[Scene]) -> float:
-    scene, peak = scenes[0], max(float(np.nanmax(np.abs(one.way))) for one in scenes)
+    scene, peak = scenes[0], max(float(np.nanmax(np.abs(view_scene.way))) for view_scene in scenes)
     if peak <= 0.0 or peak > 0.02 * scene.size:
         return 1.0
     wanted = 0.05 * scene.size / peak

@@ -57,38 +57,38 @@ def draw_fragility(
     curves : Fragility or sequence of Fragility
         Of one intensity measure; two columns, or one with and without a measure.
     """
-    found = [curves] if isinstance(curves, Fragility) else list(curves)
+    fits = [curves] if isinstance(curves, Fragility) else list(curves)
     figure, axes = panel(ax, NARROW)
-    ends = min(one.span[0] for one in found), max(one.span[1] for one in found)
+    ends = min(fit.span[0] for fit in fits), max(fit.span[1] for fit in fits)
     fine = {"linewidth": 0.7, "linestyle": (0, (1, 1.5))}
-    for one, look in zip(found, _LOOKS * len(found)):
-        colour, x = look["color"], np.geomspace(*one.span, 300)
-        below, above = one.interval(x)
+    for fit, look in zip(fits, _LOOKS * len(fits)):
+        colour, x = look["color"], np.geomspace(*fit.span, 300)
+        below, above = fit.interval(x)
         axes.fill_between(x, below, above, color=colour, alpha=0.18, linewidth=0.0)
-        if one.evidence.count(-1) + one.evidence.count(-2):
-            for extreme in one.extremes:
+        if fit.evidence.count(-1) + fit.evidence.count(-2):
+            for extreme in fit.extremes:
                 axes.plot(x, curve(x, *extreme), color=colour, **fine)
-        name = one.evidence.name if len(found) > 1 else "lognormal"
-        badly = ", fits badly" if one.p_value < BADLY else ""
-        spread = f"β {one.beta:.2f}" if one.bracket is None else "β not seen"
-        label = f"{name}: {median_words(one.summary())}, {spread}, {one.records} {one.counted}{badly}"
-        axes.plot(x, one.probability(x), color=colour, linestyle=look["linestyle"], linewidth=1.6, label=label)
-        p = one.points
+        name = fit.evidence.name if len(fits) > 1 else "lognormal"
+        badly = ", fits badly" if fit.p_value < BADLY else ""
+        spread = f"β {fit.beta:.2f}" if fit.bracket is None else "β not seen"
+        label = f"{name}: {median_words(fit.summary())}, {spread}, {fit.records} {fit.counted}{badly}"
+        axes.plot(x, fit.probability(x), color=colour, linestyle=look["linestyle"], linewidth=1.6, label=label)
+        p = fit.points
         bars = np.clip(np.stack((p.share - p.low, p.high - p.share)), 0.0, None)
         axes.errorbar(
             p.im, p.share, bars, color=colour, linestyle="none", marker=look["marker"], markersize=3.4, linewidth=0.8,
             markerfacecolor="white",
         )  # fmt: skip
-    if any(one.evidence.count(-1) + one.evidence.count(-2) for one in found):
-        axes.plot([], [], color=GREY if len(found) > 1 else RED, label="if all that is undecided did, or none", **fine)
+    if any(fit.evidence.count(-1) + fit.evidence.count(-2) for fit in fits):
+        axes.plot([], [], color=GREY if len(fits) > 1 else RED, label="if all that is undecided did, or none", **fine)
     axes.set(ylim=(-0.03, 1.03), xlim=(ends[0] / 1.1, 1.1 * ends[1]))
     logarithmic(axes)
-    measure, state = found[0].evidence.measure, found[0].evidence.state
+    measure, state = fits[0].evidence.measure, fits[0].evidence.state
     axes.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)
     axes.set_ylabel(f"probability of {state}")
     axes.grid(True)
-    laws = " and laws of the joints" if any(one.laws for one in found) else ""
-    axes.set_title(title or f"{state}, {100 * found[0].confidence:g} % bands over {found[0].counted}{laws}", fontsize=9)
+    laws = " and laws of the joints" if any(fit.laws for fit in fits) else ""
+    axes.set_title(title or f"{state}, {100 * fits[0].confidence:g} % bands over {fits[0].counted}{laws}", fontsize=9)
     legend_below(axes, ax is None, handlelength=2.4, ncols=1, fontsize=8)
     return figure
 
@@ -157,7 +157,7 @@ def draw_ida(result: Ida, edp: str | None = None, title: str | None = None, *, a
         high = min(high, FAR * float(np.median(fell)))
         hidden = sum(record.collapses > high for record in curves)
         title = title or f"{result.column.name}, {result.model}; {hidden} of {len(curves)} plateaus lie above"
-    axes.set(xlim=(0.0, right), ylim=(0.0, 1.05 * max([high, *(one for one in fell if one <= high)])))
+    axes.set(xlim=(0.0, right), ylim=(0.0, 1.05 * max([high, *(level for level in fell if level <= high)])))
     words = edp.removesuffix("_m").removesuffix("_rad").replace("_", " ")
     unit = "base widths" if width is not None else "rad" if edp.endswith("_rad") else "m"
     axes.set_xlabel(f"{words} [{unit}], collapse →")
@@ -292,7 +292,7 @@ _MARKERS = ("", "o", "s", "^")
 
 
 @styled
-def draw_states(found: StateComparison, title: str = "", *, figure: Figure | SubFigure | None = None) -> Figure:
+def draw_states(comparison: StateComparison, title: str = "", *, figure: Figure | SubFigure | None = None) -> Figure:
     """Fragility curves beside the differences in the share of runs that exceed the limit state.
 
     Without any curve the differences stand alone. The band is that of the first state with a curve; those of the others
@@ -301,34 +301,34 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
     that the undecided can come to, a circle where all is decided; the interval over records holds both ends. Grey: nothing
     is concluded.
     """
-    known = [one for one in found.curves if one is not None]
-    figure = page(figure, (WIDTH, 4.4 if known else min(2.2 + 0.4 * len(found.differences), 4.4)))
+    known = [fit for fit in comparison.curves if fit is not None]
+    figure = page(figure, (WIDTH, 4.4 if known else min(2.2 + 0.4 * len(comparison.differences), 4.4)))
     if known:
         curves, bars = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
-        _draw_curves(curves, known, found.state)
-        for label, one in zip(found.labels, found.curves, strict=True):
-            if one is None:
+        _draw_curves(curves, known, comparison.state)
+        for label, fit in zip(comparison.labels, comparison.curves, strict=True):
+            if fit is None:
                 curves.plot([], [], color="none", label=f"{label}: no curve")
         curves.legend(loc="upper left", fontsize=7.5, handlelength=2.6)
     else:
         bars = figure.subplots()
     if title:
         figure.suptitle(in_lines(title), x=0.02, ha="left")
-    places = np.arange(len(found.differences))[::-1]
+    places = np.arange(len(comparison.differences))[::-1]
     bars.axvline(0.0, color=GREY, linewidth=0.8)
-    for difference, place in zip(found.differences, places):
+    for difference, place in zip(comparison.differences, places):
         _draw_difference(bars, difference, float(place))
-    several = len({difference.against for difference in found.differences}) > 1
+    several = len({difference.against for difference in comparison.differences}) > 1
     names = [
         plain(difference.state) + (f"\nagainst {plain(difference.against)}" if several else "")
-        for difference in found.differences
+        for difference in comparison.differences
     ]
     bars.set_yticks(places, names)
     bars.set_ylim(-0.6, len(places) - 0.4)
-    against = "the other one" if several else f"“{plain(found.differences[0].against)}”"
-    bars.set_xlabel(f"share of runs with {found.state},\nless that of {against}\n[percentage points], paired")
-    _say_which_side(bars, found)
-    if any(difference.undecided for difference in found.differences):
+    against = "the other one" if several else f"“{plain(comparison.differences[0].against)}”"
+    bars.set_xlabel(f"share of runs with {comparison.state},\nless that of {against}\n[percentage points], paired")
+    _say_which_side(bars, comparison)
+    if any(difference.undecided for difference in comparison.differences):
         bars.plot([], [], color=BLACK, linewidth=4.0, alpha=0.5, label="undecided, both ways")
         figure.legend(*bars.get_legend_handles_labels(), loc="outside lower right", fontsize=7.5)
     bars.grid(True, axis="x")
@@ -367,20 +367,20 @@ def _draw_difference(axes: Axes, difference: Difference, place: float) -> None:
 
 
 def _draw_curves(axes: Axes, known: list[Fragility], state: str) -> None:
-    values = np.concatenate([one.evidence.im for one in known])
-    for k, one in enumerate(known):
-        x = np.geomspace(*one.levels, 300)
+    values = np.concatenate([fit.evidence.im for fit in known])
+    for k, fit in enumerate(known):
+        x = np.geomspace(*fit.levels, 300)
         if k == 0:
-            axes.fill_between(x, *one.interval(x), color=GREY, alpha=0.18, linewidth=0.0)
+            axes.fill_between(x, *fit.interval(x), color=GREY, alpha=0.18, linewidth=0.0)
         marker, look = _MARKERS[k // len(CYCLE) % len(_MARKERS)], CYCLE[k % len(CYCLE)]
-        summary = one.summary()
+        summary = fit.summary()
         name = median_name(summary).replace(" (", "\n(")
-        label = f"{one.evidence.name}: {median_words(summary)}, {name}"
+        label = f"{fit.evidence.name}: {median_words(summary)}, {name}"
         common = {**look, "marker": marker, "markevery": 40, "markersize": 3.5}
-        if one.evidence.count(OPEN) + one.evidence.count(FAILED) == 0:
-            axes.plot(x, one.probability(x), **common, linewidth=1.5, label=label)
+        if fit.evidence.count(OPEN) + fit.evidence.count(FAILED) == 0:
+            axes.plot(x, fit.probability(x), **common, linewidth=1.5, label=label)
             continue
-        ends = [curve(x, *extreme) for extreme in one.extremes]
+        ends = [curve(x, *extreme) for extreme in fit.extremes]
         axes.fill_between(x, ends[0], ends[1], color=look["color"], alpha=0.1, linewidth=0.0)
         for end, name in zip(ends, (label, None)):
             axes.plot(x, end, **common, linewidth=0.9, label=name)
@@ -414,10 +414,10 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
     values : pandas.DataFrame
         As of :func:`stylobate.design_values`.
     """
-    found = worst_of(values)
-    shown = found.groupby("state", sort=False).head(max(MOST // max(len(set(found["state"])), 1), 1))
+    worst = worst_of(values)
+    shown = worst.groupby("state", sort=False).head(max(MOST // max(len(set(worst["state"])), 1), 1))
     labels = [f"{plain(row['link'])}, {row['quantity']}{_stone(row)}{_acts(row)}" for row in shown.to_dict("records")]
-    figure = page(figure, (WIDTH, 1.7 + 0.27 * sum(1 + one.count("\n") for one in labels)))
+    figure = page(figure, (WIDTH, 1.7 + 0.27 * sum(1 + label.count("\n") for label in labels)))
     axes = figure.subplots()
     value, low, high = (shown[f"use_{which}_84"].to_numpy(dtype=float) for which in ("value", "low", "high"))
     ends = np.concatenate((value, low, high, [1.0]))
@@ -440,8 +440,8 @@ def draw_design_values(values: pandas.DataFrame, *, figure: Figure | SubFigure |
         at = {
             state: f", level {level:g}" for state, level in shown.groupby("state", sort=False)["level"].first().items()
         }
-    if len(shown) < len(found):
-        axes.set_title(f"{len(shown)} of {len(found)} rows, all in design.csv", loc="left", fontsize=8)
+    if len(shown) < len(worst):
+        axes.set_title(f"{len(shown)} of {len(worst)} rows, all in design.csv", loc="left", fontsize=8)
     figure.supxlabel(textwrap.fill(meant, WIDE), fontsize=9)  # longer than the axes are wide
     for state in states:
         axes.plot([], [], color=looks[state], marker="o", label=plain(state) + at.get(state, ""))

@@ -141,12 +141,12 @@ def draw_comparison(
     window : (float, float), optional
         Beginning and end of what is drawn [s]; all by default.
     """
-    begin, end = time_window(max((one.time for one in responses), key=lambda time: time[-1]), window)
+    begin, end = time_window(max((response.time for response in responses), key=lambda time: time[-1]), window)
     figure = page(figure, (WIDTH, 3.6))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
     zero_line(upper)
     marks = []
-    names = [one.model for one in responses] if labels is None else labels
+    names = [response.model for response in responses] if labels is None else labels
     for response, name, line in zip(responses, names, CYCLE * (1 + len(responses) // len(CYCLE))):
         label = f"{name} ({response.outcome.label.replace('_', ' ')})"
         upper.plot(response.time, way_of(response), label=label, **line)
@@ -425,8 +425,8 @@ def draw_ends(
 ) -> Figure:
     """The structure before the first earthquake and at the end of each; of more than eight of some of them."""
     last = [float(event.run.time[-1]) for event in events]
-    some = np.unique(np.linspace(0, len(last) - 1, min(len(last), MOST_STATES - 1)).round().astype(int))
-    return draw_filmstrip(response, [float(response.time[0]), *(last[k] for k in some)], title=title, figure=figure)
+    chosen = np.unique(np.linspace(0, len(last) - 1, min(len(last), MOST_STATES - 1)).round().astype(int))
+    return draw_filmstrip(response, [float(response.time[0]), *(last[k] for k in chosen)], title=title, figure=figure)
 
 
 # Joints of a response: how far each opened and slipped, over time and in plan.
@@ -624,8 +624,8 @@ def draw_uplift(response: Response, title: str | None = None, *, figure: Figure 
         axes.grid(color="#dddddd", linewidth=0.5)
         axes.spines["polar"].set(color=GREY, linewidth=0.6)
         toward = math.degrees(azimuth[int(peaks[i].argmax())])
-        said = say("{far:.3g} mm, {azimuth:.0f}°", far=largest, azimuth=toward) if largest > 5e-3 else say("closed")
-        axes.set_title(say("joint {number}\n{said}", number=i + 1, said=said), fontsize=7.0, loc="center", pad=4.0)
+        caption = say("{far:.3g} mm, {azimuth:.0f}°", far=largest, azimuth=toward) if largest > 5e-3 else say("closed")
+        axes.set_title(say("joint {number}\n{said}", number=i + 1, said=caption), fontsize=7.0, loc="center", pad=4.0)
     put_title(figure, title or f"Largest uplift by direction: {title_of(response)}", len(peaks) - len(shown))
     return figure
 

@@ -56,10 +56,12 @@ def _draw_shape(ax, modes: Modes, mode: Mode) -> None:
     angle = math.radians(mode.azimuth or 0.0)
     way = np.array([math.cos(angle), math.sin(angle), 0.0])
     meshes = _corners(modes)
-    points = np.concatenate([one for i, one in meshes.items() if standing.free[i]])
+    points = np.concatenate([corners for i, corners in meshes.items() if standing.free[i]])
     size = float(np.ptp(points[:, 2]))
     largest = max(
-        float(np.abs(_moved(standing, mode, i, one) - one).max()) for i, one in meshes.items() if standing.free[i]
+        float(np.abs(_moved(standing, mode, i, corners) - corners).max())
+        for i, corners in meshes.items()
+        if standing.free[i]
     )
     scale = SWAY * size / max(largest, 1e-300)
     for i, corners in meshes.items():
@@ -95,19 +97,19 @@ def _draw_turns(ax, modes: Modes, mode: Mode) -> None:
 
 def _corners(modes: Modes) -> dict[int, np.ndarray]:
     """Corners of every body as it stands [m]."""
-    found = {}
+    corners = {}
     for i, body in enumerate(modes.structure.bodies):
         if body.fixed and getattr(body, "pieces", None) is None and modes.structure.stack is not None:
             continue
         if modes.structure.space_joints is None and modes.structure.stack is None:
             flat = body.corners
             if np.abs(flat).max() < 1e4:
-                found[i] = np.column_stack((flat[:, 0], np.zeros(len(flat)), flat[:, 1]))
+                corners[i] = np.column_stack((flat[:, 0], np.zeros(len(flat)), flat[:, 1]))
             continue
         if body.fixed and getattr(body, "pieces", None) is None:
             continue
-        found[i] = np.concatenate([part.mesh(24).vertices for part in body.placed])
-    return found
+        corners[i] = np.concatenate([part.mesh(24).vertices for part in body.placed])
+    return corners
 
 
 def _moved(standing, mode: Mode, body: int, points: np.ndarray) -> np.ndarray:

@@ -33,8 +33,8 @@ def draw_motion(motion: Motion, title: str | None = None, *, figure: Figure | Su
             axes.plot(motion.time, values, color=color, linewidth=0.7)
             peak = int(abs(values).argmax())
             axes.plot(motion.time[peak], values[peak], "o", color=color, markersize=3.5, fillstyle="none")
-            said = say("peak {value:.3g} {unit} at {time:.2f} s", value=largest, unit=unit, time=motion.time[peak])
-            axes.set_title(said, loc="right", fontsize=8.0, pad=2.0)
+            caption = say("peak {value:.3g} {unit} at {time:.2f} s", value=largest, unit=unit, time=motion.time[peak])
+            axes.set_title(caption, loc="right", fontsize=8.0, pad=2.0)
             axes.margins(y=0.12)
         rows[2 * i].set_ylabel(say("{axis}\nacceleration [g]", axis=NAMES[axis]))
         rows[2 * i + 1].set_ylabel(say("velocity\n[m/s]"))
@@ -67,10 +67,12 @@ def draw_spectra(
     spectra : dict of str to ResponseSpectrum, optional
         By component; computed here by default.
     """
-    found = spectra or {axis: response_spectrum(motion, damping=damping, component=axis) for axis in motion.components}
+    by_axis = spectra or {
+        axis: response_spectrum(motion, damping=damping, component=axis) for axis in motion.components
+    }
     figure = page(figure, (WIDTH, 4.6))
     upper, lower = figure.subplots(2, 1, sharex=True)
-    for (axis, spectrum), line in zip(found.items(), CYCLE):
+    for (axis, spectrum), line in zip(by_axis.items(), CYCLE):
         upper.plot(spectrum.period, spectrum.psa / g, label=NAMES[axis], **line)
         lower.plot(spectrum.period, spectrum.sd, **line)
     for axes in (upper, lower):
@@ -83,7 +85,7 @@ def draw_spectra(
     lower.set_ylabel(say("relative displacement [m]"))
     lower.set_xlabel(say("period [s]"))
     upper.legend(loc="upper right")
-    level = next(iter(found.values())).damping
+    level = next(iter(by_axis.values())).damping
     upper.set_title(title or f"{motion.name}, {100.0 * level:g} % damping")
     figure.align_ylabels()
     return figure

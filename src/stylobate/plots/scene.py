@@ -151,11 +151,15 @@ def surfaces_of(shape: Shape, fixed: bool = False) -> list[Surface]:
     """Surfaces of the convex parts of a body, each in the axes of the body, as of :func:`surface_of`."""
     if not isinstance(shape, Glued):
         return [surface_of(shape, fixed)]
-    found = []
+    surfaces = []
     for part in shape.parts:
-        one = surface_of(part.shape, fixed)
-        found.append(Surface(one.vertices @ matrix_of(part.orientation).T + np.array(part.place), one.faces, one.tones))
-    return found
+        surface = surface_of(part.shape, fixed)
+        surfaces.append(
+            Surface(
+                surface.vertices @ matrix_of(part.orientation).T + np.array(part.place), surface.faces, surface.tones
+            )
+        )
+    return surfaces
 
 
 def _marked(mesh: Mesh) -> Surface:
@@ -175,8 +179,8 @@ def _marked(mesh: Mesh) -> Surface:
 
 def _normal(corners: np.ndarray) -> np.ndarray:
     """Unit normal of a flat polygon, outward, shape (3,)."""
-    found = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
-    return found / np.linalg.norm(found)
+    normal = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
+    return normal / np.linalg.norm(normal)
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,9 +223,9 @@ def reached(solid: Solid, point: np.ndarray, view: View) -> float:
     return float(((solid.levels - solid.normals @ eye)[front] / slope[front]).min())
 
 
-def common_point(one: np.ndarray, other: np.ndarray) -> np.ndarray | None:
+def common_point(outline: np.ndarray, other: np.ndarray) -> np.ndarray | None:
     """A point inside two convex polygons, both counter-clockwise, shapes (k, 2); None where they do not overlap."""
-    kept = one
+    kept = outline
     for corner, side in zip(other, np.roll(other, -1, axis=0) - other, strict=True):
         inside = side[0] * (kept[:, 1] - corner[1]) - side[1] * (kept[:, 0] - corner[0])
         if (inside <= 0.0).all():
@@ -244,18 +248,18 @@ def painting_order(solids: list[Solid], view: View) -> list[int]:
 def _ordered(solids: list[Solid], outlines: list[np.ndarray], view: View) -> list[int]:
     low, high = (np.array([getattr(outline, end)(axis=0) for outline in outlines]) for end in ("min", "max"))
     depth = [float(solid.place @ view.toward) for solid in solids]
-    left = sorted(range(len(solids)), key=depth.__getitem__)
-    before: dict[int, set[int]] = {i: set() for i in left}
-    for i in left:
+    remaining = sorted(range(len(solids)), key=depth.__getitem__)
+    before: dict[int, set[int]] = {i: set() for i in remaining}
+    for i in remaining:
         for j in np.flatnonzero(((low[i] <= high) & (low <= high[i])).all(axis=1)).tolist():
             if j > i and (point := common_point(outlines[i], outlines[j])) is not None:
                 nearer = reached(solids[i], point, view) > reached(solids[j], point, view)
                 first, second = (j, i) if nearer else (i, j)
                 before[second].add(first)
     order: list[int] = []
-    while left:  # where they hide each other in a ring, the farthest is first
-        taken = next((i for i in left if before[i].isdisjoint(left)), left[0])
-        left.remove(taken)
+    while remaining:  # where they hide each other in a ring, the farthest is first
+        taken = next((i for i in remaining if before[i].isdisjoint(remaining)), remaining[0])
+        remaining.remove(taken)
         order.append(taken)
     return order
 
@@ -379,7 +383,7 @@ class Scene:
         points: list[list[np.ndarray]] = [[] for _ in self.shown]
         for (place, _), solid in zip(self.parts, self.solids(index, factor), strict=True):
             points[place].append(self.seen_from.across(solid.vertices))
-        return [hull(np.concatenate(some)) for some in points]
+        return [hull(np.concatenate(corners)) for corners in points]
 
     def solids(self, index: int, factor: float = 1.0) -> list[Solid]:
         """Every part of a body in space at a recorded state, displacements and turns times a factor."""
@@ -527,8 +531,8 @@ def marks_of(scene: Scene) -> list[Mark]:
         recorded = number - structure.first
         return (recorded, place) if recorded >= 0 else (None, scene.base @ place)
 
-    def mark(one: Stroke) -> Mark:
-        return Mark(body(*one.lower[:2]), body(*one.upper[:2]), broken.get(one.link.name, math.inf))
+    def mark(stroke: Stroke) -> Mark:
+        return Mark(body(*stroke.lower[:2]), body(*stroke.upper[:2]), broken.get(stroke.link.name, math.inf))
 
     return [mark(stroke) for stroke in strokes(structure.placed_links)]
 
@@ -551,7 +555,7 @@ def link_marks(scene: Scene, index: int, factor: float = 1.0) -> list[tuple[np.n
 
 def draw_links(axes: Axes, scene: Scene, index: int, factor: float = 1.0) -> None:
     """Mark the links of a state, over the bodies: whole ones in blue, broken ones in red and dotted."""
-    for line in [one for one in axes.lines if one.get_gid() == "link"]:
+    for line in [artist for artist in axes.lines if artist.get_gid() == "link"]:
         line.remove()
     for ends, broken in link_marks(scene, index, factor):
         (line,) = axes.plot(

@@ -81,12 +81,14 @@ def draw_pushover(
 
 
 @styled
-def draw_mechanism(stack: BlockStack, found: LimitResult, title: str = "", *, ax: Axes | None = None) -> Figure:
+def draw_mechanism(stack: BlockStack, result: LimitResult, title: str = "", *, ax: Axes | None = None) -> Figure:
     """The mechanism of the limit analysis, its velocities drawn as a displacement of a tenth of the height."""
     figure, axes = panel(ax, (0.6 * WIDTH, 4.4))
-    _draw_blocks(axes, stack, found.mechanism * 0.1 * stack.top[1], {item.joint for item in found.active}, linear=True)
-    modes = ", ".join(dict.fromkeys(f"joint {item.joint} {item.mode}" for item in found.active[:3]))
-    axes.set_title(title or f"{found.multiplier:.4g} g: {modes}{' …' if len(found.active) > 3 else ''}")
+    _draw_blocks(
+        axes, stack, result.mechanism * 0.1 * stack.top[1], {item.joint for item in result.active}, linear=True
+    )
+    modes = ", ".join(dict.fromkeys(f"joint {item.joint} {item.mode}" for item in result.active[:3]))
+    axes.set_title(title or f"{result.multiplier:.4g} g: {modes}{' …' if len(result.active) > 3 else ''}")
     return figure
 
 
@@ -124,22 +126,22 @@ AXES = {0: " (x)", 90: " (y)", 180: " (−x)", 270: " (−y)"}
 
 @styled
 def draw_limit_directions(
-    found: LimitByDirection, title: str = "", *, figure: Figure | SubFigure | None = None
+    result: LimitByDirection, title: str = "", *, figure: Figure | SubFigure | None = None
 ) -> Figure:
     """Multiplier over the azimuth that the forces push to: x to the right, y up, as seen from above."""
     figure = page(figure, (4.6, 4.9))
     axes = cast(PolarAxes, figure.add_subplot(projection="polar"))
-    axes.set_thetagrids(np.arange(0, 360, 30), [f"{one}°{AXES.get(one, '')}" for one in range(0, 360, 30)])
-    order = np.argsort(found.azimuths % 360.0)
-    angle, values = np.radians(found.azimuths[order]), found.multipliers[order]
+    axes.set_thetagrids(np.arange(0, 360, 30), [f"{azimuth}°{AXES.get(azimuth, '')}" for azimuth in range(0, 360, 30)])
+    order = np.argsort(result.azimuths % 360.0)
+    angle, values = np.radians(result.azimuths[order]), result.multipliers[order]
     around = np.append(np.arange(len(angle)), 0)
     if len(angle) > 2:
         axes.plot(angle[around], values[around], color=BLACK, linewidth=0.9)
     for mode, colour in (("rocking", BLACK), ("sliding", BLUE), ("twisting", GREY)):
-        of = np.array([found.limits[i].mode == mode for i in order])
+        of = np.array([result.limits[i].mode == mode for i in order])
         if of.any():
             axes.plot(angle[of], values[of], "o", color=colour, markersize=4.0, label=mode)
-    weak = found.weakest
+    weak = result.weakest
     axes.plot(
         np.radians(weak.azimuth),
         weak.multiplier,

@@ -107,8 +107,8 @@ def styled(draw: Callable[P, FigureOrFigures]) -> Callable[P, FigureOrFigures]:
             matplotlib.rcParams.update(_STYLE)
             made = draw(*args, **kwargs)
             ax = kwargs.get("ax")  # the other axes of its figure are left alone
-            for one in (ax,) if isinstance(ax, Axes) else made if isinstance(made, tuple) else (made,):
-                _make_plain(one)
+            for figure in (ax,) if isinstance(ax, Axes) else made if isinstance(made, tuple) else (made,):
+                _make_plain(figure)
             return made
 
     return wrapped
@@ -213,7 +213,10 @@ def legend_below(axes: Axes, own: bool, **options: Any) -> None:
 
 def plain(text: object) -> str:
     """A text with names by other people as a picture can show it: no mathematics after a dollar, no control characters."""
-    shown = "".join(one if one.isprintable() or one == "\n" else "\N{REPLACEMENT CHARACTER}" for one in str(text))
+    shown = "".join(
+        character if character.isprintable() or character == "\n" else "\N{REPLACEMENT CHARACTER}"
+        for character in str(text)
+    )
     shown = shown if len(shown) <= LONGEST_TEXT else shown[: LONGEST_TEXT - 1] + "…"
     return shown.replace(r"\$", "$").replace("$", r"\$")
 

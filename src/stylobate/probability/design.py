@@ -132,11 +132,11 @@ def governing(values: pandas.DataFrame) -> pandas.DataFrame:
     values : pandas.DataFrame
         As of :func:`design_values`, of one state.
     """
-    told: Any = worst_of(values)
-    if not len(told):
-        told = clearances(values)
-        told = (told if len(told) else _row_in_words(values)).sort_values("value_84", ascending=False, kind="stable")
-    return told[told["link"] == told["link"].iloc[0]]
+    table: Any = worst_of(values)
+    if not len(table):
+        table = clearances(values)
+        table = (table if len(table) else _row_in_words(values)).sort_values("value_84", ascending=False, kind="stable")
+    return table[table["link"] == table["link"].iloc[0]]
 
 
 def _row_in_words(values: Any) -> Any:
@@ -192,13 +192,17 @@ QUANTITIES = (
 
 
 def design_values(
-    found: StateComparison | Comparison, confidence: float = 0.95, *, level: float | None = None, instants: bool = True
+    comparison: StateComparison | Comparison,
+    confidence: float = 0.95,
+    *,
+    level: float | None = None,
+    instants: bool = True,
 ) -> pandas.DataFrame:
     """Peak force, slip and elongation of every link over records and twins, level by level, with utilisation.
 
     Parameters
     ----------
-    found : StateComparison or Comparison
+    comparison : StateComparison or Comparison
         As of :func:`stylobate.compare_states`; or of :func:`stylobate.compare_models`, whose models are the states then and
         whose one motion leaves every upper limit open. Those of a suite are told by ``stylobate.suite_table`` itself.
     confidence : float
@@ -237,16 +241,16 @@ def design_values(
     them on, n/(n + z²) ≥ 0.84. Where twins have several laws of the joints the interval holds one more of them, see
     :func:`_with_laws`.
     """
-    check_kind("found", found, (StateComparison, Comparison), allowed="a comparison of states or of models")
-    if isinstance(found, StateComparison):
-        again = partial(found.response, output_interval=FINE) if instants else None
+    check_kind("comparison", comparison, (StateComparison, Comparison), allowed="a comparison of states or of models")
+    if isinstance(comparison, StateComparison):
+        again = partial(comparison.response, output_interval=FINE) if instants else None
         return values_of_runs(
-            dict(zip(found.labels, found.columns, strict=True)), found.table, confidence, again, level
+            dict(zip(comparison.labels, comparison.columns, strict=True)), comparison.table, confidence, again, level
         )
-    table = found.table.rename(columns={"model": "state"})
+    table = comparison.table.rename(columns={"model": "state"})
     table["verdict"] = [v.verdict(row) for row in table.to_dict("records")]
-    stood = {label: one.structure for label, one in zip(found.labels, found.responses, strict=True)}
-    return values_of_runs(stood, table.assign(im=1.0, record=""), confidence, found.responses.__getitem__, level)
+    stood = {label: response.structure for label, response in zip(comparison.labels, comparison.responses, strict=True)}
+    return values_of_runs(stood, table.assign(im=1.0, record=""), confidence, comparison.responses.__getitem__, level)
 
 
 def values_of_runs(
@@ -274,7 +278,7 @@ def values_of_runs(
 
     levels = [] if level is None else np.unique(np.round(runs["im"].to_numpy(dtype=float), DIGITS)).tolist()
     if level is not None and not np.isclose(levels, level).any():
-        known = ", ".join(f"{one:g}" for one in levels)
+        known = ", ".join(f"{run_level:g}" for run_level in levels)
         raise InputError(f"the level of design values is {level:g}; allowed is one that was run: {known}.", "level")
     rows: list[dict[str, Any]] = []
     for label, structure in stood.items():
@@ -286,8 +290,8 @@ def values_of_runs(
         sizes = np.round(table["im"].to_numpy(dtype=float), DIGITS)
         at = _told_level(sizes, table["verdict"].to_numpy() == v.COLLAPSED) if level is None else level
         for size in np.unique(sizes).tolist():
-            told = _of_level(table[sizes == size], links, confidence)
-            rows += [{"state": label, "level": size, "told": bool(np.isclose(size, at))} | one for one in told]
+            level_rows = _of_level(table[sizes == size], links, confidence)
+            rows += [{"state": label, "level": size, "told": bool(np.isclose(size, at))} | row for row in level_rows]
         if again is not None:
             _tell_instants([row for row in rows if row["state"] == label and row["told"]], links, again)
     for row in rows:
@@ -297,7 +301,7 @@ def values_of_runs(
 
 def _told_level(sizes: np.ndarray, collapsed: np.ndarray) -> float:
     """The highest level at which few runs collapse, else the lowest."""
-    few = [one for one in np.unique(sizes) if collapsed[sizes == one].mean() < MOST_COLLAPSED]
+    few = [size for size in np.unique(sizes) if collapsed[sizes == size].mean() < MOST_COLLAPSED]
     return float(max(few, default=sizes.min(initial=math.inf)))
 
 
@@ -307,11 +311,11 @@ def _tell_instants(rows: list[dict[str, Any]], links: list[PlacedLink], again: C
     numbers, began = sorted({row["run"] for row in forces}), time.monotonic()
     governing: dict[int, Response] = {}
     for done, run in enumerate(numbers):
-        if done == 1 and (left := (time.monotonic() - began) * (len(numbers) - 1)) > LONG_WAIT:
+        if done == 1 and (remaining := (time.monotonic() - began) * (len(numbers) - 1)) > LONG_WAIT:
             logging.getLogger("stylobate").info(
                 "%d more runs that govern design values are computed once more, to tell when: about %s to go.",
                 len(numbers) - 1,
-                duration(left),
+                duration(remaining),
             )
         governing[run] = again(run)
     for row in forces:
@@ -320,54 +324,54 @@ def _tell_instants(rows: list[dict[str, Any]], links: list[PlacedLink], again: C
 
 def _instant(response: Response, k: int, link: PlacedLink, quantity: str) -> dict[str, float]:
     """When the force of link k is largest in a run, by its recorded states, and the azimuth of shear about then."""
-    held = response.histories.links
-    if held is None:
+    link_histories = response.histories.links
+    if link_histories is None:
         return {}
     shear = quantity == QUANTITIES[0].name
-    force = (held.shear if shear else held.tension)[:, k]
-    at = int(np.argmax(force) if held.reached is None else held.reached[0 if shear else 1, k])
+    force = (link_histories.shear if shear else link_histories.tension)[:, k]
+    at = int(np.argmax(force) if link_histories.reached is None else link_histories.reached[0 if shear else 1, k])
     at = max((at, max(at - 1, 0)), key=force.__getitem__)  # the larger one of the states on either side of the peak
-    told = {"instant_84_s": float(response.time[at])}
-    if shear and held.angle is not None:
-        angle = float(held.angle[at, k])
+    facts = {"instant_84_s": float(response.time[at])}
+    if shear and link_histories.angle is not None:
+        angle = float(link_histories.angle[at, k])
         x, y, _ = math.cos(angle) * np.array(link.frame[0]) + math.sin(angle) * np.array(link.frame[1])
         if math.hypot(x, y) > LEVEL:
-            told["azimuth_84_deg"] = math.degrees(math.atan2(y, x)) % 360.0
-    return told
+            facts["azimuth_84_deg"] = math.degrees(math.atan2(y, x)) % 360.0
+    return facts
 
 
 def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[dict[str, Any]]:
     """The rows of one state at one level."""
-    said = table["verdict"].to_numpy(dtype=str)
+    verdicts = table["verdict"].to_numpy(dtype=str)
     owner = np.unique(table["record"].to_numpy(dtype=str), return_inverse=True)[1]
     law = (
         np.nan_to_num(table[LAW].to_numpy(dtype=float)).astype(int) if LAW in table else np.zeros(len(table), dtype=int)
     )
-    broken = np.array([[one is not None for one in run] for run in table["link_broken_s"]])
+    broken = np.array([[instant is not None for instant in run] for run in table["link_broken_s"]])
     rows = []
     for k, link in enumerate(links):
-        gone = (said == v.COLLAPSED) | broken[:, k]
-        for one in QUANTITIES:
-            if not _has(link, one):
+        gone = (verdicts == v.COLLAPSED) | broken[:, k]
+        for quantity in QUANTITIES:
+            if not _has(link, quantity):
                 continue
-            capacity = float(getattr(link, one.limit))
-            most = capacity if one.unit == "N" else math.inf
-            peak = np.minimum(np.array([run[k] for run in table[one.key]], dtype=float), most)
+            capacity = float(getattr(link, quantity.limit))
+            most = capacity if quantity.unit == "N" else math.inf
+            peak = np.minimum(np.array([run[k] for run in table[quantity.key]], dtype=float), most)
             low = np.where(gone, most, peak)
-            high = np.where(said == v.UNDECIDED, most, low)
+            high = np.where(verdicts == v.UNDECIDED, most, low)
             row: dict[str, Any] = {
-                "link": link.name, "kind": link.kind, "quantity": one.name, "unit": one.unit, "runs": len(table),
+                "link": link.name, "kind": link.kind, "quantity": quantity.name, "unit": quantity.unit, "runs": len(table),
                 "records": int(owner.max()) + 1, "laws": len(np.unique(law[law > 0])),
-                "collapsed": int((said == v.COLLAPSED).sum()), "gone": int(gone.sum()),
-                "undecided": int((said == v.UNDECIDED).sum()), "capacity": capacity,
-                "limited_by": link.limited_by(one.limit),
+                "collapsed": int((verdicts == v.COLLAPSED).sum()), "gone": int(gone.sum()),
+                "undecided": int((verdicts == v.UNDECIDED).sum()), "capacity": capacity,
+                "limited_by": link.limited_by(quantity.limit),
                 "record_84": None, "instant_84_s": math.nan, "azimuth_84_deg": math.nan, "run": None, "place": k,
             }  # fmt: skip
             for share in FRACTILES:
-                told = fractile(low, high, owner, share, confidence)
-                told = [min(x, most) for x in _with_laws(told, low, high, owner, law, share, confidence)]
-                use = [x / capacity if math.isfinite(capacity) else math.nan for x in told]
-                for name, values in (("", told), ("use_", use)):
+                estimate = fractile(low, high, owner, share, confidence)
+                estimate = [min(x, most) for x in _with_laws(estimate, low, high, owner, law, share, confidence)]
+                use = [x / capacity if math.isfinite(capacity) else math.nan for x in estimate]
+                for name, values in (("", estimate), ("use_", use)):
                     row |= {f"{name}{which}_{100 * share:g}": x for which, x in zip(WHICH, values, strict=True)}
             alike = np.flatnonzero((peak == row["value_84"]) & ~gone)
             if len(alike):
@@ -377,7 +381,7 @@ def _of_level(table: Any, links: list[PlacedLink], confidence: float) -> list[di
 
 
 def _with_laws(
-    told: tuple[float, float, float],
+    estimate: tuple[float, float, float],
     low: np.ndarray,
     high: np.ndarray,
     owner: np.ndarray,
@@ -394,12 +398,12 @@ def _with_laws(
     """
     groups = np.unique(law[law > 0])
     if not len(groups):
-        return told
+        return estimate
 
     def of_laws(values: np.ndarray) -> np.ndarray:
         each = []
-        for one in groups:
-            mine = law == one
+        for group in groups:
+            mine = law == group
             number = np.unique(owner[mine], return_inverse=True)[1]
             each.append(fractile(values[mine], values[mine], number, share)[0])
         return np.array(each)
@@ -410,7 +414,7 @@ def _with_laws(
         with np.errstate(divide="ignore"):
             return _exp(limits_under_another_law(np.log(values), confidence)[end])
 
-    value, lower, upper = told
+    value, lower, upper = estimate
     below, above = limit(of_laws(low), 0), limit(of_laws(high), 1)
     if value == 0.0 or math.isinf(value):  # it has no middle to go from: the wider of both
         return value, min(lower, below), max(upper, above)
@@ -429,9 +433,9 @@ def _exp(value: float) -> float:
     return math.inf if value > 700.0 else math.exp(value)
 
 
-def _has(link: PlacedLink, one: Quantity) -> bool:
+def _has(link: PlacedLink, quantity: Quantity) -> bool:
     """Whether a link does anything in the way of this quantity."""
-    if one.along:
+    if quantity.along:
         return link.axial_stiffness > 0.0
     return not link.straight and (link.shear_stiffness > 0.0 or link.damping > 0.0)
 
@@ -518,29 +522,32 @@ def candidates(structure: Structure, vary: Mapping[str, Sequence[float]]) -> dic
     every = list(itertools.product(*vary.values()))
     if not 2 <= len(every) <= MOST:
         raise InputError(f"{len(every)} candidates are asked for; allowed are from 2 to {MOST}.", "vary")
-    found: dict[str, Structure] = {}
+    structures: dict[str, Structure] = {}
     for values in every:
-        told = {name: float(value) for name, value in zip(vary, values, strict=True)}
+        numbers = {name: float(value) for name, value in zip(vary, values, strict=True)}
         links = list(stands.links)
-        for name, value in told.items():
+        for name, value in numbers.items():
             kind, _, field = name.partition(".")
             links = [_changed(link, field, value) if link.kind == kind else link for link in links]
-        label = ", ".join(f"{name}={value:g}" for name, value in told.items())
+        label = ", ".join(f"{name}={value:g}" for name, value in numbers.items())
         remade: Any = stands.unwarned if structure.stack is not None else partial(dataclasses.replace, stands)
-        found[label] = remade(links=tuple(links))
-        if len(set(_places(found[label]))) < len(set(_places(stands))):
+        structures[label] = remade(links=tuple(links))
+        if len(set(_places(structures[label]))) < len(set(_places(stands))):
             raise InputError(
                 f"{label} puts two links at one place; vary what keeps them apart, or one of them.", "vary"
             )
     if len(
-        {tuple(_properties_of(link, LINK_PROPERTIES + PLACE) for link in one.placed_links) for one in found.values()}
+        {
+            tuple(_properties_of(link, LINK_PROPERTIES + PLACE) for link in candidate.placed_links)
+            for candidate in structures.values()
+        }
     ) < len(every):
         raise InputError(
             f"two of the candidates by {' and '.join(vary)} are the same: a value is given twice, or what the links hold is "
             "given beside it and does not follow from it; leave that out of the file.",
             "vary",
         )
-    return found
+    return structures
 
 
 def _check_number(name: str, stands: Structure) -> None:
@@ -558,10 +565,10 @@ def _check_number(name: str, stands: Structure) -> None:
                 "vary",
             )
         made = link.made or link
-        words = {one.name: set(str(one.type).split(" | ")) for one in dataclasses.fields(made)}
-        numbers = [one for one, types in words.items() if types & {"float", "int"}]
+        words = {parameter.name: set(str(parameter.type).split(" | ")) for parameter in dataclasses.fields(made)}
+        numbers = [parameter for parameter, types in words.items() if types & {"float", "int"}]
         if link.between is not None:
-            numbers = [one for one in numbers if one not in PLACES]
+            numbers = [parameter for parameter in numbers if parameter not in PLACES]
         for end, place in zip(("at", "to"), link.ends, strict=True):
             numbers += [f"{end}.{axis}" for axis in _axes(link, place)]
         if field not in numbers:
@@ -637,18 +644,23 @@ class Best:
     def summary(self) -> dict[str, Any]:
         """Under the names of the JSON object of ``stylobate states``."""
         rows = self.table.astype(object).where(self.table.notna(), None).to_dict("records")
-        said = {"best": self.best, "alike": list(self.alike), "runs": self.runs, "records": self.records}
-        return said | {"words": self.words, "candidates": rows}
+        facts = {"best": self.best, "alike": list(self.alike), "runs": self.runs, "records": self.records}
+        return facts | {"words": self.words, "candidates": rows}
 
 
 def best_of(
-    found: StateComparison, labels: Sequence[str], *, samples: int = SAMPLES, seed: int = 0, confidence: float = 0.95
+    comparison: StateComparison,
+    labels: Sequence[str],
+    *,
+    samples: int = SAMPLES,
+    seed: int = 0,
+    confidence: float = 0.95,
 ) -> Best:
     """The best of candidates that were run as states, and the set of those that cannot be told from it.
 
     Parameters
     ----------
-    found : StateComparison
+    comparison : StateComparison
         The same records, levels and twins for all.
     labels : sequence of str
         States that are candidates.
@@ -664,20 +676,23 @@ def best_of(
     """
     import pandas
 
-    check_kind("found", found, StateComparison)
-    if unknown := [label for label in labels if label not in found.labels]:
-        raise InputError(f"no state is called {unknown[0]!r}; there are {', '.join(found.labels)}.", "labels")
-    table: Any = found.table
-    told = {
-        label: evidence(table[table["state"] == label], None, found.state, label, doubt=found.doubt) for label in labels
+    check_kind("comparison", comparison, StateComparison)
+    if unknown := [label for label in labels if label not in comparison.labels]:
+        raise InputError(f"no state is called {unknown[0]!r}; there are {', '.join(comparison.labels)}.", "labels")
+    table: Any = comparison.table
+    evidences = {
+        label: evidence(table[table["state"] == label], None, comparison.state, label, doubt=comparison.doubt)
+        for label in labels
     }
-    first = next(iter(told.values()))
-    designed = design_values(found, level=float(table["im"].max()), instants=False)
+    first = next(iter(evidences.values()))
+    designed = design_values(comparison, level=float(table["im"].max()), instants=False)
     most: Any = worst_of(designed)
     rows = []
-    for share in shares({label: one.codes for label, one in told.items()}, first.records, first.laws):
+    for share in shares(
+        {label: state_evidence.codes for label, state_evidence in evidences.items()}, first.records, first.laws
+    ):
         mine = most[most["state"] == share.label] if len(most) else most
-        use, use_low, use_high = (float(mine[f"use_{one}_84"].max()) if len(mine) else 0.0 for one in WHICH)
+        use, use_low, use_high = (float(mine[f"use_{which}_84"].max()) if len(mine) else 0.0 for which in WHICH)
         rows.append({
             "candidate": share.label, "share_low": share.low, "share_high": share.high, "interval_low": share.interval[0],
             "interval_high": share.interval[1], "use": use, "use_low": use_low, "use_high": use_high,
@@ -690,21 +705,22 @@ def best_of(
     for row in rows:
         low, high = (0.0, 0.0) if best is not None else (math.nan, math.nan)
         if best is not None and row["candidate"] != best:
-            difference = with_undecided(told[best], told[row["candidate"]], None, None, samples, seed, each)
+            difference = with_undecided(evidences[best], evidences[row["candidate"]], None, None, samples, seed, each)
             low, high = difference.share_low, difference.share_high
         row |= {"difference_low": low, "difference_high": high}
         may = row["use_low"] < AT_CAPACITY and np.isfinite(row["share_high"])
         row["alike"] = None if best is None else may and (records < FEWEST or not low > 0.0)
     alike = tuple(row["candidate"] for row in rows if row["alike"])
     sure = all(row["use_high"] < AT_CAPACITY for row in rows if row["alike"])
-    words = f"{_words(best, alike, len(labels), records, found.state)} {len(found.table)} runs; {100 * confidence:g} % "
-    words += f"intervals for all pairs together, {basis_of(designed) if len(designed) else 'over records'}."
+    words = f"{_words(best, alike, len(labels), records, comparison.state)} {len(comparison.table)} runs; "
+    words += f"{100 * confidence:g} % intervals for all pairs together, "
+    words += f"{basis_of(designed) if len(designed) else 'over records'}."
     if best is not None and not sure:
         words += (
             " That the links, and the stone around them, stay below their capacity is not sure: the upper limit of "
         )
         words += "their use reaches it."
-    return Best(best, alike, pandas.DataFrame(rows), len(found.table), records, words)
+    return Best(best, alike, pandas.DataFrame(rows), len(comparison.table), records, words)
 
 
 def _words(best: str | None, alike: Sequence[str], number: int, records: int, state: str) -> str:
@@ -717,8 +733,8 @@ def _words(best: str | None, alike: Sequence[str], number: int, records: int, st
             "it."
         )
     few = f"; nothing is told from fewer than {FEWEST} records" if records < FEWEST else ""
-    said = f"Least {state} of {number} candidates: {best}"
+    sentence = f"Least {state} of {number} candidates: {best}"
     others = len(alike) - 1
     if not others:
-        return f"{said}; the others are worse or reach their capacity."
-    return f"{said}; {others} more cannot be told from it under {records} record{'s' * (records != 1)}{few}."
+        return f"{sentence}; the others are worse or reach their capacity."
+    return f"{sentence}; {others} more cannot be told from it under {records} record{'s' * (records != 1)}{few}."

@@ -87,11 +87,11 @@ class Curve:
         """
         below = self.im < self.collapses
         x, y = np.concatenate(([0.0], self.im[below])), np.concatenate(([0.0], self.edp[below]))
-        found = np.interp(im, x, y) if below.any() else np.full(np.shape(im), np.nan)
+        response = np.interp(im, x, y) if below.any() else np.full(np.shape(im), np.nan)
         if math.isinf(self.collapses):
-            return np.where(im > x[-1], np.nan, found)
+            return np.where(im > x[-1], np.nan, response)
         edge = math.sqrt(self.stands * self.collapses) if self.stands else 0.5 * self.collapses
-        return np.where(im > edge, np.inf, found)
+        return np.where(im > edge, np.inf, response)
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,19 +205,19 @@ class Ida(NotebookSummary):
         runs: Any = self.runs
         counts = v.count(self.runs["verdict"].to_numpy(dtype=object))
         capacities = table.astype(object).where(table.notna(), None).to_dict("records")
-        found = zip(SHARES, quantiles(map(_capacity, capacities)), strict=True)
-        shares = {f"capacity_{100 * share:.0f}": one for share, one in found}
+        pairs = zip(SHARES, quantiles(map(_capacity, capacities)), strict=True)
+        shares = {f"capacity_{100 * share:.0f}": quantile for share, quantile in pairs}
         return {
             "im": self.measure.name,
             "unit": self.measure.unit,
             "records": int(runs["record"].nunique()),
             "curves": len(table),
             "runs": len(self.runs),
-            **{one: counts[one] for one in v.COMPUTED},
+            **{verdict: counts[verdict] for verdict in v.COMPUTED},
             "resurrections": int(table["resurrections"].sum()),
             "curves_with_resurrections": int((table["resurrections"] > 0).sum()),
-            **{name: one.high for name, one in shares.items()},
-            "bounds": bounds({name: (one, 1.0) for name, one in shares.items()}),
+            **{name: quantile.high for name, quantile in shares.items()},
+            "bounds": bounds({name: (quantile, 1.0) for name, quantile in shares.items()}),
             "largest_factor": float(runs["factor"].max()),
             "capacities": capacities,
             "wall_s": self.wall_time,
@@ -267,7 +267,7 @@ ALSO = {
 }
 
 #: Columns of an intensity that is not named, each with one that is, in the same unit.
-UNNAMED = {f"im{ENDS[one.unit]}": one.key for one in map(parse_measure, ("pga", "pgv", "d5_95"))}
+UNNAMED = {f"im{ENDS[measure.unit]}": measure.key for measure in map(parse_measure, ("pga", "pgv", "d5_95"))}
 
 #: Intensities whose logarithms differ in later digits only are one.
 DIGITS = 6
@@ -318,7 +318,7 @@ class Evidence:
 
     def only(self, mask: np.ndarray) -> Evidence:
         """Some of these runs."""
-        alike = {name: None if (one := getattr(self, name)) is None else one[mask] for name in ("curves", "laws")}
+        alike = {name: None if (values := getattr(self, name)) is None else values[mask] for name in ("curves", "laws")}
         return replace(self, records=self.records[mask], im=self.im[mask], codes=self.codes[mask], **alike)
 
     def count(self, code: int) -> int:
@@ -337,13 +337,13 @@ def table_of(source: str | Path) -> Path:
     place = Path(source)
     if not place.is_dir():
         return place
-    found = next((place / table for table in TABLES if (place / table).is_file()), None)
-    if found is None:
+    path = next((place / table for table in TABLES if (place / table).is_file()), None)
+    if path is None:
         raise InputError(
             f"{printable(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA, a "
             "suite or states, or a CSV file with the columns record, im, collapsed."
         )
-    return found
+    return path
 
 
 def read_table(source: str | Path) -> pandas.DataFrame:
@@ -380,8 +380,8 @@ def read_table(source: str | Path) -> pandas.DataFrame:
 
 def names_in(table: pandas.DataFrame) -> list[str] | None:
     """Structure of each run, as the table calls it, with the model where there are several; None if it does not say."""
-    who = [one for one in STOOD if one in table][:1]
-    who += [one for one in ("model",) if one in table and len(set(table[one])) > 1]
+    who = [column for column in STOOD if column in table][:1]
+    who += [column for column in ("model",) if column in table and len(set(table[column])) > 1]
     return [", ".join(map(str, row)) for row in table[who].to_numpy()] if who else None
 
 
@@ -436,15 +436,15 @@ def evidence(
         measure = known[0]
     state = parse_state(state) if isinstance(state, str) else state
     key = "im" if measure is None else next(
-        (one for one in (measure.key, *ALSO.get(measure.key, ())) if one in table), "im"
+        (column for column in (measure.key, *ALSO.get(measure.key, ())) if column in table), "im"
     )  # fmt: skip
-    said = scaled_to(table)
-    if key not in table or (key == "im" and measure is not None and said not in (None, measure.name)):
+    scaled_measure = scaled_to(table)
+    if key not in table or (key == "im" and measure is not None and scaled_measure not in (None, measure.name)):
         raise InputError(
             f"the runs of {name} have no intensity {measure.name if measure else 'im'!r}; "
             f"columns are {', '.join(map(str, list(table.columns)[:40]))}{_remedy(table, measure)}."
         )
-    if key == "im" and measure is not None and said is None and (rivals := _rivals(table, measure)):
+    if key == "im" and measure is not None and scaled_measure is None and (rivals := _rivals(table, measure)):
         raise InputError(
             f"the runs of {name} have the columns im and {' and '.join(rivals)}, and which of them is {measure.name} in "
             f"{measure.unit} is not said; call that one {measure.key}."
@@ -477,9 +477,9 @@ def evidence(
             f"run {k + 1} of {name} exceeds {state.name} at an intensity {key!r} of 0; choose an intensity that its motion "
             "has, with `im`."
         )
-    alike = [one for one in ("record", "motion", "realisation") if one in table]
+    alike = [column for column in ("record", "motion", "realisation") if column in table]
     return Evidence(
-        np.array([str(one) for one in table["record"]], dtype=object)[~zero],
+        np.array([str(record) for record in table["record"]], dtype=object)[~zero],
         sizes[~zero],
         codes[~zero],
         "im" if measure is None else measure.name,
@@ -493,12 +493,12 @@ def evidence(
     )
 
 
-def _laws(table: pandas.DataFrame, some: np.ndarray) -> np.ndarray | None:
+def _laws(table: pandas.DataFrame, mask: np.ndarray) -> np.ndarray | None:
     """Law of the joints of some runs; None where a table does not say that it varies."""
     import pandas
 
     laws = np.nan_to_num(np.asarray(pandas.to_numeric(table[LAW], errors="coerce"))) if LAW in table else np.zeros(1)
-    return laws[some].astype(int) if laws.any() else None
+    return laws[mask].astype(int) if laws.any() else None
 
 
 def _rivals(table: pandas.DataFrame, measure: IntensityMeasure) -> list[str]:
@@ -510,7 +510,7 @@ def _rivals(table: pandas.DataFrame, measure: IntensityMeasure) -> list[str]:
 
 def _measures(table: pandas.DataFrame) -> list[IntensityMeasure]:
     """The measures after which columns of a table are called."""
-    return [one for one in map(measure_of_column, map(str, table.columns)) if one is not None]
+    return [measure for measure in map(measure_of_column, map(str, table.columns)) if measure is not None]
 
 
 def _remedy(table: pandas.DataFrame, measure: IntensityMeasure | None) -> str:
@@ -533,10 +533,10 @@ def scaled_to(table: pandas.DataFrame) -> str | None:
     InputError
         They were scaled to several.
     """
-    key = next((one for one in ("im_name", "measure") if one in table), None)
+    key = next((column for column in ("im_name", "measure") if column in table), None)
     if key is None:
         return None
-    names = list(dict.fromkeys(str(one) for one in table[key]))
+    names = list(dict.fromkeys(str(name) for name in table[key]))
     if len(names) > 1:
         raise InputError(f"runs are over different intensities ({', '.join(names[:5])}); give those of one of them.")
     return names[0]
@@ -547,13 +547,13 @@ def _check_words(table: pandas.DataFrame, name: str) -> None:
     allowed: dict[str, tuple[Any, ...]] = {"verdict": v.VERDICTS}
     if "verdict" not in table:
         allowed = {"outcome": tuple(map(str, Outcome)), "decided": (True, False), "collapsed": (True, False)}
-        missing = [one for one in allowed if one not in table]
+        missing = [column for column in allowed if column not in table]
         if missing:
             raise InputError(
                 f"the runs of {name} have an outcome but no column {missing[0]!r}; give the columns record, im, collapsed."
             )
     for key, words in allowed.items():
-        strange = [one for one in table[key].dropna().unique() if one not in words]
+        strange = [word for word in table[key].dropna().unique() if word not in words]
         if strange:
             text = str(strange[0])
             raise InputError(
@@ -582,17 +582,17 @@ def intervals(evidence: Evidence, codes: np.ndarray, method: str) -> tuple[np.nd
     y = np.log(evidence.im)
     owner = np.unique(evidence.records, return_inverse=True)[1]
     if method == "runs":
-        told = codes >= 0
-        low = np.where(codes[told] == EXCEEDED, -np.inf, y[told])
-        return low, np.where(codes[told] == EXCEEDED, y[told], np.inf), owner[told]
+        known = codes >= 0
+        low = np.where(codes[known] == EXCEEDED, -np.inf, y[known])
+        return low, np.where(codes[known] == EXCEEDED, y[known], np.inf), owner[known]
     mine = evidence.records if evidence.curves is None else evidence.curves
     _, first, curve = np.unique(mine, return_index=True, return_inverse=True)
     low, high = np.full(len(first), -np.inf), np.full(len(first), np.inf)
     np.minimum.at(high, curve[codes == EXCEEDED], y[codes == EXCEEDED])
     below = (codes == NOT_EXCEEDED) & (y < high[curve])  # above the first that exceeds it stands again: a resurrection
     np.maximum.at(low, curve[below], y[below])
-    told = np.isfinite(low) | np.isfinite(high)
-    return low[told], high[told], owner[first][told]
+    known = np.isfinite(low) | np.isfinite(high)
+    return low[known], high[known], owner[first][known]
 
 
 def independent(low: np.ndarray, high: np.ndarray, owner: np.ndarray, method: str) -> tuple[np.ndarray, float]:
@@ -621,9 +621,9 @@ def medians_by_law(evidence: Evidence, codes: np.ndarray, method: str) -> np.nda
     Infinite where no run under a law exceeds the state, or every one does; NaN where none is decided.
     """
     assert evidence.laws is not None
-    found = []
+    medians = []
     for law in np.unique(evidence.laws):
         mine = evidence.laws == law
         low, high, _ = intervals(evidence.only(mine), codes[mine], method)
-        found.append(float(fit(low, high).log_median[0]) if len(low) else np.nan)
-    return np.array(found)
+        medians.append(float(fit(low, high).log_median[0]) if len(low) else np.nan)
+    return np.array(medians)

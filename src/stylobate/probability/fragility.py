@@ -77,7 +77,7 @@ def check_shape(evidence: Evidence, low: np.ndarray, high: np.ndarray, best: log
         )
     if lognormal.falls(best):
         with_it, without = (
-            math.exp(np.log(evidence.im[evidence.codes == one]).mean()) for one in (EXCEEDED, NOT_EXCEEDED)
+            math.exp(np.log(evidence.im[evidence.codes == code]).mean()) for code in (EXCEEDED, NOT_EXCEEDED)
         )
         raise InputError(
             f"runs of {evidence.name} do not exceed {state} more often where {evidence.measure} is larger (its geometric "
@@ -114,7 +114,7 @@ class Points:
     def table(self) -> list[dict[str, Any]]:
         """A row for each point, of plain numbers."""
         names = {"im": self.im, "share": self.share, "low": self.low, "high": self.high, "records": self.records}
-        return [dict(zip(names, row)) for row in zip(*(one.tolist() for one in names.values()), strict=True)]
+        return [dict(zip(names, row)) for row in zip(*(values.tolist() for values in names.values()), strict=True)]
 
 
 def points_of(evidence: Evidence, codes: np.ndarray, method: str, both_ways: bool = False) -> Points:
@@ -153,12 +153,12 @@ def _capacities(evidence: Evidence, codes: np.ndarray) -> tuple[np.ndarray, Coun
 
 def _groups(evidence: Evidence, codes: np.ndarray) -> tuple[np.ndarray, Counts]:
     """Intensities of decided runs, or of groups of them, and how many runs are there."""
-    told = codes >= 0
+    decided = codes >= 0
     y = np.exp(np.round(np.log(evidence.im), DIGITS))  # stripes that differ in their last digits are one
     names, owner = np.unique(evidence.records, return_inverse=True)
-    levels = np.unique(y[told])
+    levels = np.unique(y[decided])
     if len(levels) > MOST_POINTS:
-        edges = np.quantile(y[told], np.linspace(0.0, 1.0, 1 + min(8, max(3, len(np.unique(owner[told])) // 5))))
+        edges = np.quantile(y[decided], np.linspace(0.0, 1.0, 1 + min(8, max(3, len(np.unique(owner[decided])) // 5))))
         group, there = (
             np.clip(np.searchsorted(edges, y, side="right") - 1, 0, len(edges) - 2),
             np.ones(len(y), dtype=bool),
@@ -166,7 +166,7 @@ def _groups(evidence: Evidence, codes: np.ndarray) -> tuple[np.ndarray, Counts]:
     else:
         group = np.minimum(np.searchsorted(levels, y), len(levels) - 1)
         there = levels[group] == y  # no run is decided at another intensity: there is no point
-    filled = np.unique(group[told])
+    filled = np.unique(group[decided])
     cell = np.searchsorted(filled, group) * len(names) + owner
     there &= np.isin(group, filled)
 
@@ -175,7 +175,7 @@ def _groups(evidence: Evidence, codes: np.ndarray) -> tuple[np.ndarray, Counts]:
         runs = np.bincount(cell[known], minlength=math.prod(shape)).reshape(shape)
         return runs, np.bincount(cell[known], codes[known] == EXCEEDED, math.prod(shape)).reshape(shape)
 
-    at = np.bincount(group[told], np.log(y[told]))[filled] / np.bincount(group[told])[filled]
+    at = np.bincount(group[decided], np.log(y[decided]))[filled] / np.bincount(group[decided])[filled]
     return np.exp(at), counts
 
 
@@ -196,18 +196,20 @@ def goodness(
     """
     distance = float(np.abs(points.share - lognormal.curve(points.im, log_median, beta)).max())
     names, owner = np.unique(evidence.records, return_inverse=True)
-    y, told = np.log(evidence.im), evidence.codes >= 0
+    y, decided = np.log(evidence.im), evidence.codes >= 0
     drawn = []
     for _ in range(SETS):
         capacity = log_median + beta * ndtri(rng.uniform(size=len(names)))
-        drawn.append(np.where(told, (y >= capacity[owner]).astype(np.int8), evidence.codes))
+        drawn.append(np.where(decided, (y >= capacity[owner]).astype(np.int8), evidence.codes))
     ends = [intervals(evidence, codes, method)[:2] for codes in drawn]
     own = lognormal.fit(np.array([low for low, _ in ends]), np.array([high for _, high in ends]))
     larger = []
     for codes, middle, width in zip(drawn, own.log_median, own.beta):
         if not math.isinf(middle):
-            one = points_of(evidence, codes, method)
-            larger.append(np.abs(one.share - lognormal.curve(one.im, middle, width)).max() >= distance - 1e-9)
+            drawn_points = points_of(evidence, codes, method)
+            larger.append(
+                np.abs(drawn_points.share - lognormal.curve(drawn_points.im, middle, width)).max() >= distance - 1e-9
+            )
     return distance, float(np.mean(larger)) if larger else math.nan
 
 
@@ -288,7 +290,7 @@ class Fragility(NotebookSummary):
         """The same as if the law of the joints were known, of which the samples draw one more."""
         if self.samples_of_columns is None:
             return self
-        ends = tuple(None if one is None else one.of_columns for one in self.ends)
+        ends = tuple(None if end is None else end.of_columns for end in self.ends)
         return replace(self, samples=self.samples_of_columns, samples_of_columns=None, ends=ends)
 
     @property
@@ -304,8 +306,8 @@ class Fragility(NotebookSummary):
             "nothing about the next earthquake"
         )
         known = (self.outside, self.no_dispersion, alone * self.records_are_one, self.unequal, self.few_laws)
-        said = [joined("", [one, "."]) for one in known if one]
-        return [self.evidence.doubt, *said] if self.evidence.doubt else said
+        caveats = [joined("", [text, "."]) for text in known if text]
+        return [self.evidence.doubt, *caveats] if self.evidence.doubt else caveats
 
     @property
     def median(self) -> float:
@@ -327,10 +329,10 @@ class Fragility(NotebookSummary):
     def unequal(self) -> str:
         """Caveat on records that hold most of the runs; empty where there are none."""
         count, equal = self.records, self.equal_records
-        said = say(
+        message = say(
             "a few of its {count} records hold most of the runs: they tell as much as {equal:.2g} with as many each"
         )
-        return said.of(count=count, equal=equal) if equal < UNEQUAL * count else ""
+        return message.of(count=count, equal=equal) if equal < UNEQUAL * count else ""
 
     @property
     def levels(self) -> tuple[float, float]:
@@ -353,8 +355,8 @@ class Fragility(NotebookSummary):
             "the fitted median, {median:.3g}{unit}, lies below all runs ({im} = {low:.3g} to {high:.3g}{unit}): it is told "
             "by the shape of the curve, not by runs; give smaller intensities"
         )
-        said = above if self.median > high else below
-        return said.of(median=self.median, unit=unit, im=e.measure, low=low, high=high)
+        message = above if self.median > high else below
+        return message.of(median=self.median, unit=unit, im=e.measure, low=low, high=high)
 
     @property
     def unsupported(self) -> str:
@@ -408,7 +410,7 @@ class Fragility(NotebookSummary):
         curve if none exceeds to the upper ones if all do. It holds one half over all of :attr:`median_interval` only.
         """
         samples, plausible = (
-            np.array([curve(im, m, math.exp(s)) for m, s in one]) for one in (self.samples, self.region)
+            np.array([curve(im, m, math.exp(s)) for m, s in pairs]) for pairs in (self.samples, self.region)
         )
         low, high = np.quantile(samples, [self._share, 1.0 - self._share], axis=0, method="nearest")
         low, high = np.minimum(low, plausible.min(axis=0)), np.maximum(high, plausible.max(axis=0))
@@ -439,7 +441,8 @@ class Fragility(NotebookSummary):
         im = np.geomspace(*self.span, DRAWN)
         names = ("im", "probability", "low", "high")
         return {
-            name: one.tolist() for name, one in zip(names, (im, self.probability(im), *self.interval(im)), strict=True)
+            name: values.tolist()
+            for name, values in zip(names, (im, self.probability(im), *self.interval(im)), strict=True)
         }
 
     @property
@@ -464,7 +467,7 @@ class Fragility(NotebookSummary):
         samples = np.where(endless, np.copysign(np.inf, middle - im.mean()), middle)
         known = [*self.limits(self.log_median, samples, self.region[:, 0])]
         known += np.quantile(samples, [self._share, 1.0 - self._share], method="nearest").tolist()
-        known += [] if self.bracket is None else [math.log(one) for one in self.bracket]
+        known += [] if self.bracket is None else [math.log(limit) for limit in self.bracket]
         low, high, far = min(known), max(known), math.log(FAR)
         return low if low > im.min() - far else -math.inf, high if high < im.max() + far else math.inf
 
@@ -481,7 +484,7 @@ class Fragility(NotebookSummary):
         else:
             low, high = self.limits(math.log(self.beta), samples, plausible)
         ends = [(0.0, math.inf) if end is None else end.beta_interval for end in self.ends]
-        return min([math.exp(low), *(one for one, _ in ends)]), max([math.exp(high), *(one for _, one in ends)])
+        return min([math.exp(low), *(lower for lower, _ in ends)]), max([math.exp(high), *(upper for _, upper in ends)])
 
     def limits(self, best: float, samples: np.ndarray, plausible: np.ndarray) -> tuple[float, float]:
         """Confidence limits of a quantity: the wider ones of the bootstrap and of the likelihood.
@@ -664,23 +667,27 @@ def fragility(
     low, high, owner = intervals(used, codes, how)
     best = lognormal.fit(low, high)
     check_shape(used, low, high, best)
-    log_median, beta = (float(one[0]) for one in best)
+    log_median, beta = (float(values[0]) for values in best)
     rng = np.random.default_rng(seed)
     extremes = []
     for counted in (EXCEEDED, NOT_EXCEEDED):
-        one = lognormal.fit(*intervals(used, np.where(codes < 0, counted, codes), how)[:2])
+        extreme_fit = lognormal.fit(*intervals(used, np.where(codes < 0, counted, codes), how)[:2])
         extremes.append(
-            (math.nan, math.nan) if lognormal.falls(one) else (float(one.log_median[0]), float(one.beta[0]))
+            (math.nan, math.nan)
+            if lognormal.falls(extreme_fit)
+            else (float(extreme_fit.log_median[0]), float(extreme_fit.beta[0]))
         )
     points = points_of(used, codes, how, both_ways=True)
     distance, p_value = goodness(used, how, points, log_median, beta, rng)
-    found = _with_laws(Fragility(
+    estimate = _with_laws(Fragility(
         used, how, log_median, beta, *_known(low, high, owner, how, samples, rng, confidence), (extremes[0], extremes[1]),
         points, distance, p_value, confidence, records_are_one,
     ), rng)  # fmt: skip
     if (codes >= 0).all():
-        return found
-    return replace(found, ends=tuple(_ended(found, counted, samples, seed) for counted in (EXCEEDED, NOT_EXCEEDED)))
+        return estimate
+    return replace(
+        estimate, ends=tuple(_ended(estimate, counted, samples, seed) for counted in (EXCEEDED, NOT_EXCEEDED))
+    )
 
 
 def _known(
@@ -703,28 +710,30 @@ def _known(
     )
 
 
-def _ended(found: Fragility, counted: int, samples: int, seed: int) -> Fragility | None:
+def _ended(estimate: Fragility, counted: int, samples: int, seed: int) -> Fragility | None:
     """The curve as if every run without a verdict had come to the same one; None where that is none."""
-    one = found.evidence
-    one = replace(one, codes=np.where(one.codes < 0, counted, one.codes))
-    low, high, owner = intervals(one, one.codes, found.method)
+    runs = estimate.evidence
+    runs = replace(runs, codes=np.where(runs.codes < 0, counted, runs.codes))
+    low, high, owner = intervals(runs, runs.codes, estimate.method)
     best, rng = lognormal.fit(low, high), np.random.default_rng(seed)
     try:
-        check_shape(one, low, high, best)
+        check_shape(runs, low, high, best)
     except InputError:
         return None
-    known = _known(low, high, owner, found.method, samples, rng, found.confidence)
+    known = _known(low, high, owner, estimate.method, samples, rng, estimate.confidence)
     names = ("samples", "region", "dispersions", "bracket")
     middle, spread = (float(each[0]) for each in best)
-    return _with_laws(replace(found, evidence=one, log_median=middle, beta=spread, **dict(zip(names, known))), rng)
+    return _with_laws(replace(estimate, evidence=runs, log_median=middle, beta=spread, **dict(zip(names, known))), rng)
 
 
-def _with_laws(found: Fragility, rng: np.random.Generator) -> Fragility:
+def _with_laws(estimate: Fragility, rng: np.random.Generator) -> Fragility:
     """The curve with samples that draw one more law of the joints, where the runs are of several."""
-    e = found.evidence
+    e = estimate.evidence
     if e.laws is None:
-        return found
-    away = under_another_law(medians_by_law(e, e.codes, found.method), len(found.samples), rng)
+        return estimate
+    away = under_another_law(medians_by_law(e, e.codes, estimate.method), len(estimate.samples), rng)
     return replace(
-        found, samples=found.samples + np.stack((away, np.zeros(len(away))), axis=1), samples_of_columns=found.samples
+        estimate,
+        samples=estimate.samples + np.stack((away, np.zeros(len(away))), axis=1),
+        samples_of_columns=estimate.samples,
     )

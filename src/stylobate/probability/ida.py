@@ -51,7 +51,7 @@ CLOSE = 1.04
 
 
 def next_levels(
-    levels: Sequence[float], verdicts: Sequence[str], first: float, largest: float, left: int
+    levels: Sequence[float], verdicts: Sequence[str], first: float, largest: float, remaining: int
 ) -> list[float]:
     """Levels that a record asks for, from what has been found so far.
 
@@ -68,7 +68,7 @@ def next_levels(
         Where the hunt begins: below it no joint opens.
     largest : float
         No level is larger.
-    left : int
+    remaining : int
         Runs that are left for the record.
 
     Returns
@@ -80,20 +80,20 @@ def next_levels(
     ----------
     Vamvatsikos and Cornell (2004).
     """
-    count = min(left, TOGETHER)
+    count = min(remaining, TOGETHER)
     if count <= 0:
         return []
     first = min(first, largest)
     if not levels:
-        return _up(first, largest, count + 1)[: min(left, TOGETHER + 1)]
+        return _up(first, largest, count + 1)[: min(remaining, TOGETHER + 1)]
     order = np.argsort(levels)
-    at, found = np.asarray(levels, dtype=float)[order], [verdicts[i] for i in order]
-    fell = [x for x, one in zip(at, found) if one == v.COLLAPSED]
+    at, sorted_verdicts = np.asarray(levels, dtype=float)[order], [verdicts[i] for i in order]
+    fell = [x for x, verdict in zip(at, sorted_verdicts) if verdict == v.COLLAPSED]
     if not fell and at[-1] < largest / CLOSE:
         return _up(min(at[-1] * GROWTH, largest), largest, count)
     if fell:
         high = fell[0]
-        stood = [x for x, one in zip(at, found) if one == v.STANDS and x < high]
+        stood = [x for x, verdict in zip(at, sorted_verdicts) if verdict == v.STANDS and x < high]
         low = stood[-1] if stood else high / GROWTH**2
         if high > CLOSE * low:
             inside = np.geomspace(low, high, count + (2 if stood else 1))
@@ -109,10 +109,10 @@ def next_levels(
 
 
 def _up(first: float, largest: float, count: int) -> list[float]:
-    found = [first]
-    while len(found) < count and found[-1] < largest / CLOSE:
-        found.append(min(found[-1] * GROWTH, largest))
-    return found
+    levels = [first]
+    while len(levels) < count and levels[-1] < largest / CLOSE:
+        levels.append(min(levels[-1] * GROWTH, largest))
+    return levels
 
 
 #: A record that has to be multiplied by more is no longer that of an earthquake: a warning, and the end of the hunt.
@@ -196,13 +196,13 @@ def ida(
     check_range("`largest_factor`", largest_factor, 0.0, 1e4, open_low=True)
     if levels is not None and not len(levels):
         raise InputError("levels is an empty list; give at least one positive level.", "levels")
-    for one in levels or ():
-        check_range("one of the levels", one, 0.0, 1e6, open_low=True, field="levels")
+    for stripe in levels or ():
+        check_range("one of the levels", stripe, 0.0, 1e6, open_low=True, field="levels")
     if not motions:
         raise InputError("no record is given; give files or a folder of records.")
     if measure.power == 0:
         raise InputError(f"multiplying a record does not change {measure.name}; scale to another measure, such as pgv.")
-    if len({one.name for one in motions}) < len(motions):
+    if len({motion.name for motion in motions}) < len(motions):
         raise InputError("two records have the same name; rename one of the files.")
     for motion in motions:
         if motion.pga == 0.0:
@@ -217,9 +217,12 @@ def ida(
             f"{measure.name} relates a record to the slenderness of a column, and {column.name!r} is {column.described}; "
             "scale to another measure, such as pgv."
         )
-    facts = [_facts(one, measure, relation, known.get(one.name, known.get(record_of(one), {}))) for one in motions]
+    facts = [
+        _facts(motion, measure, relation, known.get(motion.name, known.get(record_of(motion), {})))
+        for motion in motions
+    ]
     if angle is None:
-        facts = [{name: value for name, value in one.items() if name not in RELATIVE} for one in facts]
+        facts = [{name: value for name, value in fact.items() if name not in RELATIVE} for fact in facts]
     measure.warn_of_drift(motions)
     drawn = the_twins(column, model, campaign) if campaign.replicates else None
     columns = [column] if drawn is None else list(drawn.columns)
@@ -227,37 +230,37 @@ def ida(
     for motion, fact in zip(motions, facts):
         value, peak = fact[measure.key], _loudest(model.taken(motion), column)
         start = value * (1.0 / peak) ** measure.power
-        traces += [Trace(motion, one, k, value, start, [], []) for k, one in enumerate(columns)]
-    stripes = None if levels is None else sorted({float(one) for one in levels})
+        traces += [Trace(motion, structure, k, value, start, [], []) for k, structure in enumerate(columns)]
+    stripes = None if levels is None else sorted({float(stripe) for stripe in levels})
     if stripes is not None:
-        for one in traces:
-            _check_factor(one, stripes[-1], measure, largest_factor)
+        for trace in traces:
+            _check_factor(trace, stripes[-1], measure, largest_factor)
     done, total = 0, (runs if stripes is None else len(stripes)) * len(traces)
 
-    def wanted(one: Trace) -> list[float]:
+    def wanted(trace: Trace) -> list[float]:
         if stripes is not None:
-            return [] if one.levels else stripes
-        return _next_levels(one, runs, largest_factor, measure.power)
+            return [] if trace.levels else stripes
+        return _next_levels(trace, runs, largest_factor, measure.power)
 
     def made(of: Sequence[Trace]) -> Ida:
-        table = _table(of, dict(zip((one.name for one in motions), facts)), column, measure, model, drawn)
+        table = _table(of, dict(zip((motion.name for motion in motions), facts)), column, measure, model, drawn)
         table["hunted"] = stripes is None
         table.attrs["doubt"] = doubt = "" if drawn is not None and drawn.groups else caveat([column], model)
         return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
 
-    def so_far(asked: Sequence[tuple[Trace, float]], rows: Sequence[dict]) -> Ida:
-        grown = {id(one): replace(one, levels=[*one.levels], rows=[*one.rows]) for one in traces}
-        for (one, new), row in zip(asked, rows):
+    def so_far(requests: Sequence[tuple[Trace, float]], rows: Sequence[dict]) -> Ida:
+        grown = {id(trace): replace(trace, levels=[*trace.levels], rows=[*trace.rows]) for trace in traces}
+        for (trace, new), row in zip(requests, rows):
             if row:
-                grown[id(one)].levels.append(new)
-                grown[id(one)].rows.append(row)
+                grown[id(trace)].levels.append(new)
+                grown[id(trace)].rows.append(row)
         return made([*grown.values()])
 
     hasher = Hasher(model, campaign.options)
     try:
         with closing(Runs(campaign)) as kept:
-            while asked := [(trace, new) for trace in traces for new in wanted(trace)]:
-                cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
+            while requests := [(trace, new) for trace in traces for new in wanted(trace)]:
+                cases = [Case(trace.column, _scaled(trace, new, measure.power)) for trace, new in requests]
                 rows: list[dict] = [{}] * len(cases)
                 with closing(kept.run(Request.of(cases, hasher, campaign.quiet))) as finished:
                     for number, row in finished:
@@ -266,10 +269,10 @@ def ida(
                         if campaign.progress:
                             campaign.progress(done, total)
                         if watch:
-                            watch(partial(so_far, asked, rows))
-                for (one, new), row in zip(asked, rows):
-                    one.levels.append(new)
-                    one.rows.append(row)
+                            watch(partial(so_far, requests, rows))
+                for (trace, new), row in zip(requests, rows):
+                    trace.levels.append(new)
+                    trace.rows.append(row)
     except KeyboardInterrupt:
         raise Stopped(done, total, campaign.ledger) from None
     _warn_of_factors(traces, measure.power)
@@ -361,7 +364,7 @@ def _table(
             who = {"record": record_of(trace.motion), "motion": trace.motion.name, "realisation": trace.number}
             who |= {"column": column.name, "model": model.name} | (drawn.law_of(trace.number) if drawn else {})
             widths = column.widths
-            found: dict[str, Any] = {"verdict": v.verdict(trace.rows[k]), **trace.rows[k]}
+            outcome: dict[str, Any] = {"verdict": v.verdict(trace.rows[k]), **trace.rows[k]}
             rows.append(
                 {
                     **who,
@@ -370,7 +373,7 @@ def _table(
                     "factor": factor,
                     **widths,
                     **scaled,
-                    **found,
+                    **outcome,
                 }
             )
     return pandas.DataFrame(rows)
@@ -416,12 +419,12 @@ def which_tells_most(
     """
     import pandas
 
-    asked = parse_state(state) if isinstance(state, str) else state
+    limit_state = parse_state(state) if isinstance(state, str) else state
     edp = peak_of(runs) if edp is None else edp
     rows = []
     for measure in _measures(runs):
-        told = evidence(runs, measure, asked)
-        low, high, owner = intervals(told, told.codes, "records")
+        state_evidence = evidence(runs, measure, limit_state)
+        low, high, owner = intervals(state_evidence, state_evidence.codes, "records")
         if not len(low):
             continue
         best = lognormal.fit(low, high)
@@ -448,26 +451,26 @@ def which_tells_most(
         known, mine = np.unique(owner[both], return_inverse=True)
         capacity = np.bincount(mine, 0.5 * (low + high)[both]) / np.bincount(mine)  # a record counts once
         for other, logarithm in OTHERS.items():
-            row[f"p_{other}"] = _p_value(runs, other, logarithm, np.unique(told.records)[known], capacity)
+            row[f"p_{other}"] = _p_value(runs, other, logarithm, np.unique(state_evidence.records)[known], capacity)
         rows.append(row)
-    return pandas.DataFrame(sorted(rows, key=lambda one: (math.isnan(one["beta"]), one["beta"])))
+    return pandas.DataFrame(sorted(rows, key=lambda row: (math.isnan(row["beta"]), row["beta"])))
 
 
 def _measures(runs: pandas.DataFrame) -> list[IntensityMeasure]:
-    found = []
+    measures = []
     names = [*KINDS, "sa:0.5s", "sa:1s", "sa:2s", "pga@geomean", "pgv@geomean"]
     if "im_name" in runs:
         names.append(str(runs["im_name"].iloc[0]))
     for name in dict.fromkeys(names):
-        one = None if name == "sa" else parse_measure(name)
+        measure = None if name == "sa" else parse_measure(name)
         if (
-            one is not None
-            and one.power
-            and one.key in runs
-            and bool(np.isfinite(runs[one.key].to_numpy(dtype=float)).all())
+            measure is not None
+            and measure.power
+            and measure.key in runs
+            and bool(np.isfinite(runs[measure.key].to_numpy(dtype=float)).all())
         ):
-            found.append(one)
-    return list({one.key: one for one in found}.values())
+            measures.append(measure)
+    return list({measure.key: measure for measure in measures}.values())
 
 
 def _dispersion(runs: pandas.DataFrame, measure: IntensityMeasure, edp: str) -> float:

@@ -64,8 +64,8 @@ def fit(low: np.ndarray, high: np.ndarray, weight: np.ndarray | None = None) -> 
         log_median[apart] = _between(low[apart], high[apart], weight[apart], last[apart], first[apart])
     solvable = some_above & some_below & ~apart
     if solvable.any():
-        found = _newton(low[solvable], high[solvable], weight[solvable])
-        log_median[solvable], beta[solvable] = found
+        solution = _newton(low[solvable], high[solvable], weight[solvable])
+        log_median[solvable], beta[solvable] = solution
     return Fit(log_median, beta)
 
 
@@ -74,9 +74,9 @@ def resolved_beta(beta: float) -> float | None:
     return beta if beta > BETAS[0] * (1.0 + AT_END) else None
 
 
-def falls(found: Fit) -> bool:
+def falls(result: Fit) -> bool:
     """Whether the likelihood of the first sample wants a curve that does not rise."""
-    return bool(found.beta[0] >= BETAS[1] * (1.0 - 1e-6))
+    return bool(result.beta[0] >= BETAS[1] * (1.0 - 1e-6))
 
 
 def _between(low: np.ndarray, high: np.ndarray, weight: np.ndarray, last: np.ndarray, first: np.ndarray) -> np.ndarray:
@@ -125,8 +125,8 @@ def _step(
     determinant = (haa - ridge) * (hbb - ridge) - hab * hab
     da = -((hbb - ridge) * ga - hab * gb) / determinant
     db = -((haa - ridge) * gb - hab * ga) / determinant
-    held = ((b <= least) & (db < 0.0)) | ((b >= most) & (db > 0.0))  # along the edge, a alone moves
-    da, db = np.where(held, -ga / (haa - ridge), da), np.where(held, 0.0, db)
+    at_edge = ((b <= least) & (db < 0.0)) | ((b >= most) & (db > 0.0))  # along the edge, a alone moves
+    da, db = np.where(at_edge, -ga / (haa - ridge), da), np.where(at_edge, 0.0, db)
     new_a, new_b, todo = a.copy(), b.copy(), np.arange(len(a))
     step = 1.0
     for _ in range(30):
@@ -148,13 +148,13 @@ def _terms(a: np.ndarray, b: np.ndarray, u: np.ndarray, v: np.ndarray, w: np.nda
         s, t = a + b * u, a + b * v
         p = log_interval(s, t)
         rs, rt = (np.where(np.isfinite(z), np.exp(-0.5 * z * z - _LOG_ROOT - p), 0.0) for z in (s, t))
-    u, v, s, t = (np.where(np.isfinite(one), one, 0.0) for one in (u, v, s, t))
+    u, v, s, t = (np.where(np.isfinite(values), values, 0.0) for values in (u, v, s, t))
     p = np.where(w > 0.0, np.maximum(p, -1e300), 0.0)
     ea, eb = rt - rs, v * rt - u * rs
     haa = -(t * rt - s * rs) - ea * ea
     hab = -(v * t * rt - u * s * rs) - ea * eb
     hbb = -(v * v * t * rt - u * u * s * rs) - eb * eb
-    return tuple((w * one).sum(axis=1) for one in (p, ea, eb, haa, hab, hbb))
+    return tuple((w * term).sum(axis=1) for term in (p, ea, eb, haa, hab, hbb))
 
 
 def log_interval(s: np.ndarray, t: np.ndarray) -> np.ndarray:
@@ -171,22 +171,22 @@ def bootstrap(
     """ln θ and ln β of samples of the records, with all that a record says together, shape (samples, 2)."""
     _, owner = np.unique(owner, return_inverse=True)
     count = int(owner.max()) + 1
-    found = []
+    pieces = []
     piece = max(1, 2_000_000 // len(low))
     for begin in range(0, samples, piece):
         weight = rng.multinomial(count, np.full(count, 1.0 / count), min(piece, samples - begin))[:, owner]
-        one = fit(low, high, weight)
+        result = fit(low, high, weight)
         with np.errstate(invalid="ignore"):
-            found.append(np.stack((one.log_median, np.log(one.beta)), axis=1))
-    values = np.concatenate(found)
+            pieces.append(np.stack((result.log_median, np.log(result.beta)), axis=1))
+    values = np.concatenate(pieces)
     return np.where(np.isnan(values), math.log(BETAS[0]), values)
 
 
 def correlation(samples: np.ndarray) -> float:
     """Of ln θ and ln β over samples of both, shape (S, 2), that have a curve; none where one of them does not vary [-]."""
-    some = samples[np.isfinite(samples).all(axis=1)]
-    spread = some.std(axis=0) if len(some) > 2 else np.zeros(2)
-    return float(np.corrcoef(some.T)[0, 1]) if (spread > 1e-6).all() else 0.0
+    curves = samples[np.isfinite(samples).all(axis=1)]
+    spread = curves.std(axis=0) if len(curves) > 2 else np.zeros(2)
+    return float(np.corrcoef(curves.T)[0, 1]) if (spread > 1e-6).all() else 0.0
 
 
 #: Dispersions between which the region is looked for [-]: beyond them β counts as 0 and as without end.
@@ -274,10 +274,10 @@ def _slopes(runs: _Runs, drop: float) -> tuple[np.ndarray, float]:
 def _edge(runs: _Runs, inside: float, outside: float, target: float) -> float:
     """The last slope that is inside."""
     for _ in range(3):
-        some = np.geomspace(inside, outside, _FINE)
-        best, _ = runs.profile(some)
+        slopes = np.geomspace(inside, outside, _FINE)
+        best, _ = runs.profile(slopes)
         k = int(np.flatnonzero(best >= target).max(initial=0))
-        inside, outside = float(some[k]), float(some[min(k + 1, _FINE - 1)])
+        inside, outside = float(slopes[k]), float(slopes[min(k + 1, _FINE - 1)])
     return inside
 
 

@@ -141,7 +141,7 @@ class Hazard:
         InputError
             The rates are beyond all that shaking can do.
         """
-        told = ""
+        first_doubt = ""
         for im, rate, why in ENVELOPE:
             at = self.at(im)
             text = say(
@@ -150,8 +150,8 @@ class Hazard:
             )  # fmt: skip
             if at > REFUSED * rate:
                 raise InputError(f"{text}.")
-            told = told or (text if at > rate else "")
-        return told
+            first_doubt = first_doubt or (text if at > rate else "")
+        return first_doubt
 
     def at(self, im: float) -> float:
         """Annual rate at an intensity; before the first one that of the first one, beyond the last one 0."""
@@ -184,14 +184,14 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
     comments = [line for line in lines if line.startswith("#")]
     lines = [line for line in lines if not line.startswith("#")]
     head = [part.strip().strip('"') for part in lines[0].split(",")] if lines else []
-    if any(_POE.fullmatch(one) for one in head):
+    if any(_POE.fullmatch(heading) for heading in head):
         return _openquake(printable(Path(path).name), " ".join(comments), head, lines[1:], site)
     table = tables.read(
         path, MOST, "annual_rate", "im_g or im_m_s, and annual_rate, or to be a hazard curve of OpenQuake"
     )
     name = printable(Path(path).name)
     measures = {column: measure_of_column(column) for column in table.columns}
-    keys = [one for one, measure in measures.items() if one in COLUMNS or measure is not None]
+    keys = [key for key, measure in measures.items() if key in COLUMNS or measure is not None]
     if len(keys) != 1:
         raise InputError(
             f"{name} has the columns {printable(', '.join(table.columns))[:200]}; it needs one intensity beside "
@@ -212,35 +212,37 @@ def _statistic(kind: str, name: str) -> str:
     InputError
         It is no curve of exceedance, such as a standard deviation.
     """
-    found = _STATISTIC.fullmatch(kind)
-    if kind and found is None:
+    match = _STATISTIC.fullmatch(kind)
+    if kind and match is None:
         raise InputError(
             f"{name} is of the kind {kind!r}; allowed are curves of exceedance (mean, median, quantile-…, max, rlz-…), "
             "and a spread over the logic tree (std) is none: give the mean, or a quantile."
         )
-    if found is None:
+    if match is None:
         return ""
-    if found["quantile"]:
-        return say("quantile {share:g}", share=float(found["quantile"]))
-    if found["number"]:
-        return say("realisation {count}", count=int(found["number"]))
-    return _WORDS.get(kind, say("branch {name}", name=kind) if found["branch"] else say(kind))
+    if match["quantile"]:
+        return say("quantile {share:g}", share=float(match["quantile"]))
+    if match["number"]:
+        return say("realisation {count}", count=int(match["number"]))
+    return _WORDS.get(kind, say("branch {name}", name=kind) if match["branch"] else say(kind))
 
 
-def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tuple[float, float] | None) -> Hazard:
-    time, imt = _HEADED.search(said), _IMT.search(said)
-    kind_of_curve = _KIND.search(said) or _KIND_OF_NAME.match(name)
+def _openquake(name: str, comments: str, head: list[str], rows: list[str], site: tuple[float, float] | None) -> Hazard:
+    time, imt = _HEADED.search(comments), _IMT.search(comments)
+    kind_of_curve = _KIND.search(comments) or _KIND_OF_NAME.match(name)
     statistic = _statistic(kind_of_curve["kind"] if kind_of_curve else "", name)
     if time is None or float(time[1]) <= 0.0:
         raise InputError(f"{name} does not state its investigation_time; export the curve again with its header.")
-    at = [k for k, one in enumerate(head) if _POE.fullmatch(one)]
+    at = [k for k, heading in enumerate(head) if _POE.fullmatch(heading)]
     im = np.array([_number(name, 1, [head[k].removeprefix("poe-")], 0) for k in at])
     cells = [row.split(",") for row in rows]
     if any(len(row) != len(head) for row in cells):
         raise InputError(f"{name} has rows with more or fewer fields than its header; export the curve again.")
     places = None
     if "lon" in head and "lat" in head:
-        places = [[_number(name, k, row, head.index(one)) for one in ("lon", "lat")] for k, row in enumerate(cells, 2)]
+        places = [
+            [_number(name, k, row, head.index(axis)) for axis in ("lon", "lat")] for k, row in enumerate(cells, 2)
+        ]
     chosen = _nearest(name, len(cells), places if len(cells) > 1 else None, site)
     poe = np.array([_number(name, chosen + 2, cells[chosen], k) for k in at])
     kind = "" if imt is None else imt[1] + (f"({imt[2]})" if imt[2] else "")
@@ -258,10 +260,10 @@ def _nearest(name: str, number: int, places: list[list[float]] | None, site: tup
     away = [_distance_km(place, site) for place in places]
     nearest = int(np.argmin(away))
     if not away[nearest] <= FAR:
-        there, asked = (f"{one[0]:g},{one[1]:g}" for one in (places[nearest], site))
+        there, site_text = (f"{place[0]:g},{place[1]:g}" for place in (places[nearest], site))
         raise InputError(
-            f"the site of {name} that is nearest to `site` = {asked} is {there}, {away[nearest]:.0f} km away; allowed is up "
-            f"to {FAR:g} km: longitude first, then latitude.",
+            f"the site of {name} that is nearest to `site` = {site_text} is {there}, {away[nearest]:.0f} km away; allowed "
+            f"is up to {FAR:g} km: longitude first, then latitude.",
             "site",
         )
     return nearest
@@ -297,31 +299,31 @@ def _nrml(name: str, text: str, site: tuple[float, float] | None) -> Hazard:
         raise InputError(f"{name} is no XML that can be read ({error}); export it again.") from None
 
     def inside(element: ElementTree.Element, tag: str) -> list[ElementTree.Element]:
-        return [one for one in element.iter() if one.tag.rpartition("}")[2] == tag]
+        return [child for child in element.iter() if child.tag.rpartition("}")[2] == tag]
 
     def numbers(element: ElementTree.Element, tag: str) -> np.ndarray:
-        found = inside(element, tag)
-        cells = (found[0].text or "").split() if found else []
+        elements = inside(element, tag)
+        cells = (elements[0].text or "").split() if elements else []
         return np.array([_number(f"{tag} of {name}", 1, [cell], 0) for cell in cells])
 
     sets = inside(root, "hazardCurves")
     if len(sets) != 1:
         raise InputError(f"{name} holds {len(sets)} sets of hazard curves (hazardCurves); give a file of one measure.")
-    (found,) = sets
-    each, im = inside(found, "hazardCurve"), numbers(found, "IMLs")
-    time = _number(f"investigationTime of {name}", 1, [found.get("investigationTime", "")], 0)
+    (curve_set,) = sets
+    each, im = inside(curve_set, "hazardCurve"), numbers(curve_set, "IMLs")
+    time = _number(f"investigationTime of {name}", 1, [curve_set.get("investigationTime", "")], 0)
     if not time > 0.0 or not each:
         raise InputError(f"{name} has no hazard curve with an investigation time; export it again as NRML.")
-    places = [numbers(one, "pos").tolist()[:2] for one in each]
+    places = [numbers(element, "pos").tolist()[:2] for element in each]
     poe = numbers(each[_nearest(name, len(each), places, site)], "poEs")
     if len(poe) != len(im):
         raise InputError(f"{name} has {len(im)} intensities and {len(poe)} probabilities; mend the file.")
-    period, kind = found.get("saPeriod"), found.get("statistics", "")
+    period, kind = curve_set.get("saPeriod"), curve_set.get("statistics", "")
     if kind == "quantile":
-        kind += f"-{found.get('quantileValue', '')}"
-    elif not kind and found.get("sourceModelTreePath"):
-        kind = f"{found.get('sourceModelTreePath')}~{found.get('gsimTreePath', '')}"
-    imt = found.get("IMT", "")
+        kind += f"-{curve_set.get('quantileValue', '')}"
+    elif not kind and curve_set.get("sourceModelTreePath"):
+        kind = f"{curve_set.get('sourceModelTreePath')}~{curve_set.get('gsimTreePath', '')}"
+    imt = curve_set.get("IMT", "")
     if period:
         imt += f"({_number(f'saPeriod of {name}', 1, [period], 0):g})"
     return _of_chances(name, imt, _statistic(kind, name), time, im, poe)
@@ -331,8 +333,8 @@ def _number(name: str, line: int, cells: list[str], k: int) -> float:
     try:
         return float(cells[k])
     except (ValueError, IndexError):
-        found = cells[k] if k < len(cells) else "nothing"
-        raise InputError(f"line {line} of {name} has {found!r} where a number is needed; mend the file.") from None
+        cell = cells[k] if k < len(cells) else "nothing"
+        raise InputError(f"line {line} of {name} has {cell!r} where a number is needed; mend the file.") from None
 
 
 #: Share of the rate beyond the ends of a hazard curve above which it is said [-].
@@ -425,16 +427,16 @@ class Risk(NotebookSummary):
     @property
     def _without_verdict(self) -> str:
         """Rate with the runs that the curve leaves out; empty where there are none."""
-        told = self.fragility.summary()
+        summary = self.fragility.summary()
         names = {"undecided": say("{count} undecided"), "failed": say("{count} failed")}
-        counts = [words.of(count=told[one]) for one, words in names.items() if told[one]]
+        counts = [words.of(count=summary[verdict]) for verdict, words in names.items() if summary[verdict]]
         if not counts:
             return ""
-        most, least = (digits(one, ".3g") if math.isfinite(one) else say("not known") for one in self.extremes)
+        most, least = (digits(rate, ".3g") if math.isfinite(rate) else say("not known") for rate in self.extremes)
         return say(
             "{counts} of {all} runs: counted as {state} the annual rate by {hazard} is {most}, counted as none {least}; the "
             "curve leaves them out, its interval holds both.",
-            counts=joined(say(" and "), counts), all=told["runs"], state=say(self.fragility.evidence.state),
+            counts=joined(say(" and "), counts), all=summary["runs"], state=say(self.fragility.evidence.state),
             hazard=self.hazard.name, most=most, least=least,
         )  # fmt: skip
 
@@ -442,11 +444,11 @@ class Risk(NotebookSummary):
     def sentence(self) -> str:
         """How often it comes to the state, in a sentence."""
         e = self.fragility.evidence
-        said = say("{name}: {state} never.") if self.rate == 0.0 else say("{name}: {state} once in {years}.")
-        said = said.of(name=e.name, state=say(e.state), years=years(1.0 / self.rate) if self.rate else "")
+        message = say("{name}: {state} never.") if self.rate == 0.0 else say("{name}: {state} once in {years}.")
+        message = message.of(name=e.name, state=say(e.state), years=years(1.0 / self.rate) if self.rate else "")
         statistic = self.hazard.statistic
         return joined(
-            " ", [said, say("The hazard curve is the {statistic}.", statistic=statistic) if statistic else ""]
+            " ", [message, say("The hazard curve is the {statistic}.", statistic=statistic) if statistic else ""]
         )
 
     def summary(self) -> dict[str, Any]:
@@ -525,8 +527,8 @@ def check_intensity(measure: str, unit: str, hazard: Hazard) -> str:
             f"the fragility is over {measure} in {unit} and {hazard.name} is in {hazard.unit}; give a hazard curve of "
             f"{measure}, or another `im`."
         )
-    said = hazard.imt.upper()
-    if said and measure != "im" and not _same(said, measure):
+    imt = hazard.imt.upper()
+    if imt and measure != "im" and not _same(imt, measure):
         raise InputError(
             f"the fragility is over {measure} and {hazard.name} is of {hazard.imt}; give one of {measure}."
         )
@@ -563,7 +565,7 @@ def doubts(
     doubt = check_intensity(measure, unit, hazard)
     check_reach(hazard, log_median, beta, rate, state)
     late = begins_late(hazard, weaker_than(hazard, log_median, beta), rate)
-    return [one for one in (doubt and joined("", [doubt, "."]), late) if one]
+    return [text for text in (doubt and joined("", [doubt, "."]), late) if text]
 
 
 def weaker_than(hazard: Hazard, log_median: float, beta: float) -> float:
@@ -645,8 +647,8 @@ def _limits(hazard: Hazard, fragility: Fragility) -> tuple[float, float]:
     """Confidence limits of the rate [1/y], whatever open runs come to; 0 and +inf where none is known."""
     rate = _rate(hazard, fragility.log_median, fragility.beta, split=False)[0]
     samples, plausible = (
-        np.array([_rate(hazard, float(m), math.exp(s), split=False)[0] for m, s in one])
-        for one in (fragility.samples, fragility.region)
+        np.array([_rate(hazard, float(m), math.exp(s), split=False)[0] for m, s in pairs])
+        for pairs in (fragility.samples, fragility.region)
     )
     with np.errstate(divide="ignore"):
         low, high = fragility.limits(math.log(max(rate, 1e-300)), np.log(samples), np.log(plausible))

@@ -69,7 +69,7 @@ def reference(labels: Sequence[str], label: str) -> str:
 
     The column as it stands today is as found, or else as built; where there is none of the two, the first of all.
     """
-    today = [one for one in NO_MEASURE if one in labels]
+    today = [name for name in NO_MEASURE if name in labels]
     return today[-1] if today and label not in NO_MEASURE else labels[0]
 
 
@@ -185,13 +185,13 @@ class Difference:
             words.append(say("nothing is concluded from fewer than {fewest} records", fewest=FEWEST))
         if self.undecided:
             alone = self.undecided == 1
-            said = (
+            template = (
                 say("{open} of {all} pairs of runs is undecided")
                 if alone
                 else say("{open} of {all} pairs of runs are undecided")
             )
-            told = said.of(open=self.undecided, all=self.pairs + self.undecided)
-            words.append(joined(": ", [told, *[self.to_decide] * (self.to_decide != "" and self.records >= FEWEST)]))
+            message = template.of(open=self.undecided, all=self.pairs + self.undecided)
+            words.append(joined(": ", [message, *[self.to_decide] * (self.to_decide != "" and self.records >= FEWEST)]))
         here = joined("; ", words) if self.pairs + self.undecided else NO_PAIR
         if measure:
             no = say(
@@ -222,13 +222,13 @@ class Difference:
         if not self.pairs + self.undecided:
             return say("{none:capital}.", none=NO_PAIR)
         how = say("collapse") if self.limit_state == "collapse" else say("exceed {state}", state=self.limit_state)
-        said = say("Of {number}, {saved} {how} with “{against}” only and {harmed} with “{state}” only").of(
+        message = say("Of {number}, {saved} {how} with “{against}” only and {harmed} with “{state}” only").of(
             number=self._number, saved=self.saved, how=how, against=self.against, harmed=self.harmed, state=self.state
         )
         if self.undecided:
             open_ = say("; {count} is undecided") if self.undecided == 1 else say("; {count} are undecided")
-            said += open_.of(count=self.undecided)
-        return said + (say("; {count} more could not be computed.", count=self.failed) if self.failed else ".")
+            message += open_.of(count=self.undecided)
+        return message + (say("; {count} more could not be computed.", count=self.failed) if self.failed else ".")
 
     def _share(self) -> str:
         if not self.pairs + self.undecided:
@@ -246,8 +246,8 @@ class Difference:
         if self.records < FEWEST or math.isnan(of_others[0]) or math.isnan(of_others[1]):
             return here + (say(", whichever way the undecided end") if self.undecided else "")
         both = say(", undecided runs counted both ways") if self.undecided else ""
-        said = say("{span} ({level:g} % interval over records{both}; {here})")
-        return said.of(span=_span(*of_others, words), level=100.0 * self.confidence, both=both, here=here)
+        template = say("{span} ({level:g} % interval over records{both}; {here})")
+        return template.of(span=_span(*of_others, words), level=100.0 * self.confidence, both=both, here=here)
 
 
 def _percent(value: float, direction: bool = True) -> str:
@@ -334,8 +334,8 @@ def share_limits(
 def levels_of(records: np.ndarray, im: np.ndarray) -> tuple[float, float]:
     """Number of different intensities of a record, and the mean step of their logarithms (NaN where there is none)."""
     numbers, steps = [], []
-    for one in np.unique(records):
-        y = np.unique(np.round(np.log(im[records == one]), DIGITS))
+    for record in np.unique(records):
+        y = np.unique(np.round(np.log(im[records == record]), DIGITS))
         numbers.append(len(y))
         if len(y) >= FEWEST_LEVELS:
             steps.append((y[-1] - y[0]) / (len(y) - 1))
@@ -420,19 +420,19 @@ class StateComparison(NotebookSummary):
             if "link_broken_s" not in mine:
                 continue
             links = [link for link in column.placed_links if link.acts]
-            told = [(b, u) for b, u in zip(mine["link_broken_s"], mine["link_utilisation"]) if isinstance(b, list)]
+            runs = [(b, u) for b, u in zip(mine["link_broken_s"], mine["link_utilisation"]) if isinstance(b, list)]
             for k, link in enumerate(links):
-                broke = [b[k] for b, _ in told if b[k] is not None]
-                used = [u[k] for _, u in told]
+                broke = [b[k] for b, _ in runs if b[k] is not None]
+                used = [u[k] for _, u in runs]
                 rows.append(
                     {
                         "state": label,
                         "link": link.name,
-                        "runs": len(told),
+                        "runs": len(runs),
                         "broken": len(broke),
                         "largest_over_capacity": max(used, default=math.nan),
                         "median_over_capacity": float(np.median(used)) if used else math.nan,
-                        "at_capacity": sum(one >= AT_CAPACITY for one in used),
+                        "at_capacity": sum(use >= AT_CAPACITY for use in used),
                         "limited_by": "stone" if link.breaks_stone else "link",
                     }
                 )
@@ -533,34 +533,44 @@ def compare_states(
     table["state"] = np.repeat(labels, len(table) // len(labels))
     parts: list[Any] = [table[table["state"] == label] for label in labels]
     before = caveat(named, *study.of_one_law)
-    told = [evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)]
-    curves = tuple(_curve(one, samples, seed, confidence) for one in told)
+    evidences = [
+        evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)
+    ]
+    curves = tuple(_curve(state_evidence, samples, seed, confidence) for state_evidence in evidences)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
     weak = [stone_that_breaks(column.placed_links) for column in named[1:]]
     differences = tuple(
         dataclasses.replace(
-            with_undecided(told[at], one, curves[at], curve, samples, seed, confidence),
+            with_undecided(evidences[at], state_evidence, curves[at], curve, samples, seed, confidence),
             stone=words,
             to_decide=to_decide(column, model.parameters(), campaign.tail),
         )
-        for at, one, curve, words, column in zip(compared.values(), told[1:], curves[1:], weak, named[1:], strict=True)
+        for at, state_evidence, curve, words, column in zip(
+            compared.values(), evidences[1:], curves[1:], weak, named[1:], strict=True
+        )
     )
-    side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records, told[0].laws))
+    side_by_side = tuple(
+        shares(
+            {state_evidence.name: state_evidence.codes for state_evidence in evidences},
+            evidences[0].records,
+            evidences[0].laws,
+        )
+    )
     before = doubt(labels, named, model) if study.of_one_law else ""
-    if told[0].laws is not None and (few := few_laws(len(np.unique(told[0].laws)))):
+    if evidences[0].laws is not None and (few := few_laws(len(np.unique(evidences[0].laws)))):
         before = f"{before} {few[:1].upper()}{few[1:]}.".lstrip()
     return StateComparison(labels, named, result, table, curves, differences, side_by_side, state, study, before)
 
 
 def _blank(states: Sequence[Structure], model: Model) -> dict:
     """Names of what runs of these states measure."""
-    linked, blocks = any(one.links for one in states), states[0].base_width is None
+    linked, blocks = any(structure.links for structure in states), states[0].base_width is None
     return blank_row(space="y" in model.axes, links=linked, blocks=blocks)
 
 
-def _curve(one: Evidence, samples: int, seed: int, confidence: float) -> Fragility | None:
+def _curve(state_evidence: Evidence, samples: int, seed: int, confidence: float) -> Fragility | None:
     try:
-        return fragility(one, samples=samples, seed=seed, confidence=confidence)
+        return fragility(state_evidence, samples=samples, seed=seed, confidence=confidence)
     except InputError:  # too few records, or all runs say the same: shares are told without a curve
         return None
 
@@ -586,7 +596,7 @@ def with_undecided(
             for against, for_it in ((EXCEEDED, NOT_EXCEEDED), (NOT_EXCEEDED, EXCEEDED))
         )
     no_ratio = math.isnan(known.ratio)
-    lacking = (one.unsupported for one in (first_curve, other_curve) if one is not None)
+    lacking = (curve.unsupported for curve in (first_curve, other_curve) if curve is not None)
     return dataclasses.replace(
         known,
         share_low=best.share_low,
@@ -607,9 +617,9 @@ def with_undecided(
     )
 
 
-def _ended(one: Evidence, code: int) -> Evidence:
+def _ended(state_evidence: Evidence, code: int) -> Evidence:
     """The same runs, as if every undecided one had come to an end."""
-    return dataclasses.replace(one, codes=np.where(one.codes == OPEN, code, one.codes))
+    return dataclasses.replace(state_evidence, codes=np.where(state_evidence.codes == OPEN, code, state_evidence.codes))
 
 
 def _limit_or(value: float, otherwise: float) -> float:
@@ -638,7 +648,7 @@ def _difference(
         sums, runs = np.bincount(mine, change, len(names)), np.bincount(mine, minlength=len(names))
         drawn = (weight @ sums) / np.maximum(weight @ runs, 1)
         if first.laws is not None:
-            mean = [change[first.laws[known] == one].mean() for one in np.unique(first.laws[known])]
+            mean = [change[first.laws[known] == law].mean() for law in np.unique(first.laws[known])]
             drawn = drawn + under_another_law(np.array(mean), samples, np.random.default_rng(seed))
         paired, (levels, _) = runs > 0, levels_of(first.records[known], first.im[known])
         low, high = share_limits(sums[paired], runs[paired], levels, np.clip(drawn, -1.0, 1.0), confidence)
@@ -661,17 +671,17 @@ def _ratio(
     """
     known = (both[0].codes >= 0) & (both[1].codes >= 0)
     best, drawn, ends, by_law = [], [], [], []
-    for one, alone in zip(both, curves, strict=True):
-        codes = np.where(known, one.codes, OPEN)
-        low, high, owner = intervals(one, codes, "runs")
+    for state_evidence, alone in zip(both, curves, strict=True):
+        codes = np.where(known, state_evidence.codes, OPEN)
+        low, high, owner = intervals(state_evidence, codes, "runs")
         if not len(low):
             return math.nan, math.nan, math.nan
         curve_of_both = fit(low, high)
         best.append(float(curve_of_both.log_median[0]) if not falls(curve_of_both) else math.nan)
         drawn.append(bootstrap(low, high, owner, samples, np.random.default_rng(seed))[:, 0])
-        if one.laws is not None:
-            by_law.append(medians_by_law(one, codes, "runs"))
-        ends.append(median_ends(*intervals(one, codes, "records")[:2], alone.median_interval))
+        if state_evidence.laws is not None:
+            by_law.append(medians_by_law(state_evidence, codes, "runs"))
+        ends.append(median_ends(*intervals(state_evidence, codes, "records")[:2], alone.median_interval))
     if not np.isfinite(best).all():
         return math.nan, math.nan, math.nan
     middle, curve = best[1] - best[0], curves[0]

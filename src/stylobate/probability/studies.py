@@ -72,7 +72,7 @@ class StudyResult(NotebookSummary):
         labels = self.plan.labels()[self.rows.made].reset_index(drop=True)
         measures, verdicts = self.rows.table(), self.verdicts[self.rows.made]
         labels["verdict"] = verdicts
-        begins = [one.get("begins_s") or [] for one in self.plan.axes["motions"]]
+        begins = [motion.get("begins_s") or [] for motion in self.plan.axes["motions"]]
         if any(begins):  # the number of the earthquake in which it fell, of a sequence
             which = np.unravel_index(np.flatnonzero(self.rows.made), self.plan.shape)[2]
             when = np.where(verdicts == v.COLLAPSED, self.rows.floats("collapse_time_s")[self.rows.made], np.nan)
@@ -180,7 +180,7 @@ def histories_of(study: Study, number: int, **options: Any) -> Response:
 
 
 def keep_histories(
-    study: Study, result: StudyResult, folder: Path, told: Callable[[int, int], None] | None
+    study: Study, result: StudyResult, folder: Path, progress: Callable[[int, int], None] | None
 ) -> list[Path]:
     """Files of the histories of the worst and of the median run, and of all of them where the study asks for that.
 
@@ -199,8 +199,8 @@ def keep_histories(
         if not target.is_file():
             histories_of(study, number).save(target)
         files.append(target)
-        if told:
-            told(done + 1, len(numbers))
+        if progress:
+            progress(done + 1, len(numbers))
     return files
 
 

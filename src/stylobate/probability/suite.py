@@ -128,12 +128,12 @@ def suite_table(
     own = len(cases)
     number = campaign.replicates
     drawn = [the_twins(column, model, campaign) for column in stands] if number else []
-    cases += [Case(twin, motion) for some in drawn for motion in motions for twin in some.columns]
+    cases += [Case(twin, motion) for twin_set in drawn for motion in motions for twin in twin_set.columns]
     request = Request.of(cases, Hasher(model, campaign.options), campaign.quiet)
-    found = run_all(request, campaign)
+    results = run_all(request, campaign)
     linked: list[dict[str, Any]] = []
     of_linked: list[Case] = []
-    for i, (case, row, line) in enumerate(zip(cases[:own], found, rows, strict=False)):
+    for i, (case, row, line) in enumerate(zip(cases[:own], results, rows, strict=False)):
         of_twins: list[dict[str, Any]] = []
         twins = slice(own + i * number, own + (i + 1) * number)
         if row is not None:
@@ -141,15 +141,15 @@ def suite_table(
             if (width := case.column.base_width) is not None:
                 line["peak_top_over_base_width"] = row["peak_top_displacement_m"] / width
         if drawn:
-            some = drawn[i // len(motions)]
-            of_twins = [one for one in found[twins] if one is not None]
-            line |= Population(some, tuple(of_twins)).columns
-            of_twins = [one | some.law_of(k) for k, one in enumerate(of_twins)]
+            twin_set = drawn[i // len(motions)]
+            of_twins = [twin_row for twin_row in results[twins] if twin_row is not None]
+            line |= Population(twin_set, tuple(of_twins)).columns
+            of_twins = [twin_row | twin_set.law_of(k) for k, twin_row in enumerate(of_twins)]
         if case.column.links:
             own_run = [row] if row is not None else []
             named = {"state": case.column.name, "im": 1.0, "record": line["record"]}
-            linked += [one | named | {"verdict": verdict(one)} for one in own_run + of_twins]
-            of_linked += [cases[k] for k in (i, *range(twins.start, twins.stop)) if found[k] is not None]
+            linked += [run | named | {"verdict": verdict(run)} for run in own_run + of_twins]
+            of_linked += [cases[k] for k in (i, *range(twins.start, twins.stop)) if results[k] is not None]
     table = pandas.DataFrame(rows)
 
     def again(row: int) -> Response:
@@ -157,10 +157,12 @@ def suite_table(
         fine: Any = {"output_interval": FINE, "until_decided": True, "tail": campaign.tail, "quiet": campaign.quiet}
         return simulate(case.column, case.motion, model, **fine)
 
-    values = values_of_runs({one.name: one for one in stands}, pandas.DataFrame(linked), again=again)
+    values = values_of_runs({column.name: column for column in stands}, pandas.DataFrame(linked), again=again)
     table.attrs["design_values"] = values.to_dict("records")
     table.attrs["doubt"] = caveat(stands, model)
-    table.attrs["twins"] = {one.name: {"words": some.words, **some.facts} for one, some in zip(stands, drawn)}
+    table.attrs["twins"] = {
+        column.name: {"words": twin_set.words, **twin_set.facts} for column, twin_set in zip(stands, drawn)
+    }
     return table
 
 
@@ -198,11 +200,13 @@ def _of_column(column: Structure, motion: Motion, record: dict[str, Any]) -> dic
 
 def _record(motion: Motion) -> dict[str, Any]:
     summary = motion_summary(motion)
-    found: dict[str, Any] = {
+    fields: dict[str, Any] = {
         "factor": motion.factor,
         "vertical": motion.vertical is not None,
         "duration_s": motion.duration,
     }
-    found |= {key: summary[key]["x"] for key in MEASURES}
-    found |= {key: summary.get(key) for key in SCALARS}
-    return found | {f"psa_{key.replace(' ', '')}_g": value for key, value in summary.get("psa_5_percent_g", {}).items()}
+    fields |= {key: summary[key]["x"] for key in MEASURES}
+    fields |= {key: summary.get(key) for key in SCALARS}
+    return fields | {
+        f"psa_{key.replace(' ', '')}_g": value for key, value in summary.get("psa_5_percent_g", {}).items()
+    }

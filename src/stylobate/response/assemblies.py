@@ -48,7 +48,7 @@ def body_measures(
     shifted : iterable of int
         Bodies that are shifted at the end, by their numbers; none where not all lies still then.
     """
-    found, out_of_place = [], set(shifted)
+    measures, out_of_place = [], set(shifted)
     for i, (name, size) in enumerate(zip(names, sizes, strict=True)):
         if math.isnan(size):
             continue
@@ -56,8 +56,8 @@ def body_measures(
         if fell is not None:
             x, y = (position[fell, i] - position[0, i])[:2]
             azimuth = math.atan2(y, x) if math.hypot(x, y) > STRAIGHT_DOWN * size else None
-        x, y, z = (float(one) for one in position[-1, i] - position[0, i])
-        found.append(
+        x, y, z = (float(component) for component in position[-1, i] - position[0, i])
+        measures.append(
             BodyMeasures(
                 name,
                 float(np.nanmax(tilt[:, i], initial=0.0)),
@@ -67,7 +67,7 @@ def body_measures(
                 fell is None and i in out_of_place,
             )
         )
-    return tuple(found)
+    return tuple(measures)
 
 
 def azimuth_of_fall(bodies: Iterable[BodyMeasures], fell_at: Sequence[tuple[str, float]]) -> float | None:
@@ -124,7 +124,7 @@ def recorded_blocks(
     model: str,
     provenance: dict[str, Any],
     touched: Touch | None = None,
-    held: LinkHistories | None = None,
+    link_histories: LinkHistories | None = None,
     velocity: np.ndarray | None = None,
     **ended: Any,
 ) -> Recorded:
@@ -146,7 +146,7 @@ def recorded_blocks(
     model : str
     provenance : dict
     touched : Touch, optional
-    held : LinkHistories, optional
+    link_histories : LinkHistories, optional
         Histories of the links that act.
     velocity : array, optional
         Along x and z [m/s] and of the rotation [rad/s], shape (T, N, 3).
@@ -158,7 +158,7 @@ def recorded_blocks(
     turned = np.abs(rotation - rotation[0])
     since = {} if failed else fallen_since(have_fallen(lowest_standing(assembly, z[0]), z, turned))
     free = [not body.fixed for body in assembly.bodies]
-    ways = (one[-1, free] - one[0, free] for one in (x, z, rotation))
+    ways = (history[-1, free] - history[0, free] for history in (x, z, rotation))
     measures = measures_of_bodies(
         assembly, time, np.stack((x, np.zeros_like(x), z), axis=-1), moved, turned, since, opening, np.abs(slip[-1]),
         failed=failed, touched=touched, residuals=Residuals.in_plane(slip[-1], *ways), **ended,
@@ -166,8 +166,8 @@ def recorded_blocks(
     histories = Histories.of_blocks(
         time, x, z, rotation, opening, slip, ground_acceleration, ground_displacement, energy, velocity
     )
-    if held is not None:
-        histories = replace(histories, links=held)
+    if link_histories is not None:
+        histories = replace(histories, links=link_histories)
     return Recorded(assembly, histories, measures, model, provenance, followed=True)
 
 
@@ -213,8 +213,8 @@ def measures_of_bodies(
         Fields of the measures that hang on the computation: ``energy_imbalance``, ``time_step``, ``steps``, ``links`` …
     """
     bodies, (joined, width) = structure.bodies, joined_bodies(structure)
-    held = {i for pair in joined for i in pair}
-    free = [i for i, body in enumerate(bodies) if i not in held and not body.fixed]
+    joined_numbers = {i for pair in joined for i in pair}
+    free = [i for i, body in enumerate(bodies) if i not in joined_numbers and not body.fixed]
     size = np.array([bodies[i].size for i in free])
     opened = max(_largest(opening / width), _largest(moved[:, free] / size))
     shares, free_shares = slip / width, moved[-1, free] / size
@@ -268,9 +268,9 @@ def joint_histories(
     x, z, rotation : array
         Poses of ``assembly.bodies`` [m], [rad], shape (T, N).
     """
-    found = [_joint_history(assembly, joint, x, z, rotation) for joint in assembly.joints]
+    histories = [_joint_history(assembly, joint, x, z, rotation) for joint in assembly.joints]
     shape = (2, 0, len(x))
-    opening, slip = np.moveaxis(np.array(found), 1, 0) if found else np.zeros(shape)
+    opening, slip = np.moveaxis(np.array(histories), 1, 0) if histories else np.zeros(shape)
     return opening.T, slip.T
 
 
@@ -282,8 +282,8 @@ def fallen_since(down: np.ndarray) -> dict[int, int]:
     down : array of bool
         Which bodies were down at which state, shape (T, N).
     """
-    found = {int(i): int(np.flatnonzero(~down[:, i])[-1]) + 1 for i in np.flatnonzero(down[-1])}
-    return dict(sorted(found.items(), key=lambda one: one[1]))
+    first_states = {int(i): int(np.flatnonzero(~down[:, i])[-1]) + 1 for i in np.flatnonzero(down[-1])}
+    return dict(sorted(first_states.items(), key=lambda item: item[1]))
 
 
 def lowest_standing(structure: Structure, z: np.ndarray) -> np.ndarray:
@@ -322,15 +322,15 @@ def first_touch(
     gap = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)  # of the boxes, one way or other
     joined = {frozenset((joint.lower, joint.upper)) for joint in structure.face_pairs}
     near = NEAR * min(body.size for body in structure.bodies)
-    best, found = math.inf, None
+    best, pair = math.inf, None
     for i, j in np.argwhere(np.triu(gap < near, 1)).tolist():
-        one, other = structure.bodies[i], structure.bodies[j]
-        if frozenset((i, j)) in joined or (one.fixed and other.fixed):
+        first_body, second_body = structure.bodies[i], structure.bodies[j]
+        if frozenset((i, j)) in joined or (first_body.fixed and second_body.fixed):
             continue
         apart = separation(outlines[i], outlines[j])
         if apart < best:
-            best, found = apart, (one.name, other.name)
-    return Touch(when, found)
+            best, pair = apart, (first_body.name, second_body.name)
+    return Touch(when, pair)
 
 
 def _joint_history(
@@ -384,7 +384,7 @@ def recorded_in_space(
     failure: str,
     model: str,
     provenance: dict[str, Any],
-    held: LinkHistories | None = None,
+    link_histories: LinkHistories | None = None,
     velocity: np.ndarray | None = None,
     spin: np.ndarray | None = None,
     struck_at: float | None = None,
@@ -420,20 +420,20 @@ def recorded_in_space(
     since = {} if failure else fallen_since(down)
     tilt = np.arccos(np.clip(_upright(axes[0], axes), -1.0, 1.0))
     free = [not body.fixed for body in structure.bodies]
-    left = Residuals.in_space(
+    residuals = Residuals.in_space(
         slip[-1], twist[-1], (position[-1] - position[0])[free], turned_up(axes[-1, free], axes[0, free])
     )
     measures = measures_of_bodies(
         structure, time, position, moved, tilt, since, opening, np.linalg.norm(slip[-1], axis=-1),
-        failed=bool(failure), reason=failure, touched=None if struck_at is None else Touch(struck_at), residuals=left,
+        failed=bool(failure), reason=failure, touched=None if struck_at is None else Touch(struck_at), residuals=residuals,
         **ended,
     )  # fmt: skip
     histories = Histories.in_space(
         time, position, quaternions(axes), opening, slip, twist, None, None, ground_acceleration,
         ground_displacement, energy, velocity=velocity, spin=spin,
     )  # fmt: skip
-    if held is not None:
-        histories = replace(histories, links=held)
+    if link_histories is not None:
+        histories = replace(histories, links=link_histories)
     return Recorded(structure, histories, measures, model, provenance, followed=True)
 
 

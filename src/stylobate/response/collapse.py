@@ -65,10 +65,10 @@ class Collapse:
     @classmethod
     def from_dict(cls, values: dict[str, Any]) -> Collapse:
         """From what :meth:`to_dict` gives, after a way through JSON too."""
-        found, touched = values["touched"], None
-        if found is not None:
-            bodies = found["bodies"]
-            touched = Touch(float(found["time"]), None if bodies is None else (str(bodies[0]), str(bodies[1])))
+        touch, touched = values["touched"], None
+        if touch is not None:
+            bodies = touch["bodies"]
+            touched = Touch(float(touch["time"]), None if bodies is None else (str(bodies[0]), str(bodies[1])))
         return cls(values["time"], values["joint"], values["mechanism"], values["azimuth"], touched)
 
 

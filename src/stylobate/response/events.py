@@ -115,7 +115,7 @@ def events_of(response: Response, spans: Sequence[Span]) -> tuple[Event, ...]:
     """
     if response.outcome is Outcome.FAILED:
         return ()
-    h, found = response.histories, []
+    h, events = response.histories, []
     turn, reached = turns(response), [span for span in spans if span.begins <= response.time[-1]]
     stood = h.time < response.collapse_time if response.collapsed else np.ones(len(h.time), dtype=bool)
     for number, span in enumerate(reached, 1):
@@ -127,7 +127,7 @@ def events_of(response: Response, spans: Sequence[Span]) -> tuple[Event, ...]:
         inside[first : last + 1] = True
         gone = run.collapsed and response.measures.blocks is None
         known = inside & stood & (not gone)
-        found.append(
+        events.append(
             Event(
                 number, span, run, None if gone else residuals_of(response.structure, _cut(h, last), first),
                 float(turn[known].max()) if known.any() else math.nan,
@@ -137,7 +137,7 @@ def events_of(response: Response, spans: Sequence[Span]) -> tuple[Event, ...]:
                 _moving(response, last),
             )
         )  # fmt: skip
-    return tuple(found)
+    return tuple(events)
 
 
 def _so_far(response: Response, last: int) -> Response:
@@ -177,7 +177,7 @@ def _cut(histories: Histories, last: int) -> Histories:
         if isinstance(value, np.ndarray):
             return value[: last + 1]
         if isinstance(value, dict):
-            return {name: until(one) for name, one in value.items()}
+            return {name: until(part) for name, part in value.items()}
         if is_dataclass(value) and not isinstance(value, type):
             return replace(value, **{field.name: until(getattr(value, field.name)) for field in fields(value)})
         return value
@@ -188,7 +188,7 @@ def _cut(histories: Histories, last: int) -> Histories:
 def _by(response: Response, last: int) -> Measures:
     """Measures of a run by a state in which it goes on."""
     structure, m, h = response.structure, response.measures, _cut(response.histories, last)
-    now, left = float(h.time[-1]), residuals_of(response.structure, _cut(response.histories, last))
+    now, residuals = float(h.time[-1]), residuals_of(response.structure, _cut(response.histories, last))
     links = tuple(_link_by(link, k, h, now) for k, link in enumerate(m.links))
     steps = round(now / m.time_step)
     if m.blocks is not None:
@@ -200,17 +200,17 @@ def _by(response: Response, last: int) -> Measures:
         touched = None if struck is None or struck > now else Touch(struck)
         return measures_of_bodies(
             structure, h.time, response.body_position[: last + 1], response.displacement[: last + 1],
-            turns(response)[: last + 1], since, h.opening, np.array(left.slips),
+            turns(response)[: last + 1], since, h.opening, np.array(residuals.slips),
             at_rest=_moving(response, last) <= STILL, failed=False, in_equilibrium=m.blocks.in_equilibrium,
-            touched=touched, residuals=left, energy_imbalance=m.energy_imbalance, time_step=m.time_step, steps=steps,
+            touched=touched, residuals=residuals, energy_imbalance=m.energy_imbalance, time_step=m.time_step, steps=steps,
             links=links,
         )  # fmt: skip
-    slips, top = np.array(left.slips), h.top_displacement
+    slips, top = np.array(residuals.slips), h.top_displacement
     residual = float(top[-1]) if top.ndim == 1 else float(np.hypot(*top[-1]))
     so_far: dict[str, Any] = {"residual_top_displacement": residual, "residual_joint_slip": float(slips.max())}
-    so_far |= {"residuals": left, "links": links, "steps": steps, "stepped": None}
+    so_far |= {"residuals": residuals, "links": links, "steps": steps, "stepped": None}
     if now >= m.collapse_time:  # it fell before: its peaks ended there
-        return replace(m, **{one.field: math.nan for one in measures_of(Measures) if one.residual} | so_far)
+        return replace(m, **{measure.field: math.nan for measure in measures_of(Measures) if measure.residual} | so_far)
     column = response.column
     opening = float(h.opening.max())
     outcome = classify(False, False, opening / column.joint_width, float((slips / column.joint_widths).max()))
@@ -219,7 +219,7 @@ def _by(response: Response, last: int) -> Measures:
         tilt = float(response.tilt[: last + 1].max())
         space = SpaceMeasures(peak_top_x=float(np.abs(top[:, 0]).max()), peak_top_y=float(np.abs(top[:, 1]).max()),
                         peak_tilt=tilt, peak_twist=float(np.abs(h.twist).max()))  # fmt: skip
-    unknown = {one.field: math.nan for one in measures_of(Measures) if one.peak or one.residual}
+    unknown = {measure.field: math.nan for measure in measures_of(Measures) if measure.peak or measure.residual}
     peaks = {
         "peak_top_displacement": float((np.abs(top) if top.ndim == 1 else np.hypot(*top.T)).max()),
         "peak_rotation": float(turns(response)[: last + 1].max()),

@@ -144,23 +144,23 @@ def sentence_of(links: Sequence[LinkMeasures]) -> str:
     if not kinds:
         return ""
     counted = [link for link in links if link.kind in kinds]
-    broken = sorted((one for one in counted if one.broken), key=lambda one: one.broken_at)
-    full = [one for one in counted if not one.broken and one.utilisation >= AT_CAPACITY]
+    broken = sorted((link for link in counted if link.broken), key=lambda link: link.broken_at)
+    full = [link for link in counted if not link.broken and link.utilisation >= AT_CAPACITY]
     known = {
         "kind": say(counted[0].kind), "kinds": say(kinds.pop() + "s") if len(kinds) == 1 else say("links"),
         "count": len(counted), "broken": len(broken), "full": _at_capacity(full) if full else "",
     }  # fmt: skip
     if not broken and full:
-        said = {1: say("The {kind} did not break, but was at its capacity."),
+        wordings = {1: say("The {kind} did not break, but was at its capacity."),
                 2: say("Neither of both {kinds} broke, but {full}.")}  # fmt: skip
         return joined(
-            " ", [said.get(len(counted), say("None of {count} {kinds} broke, but {full}.")).of(**known), YIELDS]
+            " ", [wordings.get(len(counted), say("None of {count} {kinds} broke, but {full}.")).of(**known), YIELDS]
         )
     if not broken:
-        most = max(counted, key=lambda one: one.utilisation)
-        said = {1: say("The {kind} is whole"), 2: say("Both {kinds} are whole")}
+        most = max(counted, key=lambda link: link.utilisation)
+        wordings = {1: say("The {kind} is whole"), 2: say("Both {kinds} are whole")}
         bore = say("; the {link} bore {share} of what it can", link=most.name, share=percent(most.utilisation))
-        whole = said.get(len(counted), say("All {count} {kinds} are whole")).of(**known)
+        whole = wordings.get(len(counted), say("All {count} {kinds} are whole")).of(**known)
         return joined("", [whole, bore if most.utilisation else "", "."])
     first, alone = broken[0], len(counted) == 1
     which = (
@@ -170,7 +170,7 @@ def sentence_of(links: Sequence[LinkMeasures]) -> str:
     )
     where = say(" in joint {joint}.", joint=first.joint) if first.joint else say(", the {link}.", link=first.name)
     words = [which.of(time=first.broken_at, **known) + where]
-    if stone := sum(one.limited_by == "stone" for one in broken):
+    if stone := sum(link.limited_by == "stone" for link in broken):
         words.append(say("The stone around {count} of those broke first.", count=stone))
     return joined(" ", [*words, *([say("Of those that did not break, {full}.", **known), YIELDS] if full else [])])
 

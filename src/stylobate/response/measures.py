@@ -105,7 +105,7 @@ def measures_of(holder: type) -> tuple[Measure, ...]:
 def row_by(holder: Any, but: str = "") -> dict[str, Any]:
     """Measures of a value under the names that scripts rely on, but those of one kind."""
     listed = measures_of(type(holder))
-    return {one.key: one.plain(getattr(holder, one.field)) for one in listed if one.of != but}
+    return {measure.key: measure.plain(getattr(holder, measure.field)) for measure in listed if measure.of != but}
 
 
 @dataclass(frozen=True)
@@ -304,8 +304,13 @@ class Measures:
     def shown(self, *, space: bool = False) -> list[tuple[Measure, float]]:
         """Measures that have a label, with their values; those of models in space only if asked for."""
         parts = [part for part in (self.blocks, self, self.space if space else None) if part is not None]
-        pairs = ((one, getattr(part, one.field)) for part in parts for one in measures_of(type(part)) if one.label)
-        return [(one, value) for one, value in pairs if one.of != TOP or self.blocks is None]
+        pairs = (
+            (measure, getattr(part, measure.field))
+            for part in parts
+            for measure in measures_of(type(part))
+            if measure.label
+        )
+        return [(measure, value) for measure, value in pairs if measure.of != TOP or self.blocks is None]
 
     def row(self) -> dict:
         """The facts under the names that scripts rely on: keys of ``stylobate run --json`` and table columns."""
@@ -324,7 +329,9 @@ class Measures:
 
 #: All measures of runs; those whose percentiles are given, displacements first.
 MEASURES = measures_of(Measures) + measures_of(BlockMeasures) + measures_of(SpaceMeasures)
-SPREAD = tuple(sorted((one for one in MEASURES if one.spread), key=lambda one: "displacement" not in one.field))
+SPREAD = tuple(
+    sorted((measure for measure in MEASURES if measure.spread), key=lambda measure: "displacement" not in measure.field)
+)
 
 
 def blank_row(*, space: bool = False, links: bool = False, blocks: bool = False) -> dict:

@@ -136,8 +136,8 @@ def quaternions(matrices: np.ndarray) -> np.ndarray:
     known = np.isfinite(matrices).all(axis=(-1, -2), keepdims=True)  # a run that failed may end in what is not finite
     imaginary_first = Rotation.from_matrix(np.where(known, matrices, np.eye(3)).reshape(-1, 3, 3)).as_quat()
     imaginary_first[~known.ravel()] = np.nan
-    found = np.roll(imaginary_first, 1, axis=-1)
-    return np.where(found[:, :1] < 0.0, -found, found).reshape(*shape, 4)
+    real_first = np.roll(imaginary_first, 1, axis=-1)
+    return np.where(real_first[:, :1] < 0.0, -real_first, real_first).reshape(*shape, 4)
 
 
 @dataclass(frozen=True, eq=False)

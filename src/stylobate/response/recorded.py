@@ -479,7 +479,11 @@ _REST = {
 _MEANINGS = _BODY | _REST
 
 #: Attributes of a file beside the outcome, by field of the measures: the same as in tables and JSON.
-_ATTRIBUTES = {"decided": "decided", **{one.field: one.key for one in measures_of(Measures)}, "reason": "reason"}
+_ATTRIBUTES = {
+    "decided": "decided",
+    **{measure.field: measure.key for measure in measures_of(Measures)},
+    "reason": "reason",
+}
 
 
 def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
@@ -570,34 +574,39 @@ def _recorded_variables(response: Recorded, of: str) -> list[tuple[str, tuple[st
     """Name, dimensions and values of everything that a model recorded."""
     h, poses = response.histories, response.histories.poses
     body, joint = ("time", of), ("time", "joint")
-    found: list[tuple[str, tuple[str, ...], np.ndarray]] = []
+    variables: list[tuple[str, tuple[str, ...], np.ndarray]] = []
     along: tuple[str, ...] = ("time",)
     if isinstance(poses, PlanePoses):
         names = ("x", "z", "rotation") if of == "body" else ("drum_x", "drum_z", "drum_rotation")
-        found += [(name, body, values) for name, values in zip(names, (poses.x, poses.z, poses.rotation), strict=True)]
+        variables += [
+            (name, body, values) for name, values in zip(names, (poses.x, poses.z, poses.rotation), strict=True)
+        ]
     else:
         along = ("time", "direction")
-        found.append(("body_position", (*body, "axis"), poses.position))
-        found.append(("body_orientation", (*body, "part"), poses.orientation))
-        found.append(("joint_twist", joint, h.twist))
+        variables.append(("body_position", (*body, "axis"), poses.position))
+        variables.append(("body_orientation", (*body, "part"), poses.orientation))
+        variables.append(("joint_twist", joint, h.twist))
     if h.velocity is not None and h.spin is not None:
-        found += [("body_velocity", (*body, "axis"), h.velocity), ("body_angular_velocity", (*body, "axis"), h.spin)]
-    found.append(("joint_opening", joint, h.opening))
-    found.append(("joint_slip", joint if h.dims == "xz" else (*joint, "direction"), h.joint_slip))
+        variables += [
+            ("body_velocity", (*body, "axis"), h.velocity),
+            ("body_angular_velocity", (*body, "axis"), h.spin),
+        ]
+    variables.append(("joint_opening", joint, h.opening))
+    variables.append(("joint_slip", joint if h.dims == "xz" else (*joint, "direction"), h.joint_slip))
     if h.base is not None and h.top is not None:
-        found += [("base_displacement", along, h.base), ("top_displacement", along, h.top)]
+        variables += [("base_displacement", along, h.base), ("top_displacement", along, h.top)]
     if h.links is not None:
         named = [*LINKS, *(["angle"] if h.links.angle is not None else [])]
-        found += [(f"link_{name}", ("time", "link"), getattr(h.links, name)) for name in named]
+        variables += [(f"link_{name}", ("time", "link"), getattr(h.links, name)) for name in named]
     ground = ("time",) if h.dims == "xz" else ("time", "axis")
-    found += [
+    variables += [
         ("ground_acceleration", ground, h.ground_acceleration),
         ("ground_displacement", ground, h.ground_displacement),
     ]
     if h.dims == "xz" and (h.acceleration[:, 2].any() or h.displacement[:, 2].any()):
-        found.append(("ground_acceleration_z", ("time",), h.acceleration[:, 2]))
-        found.append(("ground_displacement_z", ("time",), h.displacement[:, 2]))
-    return found
+        variables.append(("ground_acceleration_z", ("time",), h.acceleration[:, 2]))
+        variables.append(("ground_displacement_z", ("time",), h.displacement[:, 2]))
+    return variables
 
 
 def _from_dataset(data: xarray.Dataset) -> Recorded:
@@ -608,16 +617,16 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
     collapse, space, blocks = facts["collapse"], facts["space"], facts["blocks"]
     if blocks is not None:
         blocks["fell_at"] = tuple((str(name), float(time)) for name, time in blocks["fell_at"])
-        blocks["bodies"] = tuple(BodyMeasures(**_tuples(one)) for one in blocks.get("bodies", ()))
+        blocks["bodies"] = tuple(BodyMeasures(**_tuples(body)) for body in blocks.get("bodies", ()))
         blocks.pop("joints", None)  # of an earlier version
     histories = _histories(data, structure)
     if "residuals" in facts:
-        left = None if facts["residuals"] is None else Residuals(**_tuples(facts["residuals"]))
+        residuals = None if facts["residuals"] is None else Residuals(**_tuples(facts["residuals"]))
     else:  # of an earlier version: without directions, or among other measures
-        left = residuals_of(structure, histories)
-        space = None if space is None else {name: one for name, one in space.items() if name.startswith("peak")}
+        residuals = residuals_of(structure, histories)
+        space = None if space is None else {name: value for name, value in space.items() if name.startswith("peak")}
     parts = {
-        "residuals": left,
+        "residuals": residuals,
         "collapse": None if collapse is None else Collapse.from_dict(collapse),
         "space": None if space is None else SpaceMeasures(**_tuples(space)),
         "blocks": None if blocks is None else BlockMeasures(**blocks),
@@ -644,8 +653,8 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
     steps, energy = len(data["time"]), _energy(data)
     velocities = "body_velocity", "body_angular_velocity"
     moving = {field: get(name) for field, name in zip(("velocity", "spin"), velocities) if name in data}
-    held = [get(f"link_{name}") for name in (*LINKS, "angle") if f"link_{name}" in data]
-    links = LinkHistories(*held) if held else None
+    link_values = [get(f"link_{name}") for name in (*LINKS, "angle") if f"link_{name}" in data]
+    links = LinkHistories(*link_values) if link_values else None
     bodies = len(structure.shapes)
     for values in moving.values():
         _check(values, (steps, bodies, 3))
@@ -656,7 +665,7 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
         position, orientation, twist = map(get, names)
         _check(position, (steps, bodies, 3))
         _check(orientation, (steps, bodies, 4))
-        found = Histories.in_space(
+        histories = Histories.in_space(
             get("time"),
             position,
             orientation,
@@ -668,7 +677,7 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
             ground_displacement=get("ground_displacement"),
             energy=energy,
         )
-        return dataclasses.replace(found, links=links, **moving)
+        return dataclasses.replace(histories, links=links, **moving)
     ground = {}
     for name in ("ground_acceleration", "ground_displacement"):
         ground[name] = get(name)
@@ -677,13 +686,13 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
     if structure.relative:
         body = {name: get(name) for name in ("drum_x", "drum_z", "drum_rotation")}
         ends = {name: get(name) for name in ("base_displacement", "top_displacement")}
-        found = Histories.of_drums(get("time"), **body, **joint, **ends, **ground, energy=energy)
+        histories = Histories.of_drums(get("time"), **body, **joint, **ends, **ground, energy=energy)
     else:
         body = {name: get(name) for name in ("x", "z", "rotation")}
-        found = Histories.of_blocks(get("time"), **body, **joint, **ground, energy=energy)
+        histories = Histories.of_blocks(get("time"), **body, **joint, **ground, energy=energy)
     for values in body.values():
         _check(values, (steps, bodies))
-    return dataclasses.replace(found, links=links, **moving)
+    return dataclasses.replace(histories, links=links, **moving)
 
 
 def _energy(data: xarray.Dataset) -> dict[str, np.ndarray]:

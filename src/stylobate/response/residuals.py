@@ -86,11 +86,11 @@ class Residuals:
 
     def of_joints(self) -> dict[str, list[float]]:
         """Those of joints, under the names of rows."""
-        found = self._named("slip_x", "slip_y", "twist")
+        row = self._named("slip_x", "slip_y", "twist")
         if self.twist is not None:
-            found["residual_slip_per_joint_m"] = list(self.slips)
-            found["residual_twist_per_joint_rad"] = list(self.twist)
-        return found
+            row["residual_slip_per_joint_m"] = list(self.slips)
+            row["residual_twist_per_joint_rad"] = list(self.twist)
+        return row
 
     def of_bodies(self) -> dict[str, list[float]]:
         """Those of bodies, under the names of rows."""

@@ -18,7 +18,7 @@ _NOTHING, _NONE, _VALUE = 0, 1, 2
 _TYPES = {bool: np.int8, int: np.int64, float: np.float64, str: np.int32}
 
 #: Kinds of values that are told by their type alone.
-_PLAIN = {one: (one,) for one in (bool, float, str)}
+_PLAIN = {kind: (kind,) for kind in (bool, float, str)}
 
 #: Most rows that wait until they are put into columns together, which costs a fifth of one after the other.
 _WAITING = 512
@@ -47,11 +47,11 @@ class Rows(Sequence[Any]):
         if isinstance(rows, Rows):
             return rows
         listed = list(rows)
-        found = cls(len(listed))
+        result = cls(len(listed))
         for number, row in enumerate(listed):
             if row is not None:
-                found[number] = row
-        return found
+                result[number] = row
+        return result
 
     @property
     def _columns(self) -> dict[str, _Column]:
@@ -97,7 +97,7 @@ class Rows(Sequence[Any]):
         """The rows that are there, one after the other."""
         import pandas
 
-        columns = {name: pandas.Series(one.listed(self.made)) for name, one in self._columns.items()}
+        columns = {name: pandas.Series(column.listed(self.made)) for name, column in self._columns.items()}
         return pandas.DataFrame(columns, index=range(self.finished))
 
     def __len__(self) -> int:
@@ -117,11 +117,11 @@ class Rows(Sequence[Any]):
         if isinstance(index, slice):
             part = Rows(0)
             part.made = self.made[index]
-            part._there = {name: one.part(index) for name, one in self._columns.items()}
+            part._there = {name: column.part(index) for name, column in self._columns.items()}
             return part
         if not self.made[index]:
             return None
-        return {name: one.get(index) for name, one in self._columns.items() if one.state[index] != _NOTHING}
+        return {name: column.get(index) for name, column in self._columns.items() if column.state[index] != _NOTHING}
 
     def __eq__(self, other: object) -> bool:
         """Whether another sequence holds equal rows."""
@@ -247,9 +247,11 @@ def _kind(value: Any) -> tuple:
     """The type of a value, and the length of a list of floats; object for anything else."""
     if (kind := _PLAIN.get(type(value))) is not None:
         return kind
-    for one in (float, bool, int, str):
-        if isinstance(value, one):
-            return (object,) if one is int and not -(2**63) <= value < 2**63 else (one,)
-    if isinstance(value, list) and (set(map(type, value)) <= {float} or all(isinstance(one, float) for one in value)):
+    for plain_type in (float, bool, int, str):
+        if isinstance(value, plain_type):
+            return (object,) if plain_type is int and not -(2**63) <= value < 2**63 else (plain_type,)
+    if isinstance(value, list) and (
+        set(map(type, value)) <= {float} or all(isinstance(number, float) for number in value)
+    ):
         return float, len(value)
     return (object,)

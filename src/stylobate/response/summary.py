@@ -68,12 +68,12 @@ def _of_column(response: Recorded) -> dict:
     row["doubt"] = doubt_of(response)
     if m.collapsed:
         first = 1 if m.collapse is None or m.collapse.joint is None else m.collapse.joint
-        row |= {one.key: None for one in MEASURES if one.residual and one.key in row}
+        row |= {measure.key: None for measure in MEASURES if measure.residual and measure.key in row}
         listed = (
             {"residual_slip_per_joint_m"} if m.residuals is None else {"residual_slip_per_joint_m", *m.residuals.row()}
         )
         for name in row.keys() & listed:  # body and joint by their numbers: what stood on the first joint that was lost
-            row[name] = [one if i + 1 < first else None for i, one in enumerate(row[name])]
+            row[name] = [value if i + 1 < first else None for i, value in enumerate(row[name])]
         if m.collapse is not None:
             row["collapse"] = m.collapse.to_dict() | {"side": m.collapse.side}
     row |= _of_links(m)
@@ -95,9 +95,11 @@ def _of_blocks(response: Recorded) -> dict:
         fell = [body.fell_at is not None or body.name in moving for body in blocks.bodies]
         row |= {name: [None] * len(each) if gone else each for name, each in m.residuals.of_joints().items()}
         for name, each in m.residuals.of_bodies().items():
-            row[name] = [None if down else one for one, down in zip(each, fell, strict=True)]
+            row[name] = [None if down else value for value, down in zip(each, fell, strict=True)]
     row |= {
-        one.key: None for one in MEASURES if one.residual and one.key in row and (gone or (moving and one.of == BODY))
+        measure.key: None
+        for measure in MEASURES
+        if measure.residual and measure.key in row and (gone or (moving and measure.of == BODY))
     }
     for name in moving.keys() & row["bodies"].keys():
         row["bodies"][name]["residual_displacement_m"] = None

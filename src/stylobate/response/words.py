@@ -29,15 +29,15 @@ def sentence_of_blocks(response: Recorded) -> str:
     """Outcome of a run of an assembly, and its mechanism, in one to four sentences."""
     m, blocks = response.measures, response.measures.blocks
     assert blocks is not None
-    moving = [i for i, held in enumerate(response.bodies.fixed) if not held]
+    moving = [i for i, fixed in enumerate(response.bodies.fixed) if not fixed]
     if response.outcome is Outcome.FAILED:
         failed = say("The computation could not be completed; this is no verdict on the assembly.")
         return joined(" ", [failed, say("Reason: {reason}.", reason=m.reason) if m.reason else ""])
     if response.outcome is Outcome.COLLAPSED:
         order = [name for name, _ in blocks.fell_at]
-        said = say("{fallen} of {all} blocks fell, the first at {time:.2f} s: {names}.", fallen=len(order),
+        sentence = say("{fallen} of {all} blocks fell, the first at {time:.2f} s: {names}.", fallen=len(order),
                    all=len(moving), time=m.collapse_time, names=_names(order))  # fmt: skip
-        words = [said, _first(response) + _widest(response) + "."]
+        words = [sentence, _first(response) + _widest(response) + "."]
         if blocks.displaced:
             words.append(say("Shifted, but standing: {names}.", names=_names(blocks.displaced)))
         if len(order) < len(moving) and not blocks.at_rest:
@@ -122,9 +122,9 @@ def _widest(response: Recorded) -> str:
     return then + joined(say(", and "), words) if words else ""
 
 
-def _joint(told: dict[str, Any], far: str) -> dict[str, Any]:
+def _joint(joint: dict[str, Any], far: str) -> dict[str, Any]:
     """Values of a sentence on a joint: the bodies that it joins, and how far it went."""
-    return {"one": told["between"][0], "other": told["between"][1], "far": _length(told[far])}
+    return {"one": joint["between"][0], "other": joint["between"][1], "far": _length(joint[far])}
 
 
 def _joint_told(response: Recorded, what: str) -> dict[str, Any] | None:
@@ -146,9 +146,9 @@ def _joint_told(response: Recorded, what: str) -> dict[str, Any] | None:
 
 def _names(names: Any) -> str:
     """Names, the first of many."""
-    told = list(names)
-    more = len(told) - MOST_NAMES
-    return joined(", ", told[:MOST_NAMES]) + (say(" and {count} more", count=more) if more > 0 else "")
+    all_names = list(names)
+    more = len(all_names) - MOST_NAMES
+    return joined(", ", all_names[:MOST_NAMES]) + (say(" and {count} more", count=more) if more > 0 else "")
 
 
 def _length(value: float) -> str:
@@ -259,8 +259,8 @@ def cautions_in_space(structures: Sequence[Structure], parameters: Mapping[str, 
 
 def each_doubt(doubts: Iterable[str]) -> list[str]:
     """Doubts of several runs, each once; what a longer one says as well is left out."""
-    told = list(dict.fromkeys(filter(None, doubts)))
-    return [one for one in told if not any(one != other and one in other for other in told)]
+    unique = list(dict.fromkeys(filter(None, doubts)))
+    return [doubt for doubt in unique if not any(doubt != other and doubt in other for other in unique)]
 
 
 def doubt_of(response: Recorded) -> str:

@@ -45,14 +45,14 @@ def read_json(path: Path) -> dict[str, Any]:
     """
     content = read_bytes(path, MOST)
     try:
-        found = json.loads(content)
+        document = json.loads(content)
     except (ValueError, RecursionError) as error:
         raise InputError(f"{printable(path)} is no JSON that can be read ({error}); run again.") from None
-    if not isinstance(found, dict):
+    if not isinstance(document, dict):
         raise InputError(f"{printable(path)} holds no object as stylobate writes it; run again.")
-    messages = found.pop(MESSAGES, {})
+    messages = document.pop(MESSAGES, {})
     try:
-        return restored(found, messages)
+        return restored(document, messages)
     except (AttributeError, KeyError, TypeError, ValueError):
         raise InputError(f"{printable(path)} holds messages as nobody writes them; run again.") from None
 
@@ -163,8 +163,8 @@ class CommandRequest:
         InputError
             It is damaged, or of a later version.
         """
-        found = read_json(path)
-        form = found.pop("form", None)
+        document = read_json(path)
+        form = document.pop("form", None)
         if isinstance(form, int) and form > FORM:
             raise InputError(
                 f"{printable(path)} is of form {form}; this version of stylobate reads up to {FORM}: update it, or run "
@@ -173,13 +173,13 @@ class CommandRequest:
         try:
             fields: dict[str, Any] = {
                 key: tuple(value) if isinstance(value, list) else value
-                for key, value in found.items()
+                for key, value in document.items()
                 if key in cls.__dataclass_fields__
             }
             if form != FORM:
                 raise ValueError("it has no form")
             for key, need in (("structures", ()), ("models", ("name",)), ("motions", ("name",)), ("sources", ())):
-                if not all(isinstance(one, dict) and one.keys() >= {*need} for one in fields.get(key, ())):
+                if not all(isinstance(entry, dict) and entry.keys() >= {*need} for entry in fields.get(key, ())):
                     raise ValueError(f"{key!r} is no list of its entries")
             return cls(**fields)
         except (TypeError, ValueError) as error:
@@ -187,8 +187,8 @@ class CommandRequest:
 
     def holds(self, other: CommandRequest) -> bool:
         """Whether all that stood and shook in another request is in this one as well."""
-        mine = {one.get("digest") for one in (*self.structures, *self.motions)}
-        return {one.get("digest") for one in (*other.structures, *other.motions)} <= mine
+        mine = {entry.get("digest") for entry in (*self.structures, *self.motions)}
+        return {entry.get("digest") for entry in (*other.structures, *other.motions)} <= mine
 
     @property
     def stood(self) -> list[Structure]:
@@ -202,7 +202,7 @@ class CommandRequest:
 
 
 def _motion(motion: Motion) -> dict[str, Any]:
-    said = {key: str(value) for key, value in motion.metadata.items() if key not in ("references", "left_out")}
+    metadata = {key: str(value) for key, value in motion.metadata.items() if key not in ("references", "left_out")}
     return {
         "name": motion.name,
         "digest": motion.digest,
@@ -217,13 +217,15 @@ def _motion(motion: Motion) -> dict[str, Any]:
         "processing": list(motion.processing),
         "left_out": list(motion.metadata.get("left_out", ())),
         "references": list(motion.metadata.get("references", ())),
-        "metadata": said,
+        "metadata": metadata,
     }
 
 
 def scales_of(runs: pandas.DataFrame | None, motion: str) -> dict[str, Any]:
     """Smallest and largest factor by which runs multiplied a motion, and how many of them differ; empty if not told."""
-    key = next((one for one in ("motion", "record") if runs is not None and one in runs and "factor" in runs), None)
+    key = next(
+        (heading for heading in ("motion", "record") if runs is not None and heading in runs and "factor" in runs), None
+    )
     if runs is None or key is None:
         return {}
     mine: Any = runs.loc[runs[key].astype(str) == motion, "factor"]
@@ -275,35 +277,37 @@ class Source:
     @property
     def stood(self) -> list[str]:
         """Structures of these runs, as the table calls them: columns, or states of one."""
-        return next((found for one in STOOD if (found := self.names(one))), [])
+        return next((names for heading in STOOD if (names := self.names(heading))), [])
 
     @property
     def structures(self) -> list[dict[str, Any]]:
         """Structures of these runs, as kept by the command."""
-        asked, names = self.asked, self.stood
-        kept = asked.structures if asked is not None else ()
-        labels = asked.options.get("states") if asked is not None else None
+        request, names = self.asked, self.stood
+        kept = request.structures if request is not None else ()
+        labels = request.options.get("states") if request is not None else None
         if labels and len(labels) == len(kept):
-            return [one | {"state": label} for label, one in zip(labels, kept) if label in names]
-        return [one for one in kept if not names or any(_named(one, name) for name in names)]
+            return [structure | {"state": label} for label, structure in zip(labels, kept) if label in names]
+        return [structure for structure in kept if not names or any(_named(structure, name) for name in names)]
 
     @property
     def models(self) -> list[dict[str, Any]]:
         """Models of these runs, as kept by the command."""
-        asked, names = self.asked, self.names("model")
-        return [model for model in (asked.models if asked is not None else ()) if not names or model["name"] in names]
+        request, names = self.asked, self.names("model")
+        return [
+            model for model in (request.models if request is not None else ()) if not names or model["name"] in names
+        ]
 
     @property
     def doubt(self) -> str:
         """Caveat before all that rests on these runs: stones in space struck, round columns in a plane, undamped wobble."""
-        drums = [drum for one in self.structures for drum in (one.get("column") or {}).get("drums", ())]
-        models = [one for one in self.models if one["name"] in MODELS]
+        drums = [drum for structure in self.structures for drum in (structure.get("column") or {}).get("drums", ())]
+        models = [model for model in self.models if model["name"] in MODELS]
         in_plane, in_space = [], []
         for model in models:
             known = model.get("parameters") or {}
             (in_plane if model_class(model["name"]).is_plane(known) else in_space).append(known)
-        pairs = [(kind, one) for structure in self.structures for kind, one in structure.items() if kind in FROM_DICT]
-        if stones := [FROM_DICT[kind](one) for kind, one in pairs if "stones" in one]:
+        pairs = [(kind, part) for structure in self.structures for kind, part in structure.items() if kind in FROM_DICT]
+        if stones := [FROM_DICT[kind](part) for kind, part in pairs if "stones" in part]:
             return joined(
                 " ", dict.fromkeys(text for known in in_space or [{}] for text in cautions_in_space(stones, known))
             )
@@ -314,16 +318,18 @@ class Source:
     @property
     def motions(self) -> list[dict[str, Any]]:
         """Motions of these runs, as kept by the command, each with the factors by which it was multiplied."""
-        asked = self.asked
+        request = self.asked
         scaled = None if self.table.stem == "suite" else self.runs  # a suite runs its motions as they are
         return (
-            [] if asked is None else [{**scales_of(scaled, str(motion["name"])), **motion} for motion in asked.motions]
+            []
+            if request is None
+            else [{**scales_of(scaled, str(motion["name"])), **motion} for motion in request.motions]
         )
 
     @property
     def facts(self) -> dict[str, Any]:
         """Facts that are kept beside the result that rests on it."""
-        asked, records = self.asked, self.names("record")
+        request, records = self.asked, self.names("record")
         listed = (self.table.parent / LIST).is_file() and OwnFiles(self.table.parent).lists(self.table)
         return {
             "path": str(self.path),
@@ -335,24 +341,24 @@ class Source:
             "columns": self.stood,
             "models": self.names("model"),
             "not_told": self.kept if isinstance(self.kept, str) else None,
-            "command": None if asked is None else list(asked.command),
-            "version": None if asked is None else asked.version,
-            "day": None if asked is None else asked.day,
+            "command": None if request is None else list(request.command),
+            "version": None if request is None else request.version,
+            "day": None if request is None else request.day,
         }
 
 
 def kept_of(sources: Sequence[Source]) -> dict[str, Any]:
     """Part of these runs that results resting on them keep, as :meth:`CommandRequest.of` takes it; each structure once."""
-    found: dict[str, dict[str, Any]] = {"structures": {}, "models": {}, "motions": {}}
+    by_digest: dict[str, dict[str, Any]] = {"structures": {}, "models": {}, "motions": {}}
     warnings: dict[str, None] = {}
     for source in sources:
-        for kind, some in found.items():
+        for kind, entries in by_digest.items():
             for value in getattr(source, kind):
-                some.setdefault(str(value.get("digest") or sorted(value.items(), key=str)), value)
+                entries.setdefault(str(value.get("digest") or sorted(value.items(), key=str)), value)
         warnings |= dict.fromkeys(source.asked.warnings if source.asked is not None else ())
-    kept = {kind: list(some.values()) for kind, some in found.items()}
+    kept = {kind: list(entries.values()) for kind, entries in by_digest.items()}
     return kept | {"sources": [source.facts for source in sources], "earlier": list(warnings)}
 
 
 def _named(structure: dict[str, Any], name: str) -> bool:
-    return any(isinstance(one, dict) and one.get("name") == name for one in structure.values())
+    return any(isinstance(part, dict) and part.get("name") == name for part in structure.values())

@@ -41,24 +41,24 @@ def fitted(
     **how
         Of :func:`stylobate.probability.fragility.fragility`.
     """
-    asked, level = None if im is None else parse_measure(im), parse_state(state)
-    found, used = [], []
+    intensity, level = None if im is None else parse_measure(im), parse_state(state)
+    curves, used = [], []
     for source in sources:
         table = read_table(source)
-        measure = asked
-        said = scaled_to(table)
-        if measure is None and said not in (None, "factor"):
-            measure = parse_measure(str(said))
+        measure = intensity
+        scaling = scaled_to(table)
+        if measure is None and scaling not in (None, "factor"):
+            measure = parse_measure(str(scaling))
         who = names_in(table)
         labels = who or [Path(source).stem] * len(table)
         names = list(dict.fromkeys(labels))
         if of:
-            missing = [one for one in of if one not in names]
+            missing = [label for label in of if label not in names]
             if missing:
                 raise InputError(
                     f"{source} has no runs of a column or state {missing[0]!r}; it has {', '.join(names)}.", "of"
                 )
-            names = [one for one in names if one in of]
+            names = [label for label in names if label in of]
         if single and len(names) > 1:
             raise InputError(
                 f"{source} holds runs of {len(names)} columns or states ({', '.join(names)}); choose one with `of`.",
@@ -70,11 +70,11 @@ def fitted(
         for name in names:
             rows: Any = table[[label == name for label in labels]]
             shown = f"{name}, {Path(source).stem}" if who and len(sources) > 1 else name
-            told = evidence(rows, measure, level, shown, doubt=Source(source, place, rows).doubt)
-            found.append(fit(told, **how))
-    if len({one.evidence.unit for one in found}) > 1:
+            run_evidence = evidence(rows, measure, level, shown, doubt=Source(source, place, rows).doubt)
+            curves.append(fit(run_evidence, **how))
+    if len({curve.evidence.unit for curve in curves}) > 1:
         raise InputError("the sources are over different intensities; choose one with `im`.", "im")
-    return found, used
+    return curves, used
 
 
 NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
@@ -121,14 +121,14 @@ def write_nrml(curves: Sequence[Fragility], path: str | Path) -> Path:
         Curves of several states or intensities, an intensity that NRML has no name for, or a curve without a dispersion.
     """
     place = check_nrml(path)
-    states = list(dict.fromkeys(one.evidence.state for one in curves))
-    measures = list(dict.fromkeys(one.evidence.measure for one in curves))
-    for what, found in (("states", states), ("intensities", measures)):
-        if len(found) != 1:
+    states = list(dict.fromkeys(curve.evidence.state for curve in curves))
+    measures = list(dict.fromkeys(curve.evidence.measure for curve in curves))
+    for what, values in (("states", states), ("intensities", measures)):
+        if len(values) != 1:
             raise InputError(
-                f"the curves are of {len(found)} {what} ({', '.join(found)}); write a file for each.", "nrml"
+                f"the curves are of {len(values)} {what} ({', '.join(values)}); write a file for each.", "nrml"
             )
-    names = [one.evidence.name for one in curves]
+    names = [curve.evidence.name for curve in curves]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InputError(f"two curves are called {twice!r}; results go by their names: write a file for each.", "nrml")
@@ -138,14 +138,14 @@ def write_nrml(curves: Sequence[Fragility], path: str | Path) -> Path:
     text = f"Fragility of {', '.join(names)}: {states[0]}, over {measures[0]}, by stylobate."
     ElementTree.SubElement(model, "description").text = text
     ElementTree.SubElement(model, "limitStates").text = state
-    for one in curves:
-        if resolved_beta(one.beta) is None or not math.isfinite(one.log_median):
+    for curve in curves:
+        if resolved_beta(curve.beta) is None or not math.isfinite(curve.log_median):
             raise InputError(
-                f"the runs of {one.evidence.name} do not show how capacities scatter, and NRML needs a dispersion; run more "
-                "levels between those at which none and all exceed the state.",
+                f"the runs of {curve.evidence.name} do not show how capacities scatter, and NRML needs a dispersion; run "
+                "more levels between those at which none and all exceed the state.",
                 "nrml",
             )
-        _add(model, one, state, imt, size)
+        _add(model, curve, state, imt, size)
     root = ElementTree.Element("nrml", xmlns=NAMESPACE)
     root.append(model)
     ElementTree.indent(root)
@@ -156,14 +156,14 @@ def write_nrml(curves: Sequence[Fragility], path: str | Path) -> Path:
 
 def _intensity(measure: str) -> tuple[str, float]:
     """Name of an intensity in NRML, and the size of our unit in its own."""
-    found = None if measure == "im" else parse_measure(measure)
-    if found is None or found.kind not in INTENSITIES:
+    intensity = None if measure == "im" else parse_measure(measure)
+    if intensity is None or intensity.kind not in INTENSITIES:
         raise InputError(
             f"the fragility is over {measure!r}; NRML has names for pga, pgv and sa:1.0s: give one of them as `im`.",
             "im",
         )
-    name, size = INTENSITIES[found.kind]
-    return name.format(*found.periods), size
+    name, size = INTENSITIES[intensity.kind]
+    return name.format(*intensity.periods), size
 
 
 def _add(model: ElementTree.Element, curve: Fragility, state: str, imt: str, size: float) -> None:

@@ -107,7 +107,7 @@ class Result:
     def pictures(self) -> dict[str, Path]:
         """Pictures (PNG) as stylobate wrote them, by their names; one that was changed since is left out."""
         named = [file for file in self.files if file.name.endswith(".png") and file.unchanged is not False]
-        return {Path(one.name).stem: self.folder / one.name for one in named}
+        return {Path(picture.name).stem: self.folder / picture.name for picture in named}
 
 
 @dataclass(frozen=True, eq=False)
@@ -252,7 +252,7 @@ def read_results(folders: Iterable[str | Path]) -> list[Result]:
     places: dict[Path, str | Path] = {}
     for folder in folders:
         places.setdefault(Path(folder).resolve(), folder)
-    results = [one for folder in places.values() for one in read_folder(folder)]
+    results = [result for folder in places.values() for result in read_folder(folder)]
     if not results:
         raise InputError("no folder of results is given; give one in which a command wrote its files.")
     return results
@@ -275,12 +275,12 @@ def read_folder(folder: str | Path) -> list[Result]:
     finished = (place / "study.json").is_file() and "states.json" not in markers
     if PLAN_FILE in markers and len(markers) > 1 and not finished:
         markers.remove(PLAN_FILE)  # the runs of the states, which are compared, or will be
-    found: list[Result] = [_READERS[marker](place) for marker in markers]
-    if not found and (runs := _runs_in(place)):
-        found = [_several(place, runs)]
-    if not found:
+    results: list[Result] = [_READERS[marker](place) for marker in markers]
+    if not results and (runs := _runs_in(place)):
+        results = [_several(place, runs)]
+    if not results:
         raise InputError(_foreign(place))
-    return found
+    return results
 
 
 def _foreign(place: Path) -> str:
@@ -319,15 +319,15 @@ def _motion(path: Path) -> Motion:
 
 
 def _runs_in(place: Path) -> list[Path]:
-    found = sorted(path for path in place.iterdir() if path.is_dir() and not path.is_symlink())
-    if len(found) > MOST_RUNS:
-        raise InputError(f"{printable(place)} holds {len(found)} folders; allowed is up to {MOST_RUNS} runs.")
-    return [one for one in found if (one / "response.nc").is_file()]
+    folders = sorted(path for path in place.iterdir() if path.is_dir() and not path.is_symlink())
+    if len(folders) > MOST_RUNS:
+        raise InputError(f"{printable(place)} holds {len(folders)} folders; allowed is up to {MOST_RUNS} runs.")
+    return [folder for folder in folders if (folder / "response.nc").is_file()]
 
 
 def _several(place: Path, runs: Sequence[Path]) -> SeveralRuns:
     read = tuple(_read_run(run) for run in runs)
-    if len({one.response.structure.digest for one in read}) > 1:
+    if len({run.response.structure.digest for run in read}) > 1:
         raise InputError(
             f"the runs in {printable(place)} are not all of one column; name their folders one by one to report "
             "them together."
@@ -350,7 +350,7 @@ def _read_numbers(kind: Kind) -> Callable[[Path], Numbers]:
     def read(place: Path) -> Numbers:
         stem, files = kind.value, FILES[kind]
         summary = _object(place, f"{stem}.json", kind)
-        tables = {one: _table(place / f"{one}.csv") for one in files.tables if (place / f"{one}.csv").is_file()}
+        tables = {name: _table(place / f"{name}.csv") for name in files.tables if (place / f"{name}.csv").is_file()}
         names = [f"{stem}.json", stem, f"{stem}.csv", *(f"{table}.csv" for table in tables), *files.further]
         return Numbers(**_common(place, kind, stem, names, summary), tables=tables)
 
@@ -413,12 +413,12 @@ _READERS: dict[str, Callable[[Path], Result]] = {
 
 def _common(place: Path, kind: Kind, command: str, names: Iterable[str], summary: dict[str, Any]) -> dict[str, Any]:
     """Fields that every result has; a name without an ending is a picture."""
-    asked = place / asked_file(command)
-    files = [one if "." in one else f"{one}.png" for one in (*names, asked.name)]
+    request_file = place / asked_file(command)
+    files = [name if "." in name else f"{name}.png" for name in (*names, request_file.name)]
     return {
         "kind": kind,
         "folder": place,
-        "asked": CommandRequest.read(asked) if asked.is_file() else None,
+        "asked": CommandRequest.read(request_file) if request_file.is_file() else None,
         "files": _facts(place, dict.fromkeys(files)),
         "summary": summary,
     }
@@ -427,24 +427,24 @@ def _common(place: Path, kind: Kind, command: str, names: Iterable[str], summary
 def _facts(place: Path, names: Iterable[str]) -> tuple[FileFact, ...]:
     listed = (place / LIST).is_file()
     own = OwnFiles(place)
-    found = []
+    facts = []
     for name in names:
         path = place / name
         if path.is_file() and name != RUNS_FILE:
             unchanged = own.holds(path) if listed and own.lists(path) else None
-            found.append(FileFact(name, digest(path), unchanged))
-    return tuple(found)
+            facts.append(FileFact(name, digest(path), unchanged))
+    return tuple(facts)
 
 
 def _object(place: Path, name: str, kind: Kind) -> dict[str, Any]:
-    found = read_json(place / name)
-    missing = [key for key in FILES[kind].keys if key not in found]
+    document = read_json(place / name)
+    missing = [key for key in FILES[kind].keys if key not in document]
     if missing:
         raise InputError(
             f"{printable(place / name)} is not what 'stylobate {kind.value}' of this version writes: it has "
             f"no {missing[0]!r}; run again."
         )
-    return found
+    return document
 
 
 def _table(path: Path) -> Any:

@@ -62,17 +62,20 @@ class Rim:
         """Places of its corners where no arc bounds it [m], shape (k, 2): what is linear is least at one of them."""
         if self.edges.discs:
             return None
-        found = []
-        for i, (one, bound) in enumerate(self.edges.sides):
+        crossings = []
+        for i, (side_normal, bound) in enumerate(self.edges.sides):
             for other, limit in self.edges.sides[:i]:
-                across = one[0] * other[1] - one[1] * other[0]
+                across = side_normal[0] * other[1] - side_normal[1] * other[0]
                 if abs(across) > 1e-9:
-                    place = np.array([bound * other[1] - limit * one[1], limit * one[0] - bound * other[0]]) / across
+                    place = (
+                        np.array([bound * other[1] - limit * side_normal[1], limit * side_normal[0] - bound * other[0]])
+                        / across
+                    )
                     if all(normal @ place <= end + 1e-9 * self.half for normal, end in self.edges.sides):
-                        found.append(place)
+                        crossings.append(place)
         kept: list[np.ndarray] = []
-        for place in found:
-            if all(math.dist(place, one) > 1e-6 * self.half for one in kept):
+        for place in crossings:
+            if all(math.dist(place, corner) > 1e-6 * self.half for corner in kept):
                 kept.append(place)
         return np.array(kept)
 
@@ -227,8 +230,8 @@ class ContactProgramme:
 
     def hold(self, k: int, way: np.ndarray) -> None:
         """Let a holder hold in a direction of its axes."""
-        one = self.holders[k]
-        self._add(k, way, ((one.upper, one.high), (one.lower, one.low)), one.axes @ way)
+        holder = self.holders[k]
+        self._add(k, way, ((holder.upper, holder.high), (holder.lower, holder.low)), holder.axes @ way)
 
     def begin(self, push: np.ndarray) -> None:
         """Points and directions to begin with, in the direction of a push."""
@@ -280,17 +283,17 @@ class ContactProgramme:
         """
         gap = math.inf
         for _ in range(ROUNDS):
-            found = self._solve(dead, live, capacity, aim)
-            if found.multiplier >= enough or self.cut:
-                return found
-            gap = self._grow(found, capacity, aim)
+            solution = self._solve(dead, live, capacity, aim)
+            if solution.multiplier >= enough or self.cut:
+                return solution
+            gap = self._grow(solution, capacity, aim)
             if aim is None:
-                near = CLOSE * max(abs(found.multiplier), 1e-3)
+                near = CLOSE * max(abs(solution.multiplier), 1e-3)
             else:
-                force = float(aim.way @ self.held_by(found.forces, aim.holder)) / self.weight
+                force = float(aim.way @ self.held_by(solution.forces, aim.holder)) / self.weight
                 near = MOST_WITHIN * max(force, NONE_HELD)
             if gap <= near:
-                return found
+                return solution
         raise StylobateError(
             f"limit analysis in space did not come to an end: the bounds are {gap:.2g} g apart after {ROUNDS} rounds"
         )
@@ -299,12 +302,12 @@ class ContactProgramme:
         """How much of a load the joints cannot carry, over the weight, and velocities of what moves so, shape (n, 6)."""
         capacity = self.capacities
         for _ in range(ROUNDS):
-            found = self._solve(dead, None, capacity)
-            if -found.multiplier <= BALANCED:
-                return 0.0, found.rates
-            if self.cut or self._grow(found, capacity) <= CLOSE:
+            solution = self._solve(dead, None, capacity)
+            if -solution.multiplier <= BALANCED:
+                return 0.0, solution.rates
+            if self.cut or self._grow(solution, capacity) <= CLOSE:
                 break
-        return -found.multiplier, found.rates  # pyright: ignore[reportPossiblyUnboundVariable]
+        return -solution.multiplier, solution.rates  # pyright: ignore[reportPossiblyUnboundVariable]
 
     def _solve(self, dead: np.ndarray, live: np.ndarray | None, capacity: np.ndarray, aim: Aim | None = None) -> Solved:
         """Largest multiplier, or force aimed at, with what there is; without a live load, minus the least not balanced."""
@@ -316,12 +319,12 @@ class ContactProgramme:
         left_out = (owner >= 0) & (capacity[owner] == 0.0) if len(capacity) else np.zeros(size, dtype=bool)
         row = np.full(len(self.holders) + 1, -1)
         row[bounded] = np.arange(len(bounded))
-        held = np.flatnonzero(row[owner] >= 0)
+        limited = np.flatnonzero(row[owner] >= 0)
         each = np.eye(6 * self.n)
         last = csc_array(np.hstack((each, -each)) if live is None else live[:, None])
         extra = 2 * len(each) if live is None else 1
         known = self.matrix()
-        strength = coo_array((np.ones(len(held)), (row[owner[held]], held)), (len(bounded), size + extra))
+        strength = coo_array((np.ones(len(limited)), (row[owner[limited]], limited)), (len(bounded), size + extra))
         free = (None, None) if live is not None else (0.0, None)
         cost = np.append(np.zeros(size), np.full(extra, -1.0 if live is not None else 1.0))
         if aim is not None:
@@ -329,7 +332,7 @@ class ContactProgramme:
             for i in np.flatnonzero(owner == aim.holder):
                 cost[i] = -float(self.ways[i] @ aim.way)
         for presolve in (True, False):  # on a face of many answers HiGHS may come to no end with its presolve
-            found = linprog(
+            result = linprog(
                 cost,
                 A_ub=strength if len(bounded) else None,
                 b_ub=capacity[bounded] / self.weight if len(bounded) else None,
@@ -339,30 +342,30 @@ class ContactProgramme:
                 method="highs",
                 options=_TIGHT | {"presolve": presolve},
             )
-            if found.status in (0, 3):
+            if result.status in (0, 3):
                 break
-        if found.status == 3 and aim is not None:
+        if result.status == 3 and aim is not None:
             raise EndlessError(f"nothing limits what {self.holders[aim.holder].name!r} holds")
-        if found.status == 3:
+        if result.status == 3:
             endless = [holder.name for holder in self.holders if holder.capacity == math.inf]
             if not endless:
                 raise InputError(f"{self.name} bears any push in this direction: fixed bodies hold it.")
             raise InputError(
                 f"{self.name} bears any push, because {' and '.join(endless[:2])} has no capacity; give it one [N]."
             )
-        if found.status == 2:
-            raise InfeasibleError(f"{self.name} is not carried by its joints and what holds it: {found.message}")
-        if found.status != 0:
-            raise StylobateError(f"the programme of the limit analysis was not solved: {found.message}")
+        if result.status == 2:
+            raise InfeasibleError(f"{self.name} is not carried by its joints and what holds it: {result.message}")
+        if result.status != 0:
+            raise StylobateError(f"the programme of the limit analysis was not solved: {result.message}")
         prices = np.zeros(len(self.holders))
         if len(bounded):
-            prices[bounded] = -found.ineqlin.marginals
-        rates = -found.eqlin.marginals.reshape(-1, 6)
+            prices[bounded] = -result.ineqlin.marginals
+        rates = -result.eqlin.marginals.reshape(-1, 6)
         for k in np.flatnonzero(capacity == 0.0):  # what the first newton of it would be worth
             speed = self._strain_rate(self.holders[k], rates)
             prices[k] = np.hypot(*speed) if len(speed) == 2 else max(-float(speed[0]), 0.0)
-        multiplier = float(found.x[-1]) if live is not None else -float(found.x[size:].sum())
-        return Solved(multiplier, found.x[:size], rates, prices)
+        multiplier = float(result.x[-1]) if live is not None else -float(result.x[size:].sum())
+        return Solved(multiplier, result.x[:size], rates, prices)
 
     def matrix(self) -> Any:
         """All that can act as columns, shape (6 n, columns)."""
@@ -432,8 +435,8 @@ class ContactProgramme:
         """Of a point of a body."""
         if body < 0:
             return np.zeros(3)
-        one = rates[body]
-        return one[:3] + np.cross(one[3:] / self.length, point - self.centroids[body])
+        rate = rates[body]
+        return rate[:3] + np.cross(rate[3:] / self.length, point - self.centroids[body])
 
     def movements(self, rates: np.ndarray) -> np.ndarray:
         """How fast each joint rocks, slides and twists, all at its edge or middle, shape (joints, 3)."""
@@ -451,10 +454,10 @@ class ContactProgramme:
 
     def held_by(self, forces: np.ndarray, k: int) -> np.ndarray:
         """Force of a holder on its upper body along its axes [N]."""
-        found = np.zeros(self.holders[k].axes.shape[1])
+        force = np.zeros(self.holders[k].axes.shape[1])
         for i in np.flatnonzero(np.array(self.owner[: len(forces)]) == k):
-            found += forces[i] * self.ways[i]
-        return found * self.weight
+            force += forces[i] * self.ways[i]
+        return force * self.weight
 
 
 def pointing(angle: float) -> Any:
@@ -469,7 +472,7 @@ SLACK = 1e-7
 DIRECTIONS = 32
 
 
-def gentlest(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, found: Solved) -> np.ndarray:
+def gentlest(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, solution: Solved) -> np.ndarray:
     """Velocities of the mechanism of a multiplier in which joints slip and twist least, shape (n, 6).
 
     Where several do the same work the one that a solver hands out is any of them; of what holds bodies it is that one.
@@ -478,7 +481,7 @@ def gentlest(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, fo
     from scipy.sparse import csr_array, eye_array, hstack, vstack
 
     if programme.holders:
-        return found.rates
+        return solution.rates
     known, moves = programme.matrix().T, _moves(programme)
     count = 3 * len(programme.rims)
     each = eye_array(count)
@@ -491,7 +494,7 @@ def gentlest(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, fo
             power,
         )
     )
-    bound = np.append(np.zeros(len(programme.rows) + 2 * count), found.multiplier + SLACK)
+    bound = np.append(np.zeros(len(programme.rows) + 2 * count), solution.multiplier + SLACK)
     size = 6 * programme.n
     solved = linprog(
         np.append(np.zeros(size), np.ones(count)),
@@ -502,7 +505,7 @@ def gentlest(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, fo
         bounds=[(None, None)] * size + [(0.0, None)] * count,
         method="highs",
     )
-    return solved.x[:size].reshape(-1, 6) if solved.status == 0 else found.rates
+    return solved.x[:size].reshape(-1, 6) if solved.status == 0 else solution.rates
 
 
 def largest_held(
@@ -514,21 +517,21 @@ def largest_held(
     tells how far it reaches, and the farthest corner of the tangents is the next direction, until what is reached is as
     far but for :data:`MOST_WITHIN`. Infinite, without a direction, where nothing limits it.
     """
-    one, capacity, first = programme.holders[k], programme.capacities, len(programme.rows)
-    count = one.axes.shape[1]
+    holder, capacity, first = programme.holders[k], programme.capacities, len(programme.rows)
+    count = holder.axes.shape[1]
     ways = [np.ones(1)] if count == 1 else [pointing(0.5 * math.pi * i) for i in range(4)]
     reach: list[tuple[np.ndarray, float]] = []
     best = np.zeros(count)
     try:
         while ways and len(reach) < DIRECTIONS:
             way = ways.pop()
-            found = programme.converged(dead, live, capacity, aim=Aim(k, way, multiplier))
-            force = programme.held_by(found.forces, k)
-            programme.forget(first, found.forces)
+            solution = programme.converged(dead, live, capacity, aim=Aim(k, way, multiplier))
+            force = programme.held_by(solution.forces, k)
+            programme.forget(first, solution.forces)
             best = force if np.linalg.norm(force) > np.linalg.norm(best) else best
             reach.append((way, float(way @ force)))
             size = float(np.linalg.norm(best))
-            if size >= one.capacity * (1.0 - MOST_WITHIN):
+            if size >= holder.capacity * (1.0 - MOST_WITHIN):
                 break
             if not ways and count == 2:
                 corner = max(_corners(reach), key=np.linalg.norm)
@@ -539,7 +542,7 @@ def largest_held(
     except EndlessError:
         return math.inf, None
     size = float(np.linalg.norm(best))
-    return size, one.axes @ best / size if size > 0.0 else None
+    return size, holder.axes @ best / size if size > 0.0 else None
 
 
 def _moves(programme: ContactProgramme) -> Any:
@@ -561,6 +564,6 @@ def _moves(programme: ContactProgramme) -> Any:
 
 def _corners(reach: list[tuple[np.ndarray, float]]) -> list[np.ndarray]:
     """Corners of the figure that tangents enclose, each across a direction and so far along it."""
-    turned = sorted(reach, key=lambda one: math.atan2(*one[0][::-1]))
+    turned = sorted(reach, key=lambda tangent: math.atan2(*tangent[0][::-1]))
     pairs = zip(turned, [*turned[1:], turned[0]], strict=True)
     return [np.linalg.solve(np.array([a, b]), (far, away)) for (a, far), (b, away) in pairs]

@@ -225,16 +225,16 @@ def _least(
     less, most = capacity.copy(), float(capacity[k])
     less[k], enough = 0.0, abs(float(whole.held[k]))
     for _ in range(STEPS):
-        found = solve(less, same)
-        if found.multiplier >= same:
-            return float(found.held[k]) if less[k] else 0.0, False
-        slope = float(found.worth[k])
-        if found.multiplier == -np.inf and enough - less[k] > NEARLY * enough:  # without so much nothing stands
+        load = solve(less, same)
+        if load.multiplier >= same:
+            return float(load.held[k]) if less[k] else 0.0, False
+        slope = float(load.worth[k])
+        if load.multiplier == -np.inf and enough - less[k] > NEARLY * enough:  # without so much nothing stands
             less[k] = 0.5 * (less[k] + enough)
             continue
         if slope <= 0.0:
             break
-        less[k] += (whole.multiplier - found.multiplier) / slope
+        less[k] += (whole.multiplier - load.multiplier) / slope
         if less[k] >= most * (1.0 - NEARLY):
             return float(np.copysign(most, whole.held[k])), True
     return float(np.copysign(less[k], whole.held[k])), False
@@ -327,11 +327,11 @@ class Facets:
 
     def worth(self, slopes: np.ndarray) -> np.ndarray:
         """By how much a larger capacity of each link raises λ [1/N], of ∂λ/∂k of the facets; shape (links,)."""
-        found = np.zeros(len(self.stack.links))
+        gains = np.zeros(len(self.stack.links))
         for place, kind, slope in zip(self.place, self.kind, slopes, strict=True):
             if place >= self.stack.n and kind != "slack":
-                found[place - self.stack.n] += slope
-        return found
+                gains[place - self.stack.n] += slope
+        return gains
 
     def used(self, forces: np.ndarray) -> np.ndarray:
         """Which facets the forces have used up, shape (facets,)."""
@@ -346,14 +346,14 @@ def static_bound(
 ) -> tuple[float, np.ndarray, np.ndarray]:
     """Largest λ in equilibrium with admissible forces (lower bound theorem), these forces, and ∂λ/∂k of the facets [1/N]."""
     scale = np.abs(dead).max()
-    found = _admissible(equilibrium, dead, live, facets, np.append(np.zeros(len(equilibrium)), -1.0))
-    if found.status == 3:
+    result = _admissible(equilibrium, dead, live, facets, np.append(np.zeros(len(equilibrium)), -1.0))
+    if result.status == 3:
         endless = [link.name for link in facets.stack.links if link.capacity == np.inf and link.strength]
         raise InputError(
             f"the column bears any push, because {' and '.join(endless[:2]) or 'a link'} has no capacity; give it one [N]."
         )
-    _check_solved(found, "static")
-    return float(found.x[-1]), found.x[:-1] * scale, -found.ineqlin.marginals / scale
+    _check_solved(result, "static")
+    return float(result.x[-1]), result.x[:-1] * scale, -result.ineqlin.marginals / scale
 
 
 def largest_forces(
@@ -371,14 +371,14 @@ def largest_forces(
         for sign in (1.0, -1.0):
             cost = np.zeros(size + 1)
             cost[size - links + k] = sign
-            found = _admissible(equilibrium, dead, live, facets, cost, least)
-            while found.status == 0 and facets.cut(found.x[:-1] * scale, strength):
-                found = _admissible(equilibrium, dead, live, facets, cost, least)
-            if found.status == 3:
+            result = _admissible(equilibrium, dead, live, facets, cost, least)
+            while result.status == 0 and facets.cut(result.x[:-1] * scale, strength):
+                result = _admissible(equilibrium, dead, live, facets, cost, least)
+            if result.status == 3:
                 most[k] = np.inf
                 continue
-            _check_solved(found, "static")
-            most[k] = max(most[k], -sign * found.x[size - links + k] * scale)
+            _check_solved(result, "static")
+            most[k] = max(most[k], -sign * result.x[size - links + k] * scale)
     return most
 
 
@@ -418,7 +418,7 @@ def kinematic_bound(
     # Normality: what joints and links dissipate is −s · B q̇, so that B q̇ + Σ γ f = 0.
     compatible = np.column_stack((equilibrium, flow.T))
     power = np.append(live.ravel() / scale, np.zeros(len(flow)))
-    found = linprog(
+    result = linprog(
         np.append(-dead.ravel() / scale, np.array(facets.bound) / scale),
         A_eq=np.vstack((compatible, power)),
         b_eq=np.append(np.zeros(len(equilibrium)), 1.0),
@@ -426,8 +426,8 @@ def kinematic_bound(
         method="highs",
         options=_TIGHT,
     )
-    _check_solved(found, "kinematic")
-    return float(found.fun), found.x[:size].reshape(-1, 3), found.x[size:]
+    _check_solved(result, "kinematic")
+    return float(result.fun), result.x[:size].reshape(-1, 3), result.x[size:]
 
 
 def non_associated(
@@ -444,7 +444,7 @@ def non_associated(
     flow = facets.matrix(dilatancy=False)
     compatible = np.column_stack((equilibrium, flow.T))
     power = np.append(live.ravel() / scale, np.zeros(len(flow)))
-    found = linprog(
+    result = linprog(
         np.append(np.zeros(size), np.ones(len(flow))),
         A_eq=np.vstack((compatible, power)),
         b_eq=np.append(np.zeros(len(equilibrium)), 1.0),
@@ -452,15 +452,15 @@ def non_associated(
         method="highs",
         options=_TIGHT,
     )
-    if found.status != 0 and facets.stack.links:
+    if result.status != 0 and facets.stack.links:
         return None
-    _check_solved(found, "mechanism")
-    return found.x[:size].reshape(-1, 3), found.x[size:]
+    _check_solved(result, "mechanism")
+    return result.x[:size].reshape(-1, 3), result.x[size:]
 
 
-def _check_solved(found, which: str) -> None:
-    if found.status != 0:
-        raise StylobateError(f"the {which} programme of the limit analysis was not solved: {found.message}")
+def _check_solved(result, which: str) -> None:
+    if result.status != 0:
+        raise StylobateError(f"the {which} programme of the limit analysis was not solved: {result.message}")
 
 
 FLOWS = ("non-associated", "associated")
@@ -684,7 +684,7 @@ def limit_analysis(
     lower, forces, links = whole.multiplier, whole.forces, ()
     if stack.links:
         capacity = np.array([link.capacity for link in stack.links])
-        needed = needed_forces(lambda some, _: bear(Facets(stack.with_capacities(some))), capacity, whole)
+        needed = needed_forces(lambda capacities, _: bear(Facets(stack.with_capacities(capacities))), capacity, whole)
         largest = largest_forces(equilibrium, dead, live, facets, lower, strength)
         forces, links = needed.forces, link_forces(stack.links, needed, largest)
     upper, rates, multipliers = kinematic_bound(equilibrium, dead, live, facets)
@@ -703,10 +703,10 @@ def link_forces(
     in space its direction."""
     most = np.full(len(links), math.nan) if largest is None else np.maximum(largest, np.abs(needed.least))
     ways = [None] * len(links) if towards is None else towards
-    told = zip(
+    rows = zip(
         links, needed.least.tolist(), needed.yields.tolist(), needed.idle.tolist(), most.tolist(), ways, strict=True
     )
-    return tuple(LinkForce(link.name, link.action, least, link.capacity, *rest) for link, least, *rest in told)
+    return tuple(LinkForce(link.name, link.action, least, link.capacity, *rest) for link, least, *rest in rows)
 
 
 def towards(column: Column | BlockStack, direction: float) -> BlockStack:
@@ -793,7 +793,7 @@ class SpaceProgramme:
         self.column, self.at = column, space_geometry(column)
         bare = column.replace(links=())
         self.rims = [self._rim(bare, j) for j in range(column.n)]
-        self.links = [self._holder(one) for one in holds(column.placed_links) if one.strength]
+        self.links = [self._holder(link) for link in holds(column.placed_links) if link.strength]
 
     def _rim(self, bare: Column, joint: int) -> Rim:
         """The rim of a joint, seen from where its load acts without links."""
@@ -831,11 +831,11 @@ class SpaceProgramme:
         push = base_axes(column).T @ (math.cos(angle), math.sin(angle), 0.0)
         dead, live = programme.body_force(-upward(column)), programme.body_force(push)
         programme.begin(push)
-        found = programme.converged(dead, live, programme.capacities)
-        sizes = programme.movements(found.rates)
+        solution = programme.converged(dead, live, programme.capacities)
+        sizes = programme.movements(solution.rates)
         joint = int(np.argmax(sizes.max(axis=1) > MOVES * sizes.max()))
         mode = ("rocking", "sliding", "twisting")[int(np.argmax(sizes[joint]))]
-        return SpaceLimit(found.multiplier + 0.0, joint + 1, mode, demand(programme, dead, live, found, largest))
+        return SpaceLimit(solution.multiplier + 0.0, joint + 1, mode, demand(programme, dead, live, solution, largest))
 
 
 def held_along(hold: Hold, frame: np.ndarray) -> np.ndarray:
@@ -846,7 +846,7 @@ def held_along(hold: Hold, frame: np.ndarray) -> np.ndarray:
 
 
 def demand(
-    programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, found: Solved, largest: bool = False
+    programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, solution: Solved, largest: bool = False
 ) -> tuple[LinkForce, ...]:
     """Action of the links at the multiplier of an answer, for these loads.
 
@@ -856,7 +856,7 @@ def demand(
         Its holders with a name are links.
     dead, live : array
         Over the weight, shape (6 n,).
-    found : Solved
+    solution : Solved
     largest : bool
         Whether to look for the most that each holds as well.
     """
@@ -865,27 +865,27 @@ def demand(
         return ()
     every = programme.capacities
 
-    def borne(found: Solved) -> CapacityLoad:
-        prices, held = found.prices[links] / programme.weight, programme.held(found.forces)[links]
-        return CapacityLoad(found.multiplier, prices, held, found.forces)
+    def borne(answer: Solved) -> CapacityLoad:
+        prices, holding_forces = answer.prices[links] / programme.weight, programme.held(answer.forces)[links]
+        return CapacityLoad(answer.multiplier, prices, holding_forces, answer.forces)
 
-    def bear(some: np.ndarray, enough: float) -> CapacityLoad:
+    def bear(link_capacities: np.ndarray, enough: float) -> CapacityLoad:
         capacity = every.copy()
-        capacity[links] = some
+        capacity[links] = link_capacities
         try:
             return borne(programme.converged(dead, live, capacity, enough))
         except InfeasibleError:  # it does not even stand
             none = np.zeros(len(links))
-            return CapacityLoad(-math.inf, none, none, found.forces)
+            return CapacityLoad(-math.inf, none, none, solution.forces)
 
-    needed = needed_forces(bear, every[links], borne(found))
-    told = [programme.holders[k] for k in links]
+    needed = needed_forces(bear, every[links], borne(solution))
+    holders = [programme.holders[k] for k in links]
     if not largest:
-        return link_forces(told, needed)
-    least = found.multiplier - SAME * max(abs(found.multiplier), 1e-3)
+        return link_forces(holders, needed)
+    least = solution.multiplier - SAME * max(abs(solution.multiplier), 1e-3)
     most = [largest_held(programme, dead, live, least, k) for k in links]
     towards = [None if way is None else tuple(way.tolist()) for _, way in most]
-    return link_forces(told, needed, np.array([size for size, _ in most]), towards)
+    return link_forces(holders, needed, np.array([size for size, _ in most]), towards)
 
 
 #: What moves with more than this share of the fastest takes part in the mechanism [-].
@@ -921,7 +921,7 @@ class AssemblyProgramme:
             )
         bodies = structure.bodies
         self.structure = structure
-        self.moving = [i for i, one in enumerate(bodies) if not one.fixed]
+        self.moving = [i for i, body in enumerate(bodies) if not body.fixed]
         number = {body: k for k, body in enumerate(self.moving)}
         stones = [bodies[i] for i in self.moving]
         rims = [
@@ -931,7 +931,7 @@ class AssemblyProgramme:
             )
             for joint in joints
         ]  # fmt: skip
-        holders = [_holder(one, number) for one in holds(structure.placed_links) if one.strength]
+        holders = [_holder(link, number) for link in holds(structure.placed_links) if link.strength]
         self.points = [stone.vertices for stone in stones]  # pyright: ignore[reportAttributeAccessIssue]
         every = np.concatenate(self.points)
         centroids = np.array([stone.position for stone in stones])  # pyright: ignore[reportAttributeAccessIssue]
@@ -945,8 +945,8 @@ class AssemblyProgramme:
         self._must_stand()
 
     def _must_stand(self) -> None:
-        held = (*(self.structure.space_joints or ()), *self.structure.placed_links)
-        resting = {body for one in held for body in (one.lower, one.upper)}
+        connections = (*(self.structure.space_joints or ()), *self.structure.placed_links)
+        resting = {body for connection in connections for body in (connection.lower, connection.upper)}
         loose = next((i for i in self.moving if i not in resting), None)
         if loose is not None:
             raise InputError(
@@ -969,8 +969,8 @@ class AssemblyProgramme:
         angle, programme = azimuth * DEGREE, self.programme
         push = np.array([math.cos(angle), math.sin(angle), 0.0])
         live = programme.body_force(push)
-        found = programme.converged(self.dead, live, programme.capacities)
-        rates = gentlest(programme, self.dead, live, found)
+        solution = programme.converged(self.dead, live, programme.capacities)
+        rates = gentlest(programme, self.dead, live, solution)
         sizes = programme.movements(rates)
         active = np.flatnonzero(sizes.max(axis=1) > TAKES_PART * sizes.max())
         joint = int(min(active, key=lambda k: (round(float(programme.rims[k].origin[2]), 6), k)))
@@ -978,15 +978,16 @@ class AssemblyProgramme:
         joints = self.structure.space_joints or ()
         slides = bool((sizes[:, 1] > TAKES_PART * sizes.max()).any())
         twists = any(
-            one.round and size > TAKES_PART * sizes.max() for one, size in zip(joints, sizes[:, 2], strict=True)
+            space_joint.round and size > TAKES_PART * sizes.max()
+            for space_joint, size in zip(joints, sizes[:, 2], strict=True)
         )
         between = joints[joint].lower, joints[joint].upper
         return DirectionLimit(
             azimuth,
-            found.multiplier + 0.0,
+            solution.multiplier + 0.0,
             joint + 1,
             mode,
-            demand(programme, self.dead, live, found, largest),
+            demand(programme, self.dead, live, solution, largest),
             between=tuple(self.structure.bodies[i].name for i in between),
             moving=tuple(self._who(rates)),
             upper_bound=slides or twists,
@@ -999,7 +1000,7 @@ class AssemblyProgramme:
             for k, corners in enumerate(self.points)
         ]
         most = max(fastest)
-        return [self.structure.bodies[i].name for i, one in zip(self.moving, fastest) if one > TAKES_PART * most]
+        return [self.structure.bodies[i].name for i, speed in zip(self.moving, fastest) if speed > TAKES_PART * most]
 
 
 def _holder(hold: Hold, number: Mapping[int, int]) -> Holder:
@@ -1020,16 +1021,16 @@ def listed(names: Sequence[str]) -> str:
     for name in names:
         column, _, drum = name.rpartition(", ")
         groups.setdefault(column if column and drum.startswith("drum ") else name, []).append(name)
-    alone = [some[0] if len(some) == 1 else "" for some in groups.values()]
-    several = [say("{column} ({count} drums)", column=name, count=len(some)) for name, some in groups.items()]
-    said = [one or many for one, many in zip(alone, several, strict=True)]
-    if len(said) > NAMED:
-        return say("{names} and {count} more", names=joined(", ", said[:NAMED]), count=len(said) - NAMED)
-    return joined(say(" and "), [joined(", ", said[:-1]), said[-1]])
+    alone = [members[0] if len(members) == 1 else "" for members in groups.values()]
+    several = [say("{column} ({count} drums)", column=name, count=len(members)) for name, members in groups.items()]
+    words = [single or many for single, many in zip(alone, several, strict=True)]
+    if len(words) > NAMED:
+        return say("{names} and {count} more", names=joined(", ", words[:NAMED]), count=len(words) - NAMED)
+    return joined(say(" and "), [joined(", ", words[:-1]), words[-1]])
 
 
 #: Directions that are looked at where nobody says which [degrees], and halvings of the multiplier.
-ALL_ROUND, HALVINGS = tuple(float(one) for one in range(0, 360, 15)), 60
+ALL_ROUND, HALVINGS = tuple(float(azimuth) for azimuth in range(0, 360, 15)), 60
 
 #: Most directions of one analysis.
 MOST_DIRECTIONS = 360
@@ -1082,9 +1083,9 @@ class LimitByDirection(NotebookSummary):
         """Several directions in the JSON object of ``stylobate limit``."""
         weak = self.weakest
         directions = [
-            {"azimuth_deg": one.azimuth, "multiplier_g": one.multiplier, "joint": one.joint, "mode": one.mode}
-            | one.summary()
-            for one in self.limits
+            {"azimuth_deg": limit.azimuth, "multiplier_g": limit.multiplier, "joint": limit.joint, "mode": limit.mode}
+            | limit.summary()
+            for limit in self.limits
         ]
         return {
             "collapse_multiplier_g": weak.multiplier,
@@ -1126,26 +1127,26 @@ def limit_directions(
     """
     column = check_kind("structure", structure, Structure).stack
     if azimuths is None and column is not None and column.as_found and column.as_found.in_plane:
-        return LimitByDirection(tuple(_in_plane(column, one, loads) for one in (0.0, 180.0)), "xz")
+        return LimitByDirection(tuple(_in_plane(column, azimuth, loads) for azimuth in (0.0, 180.0)), "xz")
     stands = in_space(structure)
     if azimuths is None and stands is not structure:
         azimuths = (0.0, 180.0)
-    asked = ALL_ROUND if azimuths is None else tuple(float(azimuth) for azimuth in azimuths)
-    if not asked or not np.isfinite(asked).all():
+    directions = ALL_ROUND if azimuths is None else tuple(float(azimuth) for azimuth in azimuths)
+    if not directions or not np.isfinite(directions).all():
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
-    if len(asked) > MOST_DIRECTIONS:
+    if len(directions) > MOST_DIRECTIONS:
         raise InputError(
-            f"there are {len(asked)} directions; allowed are 1 to {MOST_DIRECTIONS}: 0:345:24 is enough, because the "
+            f"there are {len(directions)} directions; allowed are 1 to {MOST_DIRECTIONS}: 0:345:24 is enough, because the "
             "weakest direction between them is looked for.",
             "directions",
-            value=len(asked),
+            value=len(directions),
             allowed=f"1 to {MOST_DIRECTIONS}",
         )
     solve: Solve = AssemblyProgramme(stands).solve if column is None else _of_column(column)
-    found = _all_limits(solve, asked, progress)
-    weakest = found.weakest
+    by_direction = _all_limits(solve, directions, progress)
+    weakest = by_direction.weakest
     if not weakest.links:
-        return found
+        return by_direction
     count = len(weakest.links)
     logging.getLogger("stylobate").info(
         "looking for the most that %d link%s can hold, pushed towards %g degrees.",
@@ -1153,34 +1154,34 @@ def limit_directions(
         "s" * (count > 1),
         weakest.azimuth,
     )
-    told = solve(weakest.azimuth, True)
-    limits = tuple(told if one is weakest else one for one in found.limits)
-    return LimitByDirection(limits, found.dims, found.all_round)
+    detailed_limit = solve(weakest.azimuth, True)
+    limits = tuple(detailed_limit if limit is weakest else limit for limit in by_direction.limits)
+    return LimitByDirection(limits, by_direction.dims, by_direction.all_round)
 
 
 def _of_column(column: Column) -> Solve:
     """Limit of a column by the direction, and whether the most that links hold is looked for."""
     if not column.links:
-        return lambda one, _: limit_in_space(column, one)
+        return lambda azimuth, _: limit_in_space(column, azimuth)
     column.must_carry_on_whole_faces("limit analysis in space")
     programme = SpaceProgramme(column)
-    return lambda one, largest: DirectionLimit(one, *programme.solve(one, largest))
+    return lambda azimuth, largest: DirectionLimit(azimuth, *programme.solve(azimuth, largest))
 
 
-def _all_limits(solve: Solve, asked: Sequence[float], progress: Progress | None = None) -> LimitByDirection:
+def _all_limits(solve: Solve, directions: Sequence[float], progress: Progress | None = None) -> LimitByDirection:
     """Limits of all directions, and of those in which the weakest of all is looked for where they go all round."""
-    turns = np.sort(np.mod(asked, 360.0))
+    turns = np.sort(np.mod(directions, 360.0))
     around = bool((np.diff(turns, append=turns[0] + 360.0) < 180.0).all())
     limits: list[DirectionLimit] = []
-    most = len(asked) * (1 + around)
+    most = len(directions) * (1 + around)
 
     def look(azimuth: float) -> None:
         limits.append(solve(azimuth, False))
         if progress is not None:
             progress(len(limits), most + 1)
 
-    for one in asked:
-        look(one)
+    for azimuth in directions:
+        look(azimuth)
     while len(limits) < most and (weaker := _may_be_weaker(limits)) is not None:
         look(weaker)
     return LimitByDirection(tuple(limits), "xyz", around)
@@ -1190,10 +1191,10 @@ def _may_be_weaker(limits: Sequence[DirectionLimit]) -> float | None:
     """Direction in which a chord between neighbours is nearest [degrees]; None where none is nearer than the least."""
     order = sorted(limits, key=lambda limit: limit.azimuth % 360.0)
     nearest, where = min(limit.multiplier for limit in limits) * (1.0 - CLOSE), None
-    for one, other in zip(order, [*order[1:], order[0]], strict=True):
+    for current, other in zip(order, [*order[1:], order[0]], strict=True):
         start, end = (
             limit.multiplier * np.array((math.cos(limit.azimuth * DEGREE), math.sin(limit.azimuth * DEGREE)))
-            for limit in (one, other)
+            for limit in (current, other)
         )
         chord = end - start
         along = -float(start @ chord)
@@ -1221,9 +1222,9 @@ def weakest_direction(column: Column) -> DirectionLimit:
 
 
 def _in_plane(column: Column, direction: float, loads: dict[str, Any]) -> DirectionLimit:
-    found = limit_analysis(column, direction=direction, **loads)
-    lowest = next(item for item in found.active if item.joint == found.governing_joint)
-    return DirectionLimit(direction, found.multiplier, lowest.joint, lowest.mode.split()[0], found.links)
+    analysis = limit_analysis(column, direction=direction, **loads)
+    lowest = next(item for item in analysis.active if item.joint == analysis.governing_joint)
+    return DirectionLimit(direction, analysis.multiplier, lowest.joint, lowest.mode.split()[0], analysis.links)
 
 
 def limit_in_space(column: Column, azimuth: float = 0.0) -> DirectionLimit:

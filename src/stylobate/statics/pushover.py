@@ -408,10 +408,10 @@ class EquilibriumPath:
                 tried_multiplier = multiplier + share * change[size]
                 residual = self.residual(tried, tried_multiplier)
                 gap, by_position, by_multiplier = constraint(tried, tried_multiplier)
-                found = measure(residual, gap)
-                if np.isfinite(found) and (best is None or found < best[0]):
-                    best = (found, tried, tried_multiplier)
-                if found < (1.0 - 0.1 * share) * error:
+                trial_error = measure(residual, gap)
+                if np.isfinite(trial_error) and (best is None or trial_error < best[0]):
+                    best = (trial_error, tried, tried_multiplier)
+                if trial_error < (1.0 - 0.1 * share) * error:
                     break
                 share *= 0.5
             if best is None:
@@ -440,10 +440,10 @@ class EquilibriumPath:
         def unloaded(position: np.ndarray, multiplier: float) -> tuple[float, np.ndarray, float]:
             return multiplier, np.zeros(position.size), 1.0
 
-        found = self.solve(unloaded, self.pressed(), 0.0)
-        if isinstance(found, str):
-            return found
-        self.accept(*found)
+        outcome = self.solve(unloaded, self.pressed(), 0.0)
+        if isinstance(outcome, str):
+            return outcome
+        self.accept(*outcome)
         return ""
 
     def follow(self, control: str, to: float, *, extend: bool = False) -> PushoverResult:
@@ -479,23 +479,23 @@ class EquilibriumPath:
             if control == "displacement":
                 longest = min(0.005 * width, to / 100.0) if self.geometric else to / 100.0
                 length = math.copysign(min(abs(length), longest, to - abs(moved)), length)
-                found = self.displaced(length)
+                outcome = self.displaced(length)
             else:
                 length = min(length, 0.05)
-                found = self.along(length)
-            if not isinstance(found, str) and abs(found[1] - self.multiplier) > LARGEST_CHANGE:
-                found = f"the multiplier would jump from {self.multiplier:.4g} to {found[1]:.4g} g"
-            if not isinstance(found, str) and cuts < MAX_CUTS // 2:
-                ahead = (self.top(found[0])[0] - self.top(self.position)[0]) * self.rise
-                if abs(found[1] - self.multiplier - ahead) > LARGEST_BEND:
-                    found = "the path bends"
-            if isinstance(found, str):
+                outcome = self.along(length)
+            if not isinstance(outcome, str) and abs(outcome[1] - self.multiplier) > LARGEST_CHANGE:
+                outcome = f"the multiplier would jump from {self.multiplier:.4g} to {outcome[1]:.4g} g"
+            if not isinstance(outcome, str) and cuts < MAX_CUTS // 2:
+                ahead = (self.top(outcome[0])[0] - self.top(self.position)[0]) * self.rise
+                if abs(outcome[1] - self.multiplier - ahead) > LARGEST_BEND:
+                    outcome = "the path bends"
+            if isinstance(outcome, str):
                 cuts += 1
                 length *= 0.5
                 if cuts > MAX_CUTS or abs(length) < shortest:
-                    return self.result(False, f"step {len(self.kept)}: {found}, with the step cut again and again.")
+                    return self.result(False, f"step {len(self.kept)}: {outcome}, with the step cut again and again.")
                 continue
-            self.accept(*found)
+            self.accept(*outcome)
             cuts = 0
             length *= 1.5
 
@@ -578,10 +578,10 @@ class EquilibriumPath:
         ahead, rise = self.tangent()
         step = length / math.hypot(1.0 / self.height, rise / 0.1)
         start = self.moved(self.position, step * ahead, self.eccentricity), multiplier + step * rise
-        found = self.solve(constraint, *start)
-        if not isinstance(found, str) and self.top(found[0])[0] <= top:
+        outcome = self.solve(constraint, *start)
+        if not isinstance(outcome, str) and self.top(outcome[0])[0] <= top:
             return "the path turns back on itself"
-        return found
+        return outcome
 
     def result(self, complete: bool, stop: str) -> PushoverResult:
         """Findings so far."""

@@ -160,7 +160,7 @@ def compare_models(
                     campaign.progress(done, len(models))
     except KeyboardInterrupt:
         raise Stopped(done, len(models), campaign.ledger) from None
-    return Comparison([responses[one] for one in same], names)
+    return Comparison([responses[digest] for digest in same], names)
 
 
 def compare_domains(
@@ -231,7 +231,7 @@ class StepComparison:
 
     def summary(self) -> dict:
         """Counts, as in the JSON object of ``stylobate domain --half-step``."""
-        collapsed = [int((one.verdicts == v.COLLAPSED).sum()) for one in (self.domain, self.halved)]
+        collapsed = [int((domain.verdicts == v.COLLAPSED).sum()) for domain in (self.domain, self.halved)]
         return {
             "comparable": int(self.comparable.sum()),
             "differing": int(self.differing.sum()),
@@ -275,5 +275,5 @@ def halved_step(model: Model, column: Column, motion: Any) -> Model:
     step_for = getattr(model, "step_for", None)
     if step_for is None:
         raise InputError(f"{model.name} chooses its steps by itself; give a time_step to compare it with half of it.")
-    seen = getattr(model, "idealised", lambda one: one)(column)
+    seen = getattr(model, "idealised", lambda structure: structure)(column)
     return dataclasses.replace(model, time_step=0.5 * step_for(seen, motion))

@@ -75,7 +75,7 @@ def sentence_of_suite(s: Mapping[str, Any], kind: str = "column", like: str = "c
     alone, several = say("record"), say("records")
     if records != len(rows):
         of = say(" of {count} records") if records > 1 else say(" of {count} record")
-        alone, several = (one + of.of(count=records) for one in (say("motion"), say("motions")))
+        alone, several = (word + of.of(count=records) for word in (say("motion"), say("motions")))
     grid = say("{low:g} to {high:g} g", low=s["amplitudes_g"][0], high=s["amplitudes_g"][-1])
     known = {
         "the": THE.get(kind, say(kind)),
@@ -120,11 +120,11 @@ def _with_twins(s: Mapping[str, Any], kind: str, like: str, twins: Mapping[str, 
         each = say("{the} or one of {count} like it", the=THE.get(kind, say(kind)), count=number)
         return _none(s, each, s["open_below"])
     shares = [(share, _by(twins, f"critical_{share}_g")) for share in (16, 50, 84)]
-    said = joined(", ", (say("{share} % {by}", share=share, by=by) for share, by in shares if by))
+    share_words = joined(", ", (say("{share} % {by}", share=share, by=by) for share, by in shares if by))
     words = say("Of {all} {like}, this one and {count} like it, the first falls {where}", all=number + 1, like=say(like),
                 count=number, where=_at(s, lowest, s["amplitudes_g"]))  # fmt: skip
-    words += say("; of those like it fall {shares}", shares=said) if said else ""
-    words += say(", whichever way the undecided end") if said and twins.get(v.UNDECIDED) else ""
+    words += say("; of those like it fall {shares}", shares=share_words) if share_words else ""
+    words += say(", whichever way the undecided end") if share_words and twins.get(v.UNDECIDED) else ""
     return joined(" ", [words + ".", _below(s["open_below"])])
 
 
@@ -146,7 +146,7 @@ def _own_amplitudes(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | 
     """At which amplitudes the column itself falls, and at which larger ones it stands again."""
     first, stretches = s["critical_g"], s["alternation"]
     without = [stretch for stretch in stretches if stretch["verdict"] not in (v.STANDS, v.COLLAPSED)]
-    before = sum(one["runs"] for one in without if first is None or one["to_g"] < first)
+    before = sum(stretch["runs"] for stretch in without if first is None or stretch["to_g"] < first)
     if first is None:
         if not twins:
             return _none(s, THE.get(kind, say(kind)), before)
@@ -155,10 +155,10 @@ def _own_amplitudes(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | 
     there = twins and first == s["lowest_collapse_g"]
     who = say("This one collapses {where}") if twins else say("{the:capital} collapses {where}")
     words = say("This one falls there") if there else who.of(the=THE.get(kind, say(kind)), where=_at(s, first))
-    if again := [one for one in after if one["verdict"] == v.STANDS]:
-        said = joined(", ", (_stretch(one) for one in again[:MOST]))
-        said += say(" and {count} times more", count=len(again) - MOST) if len(again) > MOST else ""
-        words += say(", but stands again at {again}: no single amplitude is its limit", again=said)
+    if again := [stretch for stretch in after if stretch["verdict"] == v.STANDS]:
+        ranges = joined(", ", (_stretch(stretch) for stretch in again[:MOST]))
+        ranges += say(" and {count} times more", count=len(again) - MOST) if len(again) > MOST else ""
+        words += say(", but stands again at {again}: no single amplitude is its limit", again=ranges)
     elif after:
         words += say(", and not surely at all larger ones")
     elif first < stretches[-1]["to_g"]:
@@ -179,19 +179,19 @@ def _below(without_verdict: int) -> str:
 def _open(s: Mapping[str, Any], twins: Mapping[str, Any] | None) -> str:
     """Runs without a verdict."""
     cure = s.get("to_decide") or say("a longer tail may decide them")
-    found = [
+    remarks = [
         (s, v.UNDECIDED, say("{some} of {all} runs ended far from rest ({cure})")),
         (s, v.FAILED, say("{some} of {all} runs failed")),
         (twins or {}, v.UNDECIDED, say("{some} runs of those like it ended far from rest ({cure})")),
         (twins or {}, v.FAILED, say("{some} runs of those like it failed")),
     ]
     alone = {2: say("1 run of those like it ended far from rest ({cure})"), 3: say("1 run of those like it failed")}
-    said = [
-        (alone[k] if told[name] == 1 and k in alone else words).of(some=told[name], all=s["runs"], cure=cure)
-        for k, (told, name, words) in enumerate(found)
-        if told.get(name)
+    clauses = [
+        (alone[k] if counts[name] == 1 and k in alone else words).of(some=counts[name], all=s["runs"], cure=cure)
+        for k, (counts, name, words) in enumerate(remarks)
+        if counts.get(name)
     ]
-    return say("{runs}: not counted as collapse.", runs=joined("; ", said)) if said else ""
+    return say("{runs}: not counted as collapse.", runs=joined("; ", clauses)) if clauses else ""
 
 
 def _at(s: Mapping[str, Any], amplitude: float, of_twins: Sequence[float] = ()) -> str:
@@ -203,8 +203,10 @@ def _at(s: Mapping[str, Any], amplitude: float, of_twins: Sequence[float] = ()) 
     if s["lowest_collapse_factor"] is not None:
         factor = s["lowest_collapse_factor"] / s["lowest_collapse_g"] * amplitude
         words += say(", {factor:.3g} times the record", factor=factor)
-    looked_at = [one[end] for one in s["alternation"] for end in ("from_g", "to_g")]
-    own, theirs = (max((one for one in some if one < amplitude), default=None) for some in (looked_at, of_twins))
+    looked_at = [stretch[end] for stretch in s["alternation"] for end in ("from_g", "to_g")]
+    own, theirs = (
+        max((level for level in levels if level < amplitude), default=None) for levels in (looked_at, of_twins)
+    )
     own = own if amplitude == s["critical_g"] else theirs
     if own is None:
         return say("already {where}, the lowest amplitude looked at", where=words)
@@ -215,9 +217,9 @@ def _at(s: Mapping[str, Any], amplitude: float, of_twins: Sequence[float] = ()) 
     return words + next_
 
 
-def _stretch(one: Mapping[str, Any]) -> str:
-    alike = f"{one['from_g']:.4g}" == f"{one['to_g']:.4g}"
-    return say("{s[from_g]:.4g} g", s=one) if alike else say("{s[from_g]:.4g} to {s[to_g]:.4g} g", s=one)
+def _stretch(stretch: Mapping[str, Any]) -> str:
+    alike = f"{stretch['from_g']:.4g}" == f"{stretch['to_g']:.4g}"
+    return say("{s[from_g]:.4g} g", s=stretch) if alike else say("{s[from_g]:.4g} to {s[to_g]:.4g} g", s=stretch)
 
 
 def _range(s: Mapping[str, Any]) -> str:
@@ -260,7 +262,7 @@ class CriticalPopulation(NotebookSummary):
     @property
     def counts(self) -> dict[str, np.ndarray]:
         """Number of twins of each verdict at each amplitude, under the names of tables."""
-        return {f"twins_{one}": (self.verdicts == one).sum(axis=0) for one in v.COMPUTED}
+        return {f"twins_{verdict}": (self.verdicts == verdict).sum(axis=0) for verdict in v.COMPUTED}
 
     @property
     def probability(self) -> np.ndarray:
@@ -302,27 +304,27 @@ class CriticalPopulation(NotebookSummary):
     @property
     def percentiles(self) -> dict[str, float]:
         """Amplitudes by which 16, 50 and 84 % of the twins have first collapsed [g]; infinite beyond the grid."""
-        return {name: one.high / g for name, one in self._quantiles.items()}
+        return {name: capacity.high / g for name, capacity in self._quantiles.items()}
 
     @property
     def least(self) -> dict[str, float]:
         """The same if every undecided or failed run were a collapse [g]: the amplitude above the largest surely stood."""
         above = np.append(self.amplitudes, math.inf)
-        found = {
-            name: above[np.searchsorted(self.amplitudes, one.low, side="right")]
-            for name, one in self._quantiles.items()
+        amplitudes = {
+            name: above[np.searchsorted(self.amplitudes, capacity.low, side="right")]
+            for name, capacity in self._quantiles.items()
         }
-        return {name.replace("_g", "_least_g"): float(value) / g for name, value in found.items()}
+        return {name.replace("_g", "_least_g"): float(value) / g for name, value in amplitudes.items()}
 
     @property
     def bounds(self) -> dict[str, str]:
         """Of which of these only a bound is known, as nobody stood or nobody fell below it, by name."""
-        return bounds({name: (one, g) for name, one in self._quantiles.items()})
+        return bounds({name: (capacity, g) for name, capacity in self._quantiles.items()})
 
     @property
     def _quantiles(self) -> dict[str, Capacity]:
-        found = zip(SHARES, quantiles(self.capacities), strict=True)
-        return {f"critical_{100 * share:.0f}_g": one for share, one in found}
+        pairs = zip(SHARES, quantiles(self.capacities), strict=True)
+        return {f"critical_{100 * share:.0f}_g": capacity for share, capacity in pairs}
 
     @property
     def table(self) -> pandas.DataFrame:
@@ -331,7 +333,10 @@ class CriticalPopulation(NotebookSummary):
 
         low, high = self.interval
         rows = {"amplitude_g": self.amplitudes / g, "factor": self.factors}
-        rows |= {one: (self.verdicts == one).sum(axis=0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)}
+        rows |= {
+            verdict: (self.verdicts == verdict).sum(axis=0)
+            for verdict in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)
+        }
         rows |= {"collapse_probability": self.probability, "collapse_interval_low": low, "collapse_interval_high": high}
         if self.drawn.groups:
             rows |= dict(zip(OF_COLUMNS, self.interval_of_columns, strict=True))
@@ -347,7 +352,7 @@ class CriticalPopulation(NotebookSummary):
             "collapse_probability": self.probability.tolist(),
             "collapse_interval_low": low.tolist(),
             "collapse_interval_high": high.tolist(),
-            **{name: one.tolist() for name, one in zip(OF_COLUMNS, of_columns)},
+            **{name: values.tolist() for name, values in zip(OF_COLUMNS, of_columns)},
             **{name: count.tolist() for name, count in self.counts.items()},
             "replicates": len(self.verdicts),
             "certainty": {
@@ -356,7 +361,7 @@ class CriticalPopulation(NotebookSummary):
                 **self.percentiles,
                 **self.least,
                 "bounds": self.bounds,
-                **{one: total[one] for one in v.COMPUTED},
+                **{verdict: total[verdict] for verdict in v.COMPUTED},
             },
         }
 
@@ -440,7 +445,7 @@ class CriticalAmplitude(NotebookSummary):
     def lowest_capacity(self) -> Capacity:
         """Between which amplitudes the first collapse of the column or one of its twins lies [m/s²]."""
         each = [self.capacity, *([] if self.population is None else self.population.capacities)]
-        return Capacity(min(one.low for one in each), min(one.high for one in each))
+        return Capacity(min(capacity.low for capacity in each), min(capacity.high for capacity in each))
 
     @property
     def lowest(self) -> float | None:
@@ -456,8 +461,8 @@ class CriticalAmplitude(NotebookSummary):
         """Number of runs of the column and its twins without a verdict below an amplitude [m/s²]."""
         each = [(self.amplitudes, np.array(self.verdicts))]
         each += [] if self.population is None else [(self.population.amplitudes, self.population.verdicts)]
-        open_ = [~np.isin(one[..., a < below * (1.0 - CLOSE)], (v.STANDS, v.COLLAPSED)) for a, one in each]
-        return sum(int(one.sum()) for one in open_)
+        open_ = [~np.isin(verdicts[..., a < below * (1.0 - CLOSE)], (v.STANDS, v.COLLAPSED)) for a, verdicts in each]
+        return sum(int(mask.sum()) for mask in open_)
 
     @property
     def lowest_factor(self) -> float | None:
@@ -485,15 +490,15 @@ class CriticalAmplitude(NotebookSummary):
         if self.nominal is None or self.nominal not in self.amplitudes:
             return None
         verdict = self.verdicts[int(np.flatnonzero(self.amplitudes == self.nominal)[0])]
-        found: dict[str, Any] = {"amplitude_g": self.nominal / g, "verdict": verdict}
+        effect: dict[str, Any] = {"amplitude_g": self.nominal / g, "verdict": verdict}
         if self.population is not None:
             likes = self.population
             at = likes.amplitudes == self.nominal
             names = "collapse_probability", "collapse_interval_low", "collapse_interval_high"
             shares = zip(names, (likes.probability, *likes.interval), strict=True)
-            found |= {name: float(one[at][0]) for name, one in shares if at.any()}
-            found |= {name: int(count[at].sum()) for name, count in likes.counts.items()}
-        return found
+            effect |= {name: float(values[at][0]) for name, values in shares if at.any()}
+            effect |= {name: int(count[at].sum()) for name, count in likes.counts.items()}
+        return effect
 
     @property
     def counts(self) -> dict[str, int]:
@@ -521,15 +526,15 @@ class CriticalAmplitude(NotebookSummary):
 
         return pandas.DataFrame(
             [
-                {"from_g": low / g, "to_g": high / g, "verdict": one, "runs": runs}
-                for low, high, one, runs in v.alternations(self.amplitudes, self.verdicts)
+                {"from_g": low / g, "to_g": high / g, "verdict": verdict, "runs": runs}
+                for low, high, verdict, runs in v.alternations(self.amplitudes, self.verdicts)
             ]
         )
 
     def summary(self) -> dict:
         """The JSON object of ``stylobate critical``."""
         counts = self.counts
-        found = {
+        summary = {
             "critical_g": _in_g(self.critical),
             "first_collapse_g": _in_g(self.critical),
             "critical_factor": self.critical_factor,
@@ -551,7 +556,7 @@ class CriticalAmplitude(NotebookSummary):
             "to_decide": self.cure if self.undecided else "",
             **({} if self.population is None else self.population.summary()),
         }
-        return found | {"sentence": sentence(found, self.column.kind, self.column.like)}
+        return summary | {"sentence": sentence(summary, self.column.kind, self.column.like)}
 
 
 def critical_amplitude(
@@ -635,8 +640,8 @@ def sweep(
             raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
     twins = () if drawn is None else drawn.columns
     spread = grid[np.unique(np.linspace(0, len(grid) - 1, twin_amplitudes or len(grid)).round().astype(int))]
-    own = [_with_own(grid, one) for one in shaken]
-    theirs = [_with_own(spread, one) for one in shaken]
+    own = [_with_own(grid, shaking) for shaking in shaken]
+    theirs = [_with_own(spread, shaking) for shaking in shaken]
     counts = np.array([len(a) + len(twins) * len(b) for a, b in zip(own, theirs, strict=True)])
     ends = np.cumsum(counts)
 
@@ -658,12 +663,12 @@ def sweep(
     request = Request.of(cases, Hasher(model, campaign.options), campaign.quiet)
     finished = run_all(request, campaign)
     results, doubt, cure = [], caveat([column], model), to_decide(column, model.parameters(), campaign.tail)
-    for one, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):
-        rows, record = finished[int(end - count) : int(end)], one.as_is if one.recorded else None
+    for shaking, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):
+        rows, record = finished[int(end - count) : int(end)], shaking.as_is if shaking.recorded else None
         known = rows[: len(amplitudes)], rows[len(amplitudes) :]
         population = None if drawn is None else CriticalPopulation.of(spread, known[1], drawn, record)
-        told = known[0], 0.0, record, population, doubt, cure
-        results.append(CriticalAmplitude(column, one.motion, model.name, amplitudes, *told))
+        details = known[0], 0.0, record, population, doubt, cure
+        results.append(CriticalAmplitude(column, shaking.motion, model.name, amplitudes, *details))
     return results, time.perf_counter() - started
 
 
@@ -739,7 +744,7 @@ class CriticalSuite(NotebookSummary):
     def worst(self) -> CriticalAmplitude | None:
         """The motion that collapses the column, or one of its twins, at the smallest factor; None when none does."""
         fell = [result for result in self.results if result.lowest_factor is not None]
-        return min(fell, key=lambda one: one.lowest_factor or math.inf, default=None)
+        return min(fell, key=lambda result: result.lowest_factor or math.inf, default=None)
 
     @property
     def open_below(self) -> int:
@@ -750,23 +755,23 @@ class CriticalSuite(NotebookSummary):
     @property
     def compass(self) -> Compass:
         """Factor at which the column, or one of its twins, first collapses, by direction; the smallest of all records."""
-        found: dict[float, float] = {}
+        factors: dict[float, float] = {}
         for result in self.results:
             at = bearing(direction_of(result.motion))
             if at is not None:
                 factor = math.inf if result.lowest_factor is None else result.lowest_factor
-                found[at] = min(factor, found.get(at, math.inf))
-        bearings = sorted(found)
+                factors[at] = min(factor, factors.get(at, math.inf))
+        bearings = sorted(factors)
         like = "" if self.results[0].population is None else " or one like it"
         name = f"lowest factor that collapses it{like} [-]"
         most = None if self.worst is None else bearing(direction_of(self.worst.motion))
-        return Compass(np.array(bearings), np.array([found[at] for at in bearings]), name, worst=most)
+        return Compass(np.array(bearings), np.array([factors[at] for at in bearings]), name, worst=most)
 
     @property
     def all_collapse_above(self) -> float | None:
         """Smallest amplitude from which on every record collapses the column [m/s²], or None."""
-        found = [result.all_collapse_above for result in self.results]
-        return None if None in found else max(one for one in found if one is not None)
+        amplitudes = [result.all_collapse_above for result in self.results]
+        return None if None in amplitudes else max(amplitude for amplitude in amplitudes if amplitude is not None)
 
     @property
     def share_collapsed(self) -> np.ndarray:
@@ -783,7 +788,7 @@ class CriticalSuite(NotebookSummary):
 
         rows = [_row(result) for result in self.results]
         for row in rows:
-            row["bounds"] = "; ".join(f"{name} {one}" for name, one in row["bounds"].items())
+            row["bounds"] = "; ".join(f"{name} {bound}" for name, bound in row["bounds"].items())
         return pandas.DataFrame(rows)
 
     @property
@@ -809,12 +814,12 @@ class CriticalSuite(NotebookSummary):
             None if self.worst is None else _row(self.worst),
         )
         lowest = min((result.lowest for result in self.results if result.lowest is not None), default=None)
-        found = {
+        summary = {
             "critical_g": None if critical is None else critical / g,
             "first_collapse_g": None if critical is None else critical / g,
             "all_collapse_above_g": None if above is None else above / g,
             "runs": sum(len(result.rows) for result in self.results),
-            **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
+            **{verdict: counts[verdict] for verdict in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
             "critical_factor": self.critical_factor,
             "lowest_collapse_g": None if lowest is None else lowest / g,
             "lowest_collapse_factor": None if worst is None else worst["lowest_collapse_factor"],
@@ -830,7 +835,7 @@ class CriticalSuite(NotebookSummary):
             "to_decide": self.results[0].cure if any(result.undecided for result in self.results) else "",
         }
         stands = self.results[0].column
-        return found | {"sentence": sentence_of_suite(found, stands.kind, stands.like)}
+        return summary | {"sentence": sentence_of_suite(summary, stands.kind, stands.like)}
 
 
 def critical_suite(

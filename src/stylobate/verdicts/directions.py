@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 def direction_of(motion: Motion) -> dict[str, Any]:
     """Azimuth of x [degrees], or None, and whether the horizontal components are reversed; as columns of tables."""
-    asked = motion.metadata.get("direction") or {}
+    direction = motion.metadata.get("direction") or {}
     known = (motion.metadata.get("azimuths") or {}).get("x")
-    return {"azimuth_deg": asked.get("azimuth", known), "reversed": bool(asked.get("reversed", False))}
+    return {"azimuth_deg": direction.get("azimuth", known), "reversed": bool(direction.get("reversed", False))}
 
 
 def bearing(row: Mapping[str, Any]) -> float | None:
@@ -54,8 +54,8 @@ def worst(rows: Sequence[Mapping[str, Any]], compass: Compass | None = None) -> 
     """The row whose motion does most harm, of those from the worst direction of a compass; None where all failed."""
     if compass is not None and compass.worst is not None:
         rows = [row for row in rows if bearing(row) == compass.worst]
-    found = max(rows, key=harm, default=None)
-    return None if found is None or v.verdict(found) == v.FAILED else found
+    worst_row = max(rows, key=harm, default=None)
+    return None if worst_row is None or v.verdict(worst_row) == v.FAILED else worst_row
 
 
 #: Columns of the table of several runs.
@@ -135,12 +135,12 @@ class Compass:
         return words.of(count=count, every=every, cure=self.cure)
 
 
-def harm_words(found: Mapping[str, Any], compass: Compass) -> str:
+def harm_words(row: Mapping[str, Any], compass: Compass) -> str:
     """Which direction and motion do most harm, in a sentence.
 
     Parameters
     ----------
-    found : mapping
+    row : mapping
         Of :func:`worst`, with that compass.
     compass : Compass
     """
@@ -150,11 +150,11 @@ def harm_words(found: Mapping[str, Any], compass: Compass) -> str:
         words = say("No direction surely collapses it; it moves most turned to {at:g}°, under {motion}.")
     elif compass.none_collapses:
         words = say("No direction collapses it; it moves most turned to {at:g}°, under {motion}.")
-    elif compass.undecided and found["collapsed"]:
+    elif compass.undecided and row["collapsed"]:
         words = say("Most harm: turned to {at:g}°, {motion}, which surely collapses.")
     else:
         words = say("Most harm: turned to {at:g}°, {motion}.")
-    return joined(" ", (words.of(at=compass.worst, motion=found["motion"]), compass.may_collapse))
+    return joined(" ", (words.of(at=compass.worst, motion=row["motion"]), compass.may_collapse))
 
 
 def compass_of_shares(rows: Sequence[Mapping[str, Any]], cure: str = "") -> Compass:
@@ -163,13 +163,13 @@ def compass_of_shares(rows: Sequence[Mapping[str, Any]], cure: str = "") -> Comp
     A direction whose runs are all undecided has no share; it competes for the worst one by what its runs do, as any other.
     """
     named = [(bearing(row), v.verdict(row), str(row["record"])) for row in rows]
-    bearings = sorted({one for one, *_ in named if one is not None})
+    bearings = sorted({azimuth for azimuth, *_ in named if azimuth is not None})
     values = []
     for at in bearings:
-        verdicts, records = zip(*(rest for one, *rest in named if one == at))
-        (found,) = shares({"": codes_of(np.array(verdicts))}, records)
-        decided = found.exceeded + found.not_exceeded
-        values.append((found.low if decided else math.nan, *found.interval))
+        verdicts, records = zip(*(rest for azimuth, *rest in named if azimuth == at))
+        (bearing_share,) = shares({"": codes_of(np.array(verdicts))}, records)
+        decided = bearing_share.exceeded + bearing_share.not_exceeded
+        values.append((bearing_share.low if decided else math.nan, *bearing_share.interval))
     share, low, high = np.array(values).reshape(-1, 3).T
     by_bearing = {at: [row for row in rows if bearing(row) == at] for at in bearings}
     order = {
@@ -196,15 +196,15 @@ def compass_of_chances(rows: Sequence[Mapping[str, Any]], cure: str = "") -> Com
     if all(row.get("collapse_probability") is not None for row in sound):
         names = ["collapse_probability", "collapse_interval_low", "collapse_interval_high"]
         label = "probability of collapse [-]"
-    found: dict[float, list[float]] = {}
+    largest: dict[float, list[float]] = {}
     for row in sound:
         values = [math.inf if len(names) == 1 and row["collapsed"] else abs(row[name]) for name in names]
         at = float(bearing(row) or 0.0)
-        if at not in found or values[0] > found[at][0]:
-            found[at] = values
-    columns = np.array([found[at] for at in sorted(found)]).reshape(-1, len(names)).T
+        if at not in largest or values[0] > largest[at][0]:
+            largest[at] = values
+    columns = np.array([largest[at] for at in sorted(largest)]).reshape(-1, len(names)).T
     low, high = (columns[1], columns[2]) if len(names) == 3 else (None, None)
     first = worst(sound)
     undecided = tuple(sorted({float(bearing(row) or 0.0) for row in sound if may_collapse(row)}))
     most = None if first is None else bearing(first)
-    return Compass(np.array(sorted(found)), columns[0], label, low, high, most, "collapse", undecided, cure)
+    return Compass(np.array(sorted(largest)), columns[0], label, low, high, most, "collapse", undecided, cure)

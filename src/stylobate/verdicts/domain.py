@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 
 #: Measures that the file of a domain has as grids: all but what says how a run was computed.
-_GRIDS = [one for one in measures_of(Measures) if one.of != STEPS]
+_GRIDS = [measure for measure in measures_of(Measures) if measure.of != STEPS]
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +123,7 @@ class Domain(NotebookSummary):
         counts = self.counts
         return {
             "cells": len(self.rows),
-            **{one: counts[one] for one in v.COMPUTED},
+            **{verdict: counts[verdict] for verdict in v.COMPUTED},
             "not_run": counts[v.NOT_RUN],
             "runs": len(self.rows) - counts[v.NOT_RUN],
             "uplift_g": self.column.uplift_acceleration / g,
@@ -150,19 +150,23 @@ class Domain(NotebookSummary):
             flags[verdicts == verdict] = flag
         variables: dict[str, Any] = {"verdict": (dims, flags, v.FLAGS)}
         outcomes = np.full(len(self.rows), -1, dtype=np.int8)
-        for one in Outcome:
-            outcomes[self.rows.are("outcome", one.label)] = int(one)
+        for member in Outcome:
+            outcomes[self.rows.are("outcome", member.label)] = int(member)
         variables["outcome"] = (
             dims,
             outcomes.reshape(self.shape),
             {
                 "long_name": "outcome of the run, -1 where it was not made",
-                "flag_values": np.array([int(one) for one in Outcome], dtype=np.int8),
-                "flag_meanings": " ".join(one.label for one in Outcome),
+                "flag_values": np.array([int(outcome) for outcome in Outcome], dtype=np.int8),
+                "flag_meanings": " ".join(outcome.label for outcome in Outcome),
             },
         )
-        for one in _GRIDS:
-            variables[one.key] = (dims, self.grid(one.key), {"units": one.unit or "1", "long_name": one.meaning})
+        for member in _GRIDS:
+            variables[member.key] = (
+                dims,
+                self.grid(member.key),
+                {"units": member.unit or "1", "long_name": member.meaning},
+            )
         variables["column"] = ((), json.dumps(self.column.to_dict()))
         variables["provenance"] = ((), json.dumps(self.provenance, default=str))
         attributes = {
@@ -192,7 +196,7 @@ class Domain(NotebookSummary):
         try:
             verdicts = np.array(v.VERDICTS, dtype=object)[data["verdict"].values.ravel()]
             outcomes = data["outcome"].values.ravel()
-            grids = [(one, data[one.key].values.ravel()) for one in _GRIDS if one.key in data]
+            grids = [(measure, data[measure.key].values.ravel()) for measure in _GRIDS if measure.key in data]
             column = column_from_dict(json.loads(str(data["column"].values)))
             provenance = json.loads(str(data["provenance"].values))
             axes = data["frequency"].values, data["amplitude"].values
@@ -204,7 +208,7 @@ class Domain(NotebookSummary):
                     "outcome": Outcome(int(outcome)).label,
                     "collapsed": Outcome(int(outcome)) is Outcome.COLLAPSED,
                     "decided": verdict in (v.STANDS, v.COLLAPSED),
-                    **{one.key: one.plain(grid[i]) for one, grid in grids},
+                    **{measure.key: measure.plain(grid[i]) for measure, grid in grids},
                 }
                 for i, (verdict, outcome) in enumerate(zip(verdicts, outcomes, strict=True))
             )
@@ -305,8 +309,8 @@ def cell_edges(centres: np.ndarray) -> np.ndarray:
 
 
 def _boundary(find: Any, domain: Domain) -> np.ndarray:
-    found = [find(domain.amplitudes, line) for line in domain.verdicts]
-    return np.array([np.nan if one is None else one for one in found])
+    boundary = [find(domain.amplitudes, line) for line in domain.verdicts]
+    return np.array([np.nan if amplitude is None else amplitude for amplitude in boundary])
 
 
 #: Kinds of cells, from the verdicts of their runs.
@@ -397,7 +401,7 @@ class CollapseProbability(NotebookSummary):
         All stand; all collapse; some collapse (and others stand or are undecided); no verdict: none collapses and some
         are undecided, or more than half are undecided and not both verdicts occur, or all failed.
         """
-        collapsed, stands, others = (self.count(one) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED))
+        collapsed, stands, others = (self.count(verdict) for verdict in (v.COLLAPSED, v.STANDS, v.UNDECIDED))
         return np.select(
             [
                 (collapsed > 0) & (stands > 0),
@@ -483,7 +487,7 @@ class CollapseProbability(NotebookSummary):
             "band_open_frequencies": int(self.band_is_open.sum()),
             "amplitude_step_g": float(np.diff(self.amplitudes).max() / g) if len(self.amplitudes) > 1 else None,
             "runs": int(self.codes.size - runs[v.NOT_RUN]),
-            **{one: runs[one] for one in v.COMPUTED},
+            **{verdict: runs[verdict] for verdict in v.COMPUTED},
             "not_run": runs[v.NOT_RUN],
             "uplift_g": self.column.uplift_acceleration / g,
             "wall_s": self.wall_time,
@@ -669,14 +673,14 @@ def collapse_probability(
         "version": __version__,
     }
     shape = (len(f), len(a), number)
-    found = CollapseProbability(
+    probability = CollapseProbability(
         column, model.name, f, a, codes.reshape(shape), peaks.reshape(shape), twins.scatter, shaking, seed, confidence,
         time.perf_counter() - started, provenance,
     )  # fmt: skip
-    if out is not None and found.complete:
-        found.save(Path(out) / "probability.nc")
-        found.save(Path(out) / "probability.csv")
-    return found
+    if out is not None and probability.complete:
+        probability.save(Path(out) / "probability.nc")
+        probability.save(Path(out) / "probability.csv")
+    return probability
 
 
 class _Cases(Sequence):
@@ -692,5 +696,5 @@ class _Cases(Sequence):
     def __getitem__(self, index: Any) -> Case:
         if not 0 <= index < len(self):
             raise IndexError(index)
-        i, j, k = (int(one) for one in np.unravel_index(index, self.shape))
+        i, j, k = (int(position) for position in np.unravel_index(index, self.shape))
         return Case(self.columns[k], self.motions.motion(i, self.amplitudes[j], k))

@@ -22,10 +22,10 @@ from .verdict import share_under_another_law
 EXCEEDED, NOT_EXCEEDED, OPEN, FAILED = 1, 0, -1, -2
 
 #: Measures whose levels are limit states, by their names in tables.
-LEVELLED = {one.key: one for one in MEASURES if one.unit in ("m", "rad")}
+LEVELLED = {measure.key: measure for measure in MEASURES if measure.unit in ("m", "rad")}
 
 #: Short names of some of them. ``top`` and ``drums`` are those of Psycharis, Fragiadakis and Stefanou (2013).
-SHORT = {one.short: one.key for one in MEASURES if one.short}
+SHORT = {measure.short: measure.key for measure in MEASURES if measure.short}
 
 #: The levels of Psycharis, Fragiadakis and Stefanou (2013): at the top 0.15, 0.35 and 1 base diameters, between drums what
 #: stays of a slip, 0.005, 0.01 and 0.02 of a joint's diameter.
@@ -140,21 +140,21 @@ def parse_state(text: str) -> LimitState:
     """
     if text.strip().lower() in ("collapse", "collapsed"):
         return LimitState()
-    found = _SPEC.fullmatch(text.strip())
+    match = _SPEC.fullmatch(text.strip())
     try:
-        level = float(found["level"]) if found else math.nan
+        level = float(match["level"]) if match else math.nan
     except ValueError:
         level = math.nan
-    if found is None or not 0.0 < level < 1e6:
+    if match is None or not 0.0 < level < 1e6:
         raise InputError(
             f"state {text!r} cannot be read; allowed is collapse, a level in base diameters such as {', '.join(LEVELS)}, "
             "or a measure of runs and its level, such as peak_rotation_rad:0.05.",
             "state",
         )
-    if found["what"] in SHORT and found["unit"] is None:
+    if match["what"] in SHORT and match["unit"] is None:
         unit = f"write {text.strip()}d for base diameters, or {text.strip()}m"
         raise InputError(f"state {text!r} has no unit; {unit}.", "state")
-    return LimitState(SHORT.get(found["what"], found["what"]), level, found["unit"] == "d")
+    return LimitState(SHORT.get(match["what"], match["what"]), level, match["unit"] == "d")
 
 
 #: Intensities that differ by less are one [-].
@@ -266,17 +266,17 @@ def shares(
     names = (
         np.arange(len(same)) if records is None else np.unique(np.asarray(records, dtype=str), return_inverse=True)[1]
     )
-    owner, found = names[same], []
+    owner, result = names[same], []
     for label, mine in codes.items():
         exceeded, not_exceeded, undecided = (
-            int(np.count_nonzero(mine[same] == one)) for one in (EXCEEDED, NOT_EXCEEDED, OPEN)
+            int(np.count_nonzero(mine[same] == code)) for code in (EXCEEDED, NOT_EXCEEDED, OPEN)
         )
         failed = int(np.count_nonzero(mine == FAILED))
         number, interval = len(np.unique(owner)), _interval(mine[same], owner)
         if laws is not None:
             interval = _with_laws(interval, mine[same], laws[same])
-        found.append(Share(str(label), int(same.sum()), exceeded, not_exceeded, undecided, failed, number, interval))
-    return found
+        result.append(Share(str(label), int(same.sum()), exceeded, not_exceeded, undecided, failed, number, interval))
+    return result
 
 
 def _interval(codes: np.ndarray, owner: np.ndarray) -> tuple[float, float]:
@@ -285,7 +285,7 @@ def _interval(codes: np.ndarray, owner: np.ndarray) -> tuple[float, float]:
     there = runs > 0
     hits = [codes == EXCEEDED, np.isin(codes, (EXCEEDED, OPEN))]
     passed = [float((np.bincount(owner, hit, len(runs))[there] / runs[there]).sum()) for hit in hits]
-    low, high = (float(v.wilson_interval(one, there.sum())[k]) for k, one in enumerate(passed))
+    low, high = (float(v.wilson_interval(total, there.sum())[k]) for k, total in enumerate(passed))
     return (min(low, float(hits[0].mean())), max(high, float(hits[1].mean()))) if len(codes) else (low, high)
 
 
@@ -293,8 +293,8 @@ def _with_laws(interval: tuple[float, float], codes: np.ndarray, laws: np.ndarra
     """Limits that hold those under one more law of the joints, none and all of the undecided counted in."""
     law = np.unique(laws, return_inverse=True)[1]
     number = np.bincount(law)
-    some, most = (np.bincount(law, np.isin(codes, kind)) for kind in ((EXCEEDED,), (EXCEEDED, OPEN)))
-    low, high = share_under_another_law(some, number)[0], share_under_another_law(most, number)[1]
+    least, most = (np.bincount(law, np.isin(codes, kind)) for kind in ((EXCEEDED,), (EXCEEDED, OPEN)))
+    low, high = share_under_another_law(least, number)[0], share_under_another_law(most, number)[1]
     return min(interval[0], low), max(interval[1], high)
 
 

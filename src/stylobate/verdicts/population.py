@@ -105,12 +105,12 @@ class BodyOverTwins:
         if not len(self.ends):
             return (math.nan,) * len(REGIONS)
         far = np.linalg.norm(self.ends - self.middle, axis=1)
-        return tuple(float(one) for one in np.quantile(far, REGIONS, method="inverted_cdf"))
+        return tuple(float(radius) for radius in np.quantile(far, REGIONS, method="inverted_cdf"))
 
     def row(self, confidence: float) -> dict[str, Any]:
         """Under the names of the JSON object of ``stylobate run`` and of ``bodies.csv``."""
         low, high = self.interval(confidence)
-        radii = {f"region_{100 * share:.0f}_m": one for share, one in zip(REGIONS, self.radii, strict=True)}
+        radii = {f"region_{100 * share:.0f}_m": radius for share, radius in zip(REGIONS, self.radii, strict=True)}
         return {
             "fell": self.fell,
             "stood": self.stood,
@@ -134,15 +134,15 @@ def bodies_over_twins(rows: Sequence[Mapping[str, Any]]) -> tuple[BodyOverTwins,
         One per twin, with the keys of ``Measures.row()``.
     """
     sound = [(row["at_rest"], row["bodies"]) for row in rows if row.get("bodies") and v.verdict(row) != v.FAILED]
-    found = []
+    over_twins = []
     for name in sound[0][1] if sound else ():
         mine = [(still, bodies[name]) for still, bodies in sound]
-        fell = sum(one["fell_at_s"] is not None for _, one in mine)
-        open_ = sum(one["fell_at_s"] is None and not still for still, one in mine)
-        ends = np.array([one["displacement_at_end_m"][:2] for _, one in mine])
+        fell = sum(body["fell_at_s"] is not None for _, body in mine)
+        open_ = sum(body["fell_at_s"] is None and not still for still, body in mine)
+        ends = np.array([body["displacement_at_end_m"][:2] for _, body in mine])
         still = sum(still for still, _ in mine)
-        found.append(BodyOverTwins(name, fell, len(mine) - fell - open_, open_, still, ends))
-    return tuple(found)
+        over_twins.append(BodyOverTwins(name, fell, len(mine) - fell - open_, open_, still, ends))
+    return tuple(over_twins)
 
 
 def not_yet_debris(bodies: Sequence[BodyOverTwins]) -> str:
@@ -162,17 +162,17 @@ def only_as_seen(runs: int) -> str:
 
 def not_safe(bodies: Sequence[BodyOverTwins]) -> list[BodyOverTwins]:
     """Bodies that fell in some twin or are undecided in some, those that fell most often first."""
-    return sorted((one for one in bodies if one.fell or one.open), key=lambda one: (-one.fell, -one.open))
+    return sorted((body for body in bodies if body.fell or body.open), key=lambda body: (-body.fell, -body.open))
 
 
 def words_of_bodies(bodies: Sequence[BodyOverTwins], most: int = 6) -> str:
     """In how many twins each body fell or is undecided, in up to two sentences; empty where all surely stand."""
     listed = not_safe(bodies)
     both = say("{body.name} in {body.fell} ({body.open} undecided)")
-    fallen = [(both if one.open else say("{body.name} in {body.fell}")).of(body=one) for one in listed if one.fell]
-    open_ = [say("{name} in {count}", name=one.name, count=one.open) for one in listed if not one.fell]
-    told = ((say("What fell: {bodies}."), fallen), (say("Fell in none, but undecided: {bodies}."), open_))
-    return joined(" ", (title.of(bodies=_first_of(some, most)) for title, some in told if some))
+    fallen = [(both if body.open else say("{body.name} in {body.fell}")).of(body=body) for body in listed if body.fell]
+    open_ = [say("{name} in {count}", name=body.name, count=body.open) for body in listed if not body.fell]
+    groups = ((say("What fell: {bodies}."), fallen), (say("Fell in none, but undecided: {bodies}."), open_))
+    return joined(" ", (title.of(bodies=_first_of(phrases, most)) for title, phrases in groups if phrases))
 
 
 def _first_of(names: Sequence[str], most: int) -> str:
@@ -247,7 +247,7 @@ class Population:
 
         None where a verdict is missing, or a percentile lies among the collapses.
         """
-        named = (one.key for one in SPREAD)
+        named = (measure.key for measure in SPREAD)
         return {name: self._percentiles(name) for name in named if not self.rows or name in self.rows[0]}
 
     @cached_property
@@ -289,15 +289,15 @@ class Population:
         trials = number - counts[v.FAILED]
         if trials == 0:
             return f"None of {number} {self.like} like this could be computed."
-        said = f"Collapses in {counts[v.COLLAPSED]} of {trials} {self.like} like this"
-        said += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)}"
+        text = f"Collapses in {counts[v.COLLAPSED]} of {trials} {self.like} like this"
+        text += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)}"
         if self.drawn.groups:
-            said += f"; {percents(*self.interval_of_columns)} by the column alone, the rest by the law of its joints"
-        said += ")"
+            text += f"; {percents(*self.interval_of_columns)} by the column alone, the rest by the law of its joints"
+        text += ")"
         if counts[v.UNDECIDED]:
-            said += f"; {_not_fallen(counts)}{f': {self.to_decide}' if self.to_decide else ''}"
-        said += f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else "."
-        return f"{said} {words_of_bodies(self.bodies)}".rstrip()
+            text += f"; {_not_fallen(counts)}{f': {self.to_decide}' if self.to_decide else ''}"
+        text += f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else "."
+        return f"{text} {words_of_bodies(self.bodies)}".rstrip()
 
     @property
     def table(self) -> pandas.DataFrame:
@@ -305,14 +305,14 @@ class Population:
         import pandas
 
         named = zip(self.drawn.columns, self.verdicts, self.rows, strict=True)
-        return pandas.DataFrame([{"column": twin.name, "verdict": one, **row} for twin, one, row in named])
+        return pandas.DataFrame([{"column": twin.name, "verdict": verdict, **row} for twin, verdict, row in named])
 
     @property
     def table_of_bodies(self) -> pandas.DataFrame:
         """One row per body of an assembly: in how many twins it fell, and the regions in which it lay at the end."""
         import pandas
 
-        return pandas.DataFrame([{"body": one.name, **one.row(self.confidence)} for one in self.bodies])
+        return pandas.DataFrame([{"body": body.name, **body.row(self.confidence)} for body in self.bodies])
 
     @property
     def columns(self) -> dict[str, Any]:
@@ -326,7 +326,7 @@ class Population:
         }
         if self.drawn.groups:
             columns |= dict(zip(OF_COLUMNS, self.interval_of_columns, strict=True))
-        columns |= {f"twins_{one}": number for one, number in self.counts.items() if one != v.NOT_RUN}
+        columns |= {f"twins_{verdict}": number for verdict, number in self.counts.items() if verdict != v.NOT_RUN}
         name = next(iter(self.spread))
         spread = self.spread[name]
         for i, share in enumerate((16, 50, 84)):
@@ -342,8 +342,8 @@ class Population:
             Under the names of the JSON object of ``stylobate run``.
         """
         limits = self.interval if self.drawn.groups else None
-        if said := set_against(run, self.counts, self.confidence, limits):
-            return said
+        if objection := set_against(run, self.counts, self.confidence, limits):
+            return objection
         name = peak_of(run)
         stood = [abs(row[name]) for row, verdict in zip(self.rows, self.verdicts) if verdict == v.STANDS]
         own = run.get(name)
@@ -373,7 +373,7 @@ class Population:
             "replicates": len(self.rows),
             "certainty": {
                 "sentence": self.sentence,
-                **{one: counts[one] for one in v.COMPUTED},
+                **{verdict: counts[verdict] for verdict in v.COMPUTED},
                 "confidence": self.confidence,
                 **({"interval": [low, high]} if self.drawn.groups else {}),
                 **({"interval_of_columns": list(self.interval_of_columns)} if self.drawn.groups else {}),
@@ -382,7 +382,7 @@ class Population:
                 **self.spread,
                 "median_twin": None if middle is None else middle + 1,
                 "worst_twin": None if self.worst is None else self.worst + 1,
-                **({"bodies": {one.name: one.row(self.confidence) for one in self.bodies}} if self.bodies else {}),
+                **({"bodies": {body.name: body.row(self.confidence) for body in self.bodies}} if self.bodies else {}),
                 **({} if run is None else {"beside": self.beside(run)}),
             },
         }
@@ -397,8 +397,8 @@ class Population:
         values = np.array([np.inf if row["collapsed"] else abs(row[name]) for row in sound])
         if np.isnan(values).all():  # there are none, or the model does not compute it
             return None
-        found = np.quantile(values, (0.16, 0.5, 0.84), method="higher")
-        return [float(one) for one in found]
+        percentiles = np.quantile(values, (0.16, 0.5, 0.84), method="higher")
+        return [float(percentile) for percentile in percentiles]
 
 
 def chance_words(row: Mapping[str, Any]) -> str:
@@ -410,16 +410,18 @@ def chance_words(row: Mapping[str, Any]) -> str:
         Of a table with :attr:`Population.columns`, or the JSON object of ``stylobate run`` with twins; their interval is
         that of :attr:`Population.interval`, which holds another law of the joints where that is not known.
     """
-    known = row.get("certainty") or {one: row.get(f"twins_{one}") for one in v.COMPUTED}
-    fell, stood, open_, failed = (int(known.get(one) or 0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED))
+    known = row.get("certainty") or {verdict: row.get(f"twins_{verdict}") for verdict in v.COMPUTED}
+    fell, stood, open_, failed = (
+        int(known.get(verdict) or 0) for verdict in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)
+    )
     number = fell + stood + open_
     if not number:
         return say("none of {count} could be computed", count=failed) if failed else ""
-    low, high = (float(row[f"collapse_interval_{one}"]) for one in ("low", "high"))
-    said = say("{share} of {count} ({interval})", share=percents(fell / number, (fell + open_) / number), count=number,
+    low, high = (float(row[f"collapse_interval_{end}"]) for end in ("low", "high"))
+    chance = say("{share} of {count} ({interval})", share=percents(fell / number, (fell + open_) / number), count=number,
                interval=percents(low, high))  # fmt: skip
     counts = [say("{count} undecided", count=open_) * bool(open_), say("{count} failed", count=failed) * bool(failed)]
-    return joined("; ", [said, joined(", ", counts)])
+    return joined("; ", [chance, joined(", ", counts)])
 
 
 def set_against(
@@ -443,17 +445,17 @@ def set_against(
     limits : (float, float), optional
         Of the share, where more than the columns is unknown; else those of the counts.
     """
-    fell, stood, open_ = (int(counts.get(one) or 0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED))
+    fell, stood, open_ = (int(counts.get(verdict) or 0) for verdict in (v.COLLAPSED, v.STANDS, v.UNDECIDED))
     collapsed, decided = bool(run.get("collapsed")), bool(run.get("decided", True))
     differ = stood + open_ > fell if collapsed else fell > stood
     if run.get("outcome") == "failed" or not differ:
         return ""
     number = fell + stood + open_
     fell, stood, open_ = fell + collapsed, stood + (decided and not collapsed), open_ + (not decided and not collapsed)
-    low, high = limits or (float(one) for one in v.collapse_interval(fell, stood, open_, confidence))
-    some = say("{fell} of {all}, this one and {count} like it, collapse ({level:g} %: {range}); {rest}.")
+    low, high = limits or (float(limit) for limit in v.collapse_interval(fell, stood, open_, confidence))
+    several = say("{fell} of {all}, this one and {count} like it, collapse ({level:g} %: {range}); {rest}.")
     alone = say("{fell} of {all}, this one and {count} like it, collapses ({level:g} %: {range}); {rest}.")
-    all_ = (alone if fell == 1 else some).of(
+    all_ = (alone if fell == 1 else several).of(
         fell=fell, all=number + 1, count=number, level=100.0 * confidence, range=percents(low, high),
         rest=_not_fallen({v.STANDS: stood, v.UNDECIDED: open_}),
     )  # fmt: skip
@@ -558,7 +560,7 @@ def certainty(
         response = make()
         rows = [twin.row() for twin in response.twins]
     else:
-        product = {"own run": [column.digest, motion.name, motion.digest, [one.nameless_digest for one in riding]]}
+        product = {"own run": [column.digest, motion.name, motion.digest, [twin.nameless_digest for twin in riding]]}
         digest = Hasher(model, run_options(tail, until_decided=True)).of_product(product | following, __file__)
         response, rows = _stored_run(Case(column, motion), model, digest, make, kept, campaign)
     rest = until_rest and not engine_for(model, column).twins  # what is followed one by one, so are its twins
@@ -676,7 +678,9 @@ class OtherLaws:
     @property
     def words(self) -> str:
         """All verdicts, for people."""
-        return joined("; ", (say("{law}: {verdict}", law=law, verdict=say(one)) for law, one in self.verdicts.items()))
+        return joined(
+            "; ", (say("{law}: {verdict}", law=law, verdict=say(verdict)) for law, verdict in self.verdicts.items())
+        )
 
 
 def other_laws(response: Response, motion: Motion, model: Model, campaign: Campaign) -> OtherLaws | None:
@@ -705,7 +709,7 @@ def other_laws(response: Response, motion: Motion, model: Model, campaign: Campa
     )
     options = run_options(campaign.tail, quiet=response.provenance["quiet_share"], until_decided=True)
     alone = replace(campaign.of_computing, progress=None, ledger=None, tail=campaign.tail)
-    rows = batch([Case(one, motion) for one in others.values()], column, model, alone, options)
+    rows = batch([Case(other, motion) for other in others.values()], column, model, alone, options)
     own = v.COLLAPSED if response.collapsed else v.STANDS if response.decided else v.UNDECIDED
     return OtherLaws(own, {law: v.verdict(row) for law, row in zip(others, rows, strict=True)})
 

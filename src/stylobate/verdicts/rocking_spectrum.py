@@ -166,7 +166,7 @@ def rocking_spectrum(
     check_kind("motion", motion, Motion)
     p = _values("frequency parameters p", frequency_parameters, np.geomspace(0.8, 8.0, 64), 0.2, 20.0)
     alpha = _values("slendernesses α", slendernesses, np.linspace(0.05, 0.4, 64), 0.01, 1.0)
-    cases = [Case(rocking_block(one, angle), motion) for one in p for angle in alpha]
+    cases = [Case(rocking_block(parameter, angle), motion) for parameter in p for angle in alpha]
     peak = np.empty(len(cases))
     collapsed = np.zeros(len(cases), dtype=bool)
     decided, failed = np.zeros(len(cases), dtype=bool), np.zeros(len(cases), dtype=bool)

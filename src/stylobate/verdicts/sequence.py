@@ -94,7 +94,7 @@ class Count:
     def words(self, low: int, high: int) -> str:
         """A number for people, or from which to which."""
         more = say("more than {most}", most=self.most)
-        low_, *rest = dict.fromkeys(more if one > self.most else str(one) for one in (low, high))
+        low_, *rest = dict.fromkeys(more if number > self.most else str(number) for number in (low, high))
         return say("{low} to {high}", low=low_, high=rest[0]) if rest else low_
 
     @property
@@ -102,26 +102,26 @@ class Count:
         """The median with its interval, for people."""
         if self.median is None:
             return say("none of {count} could be computed", count=self.failed)
-        said = self.words(*self.median)
+        text = self.words(*self.median)
         if len(self.low) > 1:
             limits = self.interval
-            known = {"count": len(self.low), "median": said, "limits": limits and self.words(*limits), "fewest": FEWEST}
+            known = {"count": len(self.low), "median": text, "limits": limits and self.words(*limits), "fewest": FEWEST}
             none = say("median of {count}: {median} (no interval of fewer than {fewest})")
-            said = (say("median of {count}: {median} (95 %: {limits})") if limits else none).of(**known)
-        return joined("; ", [said, say("{count} more failed", count=self.failed) if self.failed else ""])
+            text = (say("median of {count}: {median} (95 %: {limits})") if limits else none).of(**known)
+        return joined("; ", [text, say("{count} more failed", count=self.failed) if self.failed else ""])
 
     def summary(self) -> dict[str, Any]:
         """Plain values; None for more than ``most``."""
 
         def known(pair: tuple[int, int] | None) -> list[int | None]:
-            return [None, None] if pair is None else [None if one > self.most else one for one in pair]
+            return [None, None] if pair is None else [None if number > self.most else number for number in pair]
 
         median, limits = known(self.median), known(self.interval)
         return {
             "median_low": median[0], "median_high": median[1],
             "interval_low": limits[0], "interval_high": limits[1], "interval_known": self.interval is not None,
-            "counts": [None if one > self.most else one for one in self.low], "most": self.most,
-            "runs": len(self.low), "not_fallen": sum(one > self.most for one in self.high), "failed": self.failed,
+            "counts": [None if number > self.most else number for number in self.low], "most": self.most,
+            "runs": len(self.low), "not_fallen": sum(number > self.most for number in self.high), "failed": self.failed,
             "sentence": self.sentence,
         }  # fmt: skip
 
@@ -201,15 +201,15 @@ class SequenceResult(NotebookSummary):
             }
             words = say("It falls in earthquake {which} of {all} ({motion}).")
             if self.response.measures.blocks is not None:
-                one = say("1 body falls in earthquake {which} of {all} ({motion}).")
-                some = say("{many} bodies fall, the first of them in earthquake {which} of {all} ({motion}).")
-                words = one if known["many"] == 1 else some
-            said = [words.of(**known)]
+                single = say("1 body falls in earthquake {which} of {all} ({motion}).")
+                several = say("{many} bodies fall, the first of them in earthquake {which} of {all} ({motion}).")
+                words = single if known["many"] == 1 else several
+            sentences = [words.of(**known)]
             if len(self.events) < len(spans):
-                said.append(
+                sentences.append(
                     say("The run ends there: {count} more would have come.", count=len(spans) - len(self.events))
                 )
-            return joined(" ", said)
+            return joined(" ", sentences)
         after = say("After 1 earthquake: {text}") if len(spans) == 1 else say("After {count} earthquakes: {text}")
         return after.of(count=len(spans), text=self.response.sentence)
 
@@ -221,8 +221,8 @@ class SequenceResult(NotebookSummary):
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate sequence``: that of the whole run, and each earthquake."""
         own = self.response.summary()
-        found = own | {} if self.population is None else own | self.population.summary(own)
-        return found | {
+        summary = own | {} if self.population is None else own | self.population.summary(own)
+        return summary | {
             "sentence": self.sentence,
             "earthquakes": len(spans_of(self.motion)),
             "fell_in": self.fell_in,
@@ -288,8 +288,8 @@ def sequence(
     if not campaign.replicates:
         response = simulate(structure, whole, model, progress=campaign.progress, **options)
         return SequenceResult(response, whole, None, time.perf_counter() - began)
-    found = certainty(structure.stack or structure, whole, model, campaign=replace(campaign, whole=False), **options)
-    return SequenceResult(found.response, whole, found.population, time.perf_counter() - began)
+    result = certainty(structure.stack or structure, whole, model, campaign=replace(campaign, whole=False), **options)
+    return SequenceResult(result.response, whole, result.population, time.perf_counter() - began)
 
 
 @dataclass(frozen=True, eq=False)
@@ -313,9 +313,9 @@ class UntilFall(NotebookSummary):
     @property
     def over_motions(self) -> Count:
         """Over the motions, each of which counts once by its median."""
-        told = [one.median for one in self.each if one.median is not None]
-        low, high = zip(*told, strict=True) if told else ((), ())
-        return Count(tuple(low), tuple(high), self.each[0].most, len(self.each) - len(told))
+        medians = [count.median for count in self.each if count.median is not None]
+        low, high = zip(*medians, strict=True) if medians else ((), ())
+        return Count(tuple(low), tuple(high), self.each[0].most, len(self.each) - len(medians))
 
     @property
     def table(self) -> pandas.DataFrame:
@@ -324,15 +324,15 @@ class UntilFall(NotebookSummary):
 
         rows = []
         for name, count in zip(self.names, self.each, strict=True):
-            told = count.summary()
+            summary = count.summary()
             rows.append({"motion": name, "earthquakes": count.sentence.split("; ")[0]} | {
-                key: told[key] for key in ("median_low", "median_high", "interval_low", "interval_high", "runs",
+                key: summary[key] for key in ("median_low", "median_high", "interval_low", "interval_high", "runs",
                                            "not_fallen", "failed", "most")})  # fmt: skip
         return pandas.DataFrame(rows)
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate sequence --until-fall``."""
-        each = [{"motion": name, **one.summary()} for name, one in zip(self.names, self.each, strict=True)]
+        each = [{"motion": name, **count.summary()} for name, count in zip(self.names, self.each, strict=True)]
         return {"until_fall": self.over_motions.summary(), "motions": each, "wall_s": self.wall_time}
 
 
@@ -374,12 +374,14 @@ def earthquakes_until_fall(
     kinds = check_all("motions", motions, Motion)
     if not kinds:
         raise InputError("no motion is given; give at least one.", "motions")
-    long = [in_sequence([one], rest, most) for one in kinds]
+    long = [in_sequence([kind], rest, most) for kind in kinds]
     stands = the_twins(structure, model, campaign, laws=False).columns if campaign.replicates else [structure]
     rows: list[dict] = []
     for motion in long:
-        cases = [Case(one, motion) for one in stands]
+        cases = [Case(stone_column, motion) for stone_column in stands]
         options = replace(campaign.options, quiet=share_of(motion, campaign.whole))
         rows += batch(cases, structure, model, campaign, options)
-    each = [Count.of_rows(rows[k * len(stands) : (k + 1) * len(stands)], spans_of(one)) for k, one in enumerate(long)]
-    return UntilFall(tuple(one.name for one in kinds), tuple(each), time.perf_counter() - began)
+    each = [
+        Count.of_rows(rows[k * len(stands) : (k + 1) * len(stands)], spans_of(motion)) for k, motion in enumerate(long)
+    ]
+    return UntilFall(tuple(kind.name for kind in kinds), tuple(each), time.perf_counter() - began)

@@ -39,7 +39,7 @@ COMPUTED = (COLLAPSED, STANDS, UNDECIDED, FAILED)
 FLAGS = {
     "long_name": "verdict of the run",
     "flag_values": np.arange(len(VERDICTS), dtype=np.int8),
-    "flag_meanings": " ".join(one.replace(" ", "_") for one in VERDICTS),
+    "flag_meanings": " ".join(verdict.replace(" ", "_") for verdict in VERDICTS),
 }
 
 
@@ -69,7 +69,7 @@ def verdicts_of(rows: Rows) -> np.ndarray:
 def count(verdicts: Sequence[str] | np.ndarray) -> dict[str, int]:
     """Number of runs of each verdict."""
     values = np.asarray(verdicts).ravel()
-    return {one: int(np.count_nonzero(values == one)) for one in VERDICTS}
+    return {verdict: int(np.count_nonzero(values == verdict)) for verdict in VERDICTS}
 
 
 def open_runs(counts: Mapping[str, Any], so: str = say("not counted as collapse")) -> str:
@@ -77,13 +77,13 @@ def open_runs(counts: Mapping[str, Any], so: str = say("not counted as collapse"
     undecided, failed = counts.get(UNDECIDED), counts.get(FAILED)
     alone = say("1 run is undecided") if undecided == 1 else say("{count} runs are undecided", count=undecided)
     failing = say("1 run failed") if failed == 1 else say("{count} runs failed", count=failed)
-    found = [text for text, number in ((alone, undecided), (failing, failed)) if number]
-    return say(" {runs}: {so}.", runs=joined(say(" and "), found), so=so) if found else ""
+    clauses = [text for text, number in ((alone, undecided), (failing, failed)) if number]
+    return say(" {runs}: {so}.", runs=joined(say(" and "), clauses), so=so) if clauses else ""
 
 
 def tally(verdicts: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Numbers of runs that collapsed, stand and are undecided along an axis of an array of verdicts."""
-    collapsed, stands, undecided = ((verdicts == one).sum(axis=axis) for one in (COLLAPSED, STANDS, UNDECIDED))
+    collapsed, stands, undecided = ((verdicts == verdict).sum(axis=axis) for verdict in (COLLAPSED, STANDS, UNDECIDED))
     return collapsed, stands, undecided
 
 
@@ -95,7 +95,7 @@ def share_collapsed(collapsed: Any, stands: Any, undecided: Any) -> np.ndarray:
     collapsed, stands, undecided : array of int
         Numbers of runs; those that failed are in none of them.
     """
-    fell, stood, open_ = (np.asarray(one) for one in (collapsed, stands, undecided))
+    fell, stood, open_ = (np.asarray(counts) for counts in (collapsed, stands, undecided))
     trials = fell + stood + open_
     return np.divide(fell, trials, out=np.full(trials.shape, np.nan), where=fell + stood > 0)
 
@@ -107,7 +107,7 @@ def collapse_interval(
 
     The lower one as if every undecided run had come to stand, the upper one as if it had collapsed.
     """
-    fell, stood, open_ = (np.asarray(one) for one in (collapsed, stands, undecided))
+    fell, stood, open_ = (np.asarray(counts) for counts in (collapsed, stands, undecided))
     trials = fell + stood + open_
     low, _ = wilson_interval(fell, trials, confidence)
     return low, wilson_interval(fell + open_, trials, confidence)[1]
@@ -130,25 +130,25 @@ def wilson_interval(successes: Any, trials: Any, confidence: float = 0.95) -> tu
 
 def first_collapse(amplitudes: np.ndarray, verdicts: Sequence[str]) -> float | None:
     """Smallest amplitude that collapses, or None."""
-    return next((float(a) for a, one in zip(amplitudes, verdicts) if one == COLLAPSED), None)
+    return next((float(a) for a, verdict in zip(amplitudes, verdicts) if verdict == COLLAPSED), None)
 
 
 def all_collapse_above(amplitudes: np.ndarray, verdicts: Sequence[str]) -> float | None:
     """Smallest amplitude from which on every run collapses, or None."""
-    found = None
-    for amplitude, one in zip(amplitudes[::-1], reversed(list(verdicts))):
-        if one != COLLAPSED:
+    lowest = None
+    for amplitude, verdict in zip(amplitudes[::-1], reversed(list(verdicts))):
+        if verdict != COLLAPSED:
             break
-        found = float(amplitude)
-    return found
+        lowest = float(amplitude)
+    return lowest
 
 
 def alternations(amplitudes: np.ndarray, verdicts: Sequence[str]) -> list[tuple[float, float, str, int]]:
     """Stretches of equal verdict along the amplitudes: (first amplitude, last amplitude, verdict, runs)."""
     out = []
-    for one, group in groupby(zip(amplitudes, verdicts), key=lambda pair: pair[1]):
+    for verdict, group in groupby(zip(amplitudes, verdicts), key=lambda pair: pair[1]):
         stretch = [float(amplitude) for amplitude, _ in group]
-        out.append((stretch[0], stretch[-1], one, len(stretch)))
+        out.append((stretch[0], stretch[-1], verdict, len(stretch)))
     return out
 
 
@@ -193,14 +193,14 @@ def of_levels(levels: Sequence[float] | np.ndarray, verdicts: Sequence[str]) -> 
 def quantiles(capacities: Iterable[Capacity], shares: Sequence[float] = SHARES) -> list[Capacity]:
     """Capacities that shares of many do not exceed: between those of their lower ends and those of their upper ones."""
     low, high = np.array(list(capacities), dtype=float).T
-    ends = (np.quantile(np.sort(one), shares, method="inverted_cdf") for one in (low, high))
-    return [Capacity(float(one), float(other)) for one, other in zip(*ends, strict=True)]
+    ends = (np.quantile(np.sort(values), shares, method="inverted_cdf") for values in (low, high))
+    return [Capacity(float(lower), float(other)) for lower, other in zip(*ends, strict=True)]
 
 
 def bounds(named: Mapping[str, tuple[Capacity, float]]) -> dict[str, str]:
     """Those of named capacities, each with the size of its unit, of which only a bound is known: the bound by name."""
-    found = {name: capacity.bound(unit) for name, (capacity, unit) in named.items()}
-    return {name: one for name, one in found.items() if one is not None}
+    named_bounds = {name: capacity.bound(unit) for name, (capacity, unit) in named.items()}
+    return {name: bound for name, bound in named_bounds.items() if bound is not None}
 
 
 #: Exponents of the density of r before anything is counted, (1 − r)³: its mean 0.2 is about that of the counts of other
@@ -299,13 +299,13 @@ def few_laws(number: int) -> str:
     """Caveat on twins of so few laws; empty where there are enough, or none as one is taken as known."""
     if not 0 < number < FEW_LAWS:
         return ""
-    some = (
+    sentence = (
         say("the twins share 1 law of the joints") if number == 1 else say("the twins share {count} laws of the joints")
     )
     more = say(
         ", too few to tell how much it decides: give more replicates, of which every {each} share one, such as {such}"
     )
-    return some.of(count=number) + more.of(each=PER_LAW, such=FEW_LAWS * PER_LAW)
+    return sentence.of(count=number) + more.of(each=PER_LAW, such=FEW_LAWS * PER_LAW)
 
 
 def share_under_another_law(
@@ -329,7 +329,7 @@ def _limits(counted: tuple[tuple[int, int], ...], confidence: float) -> tuple[fl
 
     k, n = np.array(counted, dtype=float).T
     a, b, before, shares, below_each = _before()
-    seen = sum(betaln(a + one, b + all_ - one) - betaln(a, b) for one, all_ in zip(k, n, strict=True))
+    seen = sum(betaln(a + hits, b + all_ - hits) - betaln(a, b) for hits, all_ in zip(k, n, strict=True))
     weight = np.exp(seen - np.max(seen)) * before
     below = np.tensordot(below_each, weight / weight.sum(), axes=2)
     outside = 0.5 * (1.0 - confidence)

@@ -151,9 +151,9 @@ def _contact(
     """Points of a joint along it [m] and their weights, its edge [m], area [m²], lever of torsion [m], and the share of its
     force that turns with the body below."""
     drum, below = column.drums[j], column.drums[j - 1] if j else None
-    found, offset = column.as_found.of(j + 1), at.offset[j]
+    condition, offset = column.as_found.of(j + 1), at.offset[j]
     if law == "corners":
-        corners = _turned(face_corners(drum, found), at.turned[j]) + offset
+        corners = _turned(face_corners(drum, condition), at.turned[j]) + offset
         if below is not None:
             back = _turned(corners, -at.turned[j - 1])
             half = np.array([0.5 * below.top_width, 0.5 * below.upper_depth])
@@ -164,7 +164,7 @@ def _contact(
         return corners, np.ones(4), corners, area, lever, under
     lower = 1.0 if below is None else _lower_share(drum.bottom_width, below.top_width)
     radius = 0.5 * (drum.bottom_width if below is None else min(drum.bottom_width, below.top_width))
-    whole = not found.chipped and (
+    whole = not condition.chipped and (
         below is None or math.hypot(*offset) <= 0.5 * abs(drum.bottom_width - below.top_width) * (1.0 + 1e-12)
     )
     if whole:
@@ -367,7 +367,7 @@ def _loaded_column(column: Column, standing: Vibrating, down: np.ndarray) -> Vib
         along = np.array([joint.frame[:, 0] @ (point - joint.middle) for point in joint.points])
         ends = np.array([joint.frame[:, 0] @ (point - joint.middle) for point in joint.edge])
         where = np.array([float(joint.frame[:, 0] @ (place - joint.middle)), 0.0])
-        flat = (np.column_stack((one, np.zeros(len(one)))) for one in (along, ends))
+        flat = (np.column_stack((coordinates, np.zeros(len(coordinates)))) for coordinates in (along, ends))
         points, edge = flat
         closure = pressed(points, joint.springs, edge, load.normal, where)
         _refuse_open(column, j, closure, edge, where, "plane")
@@ -398,7 +398,7 @@ def _assembly_in_space(structure: Structure) -> Vibrating:
     axes = np.array([np.eye(3) if flat else body.axes for flat, body in zip(ground, bodies, strict=True)])
     free = np.array([not body.fixed for body in bodies])
     tensors = np.array(
-        [np.zeros((3, 3)) if not one else body.inertia_tensor for one, body in zip(free, bodies, strict=True)]
+        [np.zeros((3, 3)) if not movable else body.inertia_tensor for movable, body in zip(free, bodies, strict=True)]
     )
     inertias = np.einsum("nab,nbc,ndc->nad", axes, tensors, axes)
     joints = []
@@ -432,7 +432,7 @@ def _assembly_in_space(structure: Structure) -> Vibrating:
             )
         )
     springs, left_out = _springs(structure, centroids, axes)
-    masses = np.array([body.mass if one else 0.0 for one, body in zip(free, bodies, strict=True)])
+    masses = np.array([body.mass if movable else 0.0 for movable, body in zip(free, bodies, strict=True)])
     names = tuple(body.name for body in bodies)
     standing = Vibrating(names, centroids, masses, inertias, free, tuple(joints), springs, left_out=left_out)
     return _at_rest(structure, standing, np.array([0.0, 0.0, -structure.gravity]), (0, 1, 2, 3, 4, 5))
@@ -460,7 +460,7 @@ def _at_rest(structure: Structure, standing: Vibrating, down: np.ndarray, each: 
     _refuse_loose(structure, standing, standing.joints)
     q = _balanced(structure, standing, coordinates, load)
     depths = [_depths(standing, joint, joint.points, q.reshape(-1, 6)) for joint in standing.joints]
-    least = BARELY * max((float(one.max()) for one in depths), default=0.0)
+    least = BARELY * max((float(depth.max()) for depth in depths), default=0.0)
     pressing = [depth > least for depth in depths]
     joints, notes = [], []
     shape = q.reshape(-1, 6)
@@ -498,8 +498,8 @@ def _at_rest(structure: Structure, standing: Vibrating, down: np.ndarray, each: 
 
 def _refuse_loose(structure: Structure, standing: Vibrating, joints: Sequence[ClosedJoint]) -> None:
     """Refuse a body that can move and has none of these joints."""
-    held = {joint.upper for joint in joints} | {joint.lower for joint in joints}
-    loose = next((i for i in np.flatnonzero(standing.free) if i not in held), None)
+    connected = {joint.upper for joint in joints} | {joint.lower for joint in joints}
+    loose = next((i for i in np.flatnonzero(standing.free) if i not in connected), None)
     if loose is not None:
         raise InputError(
             f"block {standing.names[loose]!r} of {structure.name!r} rests on no closed joint, and what is loose has no "
@@ -572,14 +572,14 @@ def _part(joint: ClosedJoint, touch: np.ndarray) -> ClosedJoint:
     share = float(joint.springs[touch].sum() / joint.springs.sum())
     middle = joint.springs[touch] @ joint.points[touch] / joint.springs[touch].sum()
     whole = float(joint.springs @ ((joint.points - joint.middle) ** 2).sum(axis=1))
-    left = float(joint.springs[touch] @ ((joint.points[touch] - middle) ** 2).sum(axis=1))
+    touching = float(joint.springs[touch] @ ((joint.points[touch] - middle) ** 2).sum(axis=1))
     return replace(
         joint,
         points=joint.points[touch],
         springs=joint.springs[touch],
         shear=share * joint.shear,
         middle=middle,
-        torsion=joint.torsion * left / max(whole, 1e-300),
+        torsion=joint.torsion * touching / max(whole, 1e-300),
     )
 
 
@@ -605,7 +605,7 @@ def _springs(
     structure: Structure, centroids: np.ndarray, axes: np.ndarray
 ) -> tuple[tuple[Spring, ...], tuple[str, ...]]:
     """Links as springs about rest, and which of them do not act in small vibrations."""
-    found, left_out = [], []
+    springs, left_out = [], []
     for link in acting(structure):
         places = [
             centroids[body] + axes[body] @ arm for body, arm in zip((link.lower, link.upper), link.arms, strict=True)
@@ -630,7 +630,7 @@ def _springs(
             left_out.append(words.of(link=link.name))
         if ways:
             ends = (places[0], places[1]) if link.straight else (0.5 * (places[0] + places[1]),) * 2
-            found.append(
+            springs.append(
                 Spring(
                     link.name,
                     (link.lower, link.upper),
@@ -641,4 +641,4 @@ def _springs(
                     axis,
                 )
             )
-    return tuple(found), tuple(left_out)
+    return tuple(springs), tuple(left_out)

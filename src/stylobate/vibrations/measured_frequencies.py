@@ -108,7 +108,7 @@ def parse_measured(text: str) -> tuple[Measured, ...]:
     InputError
         An entry is not of that form, or two are of one mode.
     """
-    found: list[tuple[str, int | None, float, float]] = []
+    entries: list[tuple[str, int | None, float, float]] = []
     for part in text.split(","):
         match = _ENTRY.fullmatch(part)
         example = "such as 1.27Hz±3% or torsion 9.0Hz±6%"
@@ -145,11 +145,11 @@ def parse_measured(text: str) -> tuple[Measured, ...]:
         else:
             raise InputError(f"the spread of {part.strip()!r} has no unit; give it in % or Hz, {example}.", "measured")
         number = None if match["number"] is None else int(match["number"])
-        found.append((kinds[0] if kinds else "bending", number, value, spread))
+        entries.append((kinds[0] if kinds else "bending", number, value, spread))
     measured = []
-    for kind in dict.fromkeys(kind for kind, *_ in found):
-        own = sorted((one for one in found if one[0] == kind), key=lambda one: one[2])
-        stated = [one[1] for one in own if one[1] is not None]
+    for kind in dict.fromkeys(kind for kind, *_ in entries):
+        own = sorted((entry for entry in entries if entry[0] == kind), key=lambda entry: entry[2])
+        stated = [entry[1] for entry in own if entry[1] is not None]
         if stated and len(stated) < len(own):
             raise InputError(
                 f"some measured frequencies of {kind} say which mode they are and some do not; number all of them, such as "
@@ -166,7 +166,7 @@ def check_measured(measured: Sequence[Measured]) -> None:
     if not measured:
         raise InputError("no frequency is measured; give one at least, such as 1.27Hz±3%.", "measured")
     for kind in GROUPS:
-        own = sorted((one for one in measured if one.kind == kind), key=lambda one: one.number)
+        own = sorted((reading for reading in measured if reading.kind == kind), key=lambda reading: reading.number)
         for low, high in pairwise(own):
             if low.number == high.number:
                 raise InputError(
@@ -258,7 +258,7 @@ def parse_ground(text: str) -> Ground | None:
     examples = {"vs": "300m/s", "half_width": "4m", "density": "1900kg/m3", "poisson": "0.35"}
     values: dict[str, tuple[float, ...]] = {}
     for part in text.split(","):
-        name, sign, value = (one.strip() for one in part.partition("="))
+        name, sign, value = (piece.strip() for piece in part.partition("="))
         if not sign or name not in examples:
             raise InputError(
                 f"ground is {text!r}; allowed is rigid, or vs=300m/s,half_width=4m, with density and poisson "
@@ -273,7 +273,7 @@ def parse_ground(text: str) -> Ground | None:
                 "ground",
             )
         try:
-            values[name] = tuple(float(one) for one in (match[1], match[2] or match[1]))
+            values[name] = tuple(float(end) for end in (match[1], match[2] or match[1]))
         except ValueError:
             raise InputError(f"{name} of the ground is {value!r}, no number; correct it.", "ground") from None
     missing = next((name for name in ("vs", "half_width") if name not in values), None)
@@ -300,7 +300,7 @@ class _Family:
     def __init__(self, column: Column, model: Any) -> None:
         standing = vibrating(column, model)
         groups = list(GROUPS.values())
-        if any(_coupled(standing, one, other) for one in groups for other in groups if one != other):
+        if any(_coupled(standing, group, other) for group in groups for other in groups if group != other):
             raise InputError(
                 f"measured frequencies are compared with a column whose bending, torsion and axial motion are "
                 f"apart, and those of "
@@ -320,8 +320,8 @@ class _Family:
             alone = standing.joint_matrix(replace(joint, shear=0.0, torsion=0.0))
             if j == 0:
                 self.rows[:, at] = _relative(standing, joint)
-                found = np.linalg.lstsq(self.rows[:, at].T, matrix, rcond=None)[0]
-                diagonal = np.linalg.lstsq(self.rows[:, at].T, found.T, rcond=None)[0].diagonal()
+                half_solved = np.linalg.lstsq(self.rows[:, at].T, matrix, rcond=None)[0]
+                diagonal = np.linalg.lstsq(self.rows[:, at].T, half_solved.T, rcond=None)[0].diagonal()
                 closing = np.array([0.0, 0.0, 1.0, 1.0, 1.0, 0.0])
                 self.base = np.stack(
                     (diagonal * closing / unit, diagonal * (1.0 - closing) / (joint.shear / joint.area))
@@ -360,14 +360,14 @@ class _Family:
             base = base * ground / (base + ground)
         square = np.ix_(pick, pick)
         root = np.linalg.inv(np.linalg.cholesky(self.standing.mass_matrix[square]))
-        rest, first, second = (root @ one[square] @ root.T for one in (self.rest, self.bending, self.shear))
+        rest, first, second = (root @ stiffness[square] @ root.T for stiffness in (self.rest, self.bending, self.shear))
         rows = self.rows[:, pick] @ root.T
         out = np.empty((len(bending), len(numbers)))
         for begin in range(0, len(bending), 4096):
-            some = slice(begin, begin + 4096)
-            matrix = rest + bending[some, None, None] * first + shear[some, None, None] * second
-            matrix = matrix + np.einsum("rp,kr,rq->kpq", rows, base[some], rows, optimize=True)
-            out[some] = np.linalg.eigvalsh(matrix)[:, [number - 1 for number in numbers]]
+            chunk = slice(begin, begin + 4096)
+            matrix = rest + bending[chunk, None, None] * first + shear[chunk, None, None] * second
+            matrix = matrix + np.einsum("rp,kr,rq->kpq", rows, base[chunk], rows, optimize=True)
+            out[chunk] = np.linalg.eigvalsh(matrix)[:, [number - 1 for number in numbers]]
         return out
 
 
@@ -419,7 +419,7 @@ class MeasuredJoints(NotebookSummary):
     @property
     def normal(self) -> Interval:
         """k_n that has this bending stiffness by the law of the model [N/m³], of the base joint."""
-        return Interval(*(None if one is None else one / float(self.ratio[0]) for one in self.bending))
+        return Interval(*(None if end is None else end / float(self.ratio[0]) for end in self.bending))
 
     @property
     def inferred_column(self) -> Column | None:
@@ -440,17 +440,19 @@ class MeasuredJoints(NotebookSummary):
     @property
     def open_words(self) -> list[str]:
         """What stays open, in sentences."""
-        found = []
+        sentences = []
         for words, interval in (("k_b/J_A", self.bending), ("k_s", self.shear)):
             if interval.low is None and interval.high is None:
-                found.append(say("{name} stays open on both sides: these frequencies do not tell of it", name=words))
+                sentences.append(
+                    say("{name} stays open on both sides: these frequencies do not tell of it", name=words)
+                )
             elif interval.high is None:
-                found.append(
+                sentences.append(
                     say("{name} has no upper bound: rigid joints would give these frequencies too", name=words)
                 )
             elif interval.low is None:
-                found.append(say("{name} has no lower bound within {least:g} N/m³", name=words, least=SOFTEST))
-        return found
+                sentences.append(say("{name} has no lower bound within {least:g} N/m³", name=words, least=SOFTEST))
+        return sentences
 
     @property
     def sentence(self) -> str:
@@ -465,14 +467,14 @@ class MeasuredJoints(NotebookSummary):
             "joint_normal_stiffness": self.normal,
             "joint_shear_stiffness": self.shear,
         }
-        return {name: one._asdict() for name, one in names.items()} | {
+        return {name: interval._asdict() for name, interval in names.items()} | {
             "confidence": 0.95,
             "bounded_by": self.bounded_by,
             "open": self.open_words,
             "measured": [
-                {"kind": one.kind, "number": one.number, "frequency_hz": one.frequency}
-                | {"standard_deviation_hz": one.spread * one.frequency}
-                for one in self.measured
+                {"kind": reading.kind, "number": reading.number, "frequency_hz": reading.frequency}
+                | {"standard_deviation_hz": reading.spread * reading.frequency}
+                for reading in self.measured
             ],
             "best_hz": self.best,
             "scatter": self.scatter,
@@ -553,9 +555,9 @@ def joints_from_frequencies(
     check_measured(measured)
     check_whole("draws", draws, 1, 100_000)
     columns = list(column) if isinstance(column, Sequence) else [column]
-    for one in columns:
-        check_kind("column", one, Column)
-    families = [_Family(one, model) for one in columns]
+    for candidate in columns:
+        check_kind("column", candidate, Column)
+    families = [_Family(candidate, model) for candidate in columns]
     springs = _ground_draws(ground, draws, seed)
     whole = (math.log(SOFTEST), math.log(STIFFEST))
     few = min(draws, 8 * len(families))
@@ -576,8 +578,8 @@ def joints_from_frequencies(
         variation = math.sqrt(math.expm1((math.log(first.high / first.low) / (2.0 * TWO_SIDED)) ** 2))
     names = "joint_bending_stiffness", "joint_shear_stiffness"
     bounded = {
-        name: _bounding(coarse, measured, axis, one)
-        for axis, (name, one) in enumerate(zip(names, (first, second), strict=True))
+        name: _bounding(coarse, measured, axis, interval)
+        for axis, (name, interval) in enumerate(zip(names, (first, second), strict=True))
     }
     return MeasuredJoints(
         columns[0], measured, first, second, bounded, posterior.best, variation, families[0].ratio, ground, draws
@@ -607,15 +609,15 @@ def _table(
     many = draws if springs is not None or len(families) > 1 else 1
     (a, b), (c, d) = box
     first, second = np.linspace(a, b, points), np.linspace(c, d, points)
-    k, s = (np.exp(one).ravel() for one in np.meshgrid(first, second, indexing="ij"))
+    k, s = (np.exp(logarithms).ravel() for logarithms in np.meshgrid(first, second, indexing="ij"))
     values = np.empty((len(measured), many, points, points))
     for i in range(many):
         family = families[i % len(families)]
         under = None if springs is None else np.broadcast_to(springs[i], (len(k), 6))
-        for kind in dict.fromkeys(one.kind for one in measured):
-            which = [m for m, one in enumerate(measured) if one.kind == kind]
-            found = family.squares(kind, [measured[m].number for m in which], k, s, under)
-            for m, column in zip(which, found.T, strict=True):
+        for kind in dict.fromkeys(reading.kind for reading in measured):
+            which = [m for m, reading in enumerate(measured) if reading.kind == kind]
+            squares = family.squares(kind, [measured[m].number for m in which], k, s, under)
+            for m, column in zip(which, squares.T, strict=True):
                 values[m, i] = column.reshape(points, points)
     return _Table(first, second, values)
 
@@ -626,9 +628,9 @@ def _score(table: _Table, measured: Sequence[Measured], blunt: float = 0.0) -> n
     ``blunt`` is a further error of the logarithm of a frequency, where a grid is coarse.
     """
     total = np.zeros(table.values.shape[1:])
-    for one, values in zip(measured, table.values, strict=True):
-        size = math.hypot(math.log1p(one.spread), blunt)
-        total -= 0.5 * ((values - math.log(one.frequency)) / size) ** 2
+    for reading, values in zip(measured, table.values, strict=True):
+        size = math.hypot(math.log1p(reading.spread), blunt)
+        total -= 0.5 * ((values - math.log(reading.frequency)) / size) ** 2
     return total
 
 
@@ -643,13 +645,13 @@ def _refined(table: _Table, measured: Sequence[Measured], points: int = FINE) ->
         new = np.linspace(old[0], old[-1], points)
         return new, CubicSpline(old, np.eye(len(old)), axis=0)(new)
 
-    (first, one), (second, other) = finer(table.bending), finer(table.shear)
+    (first, weights), (second, other) = finer(table.bending), finer(table.shear)
     values = np.empty((*table.values.shape[:2], points, points))
     for own, out, squares in zip(measured, values, table.values, strict=True):
         scale = (0.1 * 2.0 * math.pi * own.frequency) ** 2
-        found = np.einsum("ka,dab,lb->dkl", one, np.arcsinh(squares / scale), other, optimize=True)
+        surface = np.einsum("ka,dab,lb->dkl", weights, np.arcsinh(squares / scale), other, optimize=True)
         least = (2.0 * math.pi * math.exp(UNSTABLE)) ** 2
-        out[...] = 0.5 * np.log(np.maximum(scale * np.sinh(found), least)) - math.log(2.0 * math.pi)
+        out[...] = 0.5 * np.log(np.maximum(scale * np.sinh(surface), least)) - math.log(2.0 * math.pi)
     return _Table(first, second, values)
 
 
@@ -657,13 +659,13 @@ def _box(table: _Table, measured: Sequence[Measured]) -> Box | None:
     """Where the likelihood of some draw is not negligible, with a cell to every side; None where it is nowhere."""
     cell = 0.5 * max(table.bending[1] - table.bending[0], table.shear[1] - table.shear[0])
     near = np.ones(table.values.shape[1:], dtype=bool)
-    for one, values in zip(measured, table.values, strict=True):
-        near &= np.abs(values - math.log(one.frequency)) < FARTHEST * math.log1p(one.spread) + cell
-    some = near.any(axis=0)
-    if not some.any():
+    for reading, values in zip(measured, table.values, strict=True):
+        near &= np.abs(values - math.log(reading.frequency)) < FARTHEST * math.log1p(reading.spread) + cell
+    region = near.any(axis=0)
+    if not region.any():
         return None
     ends = []
-    for old, seen in ((table.bending, some), (table.shear, some.T)):
+    for old, seen in ((table.bending, region), (table.shear, region.T)):
         at = np.flatnonzero([bool(np.asarray(seen)[i].any()) for i in range(len(old))])
         ends.append((float(old[max(at[0] - 1, 0)]), float(old[min(at[-1] + 1, len(old) - 1)])))
     return ends[0], ends[1]
@@ -684,7 +686,9 @@ class _Posterior(NamedTuple):
         """Of measurements."""
         score = _score(table, measured, blunt)
         place = np.unravel_index(int(score.argmax()), score.shape)
-        best = {one.name: math.exp(float(values[place])) for one, values in zip(measured, table.values, strict=True)}
+        best = {
+            reading.name: math.exp(float(values[place])) for reading, values in zip(measured, table.values, strict=True)
+        }
         summed = np.exp(score - score.max()).sum(axis=0)
         return cls((table.bending, table.shear), summed, score.max(axis=0), best)
 
@@ -729,24 +733,26 @@ def _bounding(coarse: _Table, measured: Sequence[Measured], axis: int, interval:
     blunt = 0.5 * float(coarse.bending[1] - coarse.bending[0])
     whole = _Posterior.of(coarse, measured, blunt).ends(axis)
     moves = []
-    for left in range(len(measured)):
-        some = [one for i, one in enumerate(measured) if i != left]
-        if not some:
+    for omitted in range(len(measured)):
+        others = [reading for i, reading in enumerate(measured) if i != omitted]
+        if not others:
             moves.append((math.inf, math.inf))
             continue
-        rest = _Posterior.of(_Table(coarse.bending, coarse.shear, np.delete(coarse.values, left, axis=0)), some, blunt)
+        rest = _Posterior.of(
+            _Table(coarse.bending, coarse.shear, np.delete(coarse.values, omitted, axis=0)), others, blunt
+        )
         ends = rest.ends(axis)
         moves.append((whole[0] - ends[0], ends[1] - whole[1]))
-    found: dict[str, str | None] = {}
+    by_side: dict[str, str | None] = {}
     for side, name in enumerate(("low", "high")):
         most = int(np.argmax([move[side] for move in moves]))
-        found[name] = None if interval[1 + side] is None else measured[most].name
-    return found
+        by_side[name] = None if interval[1 + side] is None else measured[most].name
+    return by_side
 
 
 def _refuse_impossible(table: _Table, measured: Sequence[Measured], column: Column, ground: Ground | None) -> None:
     """Refuse a frequency that no stiffness of the joints gives."""
-    for one, values in zip(measured, table.values, strict=True):
+    for reading, values in zip(measured, table.values, strict=True):
         if values.max() <= UNSTABLE + 1.0:
             raise InputError(
                 f"{column.name!r} falls over on this ground, whatever the stiffness of its joints; correct vs and "
@@ -754,20 +760,20 @@ def _refuse_impossible(table: _Table, measured: Sequence[Measured], column: Colu
                 "ground",
             )
         largest, least = math.exp(float(values.max())), math.exp(float(values[values > UNSTABLE + 1.0].min()))
-        if one.frequency > largest * (1.0 + 2.0 * one.spread):
+        if reading.frequency > largest * (1.0 + 2.0 * reading.spread):
             rest = "rigid joints on this ground give" if ground is not None else f"joints of {STIFFEST:g} N/m³ give"
             remedy = (
                 "is its mode another one, or the ground stiffer" if ground is not None else "is its mode another one"
             )
             raise InputError(
-                f"{one.name} of {column.name!r} is measured as {one.frequency:g} Hz, which no stiffness of the "
+                f"{reading.name} of {column.name!r} is measured as {reading.frequency:g} Hz, which no stiffness of the "
                 f"joints gives: "
                 f"{rest} {largest:.4g} Hz at most; {remedy}? Correct it, or leave it out.",
                 "measured",
             )
-        if one.frequency < least * (1.0 - 2.0 * one.spread):
+        if reading.frequency < least * (1.0 - 2.0 * reading.spread):
             raise InputError(
-                f"{one.name} of {column.name!r} is measured as {one.frequency:g} Hz, which no stiffness of the "
+                f"{reading.name} of {column.name!r} is measured as {reading.frequency:g} Hz, which no stiffness of the "
                 f"joints gives: on "
                 f"joints on which it just stands it is {least:.4g} Hz; is its mode another one? Correct it, or "
                 f"leave it out.",
@@ -783,7 +789,7 @@ def _refuse_contradiction(posterior: _Posterior | None, coarse: _Table, measured
     if -2.0 * best <= float(chi2.ppf(CONTRADICTS, len(measured))):
         return
     given = _Posterior.of(coarse, measured).best if posterior is None else posterior.best
-    off = [abs(math.log(given[one.name] / one.frequency)) / math.log1p(one.spread) for one in measured]
+    off = [abs(math.log(given[reading.name] / reading.frequency)) / math.log1p(reading.spread) for reading in measured]
     worst = measured[int(np.argmax(off))]
     nearest = ", ".join(f"{name} {value:.4g} Hz" for name, value in given.items())
     raise InputError(

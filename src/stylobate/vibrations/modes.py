@@ -176,9 +176,9 @@ class Modes(NotebookSummary):
     def sentence(self) -> str:
         """The lowest frequency of each kind, in words."""
         first = [own[0] for kind in KINDS if (own := self.of(kind))]
-        found = (say("{kind} {value:.4g} Hz", kind=say(one.kind), value=one.frequency) for one in first)
+        phrases = (say("{kind} {value:.4g} Hz", kind=say(mode.kind), value=mode.frequency) for mode in first)
         words = say("The lowest natural frequencies of “{name}” on closed joints: ", name=self.structure.name)
-        return joined("", [words, joined(", ", found), "."])
+        return joined("", [words, joined(", ", phrases), "."])
 
     def summary(self, number: int | None = None) -> dict[str, Any]:
         """The JSON object of ``stylobate modes``, with so many of each kind."""
@@ -229,7 +229,7 @@ def modes(column: Structure, model: Any) -> Modes:
     standing = vibrating(column, model)
     stack = column.stack
     plane = model.is_plane(model.parameters()) and model.axes == "xz"
-    found = _of_column(standing, stack, plane) if stack is not None else _of_assembly(standing, plane)
+    all_modes = _of_column(standing, stack, plane) if stack is not None else _of_assembly(standing, plane)
     areas = np.array([joint.area for joint in standing.joints])
     normal = np.array([joint.springs.sum() for joint in standing.joints]) / areas
     shear = np.array([joint.shear for joint in standing.joints]) / areas
@@ -239,21 +239,25 @@ def modes(column: Structure, model: Any) -> Modes:
     called = model.name
     if stack is not None and stack.section == "circular" and not plane:
         called = f"{model.name}, law {model.acting(stack).law}"
-    return Modes(column, called, tuple(found), standing, bending, normal, shear)
+    return Modes(column, called, tuple(all_modes), standing, bending, normal, shear)
 
 
 def _of_column(standing: Vibrating, stack: Any, plane: bool) -> list[Mode]:
     """Modes of a column: its planes of bending, torsion and axial motion, each by itself where nothing couples them."""
     groups = {"along": ALONG, "across": ACROSS, "upward": UPWARD, "around": AROUND}
     if plane:
-        found = _kinds(standing, [(0, 2, 4)] if _coupled(standing, ALONG, UPWARD) else [ALONG, UPWARD], plane=True)
-        return _numbered([*found, *(_kinds(standing, [AROUND]) if not stack.as_found and not standing.springs else [])])
-    if any(_coupled(standing, one, other) for one in groups.values() for other in groups.values() if one != other):
+        in_plane = _kinds(standing, [(0, 2, 4)] if _coupled(standing, ALONG, UPWARD) else [ALONG, UPWARD], plane=True)
+        return _numbered(
+            [*in_plane, *(_kinds(standing, [AROUND]) if not stack.as_found and not standing.springs else [])]
+        )
+    if any(
+        _coupled(standing, group, other) for group in groups.values() for other in groups.values() if group != other
+    ):
         return _numbered(_kinds(standing, [(0, 1, 2, 3, 4, 5)]), pairs=stack.section == "circular")
     along, across = _kinds(standing, [ALONG]), _kinds(standing, [ACROSS])
     others = _kinds(standing, [UPWARD, AROUND])
     alike = all(
-        math.isclose(one.frequency, other.frequency, rel_tol=ALIKE) for one, other in zip(along, across, strict=True)
+        math.isclose(mode.frequency, other.frequency, rel_tol=ALIKE) for mode, other in zip(along, across, strict=True)
     )
     if alike:
         return [*_numbered([replace(mode, azimuth=None) for mode in along]), *_numbered(others)]
@@ -265,10 +269,10 @@ def _of_assembly(standing: Vibrating, plane: bool) -> list[Mode]:
     return _numbered(_kinds(standing, [(0, 2, 4) if plane else (0, 1, 2, 3, 4, 5)], most=MOST, plane=plane))
 
 
-def _coupled(standing: Vibrating, one: tuple[int, ...], other: tuple[int, ...]) -> bool:
+def _coupled(standing: Vibrating, first: tuple[int, ...], other: tuple[int, ...]) -> bool:
     """Whether two groups of coordinates of each body act on one another."""
     free = np.flatnonzero(standing.free)[:, None] * 6
-    a, b = ((free + np.array(group)).ravel() for group in (one, other))
+    a, b = ((free + np.array(group)).ravel() for group in (first, other))
     for matrix in (standing.stiffness_matrix, standing.mass_matrix):
         size = np.sqrt(np.outer(np.diag(matrix)[a], np.diag(matrix)[b]))
         if (np.abs(matrix[np.ix_(a, b)]) > APART * np.abs(size)).any():
@@ -280,12 +284,12 @@ def _kinds(
     standing: Vibrating, groups: list[tuple[int, ...]], *, most: int | None = None, plane: bool = False
 ) -> list[Mode]:
     """Modes of groups of coordinates of each body."""
-    found = []
+    result = []
     for group in groups:
         coordinates = (6 * np.flatnonzero(standing.free)[:, None] + np.array(group)).ravel()
         frequencies, shapes = standing.solve(coordinates, most)
-        found += [_mode(standing, float(f), shape, plane) for f, shape in zip(frequencies, shapes, strict=True)]
-    return found
+        result += [_mode(standing, float(f), shape, plane) for f, shape in zip(frequencies, shapes, strict=True)]
+    return result
 
 
 def _mode(standing: Vibrating, frequency: float, shape: np.ndarray, plane: bool) -> Mode:
@@ -314,22 +318,22 @@ def _mode(standing: Vibrating, frequency: float, shape: np.ndarray, plane: bool)
     return Mode(kind, 0, frequency, azimuth, sign / size * shape, standing)
 
 
-def _numbered(found: list[Mode], *, pairs: bool = False) -> list[Mode]:
+def _numbered(unnumbered: list[Mode], *, pairs: bool = False) -> list[Mode]:
     """Modes with their numbers, each kind by rising frequency; bending in pairs of both planes where a column is round."""
     out = []
     for kind in KINDS:
-        own = sorted((mode for mode in found if mode.kind == kind), key=lambda mode: mode.frequency)
+        own = sorted((mode for mode in unnumbered if mode.kind == kind), key=lambda mode: mode.frequency)
         two = pairs and kind == "bending"
         out += [replace(mode, number=(i // 2 if two else i) + 1) for i, mode in enumerate(own)]
     return out
 
 
-def frequency_drops(found: Modes, left: float = 0.5, number: int = 3) -> list[dict[str, Any]]:
+def frequency_drops(modes: Modes, left: float = 0.5, number: int = 3) -> list[dict[str, Any]]:
     """By how much the loss of stiffness of each joint lowers each mode, one joint at a time.
 
     Parameters
     ----------
-    found : Modes
+    modes : Modes
     left : float
         Share of a joint's stiffness that is left, in bending, shear, torsion and closing alike [-].
     number : int
@@ -348,38 +352,39 @@ def frequency_drops(found: Modes, left: float = 0.5, number: int = 3) -> list[di
     check_range("left", left, 0.0, 1.0, open_low=True, open_high=True, remedy="0.5 is half of its stiffness")
     check_whole("number", number, 1)
     rows = []
-    for j, joint in enumerate(found.standing.joints):
-        soft = [other if i != j else joint.softened(left) for i, other in enumerate(found.standing.joints)]
-        standing = found.standing.with_joints(soft)
+    for j, joint in enumerate(modes.standing.joints):
+        soft = [other if i != j else joint.softened(left) for i, other in enumerate(modes.standing.joints)]
+        standing = modes.standing.with_joints(soft)
         try:
-            changed = _modes_of(found, standing)
+            changed = _modes_of(modes, standing)
         except InputError as error:
             raise InputError(
                 f"with {left:g} of its stiffness left, {joint.name} no longer carries what stands on it; give a "
                 f"larger share.",
                 "left",
             ) from error
-        drop = {one: other.frequency / one.frequency - 1.0 for one, other in _followed(found, changed)}
-        listed = [one for kind in KINDS for one in found.of(kind)[:number]]
+        drop = {mode: other.frequency / mode.frequency - 1.0 for mode, other in _followed(modes, changed)}
+        listed = [mode for kind in KINDS for mode in modes.of(kind)[:number]]
         drops = [
-            {"kind": one.kind, "number": one.number, "azimuth_deg": one.azimuth, "drop": drop[one]} for one in listed
+            {"kind": mode.kind, "number": mode.number, "azimuth_deg": mode.azimuth, "drop": drop[mode]}
+            for mode in listed
         ]
         rows.append({"joint": joint.name, "drops": drops})
     return rows
 
 
-def _followed(found: Modes, changed: Sequence[Mode]) -> Iterator[tuple[Mode, Mode]]:
+def _followed(original: Modes, changed: Sequence[Mode]) -> Iterator[tuple[Mode, Mode]]:
     """Each mode and that of the changed joints which moves alike: order and kind may change where motions are coupled."""
     from scipy.optimize import linear_sum_assignment
 
-    old, new = (np.array([mode.shape.ravel() for mode in modes]) for modes in (found.modes, changed))
-    mass = found.standing.mass_matrix
+    old, new = (np.array([mode.shape.ravel() for mode in modes]) for modes in (original.modes, changed))
+    mass = original.standing.mass_matrix
     new /= np.sqrt(np.einsum("mi,ij,mj->m", new, mass, new))[:, None]
     alike = np.abs(old @ mass @ new.T) / np.sqrt(np.einsum("mi,ij,mj->m", old, mass, old))[:, None]
-    yield from ((found.modes[i], changed[j]) for i, j in zip(*linear_sum_assignment(-alike), strict=True))
+    yield from ((original.modes[i], changed[j]) for i, j in zip(*linear_sum_assignment(-alike), strict=True))
 
 
-def _modes_of(found: Modes, standing: Vibrating) -> list[Mode]:
-    stack = found.structure.stack
-    plane = found.model == "dem2d"
+def _modes_of(original: Modes, standing: Vibrating) -> list[Mode]:
+    stack = original.structure.stack
+    plane = original.model == "dem2d"
     return _of_column(standing, stack, plane) if stack is not None else _of_assembly(standing, plane)

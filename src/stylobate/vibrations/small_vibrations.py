@@ -88,9 +88,9 @@ class ClosedJoint:
         along = along - self.springs @ along / self.springs.sum()
         return float(self.springs @ along**2)
 
-    def softened(self, left: float) -> ClosedJoint:
+    def softened(self, share: float) -> ClosedJoint:
         """The same with a share of all its stiffness left."""
-        return replace(self, springs=left * self.springs, shear=left * self.shear, torsion=left * self.torsion)
+        return replace(self, springs=share * self.springs, shear=share * self.shear, torsion=share * self.torsion)
 
 
 @dataclass(frozen=True, eq=False)
@@ -334,20 +334,20 @@ class Vibrating:
             rise = self._rises(joint, joint.edge) @ both
             slip = float(np.hypot(*(joint.frame[:, :2].T @ self._passing(joint, joint.middle) @ both)))
             turn = joint.torsion * abs(float((both[3:6] - both[9:]) @ joint.normal))
-            left = max(joint.friction - float(np.hypot(*(joint.frame[:, :2].T @ joint.force))), 0.0)
-            left = left if left > 0.0 else math.inf  # slid at rest: that is told beside
+            reserve = max(joint.friction - float(np.hypot(*(joint.frame[:, :2].T @ joint.force))), 0.0)
+            reserve = reserve if reserve > 0.0 else math.inf  # slid at rest: that is told beside
             opens = _quotient(np.maximum(joint.closure, 0.0), np.abs(rise))
-            slides = _quotient(np.array([left]), np.array([joint.shear * slip]))
-            twists = _quotient(np.array([left * joint.lever]), np.array([turn]))
-            found = min((opens, number, "opens"), (slides, number, "slides"), (twists, number, "twists"))
-            best = min(best, found)
+            slides = _quotient(np.array([reserve]), np.array([joint.shear * slip]))
+            twists = _quotient(np.array([reserve * joint.lever]), np.array([turn]))
+            event = min((opens, number, "opens"), (slides, number, "slides"), (twists, number, "twists"))
+            best = min(best, event)
         return best
 
 
 def _quotient(most: np.ndarray, now: np.ndarray) -> float:
     """The least of some quotients, of what is above rounding."""
-    some = now > 1e-12 * now.max(initial=1e-300)
-    return float((most[some] / now[some]).min(initial=math.inf))
+    mask = now > 1e-12 * now.max(initial=1e-300)
+    return float((most[mask] / now[mask]).min(initial=math.inf))
 
 
 def _turned(force: np.ndarray, arm: np.ndarray) -> np.ndarray:

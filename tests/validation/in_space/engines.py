@@ -33,8 +33,8 @@ def bodies_of(text: str):
     """Bodies of a scene as its row writes it, such as ``scenes.portal('cyl', 3)``."""
     call = re.match(r"scenes\.(\w+)\(([^)]*)\)", text)
     arguments, named = [], {}
-    for one in filter(None, (part.strip() for part in call[2].split(","))):
-        name, _, value = one.rpartition("=")
+    for argument in filter(None, (part.strip() for part in call[2].split(","))):
+        name, _, value = argument.rpartition("=")
         made = value.strip("'") if value.startswith("'") else float(value) if "." in value else int(value)
         named.update({name: made}) if name else arguments.append(made)
     return getattr(scenes(), call[1])(*arguments, **named)
@@ -43,13 +43,13 @@ def bodies_of(text: str):
 def motion_of(text: str) -> st.Motion:
     """The ground of a scene as its row writes it."""
     s = scenes()
-    one = re.search(r"one full sine (\S+) g, period (\S+) s, azimuth (\S+) deg", text)
-    two = re.search(r"(?:= |two_sines)\(([\d., ]+)\)", text)
-    if one:
-        size, period, azimuth = map(float, one.groups())
+    single_sine = re.search(r"one full sine (\S+) g, period (\S+) s, azimuth (\S+) deg", text)
+    two_sines = re.search(r"(?:= |two_sines)\(([\d., ]+)\)", text)
+    if single_sine:
+        size, period, azimuth = map(float, single_sine.groups())
         ground, length = s.one_sine(size, period, azimuth), 0.2 + period
-    elif two:
-        ax, fx, ay, fy = (float(part) for part in two[1].split(","))
+    elif two_sines:
+        ax, fx, ay, fy = (float(part) for part in two_sines[1].split(","))
         ground, length = s.two_sines(ax, fx, ay, fy), 0.2 + 5.0 / min(fx, fy)
     else:
         ground, length = s.quiet, 0.2
@@ -58,14 +58,17 @@ def motion_of(text: str) -> st.Motion:
 
 
 @cache
-def found(text: str, share: float = 1.0) -> Found:
+def run_of(text: str, share: float = 1.0) -> Found:
     """One run of a scene, its motion as it is or a share of it."""
     structure = assembly(bodies_of(text), "scene")
     joint = st.Joint(STIFFNESS, 0.5 * STIFFNESS, friction_coefficient=0.7)
     structure = st.SpatialAssembly(structure.stones, joint, "scene")
     motion = motion_of(text).scaled(share)
     models = [st.DistinctElement3D(stiffness_damping=damping) for damping in DAMPINGS]
-    model = next((one for one in models if engine_for(one, structure).expected_step(motion)[0] >= SHORTEST), models[-1])
+    model = next(
+        (candidate for candidate in models if engine_for(candidate, structure).expected_step(motion)[0] >= SHORTEST),
+        models[-1],
+    )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", st.OutOfRangeWarning)  # a monolith that leans begins as drawn
         response = st.simulate(structure, motion, model, tail=FOLLOWED - motion.duration, until_end=True)
@@ -88,7 +91,7 @@ def found(text: str, share: float = 1.0) -> Found:
 def engines(rows: Rows):
     """Verdict and number fallen; tilts within the range of the engines."""
     for row in rows:
-        scene = found(row["params"])
+        scene = run_of(row["params"])
         why = f"no verdict: {scene.failed}" if scene.failed else ""
         if row["quantity"] == "verdict":
             mine = "collapses" if scene.fallen else "stands"
@@ -100,7 +103,7 @@ def engines(rows: Rows):
             last = "the same verdict; how many of the last stones come down hangs on what impacts leave" if off else ""
             yield Judged(str(scene.fallen), f"{off:+d}" if off else "", MISSED if off or why else MET, why or last)
         elif row["quantity"] == "largest tilt of any body":
-            low, high = (float(one) for one in row["spread"].split(" to "))
+            low, high = (float(bound) for bound in row["spread"].split(" to "))
             off = scene.tilt / float(row["value"]) - 1.0
             inside = low <= scene.tilt <= high and not why
             reason = why or ("" if inside else beyond(row, rows, scene.tilt))
@@ -112,15 +115,17 @@ def engines(rows: Rows):
 
 def nearby(row: dict[str, str]) -> str:
     """What a scene with another verdict does when it is shaken a little more or less."""
-    runs = [(share, found(row["params"], share)) for share in (0.97, 1.03, 1.1)]
-    said = ", ".join(f"{share:g}: {one.fallen} fallen ({one.tilt:.3g}°)" for share, one in runs)
-    return f"near its limit in the engines too; here with so much of the amplitude {said}"
+    runs = [(share, run_of(row["params"], share)) for share in (0.97, 1.03, 1.1)]
+    summary = ", ".join(f"{share:g}: {run.fallen} fallen ({run.tilt:.3g}°)" for share, run in runs)
+    return f"near its limit in the engines too; here with so much of the amplitude {summary}"
 
 
 def beyond(row: dict[str, str], rows: Rows, tilt: float) -> str:
     """Why a tilt is outside the range of the engines."""
-    verdict = next(one for one in rows if one["case"] == row["case"] and one["quantity"] == "verdict")
-    seen = [float(one) for one in re.findall(r"([\d.]+) deg", verdict["spread"])]
+    verdict = next(
+        candidate for candidate in rows if candidate["case"] == row["case"] and candidate["quantity"] == "verdict"
+    )
+    seen = [float(angle) for angle in re.findall(r"([\d.]+) deg", verdict["spread"])]
     low, high = min(seen), max(seen)
     if low <= tilt <= high:
         return f"inside what 3 % more or less of the amplitude make of it in the engines ({low:g} to {high:g})"

@@ -31,7 +31,7 @@ def impact_ratio() -> float:
     lane = portal(0.5 * slender, STIFF, STEP)
     _, seen = lane.run(1.8, lambda: lane.axes(1)[0, 2])
     swings = [0.5 * slender, math.asin(-min(seen))]
-    before, after = (math.cos(slender - one) - math.cos(slender) for one in swings)
+    before, after = (math.cos(slender - swing) - math.cos(slender) for swing in swings)
     return math.sqrt(after / before)
 
 
@@ -39,13 +39,15 @@ def impact_ratio() -> float:
 def portal_rocking(rows: Rows):
     """The equivalent block of Makris and Vassiliou (2013)."""
     yield near(rows[0], equivalent(), spread=1e-7 * float(rows[0]["value"]))
-    kept, told = impact_ratio(), float(rows[1]["value"])
+    kept, expected = impact_ratio(), float(rows[1]["value"])
     more = "a largest value: elastic contacts without damping keep more, as the row says"
-    yield Judged(f"{kept:.4f}", f"{100.0 * (kept / told - 1.0):+.2g} %", MET if kept >= told - 5e-3 else MISSED, more)
+    yield Judged(
+        f"{kept:.4f}", f"{100.0 * (kept / expected - 1.0):+.2g} %", MET if kept >= expected - 5e-3 else MISSED, more
+    )
     for row in rows[2:]:
         share, exact = float(re.search(r"at (\S+) of", row["params"])[1]), float(row["value"])
         lane = portal(share * math.atan(SLENDER), STIFF, STEP)
-        times, lean = lane.run(1.05 * exact, lambda one=lane: one.axes(1)[0, 2])
+        times, lean = lane.run(1.05 * exact, lambda current=lane: current.axes(1)[0, 2])
         yield near(row, quarter(times, lean))
 
 
@@ -74,11 +76,11 @@ def portal_pulse(rows: Rows):
     for row in rows:
         cycles = 0.5 if "half-sine" in row["params"] else 1.0
         if "least amplitude" in row["quantity"]:
-            duration, told = float(re.search(r"of (\S+) s", row["params"])[1]), float(row["value"])
-            sides = [under_pulse(share * told * SLENDER, duration, cycles)[0] for share in (0.99, 1.01)]
+            duration, expected = float(re.search(r"of (\S+) s", row["params"])[1]), float(row["value"])
+            sides = [under_pulse(share * expected * SLENDER, duration, cycles)[0] for share in (0.99, 1.01)]
             yield both_sides(row, not sides[0], not sides[1], "0.99|1.01")
             continue
-        share, duration = (float(one) for one in re.search(r"beam (\S+) g, (\S+) s", row["params"]).groups())
+        share, duration = (float(number) for number in re.search(r"beam (\S+) g, (\S+) s", row["params"]).groups())
         falls, peak = under_pulse(share, duration, cycles)
         if row["quantity"] == "verdict":
             mine = "collapses" if falls else "stands"
@@ -112,8 +114,8 @@ def wobbling(feet, slab: float, free: bool):
         high = turned @ np.array([-0.8, 0.0, 4.0])
         middle = np.mean([[x + 0.4, y, 0.0] for x, y in feet], axis=0) + high
         sides = (3.4, 3.4, slab * columns[0].mass / (2700.0 * 3.4**2))
-        one = box(sides, middle + np.array([0.0, 0.0, 0.5 * sides[2]]), velocity=np.cross(spin, high))
-        bodies.append(one if free else one._replace(inertia=1e12 * np.eye(3)))
+        slab_body = box(sides, middle + np.array([0.0, 0.0, 0.5 * sides[2]]), velocity=np.cross(spin, high))
+        bodies.append(slab_body if free else slab_body._replace(inertia=1e12 * np.eye(3)))
         under = square_face(1.7, -0.5 * sides[2], up=False)
         joints += [
             faces_joined(1 + k, len(bodies) - 1, disc_face(0.4, 2.0), under, WOBBLING, mu=50.0)

@@ -141,7 +141,7 @@ def dominoes(width: float, height: float, clear: float, count: int, steady: bool
     step = 4e-6 * math.sqrt(small * STIFF / bases)
     lane = row_of_blocks(width, height, clear, count, tilt, bases, contact, 0.0, step, spin=spin, deep=width)
     times = impacts_of(lane, count, 12.0 * math.sqrt(small))
-    return [float(one) for one in (width + clear) / np.diff(times)]
+    return [float(speed) for speed in (width + clear) / np.diff(times)]
 
 
 @family("dominoes")
@@ -149,7 +149,7 @@ def rows_of_dominoes(rows: Rows):
     """Six blocks from rest, and twenty-four for the steady speed."""
     sizes = {"4.0": (0.8, 4.0, 1.2), "0.05": (0.0075, 0.05, 0.02)}
     for row in rows:
-        size = next(one for high, one in sizes.items() if f"blocks {high} high" in row["params"])
+        size = next(dimensions for high, dimensions in sizes.items() if f"blocks {high} high" in row["params"])
         if "steady" in row["quantity"]:
             yield near(row, float(np.mean(dominoes(*size, 24, True)[-6:])), why="mean of the last six of 24 blocks")
         else:

@@ -85,19 +85,19 @@ def independent_programme(rows: Rows):
     """The multiplier to half a per cent, and pushes on either side of it."""
     for row in rows:
         azimuth = float(re.search(r"along (\S+) deg", row["params"])[1])
-        structure, told = scene(row["case"]), float(row["value"])
-        found = st.limit_directions(structure, [azimuth]).limits[0]
-        below, above = (stands(stiffer(structure, PUSHED), azimuth, share * told) for share in PUSHES)
+        structure, expected = scene(row["case"]), float(row["value"])
+        limit = st.limit_directions(structure, [azimuth]).limits[0]
+        below, above = (stands(stiffer(structure, PUSHED), azimuth, share * expected) for share in PUSHES)
         sure = "stands at 0.96" in row["spread"]
-        bound = "" if not found.upper_bound else "an upper bound; "
+        bound = "" if not limit.upper_bound else "an upper bound; "
         words = {True: "stands", False: "falls"}
-        said = f"{bound}pushed with {PUSHES[0]:g}: {words[below]}, {PUSHES[1]:g}: {words[above]}"
+        remark = f"{bound}pushed with {PUSHES[0]:g}: {words[below]}, {PUSHES[1]:g}: {words[above]}"
         if sure and not below:  # bodies on soft joints lean before they lose their stand
-            below = stands(stiffer(structure, 10.0 * PUSHED), azimuth, PUSHES[0] * told)
-            said += f"; on joints ten times as stiff {PUSHES[0]:g}: {words[below]}"
-        judged = near(row, found.multiplier, why=said, spread=CLOSE * told)
+            below = stands(stiffer(structure, 10.0 * PUSHED), azimuth, PUSHES[0] * expected)
+            remark += f"; on joints ten times as stiff {PUSHES[0]:g}: {words[below]}"
+        judged = near(row, limit.multiplier, why=remark, spread=CLOSE * expected)
         wrong = above or (sure and not below)
-        yield Judged(judged.ours, judged.difference, MISSED if wrong else judged.verdict, said)
+        yield Judged(judged.ours, judged.difference, MISSED if wrong else judged.verdict, remark)
 
 
 def columns(kind: str, feet, height: float = 4.0) -> list[st.Stone]:
@@ -115,11 +115,11 @@ def square_portal() -> st.SpatialAssembly:
 
 def pushed(row, structure: st.SpatialAssembly, azimuth: float, spread: float) -> Judged:
     """The multiplier, and that it stands and falls on either side of it."""
-    told = float(row["value"])
-    below, above = (stands(structure, azimuth, share * told) for share in (0.97, 1.03))
+    expected = float(row["value"])
+    below, above = (stands(structure, azimuth, share * expected) for share in (0.97, 1.03))
     sides = both_sides(row, below, above, "0.97|1.03")
-    found = near(row, multiplier(structure, azimuth), why=f"pushed: {sides.ours}", spread=spread * told)
-    return found if sides.verdict == MET else Judged(found.ours, found.difference, MISSED, found.why)
+    judged = near(row, multiplier(structure, azimuth), why=f"pushed: {sides.ours}", spread=spread * expected)
+    return judged if sides.verdict == MET else Judged(judged.ours, judged.difference, MISSED, judged.why)
 
 
 @family("portal_push")
@@ -177,10 +177,10 @@ def arch_thickness(rows: Rows):
 @family("arch_across")
 def arch_across(rows: Rows):
     """Fifteen voussoirs between chords, whose centroid lies a little lower than that of the smooth arch."""
-    told = float(rows[0]["value"])
+    expected = float(rows[0]["value"])
     structure = assembly(scenes().arch(15, 3.0, 0.6, 0.8), "arch")
     why = "half a per cent, as for all multipliers: voussoirs between chords lie lower than the smooth arch"
-    yield near(rows[0], multiplier(structure, 90.0), why=why, spread=CLOSE * told)
+    yield near(rows[0], multiplier(structure, 90.0), why=why, spread=CLOSE * expected)
 
 
 @family("wall_mid_push")
@@ -199,5 +199,5 @@ def wall_mid_push(rows: Rows):
     for row in rows[1:]:
         pushed_out = float(re.search(r"d/t (\S+)", row["spread"])[1])
         why = "a measurement without a spread; the rigid mechanism at the same deflection"
-        found = near(row, rigid * (1.0 - pushed_out))
-        yield Judged(found.ours, found.difference, NONE, why)
+        judged = near(row, rigid * (1.0 - pushed_out))
+        yield Judged(judged.ours, judged.difference, NONE, why)

@@ -43,12 +43,12 @@ class Swing(NamedTuple):
 @cache
 def plane_assembly(name: str, sliding: bool) -> st.Assembly:
     """An assembly of the gallery, with its own friction or with one that holds."""
-    found: Any = read_assembly(GALLERY / f"{name}.toml")
+    assembly: Any = read_assembly(GALLERY / f"{name}.toml")
     if sliding:
-        return found
-    joint = found.joint
-    held = st.Joint(joint.normal_stiffness, joint.shear_stiffness, friction_coefficient=NO_SLIP)
-    return st.Assembly(found.blocks, held, name, ground=found.ground)
+        return assembly
+    joint = assembly.joint
+    no_slip_joint = st.Joint(joint.normal_stiffness, joint.shear_stiffness, friction_coefficient=NO_SLIP)
+    return st.Assembly(assembly.blocks, no_slip_joint, name, ground=assembly.ground)
 
 
 @cache
@@ -108,33 +108,35 @@ def toppling(depth: float | None) -> np.ndarray:
 def computed() -> dict:
     """All of it, as plain values."""
     depths = {"plane": None, "1 m": DEPTH, "20 m": DEEP}
-    swings = {name: {label: swing(name, one)._asdict() for label, one in depths.items()} for name in SWINGS}
+    swings = {name: {label: swing(name, depth)._asdict() for label, depth in depths.items()} for name in SWINGS}
     verdicts = {
         name: [[share, time, falls(name, None, share, time), falls(name, DEPTH, share, time)] for share, time in each]
         for name, each in PULSES.items()
     }
-    slabs = {label: [round(float(one), 4) for one in toppling(depths[label])] for label in ("plane", "1 m")}
+    slabs = {label: [round(float(time), 4) for time in toppling(depths[label])] for label in ("plane", "1 m")}
     return {"swings": swings, "verdicts": verdicts, "dominoes": slabs}
 
 
 def tables(kept: dict) -> str:
     """First swings, verdicts and dominoes, in Markdown."""
     lines = ["| first swing | plane | 1 m deep | 20 m deep |", "| --- | --- | --- | --- |"]
-    for name, one in kept["swings"].items():
-        base = one["plane"]
+    for name, swings in kept["swings"].items():
+        base = swings["plane"]
         for key, unit, words in (("peak", "rad", "largest rotation"), ("time", "s", "when")):
             cells = [f"{base[key]:.4f} {unit}"]
             for label in ("1 m", "20 m"):
-                cells.append(f"{one[label][key]:.4f} {unit} ({100.0 * (one[label][key] / base[key] - 1.0):+.1f} %)")
+                cells.append(
+                    f"{swings[label][key]:.4f} {unit} ({100.0 * (swings[label][key] / base[key] - 1.0):+.1f} %)"
+                )
             lines.append(f"| {name}, {words} | {' | '.join(cells)} |")
     lines += ["", "| pulses | cases | same verdict | fall in the plane, in space |", "| --- | --- | --- | --- |"]
     for name, each in kept["verdicts"].items():
         same = sum(flat == deep for *_, flat, deep in each)
-        falls = ", ".join(str(sum(bool(one[k]) for one in each)) for k in (2, 3))
+        falls = ", ".join(str(sum(bool(case[k]) for case in each)) for k in (2, 3))
         lines.append(f"| {name} | {len(each)} | {same} | {falls} |")
     lines += ["", "| dominoes | leans by 0.1 rad after [s] |", "| --- | --- |"]
     for label, times in kept["dominoes"].items():
         lines.append(
-            f"| {'plane' if label == 'plane' else 'in space, 1 m deep'} | {', '.join(f'{one:.3f}' for one in times)} |"
+            f"| {'plane' if label == 'plane' else 'in space, 1 m deep'} | {', '.join(f'{time:.3f}' for time in times)} |"
         )
     return "\n".join(lines) + "\n"

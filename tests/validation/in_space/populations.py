@@ -62,17 +62,17 @@ def verdict(response: st.Response) -> tuple:
     return str(response.measures.outcome), sorted(name for name, _ in blocks.fell_at), sorted(blocks.displaced)
 
 
-def apart(one: st.Response, other: st.Response, angle: float) -> list[float]:
+def apart(response: st.Response, other: st.Response, angle: float) -> list[float]:
     """How far the bodies of a scene and of its twin are from one another at some times, at most [m]."""
     axes = matrix_of((math.cos(0.5 * angle), 0.0, 0.0, math.sin(0.5 * angle)))
     numbers = {body.name: i for i, body in enumerate(other.structure.bodies)}
-    order = [numbers[body.name] for body in one.structure.bodies]
-    last = min(len(one.time), len(other.time)) - 1
-    found = []
-    for k in np.minimum(np.searchsorted(one.time, TIMES), last):
-        away = other.body_position[k][order] @ axes - one.body_position[k]
-        found.append(float(np.linalg.norm(away, axis=1).max()))
-    return found
+    order = [numbers[body.name] for body in response.structure.bodies]
+    last = min(len(response.time), len(other.time)) - 1
+    distances = []
+    for k in np.minimum(np.searchsorted(response.time, TIMES), last):
+        away = other.body_position[k][order] @ axes - response.body_position[k]
+        distances.append(float(np.linalg.norm(away, axis=1).max()))
+    return distances
 
 
 def twins(number: int) -> tuple[str, st.Response, dict[str, tuple[st.Response, list[float]]]] | None:
@@ -85,11 +85,11 @@ def twins(number: int) -> tuple[str, st.Response, dict[str, tuple[st.Response, l
     angle, order = rng.uniform(0.0, 2.0 * math.pi), rng.permutation(len(stones))
     others = {"turned": (turned(stones, motion, angle, order), angle)}
     others |= {f"{nudge:g}": ((stones, motion.scaled(1.0 + nudge)), 0.0) for nudge in NUDGES}
-    found = {}
+    results = {}
     for key, (made, back) in others.items():
         twin = run(*made, family)
-        found[key] = twin, apart(plain, twin, back)
-    return family, plain, found
+        results[key] = twin, apart(plain, twin, back)
+    return family, plain, results
 
 
 def turning() -> Iterator[dict[str, Any]]:
@@ -104,11 +104,11 @@ def turning() -> Iterator[dict[str, Any]]:
         decided += 1
         family, plain, others = made
         mine = verdict(plain)
-        told: dict[str, Any] = {"scene": number - 1, "family": family, "outcome": mine[0], "fallen": len(mine[1])}
+        row: dict[str, Any] = {"scene": number - 1, "family": family, "outcome": mine[0], "fallen": len(mine[1])}
         for key, (twin, way) in others.items():
             same = [a == b for a, b in zip(mine, verdict(twin), strict=True)]
-            told[key] = {"same": same, "outcome": str(twin.measures.outcome), "apart": [float(f"{x:.2g}") for x in way]}
-        yield told
+            row[key] = {"same": same, "outcome": str(twin.measures.outcome), "apart": [float(f"{x:.2g}") for x in way]}
+        yield row
 
 
 # -- tumbles -------------------------------------------------------------------------------------------------------------
@@ -194,11 +194,11 @@ def stored() -> dict[str, Any]:
 
 def counted(rows: list[dict[str, Any]]) -> dict[str, Any]:
     """Twins with another outcome, other fallen or other displaced bodies than their scene, and those that differ."""
-    twins_ = [key for key, told in rows[0].items() if isinstance(told, dict)]
+    twins_ = [key for key, value in rows[0].items() if isinstance(value, dict)]
     return {
         "drawn": rows[-1]["scene"] + 1,
         "families": {
-            one: sum(row["family"] == one for row in rows) for one in dict.fromkeys(r["family"] for r in rows)
+            family: sum(row["family"] == family for row in rows) for family in dict.fromkeys(r["family"] for r in rows)
         },
         "outcomes": Counter(row["outcome"] for row in rows),
         "twins": {
@@ -215,21 +215,21 @@ def counted(rows: list[dict[str, Any]]) -> dict[str, Any]:
 
 def spread(rows: list[dict[str, Any]]) -> dict[str, Any]:
     """Of tumbles by the stiffness of their contacts, what they miss on average and at most, and the largest of the rest."""
-    found = {}
+    statistics = {}
     for stiffness in dict.fromkeys(row["stiffness"] for row in rows):
-        some = [row for row in rows if row["stiffness"] == stiffness]
-        missed = np.array([row["missed"] for row in some])
-        found[f"{stiffness:g}"] = {
-            "tumbles": len(some),
-            "failed": sum(row["failed"] for row in some),
+        tumbles = [row for row in rows if row["stiffness"] == stiffness]
+        missed = np.array([row["missed"] for row in tumbles])
+        statistics[f"{stiffness:g}"] = {
+            "tumbles": len(tumbles),
+            "failed": sum(row["failed"] for row in tumbles),
             "mean": float(missed.mean()),
             "99 %": float(np.quantile(np.abs(missed), 0.99)),
             "lost": float(missed.max()),
             "gained": float(-missed.min()),
-            "deepest": max(row["deepest"] for row in some),
-            "flight": max(row["flight"] for row in some),
+            "deepest": max(row["deepest"] for row in tumbles),
+            "flight": max(row["flight"] for row in tumbles),
         }
-    return found
+    return statistics
 
 
 #: What is kept of a population, where that is not all rows.
@@ -248,8 +248,8 @@ def renew(*names: str) -> None:
 
 def keep(name: str, rows: list[dict[str, Any]]) -> None:
     """Write what a population comes down to."""
-    told = (stored() if FILE.exists() else {}) | {name: KEPT.get(name, list)(rows), "date": date.today().isoformat()}
-    FILE.write_text(json.dumps(told, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+    content = (stored() if FILE.exists() else {}) | {name: KEPT.get(name, list)(rows), "date": date.today().isoformat()}
+    FILE.write_text(json.dumps(content, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
 
 
 #: Twins of scenes as the page calls them.
@@ -266,9 +266,12 @@ def turned_table() -> str:
         "| --- | --- | --- | --- | --- | --- |",
     ]
     for key, name in TWINS.items():
-        told = kept["twins"][key]
-        other, away = " | ".join(map(str, told["other"])), " / ".join(f"{x:.0e}" if x else "0" for x in told["apart"])
-        lines.append(f"| {name} | {other} | {told['failed']} | {away} |")
+        counts = kept["twins"][key]
+        other, away = (
+            " | ".join(map(str, counts["other"])),
+            " / ".join(f"{x:.0e}" if x else "0" for x in counts["apart"]),
+        )
+        lines.append(f"| {name} | {other} | {counts['failed']} | {away} |")
     return "\n".join(lines) + "\n"
 
 
@@ -279,10 +282,10 @@ def tumbles_table() -> str:
         "| deepest contact | free flight keeps momenta to |",
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
-    for stiffness, told in stored()["tumbling"].items():
-        shares = " | ".join(f"{100.0 * told[key]:.2g} %" for key in ("mean", "99 %", "lost", "gained"))
-        cells = f"{told['tumbles']} | {told['failed']} | {shares} | {1000.0 * told['deepest']:.0f} mm"
-        lines.append(f"| {stiffness} | {cells} | {told['flight']:.0e} |")
+    for stiffness, statistics in stored()["tumbling"].items():
+        shares = " | ".join(f"{100.0 * statistics[key]:.2g} %" for key in ("mean", "99 %", "lost", "gained"))
+        cells = f"{statistics['tumbles']} | {statistics['failed']} | {shares} | {1000.0 * statistics['deepest']:.0f} mm"
+        lines.append(f"| {stiffness} | {cells} | {statistics['flight']:.0e} |")
     return "\n".join(lines) + "\n"
 
 

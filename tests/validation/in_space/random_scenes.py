@@ -41,7 +41,7 @@ def pillar(rng, at, width, height, tag):
 def colonnade(rng, count):
     """Pillars in a row and beams from axis to axis."""
     width, height, span = rng.uniform(0.6, 0.9), rng.uniform(2.5, 4.0), rng.uniform(1.8, 2.6)
-    stones = [one for k in range(count) for one in pillar(rng, (span * k, 0.0), width, height, f"{'abcd'[k]}")]
+    stones = [stone for k in range(count) for stone in pillar(rng, (span * k, 0.0), width, height, f"{'abcd'[k]}")]
     for k in range(count - 1):
         low, high = (span * (k + side) for side in (0, 1))
         low, high = low - (0.4 * width if k == 0 else -0.001), high + (0.4 * width if k == count - 2 else -0.001)
@@ -165,11 +165,11 @@ def tumble(number, count=10):
     """Stones of all kinds in the air, that move and turn, over one another."""
     rng, stones = np.random.default_rng([26, number]), []
     for i in range(count):
-        one = support(rng, rng.uniform(0.3, 0.6), rng.uniform(0.3, 0.8), (0.0, 0.0, 0.0), f"stone {i}")
+        stone = support(rng, rng.uniform(0.3, 0.6), rng.uniform(0.3, 0.8), (0.0, 0.0, 0.0), f"stone {i}")
         spin = rng.normal(size=4)
         stones.append(
             replace(
-                one,
+                stone,
                 position=(*(float(x) for x in rng.uniform(-0.4, 0.4, 2)), 1.0 + 1.4 * i),
                 orientation=tuple(float(x) for x in spin / np.linalg.norm(spin)),
                 velocity=tuple(float(x) for x in rng.normal(size=3)),

@@ -144,14 +144,14 @@ def resting() -> Iterator[dict[str, Any]]:
 def counted_at_rest(rows: list[dict[str, Any]]) -> dict[str, Any]:
     """Of each kind: scenes that bear their load, those that crept and fell, the farthest way; those that do not bear it, and
     those of them that neither fell nor moved."""
-    found = {}
+    counts = {}
     for kind in dict.fromkeys(row["kind"] for row in rows):
-        some = [row for row in rows if row["kind"] == kind]
-        below, above = ([row for row in some if (row["share"] > 1.0) is far] for far in (False, True))
+        scenes = [row for row in rows if row["kind"] == kind]
+        below, above = ([row for row in scenes if (row["share"] > 1.0) is far] for far in (False, True))
         crept = [row["crept"] for row in below if not row["fell"]]
-        found[kind] = {
+        counts[kind] = {
             "below": len(below), "crept": sum(way > CREEPS for way in crept), "fell": sum(row["fell"] for row in below),
             "farthest": max(crept, default=0.0), "above": len(above),
             "stood": sum(not row["fell"] and row["crept"] < CREEPS for row in above),
         }  # fmt: skip
-    return found
+    return counts

@@ -59,11 +59,13 @@ def over_edge(rows: Rows):
     _, seen = lane.run(1.4, lambda: (lane.contact(1, 2), *lane.place(2), *lane.velocity(2), *lane.spin(2)))
     area, x, _, z, *v, _, spin, _ = np.array(seen).T
     speed = np.hypot(v[0], v[2])
-    left = int(np.argmax((area == 0.0) & (x > 0.05)))
+    departure = int(np.argmax((area == 0.0) & (x > 0.05)))
     angle = np.degrees(np.arctan2(x, z - 2.0))
     slips = int(np.argmax((x > 0.0) & (speed - RADIUS * spin > 0.002 * speed)))
     landed = x[np.argmax(z < RADIUS + 1e-3)]
-    for row, ours in zip(rows, (angle[left], speed[left], spin[left], landed, angle[slips]), strict=True):
+    for row, ours in zip(
+        rows, (angle[departure], speed[departure], spin[departure], landed, angle[slips]), strict=True
+    ):
         why = (
             "the row gives no spread; taken where the edge slips by 0.2 % of the speed" if ours == angle[slips] else ""
         )

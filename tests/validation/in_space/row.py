@@ -59,10 +59,10 @@ def allowed(row: dict[str, str], of: float | None = None) -> float | None:
     Per cent, and numbers without a unit, are of the value, or of ``of``; degrees and millimetres, and numbers of angles in
     radians, are themselves.
     """
-    found = re.match(r"(\d[\d.e-]*)(?: (%|deg|mm))?(?![\d.])", row["spread"])
-    if found is None:
+    match = re.match(r"(\d[\d.e-]*)(?: (%|deg|mm))?(?![\d.])", row["spread"])
+    if match is None:
         return None
-    size, unit = float(found[1]), found[2]
+    size, unit = float(match[1]), match[2]
     if unit == "deg" or (unit is None and row["unit"] == "rad"):
         return size
     if unit == "mm":
@@ -73,7 +73,7 @@ def allowed(row: dict[str, str], of: float | None = None) -> float | None:
 
 def values(row: dict[str, str]) -> np.ndarray:
     """The value of a row, or its several ones."""
-    return np.array([float(one) for one in row["value"].split()])
+    return np.array([float(token) for token in row["value"].split()])
 
 
 def near(row: dict[str, str], ours, of: float | None = None, why: str = "", spread: float | None = None) -> Judged:
@@ -90,20 +90,20 @@ def near(row: dict[str, str], ours, of: float | None = None, why: str = "", spre
     spread : float, optional
         The spread, where the row says it in words.
     """
-    told, mine = values(row), np.atleast_1d(np.asarray(ours, dtype=float))
-    off = float(np.linalg.norm(mine - told))
+    expected, mine = values(row), np.atleast_1d(np.asarray(ours, dtype=float))
+    off = float(np.linalg.norm(mine - expected))
     most = allowed(row, of) if spread is None else spread
-    shown = " ".join(f"{one:.6g}" for one in mine)
-    share = off / float(np.linalg.norm(told if of is None else [of]))
+    shown = " ".join(f"{number:.6g}" for number in mine)
+    share = off / float(np.linalg.norm(expected if of is None else [of]))
     absolute = row["unit"] in ("rad", "deg", "m") and not re.match(r"\S+ %", row["spread"])
-    said = f"{off:.2g} {row['unit']}" if absolute else f"{100.0 * share:.2g} %"
+    difference = f"{off:.2g} {row['unit']}" if absolute else f"{100.0 * share:.2g} %"
     if most is None:
-        return Judged(shown, said, NONE, why or "the row gives no spread")
-    return Judged(shown, said, MET if off <= most and math.isfinite(off) else MISSED, why)
+        return Judged(shown, difference, NONE, why or "the row gives no spread")
+    return Judged(shown, difference, MET if off <= most and math.isfinite(off) else MISSED, why)
 
 
 def both_sides(row: dict[str, str], low: bool, high: bool, sides: str, why: str = "") -> Judged:
     """A limit that is met where what is on its safe side stands (``low``) and what is on the other one falls (``high``)."""
     words = {True: "stands", False: "falls"}
-    shown = ", ".join(f"{side}: {words[one]}" for side, one in zip(sides.split("|"), (low, high), strict=True))
+    shown = ", ".join(f"{side}: {words[verdict]}" for side, verdict in zip(sides.split("|"), (low, high), strict=True))
     return Judged(shown, "", MET if low and not high else MISSED, why)

@@ -65,10 +65,10 @@ def shares(rows: list[dict[str, Any]]) -> dict[str, Any]:
     """Runs, those that collapsed, and medians of those that stand [m], by losses."""
     kinds = {}
     for losses in ("none", "stone"):
-        some = [row for row in rows if row["losses"] == losses]
-        stand = [row for row in some if not row["fell"]]
+        runs = [row for row in rows if row["losses"] == losses]
+        stand = [row for row in runs if not row["fell"]]
         medians = {key: float(np.nanmedian([row[key] for row in stand])) for key in ("peak", "residual", "slip")}
-        kinds[losses] = {"runs": len(some), "fell": len(some) - len(stand)} | medians
+        kinds[losses] = {"runs": len(runs), "fell": len(runs) - len(stand)} | medians
     return kinds
 
 

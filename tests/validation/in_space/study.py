@@ -27,23 +27,23 @@ MODULES = (rolling, impacts, limits, frames, engines)
 
 def judged(name: str, rows: Rows) -> list[Judged]:
     """The rows of a family, each beside what is computed."""
-    found = list(FAMILIES[name](rows))
-    assert len(found) == len(rows), f"{name}: {len(found)} of {len(rows)} rows are judged"
-    return found
+    results = list(FAMILIES[name](rows))
+    assert len(results) == len(rows), f"{name}: {len(results)} of {len(rows)} rows are judged"
+    return results
 
 
 def families() -> dict[str, Rows]:
     """All rows of the table by family, in its order."""
-    found: dict[str, Rows] = {}
+    groups: dict[str, Rows] = {}
     for row in rows_of(""):
-        found.setdefault(family_of(row), []).append(row)
-    return found
+        groups.setdefault(family_of(row), []).append(row)
+    return groups
 
 
 def renew(*names: str) -> None:
     """Compute some families, or all, and write what is kept of them."""
-    told = families()
-    every = [*told, PLANE]
+    groups = families()
+    every = [*groups, PLANE]
     unknown = [name for name in names if name not in every]
     if unknown:
         known = ", ".join(every)
@@ -53,13 +53,13 @@ def renew(*names: str) -> None:
         if name == PLANE:
             write((stored() if FILE.exists() else {"rows": {}}) | {PLANE: plane.computed()}, name)
             continue
-        found = [vars(one) for one in judged(name, told[name])]
+        results = [vars(result) for result in judged(name, groups[name])]
         kept = stored() if FILE.exists() else {"rows": {}}
         kept["date"] = date.today().isoformat()
-        kept["rows"][name] = [named(row) | one for row, one in zip(told[name], found, strict=True)]
-        kept["rows"] = {key: kept["rows"][key] for key in told if key in kept["rows"]}
+        kept["rows"][name] = [named(row) | result for row, result in zip(groups[name], results, strict=True)]
+        kept["rows"] = {key: kept["rows"][key] for key in groups if key in kept["rows"]}
         write(kept, name)
-        counts = Counter(one["verdict"] for one in found)
+        counts = Counter(result["verdict"] for result in results)
         print(
             f"{name}: {', '.join(f'{n} {key}' for key, n in counts.items())}; {time.process_time() - began:.0f} s",
             flush=True,
@@ -150,11 +150,11 @@ def summary() -> str:
     applicable = [row for row in rows if row["verdict"] != NONE]
     agreed, same = verdicts_of_engines()
     met = sum(row["verdict"] == MET for row in applicable)
-    told = f"Of {len(rows)} rows {len(applicable)} can be judged, and {met} are met. "
-    told += (
+    text = f"Of {len(rows)} rows {len(applicable)} can be judged, and {met} are met. "
+    text += (
         f"Of {agreed} scenes on whose verdict the engines agree, {same} have it here ({100.0 * same / agreed:.0f} %). "
     )
-    return told + f"Computed on {stored()['date']}."
+    return text + f"Computed on {stored()['date']}."
 
 
 def listed(*verdicts: str, only: str = "") -> str:

@@ -89,24 +89,24 @@ def seen_of(
         label = f"{table.left[i].name}: {kind} {joint + 1}, {sd:g}"
         facts.append(Fact(i, kind, label, tuple(abs(seen) if kind == "largest" else seen), sd, joint))
 
-    for i, left in enumerate(table.left):
-        fell, joints, largest = left.verdict[k] == FELL, range(left.slip.shape[1]), float(left.largest[k])
-        facts.append(Fact(i, "state", f"{left.name} {'fell' if fell else 'stands'}", (float(fell),)))
+    for i, remains in enumerate(table.left):
+        fell, joints, largest = remains.verdict[k] == FELL, range(remains.slip.shape[1]), float(remains.largest[k])
+        facts.append(Fact(i, "state", f"{remains.name} {'fell' if fell else 'stands'}", (float(fell),)))
         if fell:
             if "falls" in kinds:
-                measured(i, "fell towards", left.towards[k], TOWARDS_SD)
+                measured(i, "fell towards", remains.towards[k], TOWARDS_SD)
             continue
         for j in joints if "offsets" in kinds else joints[1:2] if "an offset" in kinds else ():
-            measured(i, "offset", left.slip[k, j], sd, j)
+            measured(i, "offset", remains.slip[k, j], sd, j)
         for j in joints if "twists" in kinds else ():
-            measured(i, "twist", left.twist[k, j], TWIST_SD, j)
+            measured(i, "twist", remains.twist[k, j], TWIST_SD, j)
         if "a bound" in kinds and largest <= BOUND:  # a survey that gives the largest slip where it is beyond the bound
-            facts.append(Fact(i, "no slip above", f"{left.name}: no slip above", (BOUND,)))
+            facts.append(Fact(i, "no slip above", f"{remains.name}: no slip above", (BOUND,)))
         elif {"a bound", "the largest"} & set(kinds):
             measured(i, "largest", largest, sd)
         if "nothing" in kinds:
-            measured(i, "twist", left.twist[k, 0], UNKNOWN_TWIST, 0)
-            measured(i, "offset", left.slip[k, 0], UNKNOWN_OFFSET, 0)
+            measured(i, "twist", remains.twist[k, 0], UNKNOWN_TWIST, 0)
+            measured(i, "offset", remains.slip[k, 0], UNKNOWN_OFFSET, 0)
     return facts
 
 
@@ -153,85 +153,87 @@ def calibration(ruins: Simulations, numbers: np.ndarray, table: Simulations, ins
             level = turn / np.sqrt(12.0)
             wide["azimuth_deg"].append(abc.spread_around(angles, taken.weights, turn) / level)
             off["azimuth_deg"].append(away / level)
-    found: dict = {"ruins": len(ranks["pgv_m_s"]), "too_few_matched": few}
+    statistics: dict = {"ruins": len(ranks["pgv_m_s"]), "too_few_matched": few}
     for name in UNITS:
         rank, beside = np.array(ranks[name]), np.array(around[name])
         counts = np.bincount(np.minimum((10 * rank).astype(int), 9), minlength=10)
         even = len(rank) / 10.0
-        found[name] = {
+        statistics[name] = {
             "p_ranks": float(chi2.sf(((counts - even) ** 2 / even).sum(), 9)), "counts": counts.tolist(),
             "cover_50": float(np.mean(np.abs(beside - 0.5) < 0.25)), "cover_90": float(np.mean(np.abs(beside - 0.5) < 0.45)),
             "spread_over_prior": float(np.sqrt(np.mean(np.square(wide[name])))),
             "error_over_prior": float(np.sqrt(np.mean(np.square(off[name])))),
         }  # fmt: skip
         if off_ln[name]:
-            found[name]["error_of_ln_over_prior"] = float(np.sqrt(np.mean(np.square(off_ln[name]))))
-    return found
+            statistics[name]["error_of_ln_over_prior"] = float(np.sqrt(np.mean(np.square(off_ln[name]))))
+    return statistics
 
 
 def by_kind(table: Simulations, numbers: np.ndarray) -> dict:
     """How often 90 % intervals hold what was drawn, by what is seen of ruins beside states."""
-    found = {}
+    results = {}
     for name, kinds in KINDS.items():
-        told = calibration(table, numbers, table, True, kinds=kinds)
-        found[name] = {one: told[one]["cover_90"] for one in UNITS}
-        found[name] |= {"ruins": told["ruins"], "spread_of_pgv": told["pgv_m_s"]["spread_over_prior"]}
-    return found
+        statistics = calibration(table, numbers, table, True, kinds=kinds)
+        results[name] = {quantity: statistics[quantity]["cover_90"] for quantity in UNITS}
+        results[name] |= {"ruins": statistics["ruins"], "spread_of_pgv": statistics["pgv_m_s"]["spread_over_prior"]}
+    return results
 
 
 def other_law(table: Simulations, count: int) -> dict:
     """Ruins that one law of contact has made, inferred with the other alone."""
-    found = {}
+    results = {}
     for law, name in enumerate(table.prior.law):
         own = table.parameters["law"] == law
         made = np.flatnonzero(own & table.sound)[:count]
-        told = calibration(table, made, table.some(np.flatnonzero(~own)), False)
-        found[f"made with {name}"] = {one: told[one]["cover_90"] for one in UNITS} | {"ruins": told["ruins"]}
-    return found
+        statistics = calibration(table, made, table.some(np.flatnonzero(~own)), False)
+        results[f"made with {name}"] = {quantity: statistics[quantity]["cover_90"] for quantity in UNITS} | {
+            "ruins": statistics["ruins"]
+        }
+    return results
 
 
 def moved_by_hand(table: Simulations, count: int = 20) -> dict:
     """How many ruins without an earthquake are flagged: a column taken down, a drum pushed out; and of shaken ones."""
-    stream, found = np.random.default_rng(5), {"taken_down": 0, "pushed_out": 0}
+    stream, flags = np.random.default_rng(5), {"taken_down": 0, "pushed_out": 0}
     sound = table.some(np.flatnonzero(table.sound))
     for number in range(count):
         moved = number % len(sound.left)
-        for what in found:
+        for what in flags:
             facts = []
-            for i, left in enumerate(sound.left):
+            for i, remains in enumerate(sound.left):
                 down = what == "taken_down" and i == moved
-                facts.append(Fact(i, "state", f"{left.name} {'fell' if down else 'stands'}", (float(down),)))
-                joint = int(stream.integers(left.slip.shape[1]))
-                for j in range(left.slip.shape[1]) if not down else ():
+                facts.append(Fact(i, "state", f"{remains.name} {'fell' if down else 'stands'}", (float(down),)))
+                joint = int(stream.integers(remains.slip.shape[1]))
+                for j in range(remains.slip.shape[1]) if not down else ():
                     x, y = OFFSET_SD * stream.standard_normal(2)
                     if what == "pushed_out" and i == moved and j == joint:
                         angle, far = stream.uniform(0.0, 2.0 * np.pi), stream.uniform(0.1, 0.25)
                         x, y = x + far * np.cos(angle), y + far * np.sin(angle)
-                    facts.append(Fact(i, "offset", f"{left.name}: joint {j + 1}", (x, y), OFFSET_SD, j))
-            found[what] += flagged(sound, facts)
+                    facts.append(Fact(i, "offset", f"{remains.name}: joint {j + 1}", (x, y), OFFSET_SD, j))
+            flags[what] += flagged(sound, facts)
     alarms = [flagged(sound, seen_of(sound, k, stream)) for k in range(200)]
-    return found | {"of": count, "false_alarms": int(np.sum(alarms)), "of_shaken": len(alarms)}
+    return flags | {"of": count, "false_alarms": int(np.sum(alarms)), "of_shaken": len(alarms)}
 
 
 def flagged(table: Simulations, facts: list[Fact]) -> bool:
     """Whether a ruin is told not to be one of shaking alone: something odd, or nothing in the table that looks like it."""
     answers = Answers(table, facts, 3)
-    return not len(answers.matching(facts)) or any(one.odd for one in checks_of(answers, FEWEST))
+    return not len(answers.matching(facts)) or any(check.odd for check in checks_of(answers, FEWEST))
 
 
 def what_slips_tell(folder: Path) -> dict:
     """Errors of ln PGV over the prior's spread by states alone and with slips, of stout and of slender columns."""
-    found: dict = {}
+    results: dict = {}
     for name, sizes in {"stout": STOUT, "slender": SLENDER}.items():
         (folder / name).mkdir(parents=True, exist_ok=True)
         table = table_of(OF_FOREST, FOREST_DRAWS, folder / name, three_columns(sizes))
         numbers = np.random.default_rng(2).permutation(FOREST_DRAWS)
-        for said, sd in {"states": None, **SLIP_SDS}.items():
+        for label, sd in {"states": None, **SLIP_SDS}.items():
             seen = {"kinds": ()} if sd is None else {"kinds": ("offsets",), "sd": sd}
-            told = calibration(table, numbers, table, True, **seen)
-            found[f"{name}, {said}"] = told["pgv_m_s"]["error_of_ln_over_prior"]
-        found[f"{name}, ruins"] = told["ruins"]
-    return found
+            statistics = calibration(table, numbers, table, True, **seen)
+            results[f"{name}, {label}"] = statistics["pgv_m_s"]["error_of_ln_over_prior"]
+        results[f"{name}, ruins"] = statistics["ruins"]
+    return results
 
 
 def quickness(folder: Path) -> dict:

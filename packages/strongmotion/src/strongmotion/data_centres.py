@@ -115,22 +115,22 @@ class DataCentre:
                 starttime=begin, endtime=begin + 1.0, maxradius=within_km / 111.0, channel=",".join(channels),
                 level="station", **place,
             )  # fmt: skip
-        found = {
+        distances = {
             f"{network.code}.{station.code}": earthquake.distance_km(station.latitude, station.longitude)
             for network in inventory
             for station in network
         }
-        if missing := [one for one in only if one not in found]:
+        if missing := [name for name in only if name not in distances]:
             raise InputError(
                 f"{self.name} has no station {missing[0]} with {', '.join(channels)} within {within_km:g} km; there are "
-                f"{', '.join(sorted(found)) or 'none'}.",
+                f"{', '.join(sorted(distances)) or 'none'}.",
                 "stations",
             )
-        near = [(one, far) for one, far in found.items() if far <= within_km and (not only or one in only)]
+        near = [(name, far) for name, far in distances.items() if far <= within_km and (not only or name in only)]
         check_whole(
             "number of stations", len(near), 0, MAX_STATIONS, remedy="ask for a smaller distance, or name stations"
         )
-        return sorted(near, key=lambda one: one[1])
+        return sorted(near, key=lambda pair: pair[1])
 
     def record(
         self, earthquake: Earthquake, station: str, distance_km: float, before: float, lasts: float,
@@ -162,7 +162,9 @@ class DataCentre:
             self._client.get_stations(channel=every, level="response", filename=description, **which)
         with self._answering(f"the record of {station}"):
             stream = self._client.get_waveforms(location="*", channel=every, **which)
-        instruments = sorted({(one.stats.location, one.stats.channel[:2]) for one in stream}, key=_order(channels))
+        instruments = sorted(
+            {(trace.stats.location, trace.stats.channel[:2]) for trace in stream}, key=_order(channels)
+        )
         if not instruments:
             raise InputError(f"{station}: nothing was recorded.")
         location, band = instruments[0]
@@ -170,9 +172,9 @@ class DataCentre:
         counts = io.BytesIO()
         stream.write(counts, format="MSEED")
         name = ".".join(part for part in (station, location, band) if part)
-        found = StationRecord(station, distance_km, name, counts.getvalue(), description.getvalue())
-        miniseed.read(Source(Path(f"{name}.mseed"), found.counts), [Source(Path(f"{name}.xml"), found.description)])
-        return found
+        record = StationRecord(station, distance_km, name, counts.getvalue(), description.getvalue())
+        miniseed.read(Source(Path(f"{name}.mseed"), record.counts), [Source(Path(f"{name}.xml"), record.description)])
+        return record
 
     @contextmanager
     def _answering(self, what: str) -> Iterator[None]:
@@ -188,11 +190,11 @@ class DataCentre:
         except (FDSNException, OSError, ValueError, NotImplementedError) as error:
             if isinstance(error, StylobateError):
                 raise
-            told = (" ".join(str(error).split()) or type(error).__name__)[:160]
-            raise StylobateError(f"{self.name} gives no answer about {what} ({told}); try again later.") from None
+            reason = (" ".join(str(error).split()) or type(error).__name__)[:160]
+            raise StylobateError(f"{self.name} gives no answer about {what} ({reason}); try again later.") from None
 
 
 def _order(channels: Sequence[str]) -> Callable[[tuple[str, str]], tuple[int, str]]:
     """Instruments in the order of the channels asked for, then of their locations."""
-    bands = [one[:2] for one in channels]
-    return lambda one: (bands.index(one[1]) if one[1] in bands else len(bands), one[0])
+    bands = [code[:2] for code in channels]
+    return lambda instrument: (bands.index(instrument[1]) if instrument[1] in bands else len(bands), instrument[0])

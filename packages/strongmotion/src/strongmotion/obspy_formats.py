@@ -42,15 +42,15 @@ NAMES = {
 LETTERS: dict[float | None, str] = {0.0: "N", 90.0: "E"}
 
 
-def is_format(file: str | Path | IO[bytes], one: Format) -> bool:
+def is_format(file: str | Path | IO[bytes], file_format: Format) -> bool:
     """Whether a file is of a format."""
     try:
-        return one.recognises(_opened(file))
+        return file_format.recognises(_opened(file))
     except (InputError, OSError):
         return False
 
 
-def read_format(file: str | Path | IO[bytes], one: Format, **_: Any) -> obspy.Stream:
+def read_format(file: str | Path | IO[bytes], file_format: Format, **_: Any) -> obspy.Stream:
     """The components of a file: a trace each, its facts and its processing in ``stats.strongmotion``.
 
     Raises
@@ -61,8 +61,8 @@ def read_format(file: str | Path | IO[bytes], one: Format, **_: Any) -> obspy.St
     from obspy import Stream, Trace, UTCDateTime
 
     source = _opened(file)
-    if not one.recognises(source):
-        raise InputError(f"{source.name} is not of format {one.name}.")
+    if not file_format.recognises(source):
+        raise InputError(f"{source.name} is not of format {file_format.name}.")
     traces = []
     for number, part in enumerate(components_of([source])[0], 1):
         if not math.isfinite(part.dt):
@@ -89,10 +89,10 @@ def read_format(file: str | Path | IO[bytes], one: Format, **_: Any) -> obspy.St
 def _utc(text: str) -> datetime | None:
     """The time that a file states (ISO 8601), where it says that it is universal time."""
     try:
-        found = datetime.fromisoformat(text.replace(" UTC", "+00:00"))
+        moment = datetime.fromisoformat(text.replace(" UTC", "+00:00"))
     except ValueError:
         return None
-    return None if found.tzinfo is None else found.astimezone(UTC)
+    return None if moment.tzinfo is None else moment.astimezone(UTC)
 
 
 def _opened(file: str | Path | IO[bytes]) -> Source:
@@ -103,8 +103,8 @@ def _opened(file: str | Path | IO[bytes]) -> Source:
 
 def _pair(name: str) -> tuple[Callable[..., bool], Callable[..., Any]]:
     """The two functions of a format by the name that ObsPy knows it by."""
-    one = next(each for each in FORMATS if each.name == NAMES[name])
-    return partial(is_format, one=one), partial(read_format, one=one)
+    file_format = next(each for each in FORMATS if each.name == NAMES[name])
+    return partial(is_format, file_format=file_format), partial(read_format, file_format=file_format)
 
 
 is_csmip, read_csmip = _pair("CSMIP")

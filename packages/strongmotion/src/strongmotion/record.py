@@ -103,19 +103,19 @@ def read(
     paths = check_all("path", path, (str, Path))
     if not paths:
         raise InputError("no file is given; give the path of a record.", "path")
-    components, files = components_of([Source.open(one) for one in paths], unit, dt, columns)
-    return Record(tuple(map(channel, components)), tuple(one.name for one in files))
+    components, files = components_of([Source.open(file_path) for file_path in paths], unit, dt, columns)
+    return Record(tuple(map(channel, components)), tuple(file.name for file in files))
 
 
-def channel(one: Component) -> Channel:
+def channel(component: Component) -> Channel:
     """A component as it is given to the reader's caller."""
     return Channel(
-        one.values,
-        one.dt,
-        one.label,
-        one.azimuth,
-        one.vertical,
-        one.time,
-        (*one.history, *one.processing),
-        dict(one.facts),
+        component.values,
+        component.dt,
+        component.label,
+        component.azimuth,
+        component.vertical,
+        component.time,
+        (*component.history, *component.processing),
+        dict(component.facts),
     )

@@ -43,8 +43,8 @@ def station_xml(names: list[str], level: str) -> bytes:
 
     def channel(station: str, code: str, azimuth: float, dip: float, place: tuple[float, float]) -> Channel:
         unit = "M/S" if station == "VEL" else "M/S**2"
-        told = Response(instrument_sensitivity=InstrumentSensitivity(1e5, 1.0, unit, "COUNTS"))
-        return Channel(code, "", *place, 0.0, 0.0, azimuth=azimuth, dip=dip, sample_rate=100.0, response=told)
+        response = Response(instrument_sensitivity=InstrumentSensitivity(1e5, 1.0, unit, "COUNTS"))
+        return Channel(code, "", *place, 0.0, 0.0, azimuth=azimuth, dip=dip, sample_rate=100.0, response=response)
 
     stations = []
     for name in names:
@@ -85,19 +85,21 @@ class Answers(BaseHTTPRequestHandler):
     def do_GET(self) -> None:
         parts = urlsplit(self.path)
         _, _, service, _, what = parts.path.split("/")
-        asked = {name: values[0] for name, values in parse_qs(parts.query).items()}
+        query = {name: values[0] for name, values in parse_qs(parts.query).items()}
         answer = b""
         if what == "application.wadl":
             style = 'style="query" type="xs:string" xmlns:xs="http://www.w3.org/2001/XMLSchema"'
             words = DEFAULT_PARAMETERS[service] + OPTIONAL_PARAMETERS[service]
-            answer = WADL.format(service, "".join(f'<param name="{one}" {style}/>' for one in words)).encode()
-        elif service == "event" and asked.get("eventid") == "42":
+            answer = WADL.format(
+                service, "".join(f'<param name="{parameter}" {style}/>' for parameter in words)
+            ).encode()
+        elif service == "event" and query.get("eventid") == "42":
             answer = quakeml()
         elif service == "station":
-            names = [asked["station"]] if "station" in asked else list(STATIONS)
-            answer = station_xml(names, asked.get("level", "station"))
+            names = [query["station"]] if "station" in query else list(STATIONS)
+            answer = station_xml(names, query.get("level", "station"))
         elif service == "dataselect":
-            answer = mini_seed(asked["station"], asked["starttime"])
+            answer = mini_seed(query["station"], query["starttime"])
         self.send_response(200 if answer else 204)
         self.end_headers()
         self.wfile.write(answer)
@@ -129,12 +131,12 @@ def test_records_of_an_earthquake_arrive_whole(run, centre, tmp_path):
     out = tmp_path / "records"
     code, printed, errors = run("fetch", "42", "--service", centre, "--within", "60km", "--out", str(out), "--json")
     assert code == 0, errors
-    found = json.loads(printed)
-    assert found["earthquake"]["magnitude"] == 6.1  # the moment magnitude before the local one
-    assert [row["station"] for row in found["stations"]] == ["XX.AAA", "XX.GAP", "XX.VEL"]
-    assert found["stations"][0]["distance_km"] == pytest.approx(8.78, abs=0.02)
-    assert "gaps" in found["refused"]["XX.GAP"]
-    assert "per M/S; allowed are units of acceleration" in found["refused"]["XX.VEL"]
+    summary = json.loads(printed)
+    assert summary["earthquake"]["magnitude"] == 6.1  # the moment magnitude before the local one
+    assert [row["station"] for row in summary["stations"]] == ["XX.AAA", "XX.GAP", "XX.VEL"]
+    assert summary["stations"][0]["distance_km"] == pytest.approx(8.78, abs=0.02)
+    assert "gaps" in summary["refused"]["XX.GAP"]
+    assert "per M/S; allowed are units of acceleration" in summary["refused"]["XX.VEL"]
     motion = st.read_motion(out / "XX.AAA.HN.mseed")
     assert (motion.metadata["azimuths"]["x"], motion.metadata["azimuths"]["y"]) == (90.0, 0.0)
     assert motion.duration == pytest.approx(29.99)

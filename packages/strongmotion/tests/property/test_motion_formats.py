@@ -43,13 +43,13 @@ def test_every_format_is_recognised_and_read(name, put):
     waves = [WAVES[0], WAVES[1]][: len(azimuths)] + [WAVES[2]] * has_z
     if name == "csmip_v2":
         waves = [WAVES[0], WAVES[2], WAVES[1]]
-    for wave, found in zip(waves, motion.components.values()):
+    for wave, values in zip(waves, motion.components.values()):
         if name in FILM:
             times = DT * np.arange(COUNT) + 0.001 * (np.arange(COUNT) % (3 if name == "csmip_v1" else 2))
-            assert np.interp(times, motion.time, found) == pytest.approx(wave * size, abs=1e-9)
+            assert np.interp(times, motion.time, values) == pytest.approx(wave * size, abs=1e-9)
         else:
             assert motion.dt == pytest.approx(DT, rel=1e-12)
-            assert found == pytest.approx(wave[: len(found)] * size, rel=1e-6, abs=1e-12)
+            assert values == pytest.approx(wave[: len(values)] * size, rel=1e-6, abs=1e-12)
 
 
 def test_knet_counts_lose_their_zero_level_and_say_so(put):
@@ -106,7 +106,7 @@ def test_azimuth_that_the_file_does_not_know(put):
 
 
 @pytest.mark.parametrize(
-    ("name", "old", "new", "said"),
+    ("name", "old", "new", "message"),
     [
         ("peer_nga", "NPTS=   23", "NPTS=   24", "promises 24 numbers"),
         ("peer_nga", "NPTS=   23", "NPTS=   1e9", "promises"),
@@ -133,10 +133,10 @@ def test_azimuth_that_the_file_does_not_know(put):
         ("geonet", "units of 2.00 mm/s/s", "units of 2.00 lbs", "unit of acceleration"),
     ],
 )
-def test_damaged_files_are_refused_with_the_reason(name, old, new, said, put):
+def test_damaged_files_are_refused_with_the_reason(name, old, new, message, put):
     text = FORMATS[name][0]
     assert old in text
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read(put(text.replace(old, new)))
 
 
@@ -236,7 +236,7 @@ def test_a_promise_of_a_hundred_million_samples_takes_no_memory(put):
 
 SEEDS = [text.encode("latin-1") for text, *_ in FORMATS.values()] + [knet().encode()]
 SEEDS += [b"time_s,ax_g\n0,1\n0.1,-1\n0.2,0\n", b"0 1\n1 2\n2 -3\n"]
-REAL = [one.data[:20_000] for one in SHIPPED.values()]
+REAL = [source.data[:20_000] for source in SHIPPED.values()]
 REAL += [path.read_bytes()[:20_000] for path in sorted(FOLDER.glob("*.*")) if path.name not in SHIPPED]
 
 edits = st.lists(

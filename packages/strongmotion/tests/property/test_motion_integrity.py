@@ -55,8 +55,8 @@ def warned(path, **options):
     with warnings.catch_warnings(record=True) as seen:
         warnings.simplefilter("always")
         read_motion(path, **options)
-    assert all(issubclass(one.category, OutOfRangeWarning) for one in seen)
-    return "\n".join(str(one.message) for one in seen)
+    assert all(issubclass(warning.category, OutOfRangeWarning) for warning in seen)
+    return "\n".join(str(warning.message) for warning in seen)
 
 
 # -- miniSEED -------------------------------------------------------------------------------------------------------
@@ -128,7 +128,7 @@ def test_counts_of_another_quantity_are_refused_with_its_unit(unit, put):
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 @pytest.mark.parametrize(
-    ("gains", "said"),
+    ("gains", "message"),
     [
         ([(0.5, "M/S**2", "V"), (2e5, "V", "COUNTS")], ""),
         ([(0.5, "M/S**2", "V"), (2e5, "V", "COUNTS"), (1.04, "COUNTS", "COUNTS")], ""),
@@ -140,19 +140,19 @@ def test_counts_of_another_quantity_are_refused_with_its_unit(unit, put):
         ([(2e5, "V", "COUNTS")], ""),  # the stage of the sensor is not stated
     ],
 )
-def test_a_sensitivity_is_the_product_of_the_gains_of_its_stages(gains, said, put):
+def test_a_sensitivity_is_the_product_of_the_gains_of_its_stages(gains, message, put):
     path = put(mseed(put, gains=gains), "a.mseed")
-    if not said:
+    if not message:
         assert read(path).metadata["components"]["x"]["counts_per_m_s2"] == 1e5
         return
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read(path)
 
 
 @pytest.mark.parametrize("order", ["EN", "NE", "ZNE"])
 def test_components_of_miniseed_stand_in_the_order_of_the_file(order, put):
-    path = put(mseed(put, *((f"HN{one}",) for one in order)), "a.mseed")
-    flat = [f"HN{one}" for one in order if one != "Z"]
+    path = put(mseed(put, *((f"HN{letter}",) for letter in order)), "a.mseed")
+    flat = [f"HN{letter}" for letter in order if letter != "Z"]
     motion = read(path)
     assert [motion.metadata["labels"][axis] for axis in "xy"] == flat
     assert read(path, component=1 + order.index("N")).metadata["labels"] == {"x": "HNN"}
@@ -243,8 +243,8 @@ def test_components_of_miniseed_that_begin_at_different_times_are_cut_to_their_c
     path = put(mseed(put, ("HNE",), ("HNN", "ABC", "", start, counts)), "a.mseed")
     motion = read(path)
     kept = len(COUNTS) - skip
-    for found, wanted in ((motion.acceleration, COUNTS[skip:]), (motion.lateral, counts[:kept])):
-        assert np.ptp(found - wanted / 1e5) < 1e-12  # all but the zero level
+    for actual, wanted in ((motion.acceleration, COUNTS[skip:]), (motion.lateral, counts[:kept])):
+        assert np.ptp(actual - wanted / 1e5) < 1e-12  # all but the zero level
     assert motion.metadata["start_time"] == f"2019-07-06T00:00:0{start:.6f}Z"
     note = f"cut to the common span of {kept} samples (x: 6000, y: {len(counts)}, y begins {start:g} s later)"
     assert note in motion.processing
@@ -276,7 +276,7 @@ def test_less_than_half_a_sample_is_one_clock(put):
 
 
 @pytest.mark.parametrize(
-    ("start", "said"),
+    ("start", "message"),
     [
         ("20161030_064018.000", "do not overlap, as they begin at 20160824_013600.000 and 20161030_064018.000"),
         ("20160824_013600.230", "do not overlap"),
@@ -285,9 +285,9 @@ def test_less_than_half_a_sample_is_one_clock(put):
         ("this morning", "does not tell to half a sample"),
     ],
 )
-def test_components_whose_times_do_not_go_together_are_refused(start, said, put):
+def test_components_whose_times_do_not_go_together_are_refused(start, message, put):
     paths = [put(esm_at("20160824_013600.000"), "a"), put(esm_at(start, "HNN"), "b")]
-    with pytest.raises(InputError, match=f"HNE of a and HNN of b .*{said}.*{re.escape(REMEDY)}"):
+    with pytest.raises(InputError, match=f"HNE of a and HNN of b .*{message}.*{re.escape(REMEDY)}"):
         read(paths)
     assert read(paths, component=2).metadata["start_time"] == start  # one alone is on no other's clock
 
@@ -299,7 +299,7 @@ def test_columns_whose_times_do_not_overlap_are_refused(put):
 
 
 @pytest.mark.parametrize(
-    ("channels", "said"),
+    ("channels", "message"),
     [
         ((("HNE",), ("HNN", "XYZ")), "HNE of a.mseed is of station 'ABC', HNN of a.mseed of 'XYZ'"),
         ((("HNE",), ("HNZ", "XYZ")), "of station 'ABC', HNZ of a.mseed of 'XYZ'"),
@@ -308,9 +308,9 @@ def test_columns_whose_times_do_not_overlap_are_refused(put):
         ((("HNE",), ("HNN", "ABC", "", 180 * 86400.0)), "do not overlap"),
     ],
 )
-def test_channels_of_several_records_in_one_miniseed_are_refused(channels, said, put):
+def test_channels_of_several_records_in_one_miniseed_are_refused(channels, message, put):
     path = put(mseed(put, *channels), "a.mseed")
-    with pytest.raises(InputError, match=f"{said}.*{re.escape(REMEDY)}"):
+    with pytest.raises(InputError, match=f"{message}.*{re.escape(REMEDY)}"):
         read(path)
     assert read(path, component=1).metadata["station"] == "ABC"
     if channels[1][1:2] == ("XYZ",):
@@ -320,12 +320,12 @@ def test_channels_of_several_records_in_one_miniseed_are_refused(channels, said,
 def blocks(name):
     """The channels of a file, each with its header."""
     mark = {"csmip_v2": "Corrected accel", "geonet": "Uncorrected", "renadic": "UNCORRECTED", "bhrc": "* VOL1DS"}
-    found = re.split(f"(?={re.escape(mark.get(name, 'VOLUME I'))})", FORMATS[name][0])
-    return [part for part in found if part.strip()]
+    parts = re.split(f"(?={re.escape(mark.get(name, 'VOLUME I'))})", FORMATS[name][0])
+    return [part for part in parts if part.strip()]
 
 
 @pytest.mark.parametrize(
-    ("name", "old", "new", "said"),
+    ("name", "old", "new", "message"),
     [
         ("csmip_v2", "No. 12345", "No. 54321", "of station '12345', .* of '54321'"),
         ("csmip_v2", "SMALL EARTHQUAKE", "OTHER EARTHQUAKE", "of event 'SMALL EARTHQUAKE', .* of 'OTHER EARTHQUAKE'"),
@@ -338,24 +338,24 @@ def blocks(name):
         ("bhrc", "3333/01", "4444/01", "of station '3333', .* of '4444'"),
     ],
 )
-def test_channels_of_several_records_in_one_file_are_refused(name, old, new, said, put):
+def test_channels_of_several_records_in_one_file_are_refused(name, old, new, message, put):
     *parts, last = blocks(name)
     assert old in last
     path = put("".join([*parts, last.replace(old, new)]))
-    with pytest.raises(InputError, match=f"{said}.*{re.escape(REMEDY)}"):
+    with pytest.raises(InputError, match=f"{message}.*{re.escape(REMEDY)}"):
         read(path)
     assert read(path, component=len(parts) + 1).steps > 1
 
 
 def test_two_stations_one_behind_the_other_in_a_cosmos_file_are_refused(put):
-    one = FORMATS["cosmos"][0]
-    other = one.replace("CE-ABC", "CE-XYZ").replace("340 deg", "70 deg").replace("06:47:39", "06:47:59")
+    first = FORMATS["cosmos"][0]
+    other = first.replace("CE-ABC", "CE-XYZ").replace("340 deg", "70 deg").replace("06:47:39", "06:47:59")
     with pytest.raises(InputError, match=r"340 deg of .* is of station 'ABC', 70 deg of .* of 'XYZ'"):
-        read(put(one + other))
+        read(put(first + other))
     with pytest.raises(InputError, match="do not overlap"):
-        read(put(one + other.replace("CE-XYZ", "CE-ABC")))
+        read(put(first + other.replace("CE-XYZ", "CE-ABC")))
     with pytest.raises(InputError, match=r"points to 340°, 340 deg of .* to 340°"):
-        read(put(one + one))
+        read(put(first + first))
 
 
 def test_files_of_two_earthquakes_are_refused(put):
@@ -378,7 +378,7 @@ def test_files_of_two_earthquakes_are_refused(put):
 
 
 @pytest.mark.parametrize(
-    ("azimuths", "said"),
+    ("azimuths", "message"),
     [
         ((None, None), "x of a and x of b have one label"),
         ((0, 0), "x of a points to 0°, x of b to 0°"),
@@ -386,9 +386,9 @@ def test_files_of_two_earthquakes_are_refused(put):
         ((0, 84), "x of a points to 0°, x of b to 84°"),
     ],
 )
-def test_parallel_components_are_refused(azimuths, said, put):
+def test_parallel_components_are_refused(azimuths, message, put):
     paths = [put(table(azimuth, wave), file) for azimuth, wave, file in zip(azimuths, WAVES, "ab")]
-    with pytest.raises(InputError, match=f"{said}.*{re.escape(REMEDY)}"):
+    with pytest.raises(InputError, match=f"{message}.*{re.escape(REMEDY)}"):
         read(paths)
 
 
@@ -427,14 +427,14 @@ def test_a_usc_file_with_all_its_points_is_whole_without_a_mark(put):
 def published_usc(seconds=0.0):
     """The same with rows that begin with a blank (1X,10F7.3), times from ``seconds`` on, and no marks."""
     lines = FORMATS["usc"][0].replace("------- END OF RECORD -------\n", "").splitlines(keepends=True)
-    found = []
+    output = []
     for line in lines:
         numbers = [line[i : i + 7] for i in range(0, len(line) - 1, 7)] if len(line) in (71, 43) else []
-        if numbers and all(re.fullmatch(r" *-?\d+\.\d{3}", one) for one in numbers):
+        if numbers and all(re.fullmatch(r" *-?\d+\.\d{3}", number) for number in numbers):
             pairs = ((f"{float(t) + seconds:7.3f}", a) for t, a in zip(numbers[::2], numbers[1::2]))
             line = " " + "".join(t + a for t, a in pairs) + "\n"
-        found.append(line)
-    return "".join(found)
+        output.append(line)
+    return "".join(output)
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n"])
@@ -444,11 +444,11 @@ def test_a_usc_file_as_published_is_whole_where_all_its_points_are_there(end, pu
     late = published_usc(100.0).replace("     0.220     0.000     0.100", "   100.220     0.000     0.100")
     assert "100.000" in late  # numbers of seven characters touch
     assert read(put(late)).acceleration == pytest.approx(read(put(text)).acceleration, abs=1e-9)
-    for cut, said in (
+    for cut, message in (
         (text.rstrip()[:-1] + end, "without the mark"),
         (text.rstrip()[:-15] + end, "promises 46 numbers"),
     ):
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             read(put(cut))
 
 
@@ -498,8 +498,8 @@ def test_a_line_that_is_lost_from_film_does_not_vanish_in_the_tolerance_at_its_e
     lines = text.splitlines(keepends=True)
     first = next(k for k, line in enumerate(lines) if line.startswith("|")) + 2
     gone = {"data": first + 4, "comment": first - 1, "last": len(lines) - 2}[lost]
-    said = "comment lines that the header promises" if lost == "comment" else "a gap beyond"
-    with pytest.raises(InputError, match=said):
+    message = "comment lines that the header promises" if lost == "comment" else "a gap beyond"
+    with pytest.raises(InputError, match=message):
         read(put("".join(lines[:gone] + lines[gone + 1 :])))
 
 
@@ -545,7 +545,7 @@ def smc_v1(stray=0.8):
     lines[22:24] = [re.sub(r"-?\d\.\d{7}E[+-]\d\d", " 1.7000000E+38", line) for line in lines[22:24]]
     times = np.concatenate([0.01 * np.arange(40), stray + 0.01 * np.arange(4)])
     values = np.round(np.sin(times * 20.0), 3)
-    numbers = [fortran(one) for pair in zip(times, values) for one in pair]
+    numbers = [fortran(value) for pair in zip(times, values) for value in pair]
     return "".join(lines) + "".join("".join(numbers[i : i + 8]) + "\n" for i in range(0, 88, 8))
 
 
@@ -564,14 +564,14 @@ def test_blocks_of_velocity_and_displacement_are_counted(put):
 def geonet_v2():
     """Three components with velocities and displacements after the accelerations."""
     parts = geonet().split("Uncorrected")[1:]
-    found = ""
+    text = ""
     for part in parts:
         lines = ("Corrected" + part).splitlines(keepends=True)
         numbers = lines[26:]
         old = lines[19].split()
-        lines[19] = "".join(f"{int(one):8d}" for one in [*old[:3], COUNT, COUNT, COUNT, *old[6:]]) + "\n"
-        found += "".join(lines[:26] + numbers * 3)
-    return found
+        lines[19] = "".join(f"{int(number):8d}" for number in [*old[:3], COUNT, COUNT, COUNT, *old[6:]]) + "\n"
+        text += "".join(lines[:26] + numbers * 3)
+    return text
 
 
 @pytest.mark.parametrize("real62", [-999.0, 0.0])
@@ -589,8 +589,8 @@ def test_fewer_components_than_the_header_speaks_of_are_warned_about(put):
     text = renadic()
     first = text[: text.index("/&") + len(text[text.index("/&") :].split("\n")[0]) + 1]
     assert "speaks of 3 components, the file holds 1" in warned(put(first))
-    one = geonet()
-    assert "speaks of 3 components, the file holds 2" in warned(put(one[: one.rindex("Uncorrected")]))
+    geonet_text = geonet()
+    assert "speaks of 3 components, the file holds 2" in warned(put(geonet_text[: geonet_text.rindex("Uncorrected")]))
 
 
 def test_counts_that_are_missing_from_knet_are_seen(put):
@@ -610,7 +610,7 @@ def test_a_number_cut_in_the_middle_is_seen(end, put):
 
 
 @pytest.mark.parametrize(
-    ("name", "old", "new", "said"),
+    ("name", "old", "new", "message"),
     [
         ("esm", "SAMPLING_INTERVAL_S: 0.010000", "SAMPLING_INTERVAL_S: 500", "states a step of 500 s"),
         ("esm", "SAMPLING_INTERVAL_S: 0.010000", "SAMPLING_INTERVAL_S: 0.020000", "the header states 0.23 s"),
@@ -653,10 +653,10 @@ def test_a_number_cut_in_the_middle_is_seen(end, put):
         ("taiwan", "RecordLength(sec):   0.230", "RecordLength(sec):   9.230", "states 9.23 s"),
     ],
 )
-def test_what_is_stated_twice_must_agree(name, old, new, said, put):
+def test_what_is_stated_twice_must_agree(name, old, new, message, put):
     text = knet() if name == "knet" else FORMATS[name][0]
     assert old in text
-    with pytest.raises(InputError, match=said):
+    with pytest.raises(InputError, match=message):
         read(put(text.replace(old, new)))
 
 
@@ -724,12 +724,12 @@ def test_columns_of_tsmip_are_read_with_their_sense(put):
     turned = read(put(taiwan().replace("U(+)", "U(-)").replace("E(+)", "E(-)").replace("#AmplitudeMAX. U", "#x")))
     assert turned.vertical == pytest.approx(-WAVES[2] * 0.01)
     assert turned.lateral == pytest.approx(-WAVES[1] * 0.01)
-    for old, new, said in (
+    for old, new, message in (
         ("Time U(+); N(+); E(+)", "Time U(+); N(+); N(+)", "expected the columns Time U"),
         ("gal. DCoffset", "cm. DCoffset", "AmplitudeUnit is|allowed are g, m/s2"),
         (f"AmplitudeMAX. U: {WAVES[2].max():8.3f}", "AmplitudeMAX. U:    9.000", "states a peak of 9"),
     ):
-        with pytest.raises(InputError, match=said):
+        with pytest.raises(InputError, match=message):
             read(put(taiwan().replace(old, new)))
 
 
@@ -793,15 +793,15 @@ def test_afad_columns_are_what_their_heading_says(heading, azimuths, waves, put)
 
 
 @pytest.mark.parametrize(
-    ("heading", "said"), [("N-S E-W foo", "'N-S E-W foo' does not name"), ("N-S E-W U(-)", "does not name")]
+    ("heading", "message"), [("N-S E-W foo", "'N-S E-W foo' does not name"), ("N-S E-W U(-)", "does not name")]
 )
-def test_an_afad_heading_that_is_not_understood_is_refused(heading, said, put):
-    with pytest.raises(InputError, match=said):
+def test_an_afad_heading_that_is_not_understood_is_refused(heading, message, put):
+    with pytest.raises(InputError, match=message):
         read(put(FORMATS["afad"][0].replace("  N-S   E-W   U-D", heading)))
 
 
 @pytest.mark.parametrize(
-    ("integers", "text", "found"),
+    ("integers", "text", "expected"),
     [
         ((90, 65), "65", 65.0),
         ((-32768, 65), "L", 65.0),
@@ -813,16 +813,16 @@ def test_an_afad_heading_that_is_not_understood_is_refused(heading, said, put):
         ((180, 0), "UP", "states the direction 'UP', integers 13 and 14 'Down'"),
     ],
 )
-def test_the_direction_of_smc_is_that_of_its_text_and_of_its_integers(integers, text, found, put):
+def test_the_direction_of_smc_is_that_of_its_text_and_of_its_integers(integers, text, expected, put):
     file = put(
         FORMATS["smc"][0]
-        .replace(f"{90:10d}{65:10d}", "".join(f"{one:10d}" for one in integers))
+        .replace(f"{90:10d}{65:10d}", "".join(f"{number:10d}" for number in integers))
         .replace("component=     65", f"component=     {text}")
     )
-    if isinstance(found, float):
-        assert read(file).metadata["azimuths"] == {"x": found}
+    if isinstance(expected, float):
+        assert read(file).metadata["azimuths"] == {"x": expected}
     else:
-        with pytest.raises(InputError, match="only the vertical component" if found == "z" else found):
+        with pytest.raises(InputError, match="only the vertical component" if expected == "z" else expected):
             read(file)
 
 
@@ -871,7 +871,7 @@ def test_unam_peaks_and_the_heading_of_the_columns_are_compared(put):
     peaks = [np.abs(WAVES[wave]).max() for wave in (0, 2, 1)]
 
     def stating(*peaks):
-        line = "ACEL. MAX.(GAL), C1-C6, : /" + "/".join(f"{one:.2f}" for one in peaks) + "/"
+        line = "ACEL. MAX.(GAL), C1-C6, : /" + "/".join(f"{peak:.2f}" for peak in peaks) + "/"
         return put(
             text.replace("FECHA DEL SISMO", f"{line}\nACEL. MAX. C1-C6, EN LA MUESTRA : /1/2/3/\nFECHA DEL SISMO")
         )

@@ -46,10 +46,10 @@ STATED = [
 @pytest.mark.parametrize(("name", "peaks", "dt", "azimuths"), STATED, ids=[row[0] for row in STATED])
 def test_peaks_steps_and_directions(name, peaks, dt, azimuths):
     motion = read(name)
-    found = [np.abs(values).max() / g for values in motion.components.values()]
-    assert len(found) == len(peaks)
+    actual = [np.abs(values).max() / g for values in motion.components.values()]
+    assert len(actual) == len(peaks)
     # Volume 1 rounds to 0.001 g.
-    assert found == pytest.approx(peaks, rel=1e-4, abs=6e-4 if "csmip_v1" in name else 0.0)
+    assert actual == pytest.approx(peaks, rel=1e-4, abs=6e-4 if "csmip_v1" in name else 0.0)
     assert motion.dt == dt
     assert tuple(motion.metadata["azimuths"][axis] for axis in "xy"[: len(azimuths)]) == azimuths
 

@@ -51,19 +51,19 @@ def read_compas(path: Path) -> tuple[str, list[Block]]:
     """
     name = printable(path)
     try:
-        found = json.loads(read_bytes(path, LARGEST).decode("utf-8-sig"))
+        document = json.loads(read_bytes(path, LARGEST).decode("utf-8-sig"))
     except (ValueError, RecursionError) as error:
         why = "" if isinstance(error, UnicodeDecodeError) else f" ({str(error)[:80]})"
         raise InputError(f"{name} is no JSON{why}; give what COMPAS writes with json_dump.") from None
-    return compas_blocks(found, name, path.stem)
+    return compas_blocks(document, name, path.stem)
 
 
-def compas_blocks(found: Any, name: str, default: str) -> tuple[str, list[Block]]:
+def compas_blocks(document: Any, name: str, default: str) -> tuple[str, list[Block]]:
     """Name and blocks of a model.
 
     Parameters
     ----------
-    found : object
+    document : object
         What the JSON of COMPAS holds.
     name, default : str
         What messages call the model, and its name if it has none.
@@ -73,21 +73,23 @@ def compas_blocks(found: Any, name: str, default: str) -> tuple[str, list[Block]
     InputError
         Another kind of object, or a block whose geometry is no mesh.
     """
-    dtype = found.get("dtype") if isinstance(found, dict) else None
-    meshes = found if dtype is None else [found]
+    dtype = document.get("dtype") if isinstance(document, dict) else None
+    meshes = document if dtype is None else [document]
     try:
         if dtype in MODELS:
-            blocks = list(_of_model(found["data"], name))
+            blocks = list(_of_model(document["data"], name))
         elif dtype in ASSEMBLIES:
-            blocks = list(_of_assembly(found["data"], name))
-        elif meshes and all(isinstance(one, dict) and one.get("dtype") in MESHES for one in meshes):
+            blocks = list(_of_assembly(document["data"], name))
+        elif meshes and all(isinstance(mesh, dict) and mesh.get("dtype") in MESHES for mesh in meshes):
             blocks = [
-                Block(_mesh(one, np.eye(4), str(one.get("name") or f"block {number}"), name), False, None, str(number))
-                for number, one in enumerate(meshes, 1)
+                Block(
+                    _mesh(mesh, np.eye(4), str(mesh.get("name") or f"block {number}"), name), False, None, str(number)
+                )
+                for number, mesh in enumerate(meshes, 1)
             ]
         else:
             raise InputError(
-                f"{name} holds {_content(found)}; allowed are objects of COMPAS 2 of type "
+                f"{name} holds {_content(document)}; allowed are objects of COMPAS 2 of type "
                 f"{', '.join((*MODELS, *ASSEMBLIES))}, and meshes: write its blocks as closed meshes, in OBJ for one."
             )
     except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
@@ -99,35 +101,37 @@ def compas_blocks(found: Any, name: str, default: str) -> tuple[str, list[Block]
         ) from None
     if not blocks:
         raise InputError(f"{name} holds no blocks; give a model of one at least.")
-    attributes = found["data"].get("attributes") if dtype in ASSEMBLIES else None
-    called = (found.get("name") if dtype in MODELS + ASSEMBLIES else None) or (attributes or {}).get("name") or default
+    attributes = document["data"].get("attributes") if dtype in ASSEMBLIES else None
+    called = (
+        (document.get("name") if dtype in MODELS + ASSEMBLIES else None) or (attributes or {}).get("name") or default
+    )
     return str(called), _named(blocks)
 
 
-def _content(found: Any) -> str:
+def _content(document: Any) -> str:
     """What JSON holds, in words."""
-    if isinstance(found, list):
-        kinds = ", ".join(sorted({_content(one) for one in found})[:3])
-        return f"a list of {len(found)}{f' ({kinds})' if kinds else ''}"
-    if not isinstance(found, dict):
+    if isinstance(document, list):
+        kinds = ", ".join(sorted({_content(entry) for entry in document})[:3])
+        return f"a list of {len(document)}{f' ({kinds})' if kinds else ''}"
+    if not isinstance(document, dict):
         return "no object"
-    if "datatype" in found:
-        return f"an object of COMPAS 1 ({str(found['datatype'])[:60]})"
-    return str(found["dtype"])[:60] if "dtype" in found else "JSON of another program"
+    if "datatype" in document:
+        return f"an object of COMPAS 1 ({str(document['datatype'])[:60]})"
+    return str(document["dtype"])[:60] if "dtype" in document else "JSON of another program"
 
 
 def _named(blocks: Sequence[Block]) -> list[Block]:
     """Blocks under names of their own, a number after those that several have."""
     names = [block.part.name for block in blocks]
-    found = []
+    named_blocks = []
     for i, block in enumerate(blocks):
         name = names[i] if names.count(names[i]) == 1 else f"{names[i]} {names[: i + 1].count(names[i])}"
-        found.append(block._replace(part=replace(block.part, name=name)))
-    return found
+        named_blocks.append(block._replace(part=replace(block.part, name=name)))
+    return named_blocks
 
 
 def _of_assembly(data: Mapping[str, Any], name: str) -> Iterator[Block]:
-    for key, node in sorted(data["graph"]["data"]["node"].items(), key=lambda one: int(one[0])):
+    for key, node in sorted(data["graph"]["data"]["node"].items(), key=lambda entry: int(entry[0])):
         block = node.get("block")
         if block is not None:
             called = str(block.get("name") or f"block {key}")
@@ -137,9 +141,11 @@ def _of_assembly(data: Mapping[str, Any], name: str) -> Iterator[Block]:
 def _of_model(data: Mapping[str, Any], name: str) -> Iterator[Block]:
     elements, materials = data["elements"], data.get("materials") or {}
     if isinstance(elements, list):  # before compas_model 0.5
-        elements = {one["guid"]: one for one in elements}
+        elements = {element["guid"]: element for element in elements}
     edges = [edge for ends in data["graph"]["edge"].values() for edge in ends.values()]
-    if any(one["data"].get("features") for one in elements.values()) or any(one.get("modifiers") for one in edges):
+    if any(element["data"].get("features") for element in elements.values()) or any(
+        edge.get("modifiers") for edge in edges
+    ):
         raise InputError(f"{name} has features or modifiers, which change its blocks; give their meshes as they are.")
 
     def below(node: Mapping[str, Any], turn: np.ndarray) -> Iterator[Block]:
@@ -159,23 +165,23 @@ def _of_model(data: Mapping[str, Any], name: str) -> Iterator[Block]:
     yield from below(data["tree"]["root"], _matrix(data.get("transformation")))
 
 
-def _matrix(found: Mapping[str, Any] | None) -> np.ndarray:
-    if found is None:
+def _matrix(transformation: Mapping[str, Any] | None) -> np.ndarray:
+    if transformation is None:
         return np.eye(4)
-    matrix = np.array(found["data"]["matrix"], dtype=float)
+    matrix = np.array(transformation["data"]["matrix"], dtype=float)
     if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
         raise ValueError("matrix")
     return matrix
 
 
-def _mesh(found: Mapping[str, Any], turn: np.ndarray, called: str, name: str) -> MeshPart:
-    data = found["data"]
+def _mesh(mesh: Mapping[str, Any], turn: np.ndarray, called: str, name: str) -> MeshPart:
+    data = mesh["data"]
     if "vertex" not in data or "face" not in data:
-        raise InputError(f"block {called!r} of {name} is a {found.get('dtype')}; give blocks whose geometry is a mesh.")
+        raise InputError(f"block {called!r} of {name} is a {mesh.get('dtype')}; give blocks whose geometry is a mesh.")
     usual = data.get("default_vertex_attributes") or {}
     numbers = {str(key): i for i, key in enumerate(data["vertex"])}
     points = np.array(
-        [[float(one.get(axis, usual.get(axis, 0.0))) for axis in "xyz"] for one in data["vertex"].values()]
+        [[float(vertex.get(axis, usual.get(axis, 0.0))) for axis in "xyz"] for vertex in data["vertex"].values()]
     ).reshape(-1, 3)
     faces = tuple(tuple(numbers[str(corner)] for corner in face) for face in data["face"].values())
     if len(points) < 4 or len(faces) < 4 or not np.isfinite(points).all():
@@ -266,10 +272,15 @@ def _assembly(name: str, blocks: Sequence[tuple[str, Mesh, bool, float]]) -> dic
         "edge": {key: {} for key in nodes},
         "max_node": len(nodes) - 1,
     }
-    held = {"dtype": "compas.datastructures/Graph", "data": graph, "name": "Graph", "guid": _guid(name, "graph")}
+    graph_object = {
+        "dtype": "compas.datastructures/Graph",
+        "data": graph,
+        "name": "Graph",
+        "guid": _guid(name, "graph"),
+    }
     return {
         "dtype": ASSEMBLIES[0],
-        "data": {"attributes": {"name": name}, "graph": held},
+        "data": {"attributes": {"name": name}, "graph": graph_object},
         "name": name,
         "guid": _guid(name),
     }

@@ -67,18 +67,18 @@ class Fitted(NamedTuple):
     @property
     def words(self) -> str:
         """What it became, and how far the mesh is from that."""
-        one, far = self.shape, near(self.shape.residual)
-        more = 1.0 / one.filled - 1.0
+        shape, far = self.shape, near(self.shape.residual)
+        more = 1.0 / shape.filled - 1.0
         off = f"; its volume is {100.0 * more:+.2g} % off the mesh" if abs(more) > REPORTED_SHARE else ""
-        off += ", whose mass it keeps" if off and self.density is not None and isinstance(one, Hull) else ""
-        if isinstance(one, Hull):
-            drum = "" if one.drum is None else f" (no round drum within {near(one.drum.residual)})"
-            return f"block of {len(one.corners)} corners, within {far}{drum}{off}"
-        flat = f", {near(one.flat)} more between corners" if one.flat > ROUNDING else ""
-        lost, radius = one.residual + one.flat, 0.5 * min(one.bottom, one.top)
+        off += ", whose mass it keeps" if off and self.density is not None and isinstance(shape, Hull) else ""
+        if isinstance(shape, Hull):
+            drum = "" if shape.drum is None else f" (no round drum within {near(shape.drum.residual)})"
+            return f"block of {len(shape.corners)} corners, within {far}{drum}{off}"
+        flat = f", {near(shape.flat)} more between corners" if shape.flat > ROUNDING else ""
+        lost, radius = shape.residual + shape.flat, 0.5 * min(shape.bottom, shape.top)
         price = f": if an edge lacks that much, limit analysis tells up to {100.0 * lost / radius:.2g} % too much"
-        taken = f"{far}{flat}{off}{price if one.residual > PRICED * radius else ''}"
-        return f"drum ⌀ {one.bottom:.4g} to {one.top:.4g} m, {one.height:.4g} m high, within {taken}"
+        taken = f"{far}{flat}{off}{price if shape.residual > PRICED * radius else ''}"
+        return f"drum ⌀ {shape.bottom:.4g} to {shape.top:.4g} m, {shape.height:.4g} m high, within {taken}"
 
 
 def fit_all(
@@ -93,14 +93,14 @@ def fit_all(
     InputError
         A part that is not convex, by its name.
     """
-    found = []
+    stones = []
     for (part, fixed, density), hull in zip(parts, hulls, strict=True):
         shape = within_tolerance(hull, tolerance, f"part {part.name!r}")
         shape = hull._replace(drum=None) if ", part " in part.name else shape
         if density is not None and isinstance(shape, Hull) and abs(shape.filled - 1.0) > REPORTED_SHARE:
             density = round(density * shape.filled, 3)
-        found.append(Fitted(part.name, shape, fixed, density))
-    return found
+        stones.append(Fitted(part.name, shape, fixed, density))
+    return stones
 
 
 def body_of(part: str) -> str:
@@ -121,15 +121,15 @@ def assembly_tables(name: str, stones: Sequence[Fitted], stone: str | None, grou
         Level of the ground [m]; None for none.
     """
     blocks: dict[str, dict[str, Any]] = {}
-    for one in stones:
-        called, part = body_of(one.name), ", part " in one.name
+    for piece in stones:
+        called, part = body_of(piece.name), ", part " in piece.name
         entry: dict[str, Any] = {}
-        if isinstance(one.shape, Frustum):
-            entry = _drum(one.shape)
+        if isinstance(piece.shape, Frustum):
+            entry = _drum(piece.shape)
         else:
-            entry["vertices"] = (one.shape.corners.round(DIGITS) + 0.0).tolist()
-        facts: dict[str, Any] = {"name": called} | ({"fixed": True} if one.fixed else {})
-        facts |= {} if one.density is None else {"density": one.density}
+            entry["vertices"] = (piece.shape.corners.round(DIGITS) + 0.0).tolist()
+        facts: dict[str, Any] = {"name": called} | ({"fixed": True} if piece.fixed else {})
+        facts |= {} if piece.density is None else {"density": piece.density}
         if part:
             blocks.setdefault(called, facts | {"at": [0.0, 0.0, 0.0], "parts": []})["parts"].append(entry)
         else:
@@ -142,18 +142,18 @@ def assembly_tables(name: str, stones: Sequence[Fitted], stone: str | None, grou
     }
 
 
-def _drum(one: Frustum) -> dict[str, Any]:
+def _drum(frustum: Frustum) -> dict[str, Any]:
     """``at`` is the middle of the lower face before the drum is turned about its centroid."""
-    high = Drum(one.height, one.bottom, one.top, 1.0e3, "circular").centroid_height
-    at = one.foot + high * one.axis - (0.0, 0.0, high)
+    high = Drum(frustum.height, frustum.bottom, frustum.top, 1.0e3, "circular").centroid_height
+    at = frustum.foot + high * frustum.axis - (0.0, 0.0, high)
     table: dict[str, Any] = {
-        "drum": {"bottom_diameter": one.bottom, "top_diameter": one.top, "height": one.height},
+        "drum": {"bottom_diameter": frustum.bottom, "top_diameter": frustum.top, "height": frustum.height},
         "at": at.tolist(),
     }
-    lean = math.hypot(*one.axis[:2])
+    lean = math.hypot(*frustum.axis[:2])
     if lean > 0.0:
-        across = (-float(one.axis[1]) / lean, float(one.axis[0]) / lean, 0.0)
-        table["orientation"] = list(about(across, math.atan2(lean, float(one.axis[2]))))
+        across = (-float(frustum.axis[1]) / lean, float(frustum.axis[0]) / lean, 0.0)
+        table["orientation"] = list(about(across, math.atan2(lean, float(frustum.axis[2]))))
     return table
 
 
@@ -169,25 +169,25 @@ def column_tables(
     InputError
         A part that is no drum, or drums farther apart, or deeper in one another, than the tolerance [m].
     """
-    other = next((one for one in stones if isinstance(one.shape, Hull)), None)
+    other = next((piece for piece in stones if isinstance(piece.shape, Hull)), None)
     if other is not None:
         drum = other.shape.drum if isinstance(other.shape, Hull) else None
         off = "" if drum is None else f" within {length_of(drum.residual)}"
         raise InputError(
             f"part {other.name!r} is no round drum{off}; a column is made of such, write an assembly.", "as"
         )
-    order = sorted(stones, key=lambda one: float(one.shape.foot[2]) if isinstance(one.shape, Frustum) else 0.0)
-    drums = [one.shape for one in order if isinstance(one.shape, Frustum)]
-    rows, found, gaps = [], [], []
+    order = sorted(stones, key=lambda piece: float(piece.shape.foot[2]) if isinstance(piece.shape, Frustum) else 0.0)
+    drums = [piece.shape for piece in order if isinstance(piece.shape, Frustum)]
+    rows, deviations, gaps = [], [], []
     axis, frame = np.array([0.0, 0.0, 1.0]), np.eye(3)
-    for number, (one, named) in enumerate(zip(drums, order, strict=True), 1):
-        rows.append({"height": one.height, "bottom_width": one.bottom, "top_width": one.top})
+    for number, (frustum, named) in enumerate(zip(drums, order, strict=True), 1):
+        rows.append({"height": frustum.height, "bottom_width": frustum.bottom, "top_width": frustum.top})
         if named.density is not None:
             rows[-1]["density"] = named.density
         facts: dict[str, Any] = {"index": number}
         if number > 1:
             below = drums[number - 2]
-            way = one.foot - below.foot - below.height * below.axis
+            way = frustum.foot - below.foot - below.height * below.axis
             gap = float(way @ axis)
             if abs(gap) > tolerance:
                 what = "apart" if gap > 0.0 else "deep in one another"
@@ -197,10 +197,10 @@ def column_tables(
                     "tolerance",
                 )
             gaps.append(gap)
-            x, y = (float(one) for one in frame[:, :2].T @ way)
+            x, y = (float(coordinate) for coordinate in frame[:, :2].T @ way)
             if math.hypot(x, y) > 1e-9:
                 facts |= {"offset": math.hypot(x, y), "offset_azimuth": math.atan2(y, x) / DEGREE}
-        x, y, z = (float(one) for one in frame.T @ one.axis)
+        x, y, z = (float(coordinate) for coordinate in frame.T @ frustum.axis)
         lean = math.atan2(math.hypot(x, y), z) / DEGREE
         if lean > STRAIGHT:
             facts |= {"tilt": -lean, "tilt_azimuth": math.atan2(y, x) / DEGREE}
@@ -210,23 +210,25 @@ def column_tables(
             frame = frame @ (np.eye(3) + math.sin(angle) * skew + (1.0 - math.cos(angle)) * skew @ skew)
             axis = frame[:, 2]
         if len(facts) > 1:
-            found.append(facts)
+            deviations.append(facts)
     table: dict[str, Any] = {"name": name, "section": "circular", "drum": rows}
     table |= {} if stone is None else {"material": material(stone).name}
-    if found:
-        table["as_found"] = {"drum": found}
+    if deviations:
+        table["as_found"] = {"drum": deviations}
     apart = [f"drums fit on one another within {near(max(map(abs, gaps)))}"] if gaps else []
     return table, apart
 
 
 def distance_of(column: Column, stones: Sequence[Fitted]) -> float:
     """Largest distance of the middle of a drum's lower face from where a mesh has it, from the lowest one's [m]."""
-    drums = sorted((one.shape for one in stones if isinstance(one.shape, Frustum)), key=lambda one: float(one.foot[2]))
+    drums = sorted(
+        (stone.shape for stone in stones if isinstance(stone.shape, Frustum)), key=lambda drum: float(drum.foot[2])
+    )
     at = space_geometry(column)
     feet = [at.centroid[i] - at.axes[i][:, 2] * drum.centroid_height for i, drum in enumerate(column.drums)]
     return max(
-        float(np.linalg.norm((foot - feet[0]) - (one.foot - drums[0].foot)))
-        for foot, one in zip(feet, drums, strict=True)
+        float(np.linalg.norm((foot - feet[0]) - (drum.foot - drums[0].foot)))
+        for foot, drum in zip(feet, drums, strict=True)
     )
 
 
@@ -434,7 +436,7 @@ def stand_up(
     if not parts:
         raise InputError(f"{where} holds a ground and no stones; give those that stand on it.")
     names = [part.name for part, *_ in parts]
-    unknown = next((one for one in reading.fixed if one not in names), None)
+    unknown = next((part_name for part_name in reading.fixed if part_name not in names), None)
     if unknown is not None:
         raise InputError(f"`fixed` names {unknown!r}, which {where} does not hold; it holds {_some(names)}.", "fixed")
     parts = [(part, fixed or part.name in reading.fixed, density) for part, fixed, density in parts]
@@ -449,21 +451,21 @@ def stand_up(
                     "tolerance",
                 )
             stones = fit_all(parts, hulls, tolerance)
-            words = [f"{one.name}: {one.words}" for one in stones] + notes
+            words = [f"{stone.name}: {stone.words}" for stone in stones] + notes
             if reading.becomes == "column":
-                tables, said = column_tables(name, stones, material, tolerance)
+                tables, remarks = column_tables(name, stones, material, tolerance)
                 column = made_of(Column, tables)
-                said.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
-                return column, tables, words + said
+                remarks.append(f"its drums stand where the mesh has them within {near(distance_of(column, stones))}")
+                return column, tables, words + remarks
             ground = float(reading.ground) if reading.ground is not None and reading.ground is not False else None
-            if reading.ground is None and (level is not None or not any(one.fixed for one in stones)):
-                ground = round(min(one.shape.lowest for one in stones) if level is None else level, 7) + 0.0
+            if reading.ground is None and (level is not None or not any(stone.fixed for stone in stones)):
+                ground = round(min(stone.shape.lowest for stone in stones) if level is None else level, 7) + 0.0
 
             def level_at(facing: float) -> tuple[Structure, dict[str, Any], float, list[Closed]]:
-                shapes, closing = [one.shape for one in stones], TOLERANCE if stated is not None else tolerance
+                shapes, closing = [stone.shape for stone in stones], TOLERANCE if stated is not None else tolerance
                 closing = closing if reading.closing is None else reading.closing
                 shapes, shift, closed = brought_together(shapes, ground, tolerance, closing, facing)
-                level_stones = [one._replace(shape=shape) for one, shape in zip(stones, shapes, strict=True)]
+                level_stones = [stone._replace(shape=shape) for stone, shape in zip(stones, shapes, strict=True)]
                 tables = assembly_tables(name, level_stones, material, ground) | (stated or {})
                 return (
                     spatial_assembly(checked(tables, SpatialTable, "the assembly"), name, folder),
@@ -488,7 +490,14 @@ def stand_up(
         return stood(reading.tolerance)
     except InputError as error:
         most = LOOSEST * min(float(np.ptp(hull.corners, axis=0).max()) for hull in hulls)
-        enough = next((one for one in TOLERANCES if reading.tolerance < one <= most and _is_read(stood, one)), None)
+        enough = next(
+            (
+                candidate
+                for candidate in TOLERANCES
+                if reading.tolerance < candidate <= most and _is_read(stood, candidate)
+            ),
+            None,
+        )
         if enough is None:
             raise
         more = f"{str(error).rstrip('.')}, or allow more with `tolerance={enough:g}`."
@@ -517,7 +526,7 @@ def _near_the_origin(parts: Sequence[Part]) -> tuple[list[Part], list[str]]:
 def _without_ground(parts: Sequence[Part]) -> tuple[float | None, list[Part]]:
     """Level of a part called ``ground`` [m], as exports have it, and the others."""
     level = next((float(part.points[part.used, 2].max()) for part, *_ in parts if part.name == "ground"), None)
-    return level, [one for one in parts if one[0].name != "ground"]
+    return level, [part for part in parts if part[0].name != "ground"]
 
 
 def _one_stone(parts: Sequence[Part], glued: Sequence[str], where: str) -> list[Part]:
@@ -530,21 +539,23 @@ def _one_stone(parts: Sequence[Part], glued: Sequence[str], where: str) -> list[
     """
     rest = {part.name: (part, fixed, density) for part, fixed, density in parts}
     for text in glued:
-        names = [one.strip() for one in text.split("+")]
-        unknown = next((one for one in names if one not in rest), None)
+        names = [name.strip() for name in text.split("+")]
+        unknown = next((name for name in names if name not in rest), None)
         if unknown is not None:
             raise InputError(
                 f"`glued` names {unknown!r}, which {where} does not hold; it holds {_some([*rest])}.", "glued"
             )
-        some = [rest[one] for one in names]
-        if len({*names}) < max(len(names), 2) or len({tuple(facts) for _, *facts in some}) > 1:
+        glued_parts = [rest[name] for name in names]
+        if len({*names}) < max(len(names), 2) or len({tuple(facts) for _, *facts in glued_parts}) > 1:
             raise InputError(
                 f"`glued` is {text!r}; allowed are two or more different parts of one density, all of them fixed or none.",
                 "glued",
             )
-        whole = _joined([part for part, *_ in some])
+        whole = _joined([part for part, *_ in glued_parts])
         check_closed(whole, f"{text!r} of {where}")
-        rest = {name: one for name, one in rest.items() if name not in names[1:]} | {names[0]: (whole, *some[0][1:])}
+        rest = {name: part for name, part in rest.items() if name not in names[1:]} | {
+            names[0]: (whole, *glued_parts[0][1:])
+        }
     return [*rest.values()]
 
 
@@ -568,11 +579,15 @@ def _largest(closed: Sequence[Closed], names: Sequence[str]) -> list[str]:
     """How many gaps and overlaps were closed, and the largest of each."""
     words = []
     for kind in ("gap", "overlap"):
-        some = sorted((getattr(one, kind), one.one, one.other) for one in closed if getattr(one, kind) > ROUNDING)
-        if some:
-            size, one, other = some[-1]
-            many = f"{len(some)} {kind}s, the largest" if len(some) > 1 else f"the {kind}"
-            words.append(f"{many} of {near(size)} between {names[one]!r} and {names[other]!r}, closed")
+        closures = sorted(
+            (getattr(closure, kind), closure.one, closure.other)
+            for closure in closed
+            if getattr(closure, kind) > ROUNDING
+        )
+        if closures:
+            size, first, other = closures[-1]
+            many = f"{len(closures)} {kind}s, the largest" if len(closures) > 1 else f"the {kind}"
+            words.append(f"{many} of {near(size)} between {names[first]!r} and {names[other]!r}, closed")
     return words
 
 
@@ -582,7 +597,7 @@ def _some(names: list[str]) -> str:
 
 def surfaces_of(structure: Structure) -> list[tuple[str, Mesh, bool, float]]:
     """Convex parts of the bodies of a structure where they stand: names, surfaces [m], whether fixed, densities [kg/m³]."""
-    found = []
+    surfaces = []
     densities = (
         {f"drum {i}": drum.density for i, drum in enumerate(structure.stack.drums, 1)} if structure.stack else {}
     )
@@ -593,8 +608,8 @@ def surfaces_of(structure: Structure) -> list[tuple[str, Mesh, bool, float]]:
         parts = body.placed
         for number, part in enumerate(parts, 1):
             name = body.name if len(parts) == 1 else f"{body.name}, part {number}"
-            found.append((name, in_use(part.mesh(AROUND)), body.fixed, density))
-    return found
+            surfaces.append((name, in_use(part.mesh(AROUND)), body.fixed, density))
+    return surfaces
 
 
 def _lost(structure: Structure, suffix: str) -> list[str]:
@@ -613,9 +628,9 @@ def _lost(structure: Structure, suffix: str) -> list[str]:
 
 def _glb(name: str, surfaces: list[Named]) -> bytes:
     file = Glb(name)
-    for one in surfaces:
-        middle = one.mesh.vertices.mean(axis=0)
-        file.add(one._replace(mesh=Mesh(one.mesh.vertices - middle, one.mesh.faces)), middle.tolist())
+    for surface in surfaces:
+        middle = surface.mesh.vertices.mean(axis=0)
+        file.add(surface._replace(mesh=Mesh(surface.mesh.vertices - middle, surface.mesh.faces)), middle.tolist())
     return file.content()
 
 

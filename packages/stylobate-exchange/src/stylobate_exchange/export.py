@@ -81,10 +81,10 @@ def export_response(
     if suffix == ".vtu":
         made = grids(recording, int(recording.instants[0]))
         paths = [path, *(path.with_name(f"{path.stem}-{kind}.vtu") for kind in list(made)[1:])]
-        for one in paths[1:]:
-            refuse_existing(one)
-        for one, grid in zip(paths, made.values(), strict=True):
-            _write_grid(one, grid)
+        for target in paths[1:]:
+            refuse_existing(target)
+        for target, grid in zip(paths, made.values(), strict=True):
+            _write_grid(target, grid)
         return paths
     content = {".glb": _glb, ".obj": _obj, ".csv": _table}[suffix](recording)
     return [_write(path, content)]
@@ -183,42 +183,42 @@ def _series(recording: Recording, path: Path) -> list[Path]:
 def _obj(recording: Recording) -> bytes:
     """Bodies by name as they stand at the instant; parts of one body are objects of their own."""
     index, names = int(recording.instants[0]), recording.response.bodies.names
-    found = []
+    objects = []
     bodies = [piece.body for piece in recording.pieces]
     for number, (body, mesh) in enumerate(recording.pieces):
         parts = bodies.count(body)
         name = names[body] if parts == 1 else f"{names[body]}, part {bodies[: number + 1].count(body)}"
         points = mesh.vertices @ recording.axes[index, body].T + recording.position[index, body]
-        found.append(Named(name, Mesh(points, mesh.faces)))
-    return obj_text(found).encode()
+        objects.append(Named(name, Mesh(points, mesh.faces)))
+    return obj_text(objects).encode()
 
 
 def _table(recording: Recording) -> bytes:
     """Time histories, a row an instant, units in the names of the columns."""
-    response, some = recording.response, recording.instants
+    response, instants = recording.response, recording.instants
     h, bodies = response.histories, response.bodies
     columns: dict[str, np.ndarray] = {"time_s": recording.time}
     for k, axis in enumerate("xyz"):
-        columns[f"ground_acceleration_{axis}_m_s2"] = h.acceleration[some, k]
-        columns[f"ground_displacement_{axis}_m"] = h.displacement[some, k]
+        columns[f"ground_acceleration_{axis}_m_s2"] = h.acceleration[instants, k]
+        columns[f"ground_displacement_{axis}_m"] = h.displacement[instants, k]
     moved, tilt = recording.position - recording.position[0], response.tilt
     for body, name in enumerate(bodies.names):
         if not bodies.fixed[body]:
             for k, axis in enumerate("xyz"):
-                columns[f"{name}: displacement_{axis}_m"] = moved[some, body, k]
+                columns[f"{name}: displacement_{axis}_m"] = moved[instants, body, k]
             for k, axis in enumerate("xyz"):
-                columns[f"{name}: velocity_{axis}_m_s"] = recording.velocity[some, body, k]
-            columns[f"{name}: tilt_rad"] = tilt[some, body]
+                columns[f"{name}: velocity_{axis}_m_s"] = recording.velocity[instants, body, k]
+            columns[f"{name}: tilt_rad"] = tilt[instants, body]
     for joint in range(h.opening.shape[1]):
-        columns[f"joint {joint + 1}: opening_m"] = h.opening[some, joint]
+        columns[f"joint {joint + 1}: opening_m"] = h.opening[instants, joint]
         for k, axis in enumerate("xy"):
-            columns[f"joint {joint + 1}: slip_{axis}_m"] = h.slip[some, joint, k]
-        columns[f"joint {joint + 1}: twist_rad"] = h.twist[some, joint]
+            columns[f"joint {joint + 1}: slip_{axis}_m"] = h.slip[instants, joint, k]
+        columns[f"joint {joint + 1}: twist_rad"] = h.twist[instants, joint]
     units = dict(zip(LINKS, ("n", "n", "m", "m"), strict=True))
     for number, link in enumerate(response.measures.links if h.links is not None else ()):
         for key in LINKS:
-            columns[f"{link.name}: {key}_{units[key]}"] = getattr(h.links, key)[some, number]
-    columns |= {f"energy_{term}_j": values[some] for term, values in h.energy.items()}
+            columns[f"{link.name}: {key}_{units[key]}"] = getattr(h.links, key)[instants, number]
+    columns |= {f"energy_{term}_j": values[instants] for term, values in h.energy.items()}
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(columns)

@@ -144,9 +144,9 @@ def within_tolerance(hull: Hull, tolerance: float, what: str) -> Frustum | Hull:
     if drum is not None and drum.residual <= tolerance:
         return drum
     if hull.residual > tolerance:
-        said = "" if drum is None else f", and a drum does not fit it by {1e3 * drum.residual:.3g} mm"
+        drum_note = "" if drum is None else f", and a drum does not fit it by {1e3 * drum.residual:.3g} mm"
         raise InputError(
-            f"{what} is not convex: it lies {1e3 * hull.residual:.3g} mm within its hull{said}{hull.bent}; allowed are "
+            f"{what} is not convex: it lies {1e3 * hull.residual:.3g} mm within its hull{drum_note}{hull.bent}; allowed are "
             f"{1e3 * tolerance:g} mm: split it into convex parts.",
             "tolerance",
         )
@@ -158,16 +158,16 @@ def fit_hull(mesh: Mesh, volume: float, what: str) -> Hull:
     from scipy.spatial import ConvexHull, QhullError
 
     try:
-        found: Any = ConvexHull(mesh.vertices)
+        convex_hull: Any = ConvexHull(mesh.vertices)
     except QhullError:
         raise InputError(f"{what} lies in one plane and has no thickness; give a solid.") from None
-    planes, points = found.equations, _points_on(mesh)
-    some = np.array_split(points, 1 + len(points) * len(planes) // 10_000_000)
-    deepest = max(0.0, *(float(-(one @ planes[:, :3].T + planes[:, 3]).max(axis=1).min()) for one in some))
-    depth = max(deepest, float(found.volume - volume) / float(found.area))
-    corners = mesh.vertices[np.sort(found.vertices)]
+    planes, points = convex_hull.equations, _points_on(mesh)
+    batches = np.array_split(points, 1 + len(points) * len(planes) // 10_000_000)
+    deepest = max(0.0, *(float(-(batch @ planes[:, :3].T + planes[:, 3]).max(axis=1).min()) for batch in batches))
+    depth = max(deepest, float(convex_hull.volume - volume) / float(convex_hull.area))
+    corners = mesh.vertices[np.sort(convex_hull.vertices)]
     if len(corners) <= MOST_CORNERS:
-        return Hull(corners, depth, volume / float(found.volume))
+        return Hull(corners, depth, volume / float(convex_hull.volume))
     corners, out = _thinned(corners)
     return Hull(corners, max(depth, out), volume / float(ConvexHull(corners).volume))
 
@@ -178,14 +178,14 @@ def _thinned(corners: np.ndarray) -> tuple[np.ndarray, float]:
 
     ways = np.array([way for way in np.ndindex(3, 3, 3) if way != (1, 1, 1)]) - 1.0
     kept = np.unique((corners @ ways.T).argmax(axis=0)).tolist()
-    found: Any = ConvexHull(corners[kept], incremental=True)
+    convex_hull: Any = ConvexHull(corners[kept], incremental=True)
     while True:
-        out = (corners @ found.equations[:, :3].T + found.equations[:, 3]).max(axis=1)
+        out = (corners @ convex_hull.equations[:, :3].T + convex_hull.equations[:, 3]).max(axis=1)
         farthest = int(out.argmax())
         if len(kept) >= FEW_CORNERS or farthest in kept:
             return corners[np.sort(kept)], max(0.0, float(out[farthest]))
         kept.append(farthest)
-        found.add_points(corners[[farthest]])
+        convex_hull.add_points(corners[[farthest]])
 
 
 def _points_on(mesh: Mesh) -> np.ndarray:
@@ -215,26 +215,26 @@ def fit_frustum(mesh: Mesh, volume: float) -> Frustum | None:
     middles = np.array([points[list(face)].mean(axis=0) for face in mesh.faces])
     axes = [*np.linalg.eigh(moments.tensor)[1].T, np.array([0.0, 0.0, 1.0])]
     starts = [_start(points, axis) for axis in axes]
-    frame, values = min(starts, key=lambda one: float(np.square(_distances(points, *one)).sum()))
+    frame, values = min(starts, key=lambda start: float(np.square(_distances(points, *start)).sum()))
     size = float(np.ptp(points, axis=0).max())
     kinds = sides = np.zeros(0, dtype=int)
     for _ in range(ROUNDS):
         costs = np.square(_from_surfaces(middles, frame, values))
         np.add.at(costs, owner, np.square(_from_surfaces(points, frame, values))[corner])
         least, second = np.sort(costs, axis=1)[:, :2].T
-        found = np.where(
+        new_kinds = np.where(
             4.0 * least <= second, costs.argmin(axis=1), -1
         )  # a face across an edge belongs to neither side
-        if np.array_equal(found, kinds):
+        if np.array_equal(new_kinds, kinds):
             break
-        kinds = found
+        kinds = new_kinds
         sides = np.unique(np.stack((corner, kinds[owner]))[:, kinds[owner] >= 0], axis=1)
         if len(np.unique(sides[1])) < 3:
             return None
-        some = sides[:, :: max(1, len(sides[0]) // MOST)]
+        sample = sides[:, :: max(1, len(sides[0]) // MOST)]
 
-        def misfit(x: np.ndarray, some: np.ndarray = some) -> np.ndarray:
-            return _from_surfaces(points[some[0]], frame, x)[np.arange(len(some[0])), some[1]] / size
+        def misfit(x: np.ndarray, subset: np.ndarray = sample) -> np.ndarray:
+            return _from_surfaces(points[subset[0]], frame, x)[np.arange(len(subset[0])), subset[1]] / size
 
         values = least_squares(misfit, values, x_scale=size, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=60).x
         _, _, (low, high, bottom, top) = _unpacked(frame, values)
@@ -274,7 +274,7 @@ def _unpacked(
     """A point of the axis, the axis, and its two ends along it and two radii."""
     aside, lean = values[:2], values[2:4]
     axis = frame @ (*lean, 1.0)
-    low, high, bottom, top = (float(one) for one in values[4:])
+    low, high, bottom, top = (float(value) for value in values[4:])
     return frame[:, :2] @ aside, axis / np.linalg.norm(axis), (low, high, bottom, top)
 
 
@@ -376,16 +376,16 @@ def brought_together(
     contacts = list(closed)
     group = _groups(len(faces), [*contacts, *_level(faces, contacts, min(closing, LEVEL))])
     touching = {group[i] for i, _ in contacts}
-    on = {name: [face for face, one in zip(faces, group, strict=True) if one == name] for name in touching}
+    on = {name: [face for face, number in zip(faces, group, strict=True) if number == name] for name in touching}
     ends: dict[int, dict[int, int]] = {}
     for name in touching:
         for face in on[name]:
             for member in face.members:
                 ends.setdefault(face.stone, {})[member] = name
     pairs = [
-        tuple(found.values())
-        for stone, found in ends.items()
-        if stone >= 0 and isinstance(shapes[stone], Frustum) and len(found) == 2
+        tuple(stone_ends.values())
+        for stone, stone_ends in ends.items()
+        if stone >= 0 and isinstance(shapes[stone], Frustum) and len(stone_ends) == 2
     ]
     alike = _groups(len(faces), pairs)
     planes: dict[int, Plane] = {}
@@ -393,17 +393,17 @@ def brought_together(
         planes |= _planes({name: on[name] for name in touching if alike[name] == kind}, ground)
     moved, most, kept = list(shapes), 0.0, set[int]()
     for stone, shape in enumerate(shapes):
-        found = [
+        own_planes = [
             (face.members, planes[group[i]])
             for i, face in enumerate(faces)
             if face.stone == stone and group[i] in planes
         ]
-        new, shift = _on_planes(shape, found)
+        new, shift = _on_planes(shape, own_planes)
         if shift <= max(tolerance, closing):
             moved[stone], most = new, max(most, shift)
         else:
             kept.add(stone)
-    return moved, most, [one for one in closed.values() if not kept & {one.one, one.other}]
+    return moved, most, [closure for closure in closed.values() if not kept & {closure.one, closure.other}]
 
 
 def _faces(stone: int, shape: Frustum | Hull, facing: float) -> list[Face]:
@@ -419,21 +419,21 @@ def _faces(stone: int, shape: Frustum | Hull, facing: float) -> list[Face]:
         ]
     from scipy.spatial import ConvexHull
 
-    found: Any = ConvexHull(shape.corners)
-    normals = found.equations[:, :3]
+    convex_hull: Any = ConvexHull(shape.corners)
+    normals = convex_hull.equations[:, :3]
     beside = [
         (i, k)
-        for i, others in enumerate(found.neighbors)
+        for i, others in enumerate(convex_hull.neighbors)
         for k in others.tolist()
         if k > i and normals[i] @ normals[k] > math.cos(facing)
     ]
     group = np.array(_groups(len(normals), beside))
     faces = []
     for kind in np.unique(group):
-        corners = shape.corners[found.simplices[group == kind]]
+        corners = shape.corners[convex_hull.simplices[group == kind]]
         area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
         normal = (area[:, None] * normals[group == kind]).sum(axis=0)
-        members = np.unique(found.simplices[group == kind])
+        members = np.unique(convex_hull.simplices[group == kind])
         faces.append(Face(stone, tuple(members.tolist()), shape.corners[members], normal / np.linalg.norm(normal)))
     return faces
 
@@ -443,8 +443,8 @@ def _groups(count: int, links: Iterable[tuple[int, ...]]) -> list[int]:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    one, other = np.array([*links, (0, 0)]).T
-    return connected_components(coo_array((np.ones(len(one)), (one, other)), shape=(count, count)))[1].tolist()
+    first, other = np.array([*links, (0, 0)]).T
+    return connected_components(coo_array((np.ones(len(first)), (first, other)), shape=(count, count)))[1].tolist()
 
 
 def _contacts(faces: Sequence[Face], tolerance: float, closing: float, facing: float) -> dict[tuple[int, int], Closed]:
@@ -453,17 +453,17 @@ def _contacts(faces: Sequence[Face], tolerance: float, closing: float, facing: f
     own = {stone: [i for i, face in enumerate(faces) if face.stone == stone] for stone in stones}
     boxes = {k: np.concatenate([faces[i].corners for i in own[k]]) for k in stones}
     low, high = ({k: f(box, axis=0) for k, box in boxes.items()} for f in (np.min, np.max))
-    found = {}
-    for one, other in combinations(stones, 2):
-        if (low[one] > high[other] + closing).any() or (low[other] > high[one] + closing).any():
+    contacts = {}
+    for stone, other in combinations(stones, 2):
+        if (low[stone] > high[other] + closing).any() or (low[other] > high[stone] + closing).any():
             continue
-        normals = [np.array([faces[i].normal for i in own[k]]) for k in (one, other)]
+        normals = [np.array([faces[i].normal for i in own[k]]) for k in (stone, other)]
         for a, b in np.argwhere(normals[0] @ normals[1].T < -math.cos(facing)).tolist():
-            pair = own[one][a], own[other][b]
+            pair = own[stone][a], own[other][b]
             apart = _apart(faces[pair[0]], faces[pair[1]])
             if apart is not None and apart.max() <= closing and -apart.min() <= tolerance:
-                found[pair] = Closed(one, other, max(float(apart.max()), 0.0), max(float(-apart.min()), 0.0))
-    return found
+                contacts[pair] = Closed(stone, other, max(float(apart.max()), 0.0), max(float(-apart.min()), 0.0))
+    return contacts
 
 
 def _level(faces: Sequence[Face], contacts: Sequence[tuple[int, int]], tolerance: float) -> list[tuple[int, int]]:
@@ -479,14 +479,14 @@ def _level(faces: Sequence[Face], contacts: Sequence[tuple[int, int]], tolerance
     return [(order[a], order[b]) for a, b in np.argwhere(near & near.T).tolist() if a < b]
 
 
-def _apart(one: Face, other: Face) -> np.ndarray | None:
+def _apart(first: Face, other: Face) -> np.ndarray | None:
     """How far two faces that look at one another are apart at the corners of their overlap [m]; None where there is none."""
-    normal = one.normal - other.normal
+    normal = first.normal - other.normal
     normal = normal / np.linalg.norm(normal)
     across = np.linalg.svd(normal[None])[2][1:]
     if across[0] @ np.cross(across[1], normal) < 0.0:
         across = across[::-1]
-    flat = [hull(face.corners @ across.T) for face in (one, other)]
+    flat = [hull(face.corners @ across.T) for face in (first, other)]
     over = flat[0]
     for corner, after in zip(flat[1], np.roll(flat[1], -1, axis=0), strict=True):
         outward = np.array([after[1] - corner[1], corner[0] - after[0]])
@@ -496,7 +496,7 @@ def _apart(one: Face, other: Face) -> np.ndarray | None:
     if _area(over) <= CONTACT * min(map(_area, flat)):
         return None
     levels = []
-    for face in (one, other):  # heights of its plane over the corners of the overlap
+    for face in (first, other):  # heights of its plane over the corners of the overlap
         slope = across @ face.normal / (face.normal @ normal)
         middle = face.corners.mean(axis=0)
         levels.append(middle @ normal - (over - across @ middle) @ slope)
@@ -526,7 +526,7 @@ def _on_planes(shape: Frustum | Hull, planes: Sequence[tuple[tuple[int, ...], Pl
         return shape, 0.0
     if isinstance(shape, Hull):
         new = shape.corners.copy()
-        for corner in {one for members, _ in planes for one in members}:
+        for corner in {member for members, _ in planes for member in members}:
             normals, levels = zip(*(plane for members, plane in planes if corner in members), strict=True)
             a, b = np.array(normals), np.array(levels)
             new[corner] += np.linalg.lstsq(a, b - a @ new[corner], rcond=EDGE)[0]
@@ -537,6 +537,9 @@ def _on_planes(shape: Frustum | Hull, planes: Sequence[tuple[tuple[int, ...], Pl
     for (end,), (normal, level) in planes:
         ends[end] = (level - float(normal @ middle)) / float(normal @ axis)
     new = shape._replace(foot=middle + ends[0] * axis, axis=axis, height=ends[1] - ends[0])
-    feet, tops = (np.array([one.foot + share * one.height * one.axis for one in (shape, new)]) for share in (0.0, 1.0))
+    feet, tops = (
+        np.array([frustum.foot + share * frustum.height * frustum.axis for frustum in (shape, new)])
+        for share in (0.0, 1.0)
+    )
     turned = 0.5 * max(shape.bottom, shape.top) * float(np.linalg.norm(axis - shape.axis))
     return new, turned + float(max(np.linalg.norm(np.diff(feet, axis=0)), np.linalg.norm(np.diff(tops, axis=0))))

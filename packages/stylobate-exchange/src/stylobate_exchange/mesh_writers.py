@@ -35,9 +35,9 @@ def triangles_of(mesh: Mesh) -> np.ndarray:
 
 def normals_of(triangles: np.ndarray) -> np.ndarray:
     """Unit normals [-], shape (k, 3); upward of a triangle without area."""
-    found = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    length = np.linalg.norm(found, axis=1, keepdims=True)
-    return np.where(length > 0.0, found / np.where(length > 0.0, length, 1.0), (0.0, 0.0, 1.0))
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.where(length > 0.0, normals / np.where(length > 0.0, length, 1.0), (0.0, 0.0, 1.0))
 
 
 def obj_text(surfaces: Sequence[Named]) -> str:
@@ -128,10 +128,10 @@ class Glb:
         node = {
             "name": surface.name,
             "mesh": len(self.tree["meshes"]) - 1,
-            "translation": [float(one) for one in place],
+            "translation": [float(coordinate) for coordinate in place],
         }
         if turn is not None:
-            node["rotation"] = [float(one) for one in turn]
+            node["rotation"] = [float(component) for component in turn]
         self.tree["nodes"].append(node)
         self.tree["nodes"][0]["children"].append(len(self.tree["nodes"]) - 1)
         return len(self.tree["nodes"]) - 1

@@ -87,12 +87,12 @@ class Recording:
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
         """Convex parts of all bodies but a ground without ends."""
-        found = []
+        pieces = []
         for body in self.response.bodies.shown:
             shape = self.response.bodies.shapes[body]
             parts = shape.parts if isinstance(shape, Glued) else (Placed(shape),)
-            found += [Piece(body, part.mesh(AROUND)) for part in parts]
-        return tuple(found)
+            pieces += [Piece(body, part.mesh(AROUND)) for part in parts]
+        return tuple(pieces)
 
     @cached_property
     def _upright(self) -> np.ndarray:
@@ -112,11 +112,11 @@ class Recording:
     @cached_property
     def turn(self) -> np.ndarray:
         """The same at the instants as quaternions x, y, z, w that never jump to their opposite [-], shape (k, n, 4)."""
-        found = quaternions(self.axes[self.instants])
-        steps = np.sign((found[1:] * found[:-1]).sum(axis=-1, keepdims=True))
+        orientation = quaternions(self.axes[self.instants])
+        steps = np.sign((orientation[1:] * orientation[:-1]).sum(axis=-1, keepdims=True))
         signs = np.cumprod(np.where(steps < 0.0, -1.0, 1.0), axis=0)
-        found[1:] *= signs
-        return np.roll(found, -1, axis=-1)
+        orientation[1:] *= signs
+        return np.roll(orientation, -1, axis=-1)
 
     @cached_property
     def velocity(self) -> np.ndarray:
@@ -142,11 +142,11 @@ class Recording:
             places = [(i + 1, base @ origin) for i, origin in enumerate(at.origin)]
         else:
             places = [(pair.upper, _middle(structure.bodies[pair.upper], pair.above)) for pair in structure.face_pairs]
-        found = []
+        joints = []
         for number, place in places:
             body = number - structure.first
-            found.append((body, self.axes[0, body].T @ (place - self.position[0, body])))
-        return tuple(found)
+            joints.append((body, self.axes[0, body].T @ (place - self.position[0, body])))
+        return tuple(joints)
 
     def joint_places(self, index: int) -> np.ndarray:
         """Middles of the joints at a recorded state [m], shape (J, 3)."""
@@ -157,15 +157,15 @@ class Recording:
         structure, known = self.response.structure, [link.name for link in self.response.measures.links]
         if self.response.histories.links is None:
             return []
-        base, found = base_axes(structure), []
+        base, lines = base_axes(structure), []
         for stroke in strokes(structure.placed_links):
             if stroke.link.name in known:
                 ends = [
                     base @ arm if number < structure.first else self._stands(index, number - structure.first, arm)
                     for number, arm, _ in stroke[1:]
                 ]
-                found.append((known.index(stroke.link.name), np.array(ends)))
-        return found
+                lines.append((known.index(stroke.link.name), np.array(ends)))
+        return lines
 
     def _stands(self, index: int, body: int, arm: np.ndarray) -> np.ndarray:
         return self.position[index, body] + self.axes[index, body] @ arm

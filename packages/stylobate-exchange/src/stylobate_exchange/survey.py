@@ -47,15 +47,15 @@ def rows_of_workbook(content: bytes, name: str) -> list[list[str]]:
             "stylobate-exchange[spreadsheet], or save the survey as CSV (UTF-8)."
         ) from None
     try:
-        found, written = (load_workbook(io.BytesIO(content), data_only=values).worksheets for values in (True, False))
+        sheets, written = (load_workbook(io.BytesIO(content), data_only=values).worksheets for values in (True, False))
     except Exception as error:  # openpyxl raises whatever its parts do
         raise InputError(
             f"{name} is no workbook of a spreadsheet ({type(error).__name__}); save the survey as CSV (UTF-8)."
         ) from None
-    for values, formulas in zip(found, written, strict=True):
+    for values, formulas in zip(sheets, written, strict=True):
         for cell in cells_of(formulas):
             _check_formula(cell, values[cell.coordinate], name)
-    full = [sheet for sheet in found if any(cell.value is not None for cell in cells_of(sheet))]
+    full = [sheet for sheet in sheets if any(cell.value is not None for cell in cells_of(sheet))]
     if len(full) > 1:
         raise InputError(
             f"{name} has {len(full)} sheets that hold something ({', '.join(repr(sheet.title) for sheet in full)}); leave "
@@ -83,24 +83,28 @@ def _check_formula(cell: Cell, value: Cell, name: str) -> None:
 
 
 def _rows(sheet: Worksheet, name: str) -> list[list[str]]:
-    held = {(cell.row, cell.column): str(cell.value) for cell in cells_of(sheet) if cell.value is not None}
-    rows, columns = (range(min(places), max(places) + 1) for places in zip(*held, strict=True))
+    texts = {(cell.row, cell.column): str(cell.value) for cell in cells_of(sheet) if cell.value is not None}
+    rows, columns = (range(min(places), max(places) + 1) for places in zip(*texts, strict=True))
     if len(rows) * len(columns) > MOST_CELLS:
         raise InputError(
             f"{name} has cells in {len(rows)} rows and {len(columns)} columns; a survey is smaller: leave the survey alone "
             "in it."
         )
-    hidden_columns = [range(one.min or 0, (one.max or 0) + 1) for one in sheet.column_dimensions.values() if one.hidden]
-    for row, column in held:
-        if sheet.row_dimensions[row].hidden or any(column in some for some in hidden_columns):
+    hidden_columns = [
+        range(dimension.min or 0, (dimension.max or 0) + 1)
+        for dimension in sheet.column_dimensions.values()
+        if dimension.hidden
+    ]
+    for row, column in texts:
+        if sheet.row_dimensions[row].hidden or any(column in span for span in hidden_columns):
             place = sheet.cell(row, column).coordinate
             raise InputError(f"{name} holds something in {place}, which is hidden; show it, or delete it.")
     for merged in sheet.merged_cells.ranges:
         # a title over a whole row is alone in it; any other cell would count for the first of its rows and columns only
-        alone = merged.min_row == merged.max_row and sum(row == merged.min_row for row, _ in held) == 1
-        if (merged.min_row, merged.min_col) in held and not alone:
+        alone = merged.min_row == merged.max_row and sum(row == merged.min_row for row, _ in texts) == 1
+        if (merged.min_row, merged.min_col) in texts and not alone:
             raise InputError(f"{name} has merged cells in {merged.coord}; undo that, and fill in every one of them.")
-    return [[held.get((row, column), "") for column in columns] for row in rows]
+    return [[texts.get((row, column), "") for column in columns] for row in rows]
 
 
 # -- Surveys of columns drum by drum as a table (CSV, or a workbook), to column files and back without loss -----------
@@ -162,15 +166,15 @@ def survey_text(column: Column) -> str:
             f"{column.name!r} has {len(column.links)} {'link' if len(column.links) == 1 else 'links'}, and a survey holds "
             "drums and joints only; keep the column file."
         )
-    found, table = column.as_found, tables_of(column)
+    as_found, table = column.as_found, tables_of(column)
     facts = {"name": column.name, "section": column.drums[0].section, "material": column.material}
     facts |= {"gravity": column.gravity, "north": column.north}
-    facts |= {"base_tilt": found.base_tilt, "base_azimuth": found.base_azimuth}
-    overrides = {one["index"]: one for one in table.get("joint_override", ())}
+    facts |= {"base_tilt": as_found.base_tilt, "base_azimuth": as_found.base_azimuth}
+    overrides = {override["index"]: override for override in table.get("joint_override", ())}
     rows = []
     for i, drum in enumerate(table["drum"], 1):
         joint = overrides.get(i, table["joint"])
-        state = {key: value for key, value in vars(found.of(i)).items() if key != "drum" and value != 0.0}
+        state = {key: value for key, value in vars(as_found.of(i)).items() if key != "drum" and value != 0.0}
         rows.append({"drum": i} | drum | state | {key: joint[key] for key in JOINT if key in joint})
     names = ["drum", *(key for key in (*_SIZES, *LENGTHS, *ANGLES, *JOINT) if any(key in row for row in rows))]
     names = list(dict.fromkeys(names))
@@ -225,7 +229,7 @@ def survey_tables(
     if len(rows) < 2:
         raise InputError(f"{name} holds no row of a drum; give a row of names, and one for each drum from the base up.")
     # spreadsheets save columns that were formatted, or left free, as well
-    free = {k for k in range(max(map(len, rows))) if not any(one[k].strip() for one in rows if k < len(one))}
+    free = {k for k in range(max(map(len, rows))) if not any(row[k].strip() for row in rows if k < len(row))}
     head, *rows = ([cell for k, cell in enumerate(row) if k not in free] for row in rows)
     decimal = "," if separator != "," else "."
     if stated is None:
@@ -239,20 +243,22 @@ def survey_tables(
             )
         if all(_is_number(cell, decimal) for cell, (key, _) in zip(head, columns) if key in LENGTHS):  # no row of names
             rows = [head, *rows]
-    known = [one for one, _ in columns]
-    double = next((one for one in known if known.count(one) > 1 and one != IGNORED), None)
+    known = [key for key, _ in columns]
+    double = next((key for key in known if known.count(key) > 1 and key != IGNORED), None)
     if double is not None:
         raise InputError(f"{name} has two columns of {double!r}; keep one.")
-    missing = next((one for one in ("height", "bottom_width", "top_width") if one not in known), None)
+    missing = next((key for key in ("height", "bottom_width", "top_width") if key not in known), None)
     if missing is not None:
         raise InputError(f"{name} has no column {missing!r}; add it, such as {missing}_m.")
     read = [_row(row, columns, number, decimal, name) for number, row in enumerate(rows, 1)]
     if north is not None:
         facts["north"] = north
-    for one in (facts, *read):
-        _turn_bearings(one, facts.get("north"), name)
+    for fields in (facts, *read):
+        _turn_bearings(fields, facts.get("north"), name)
     numbers = [row.pop("drum", None) for row in read]
-    if any(one is not None for one in numbers) and numbers != [float(i) for i in range(1, len(read) + 1)]:
+    if any(drum_number is not None for drum_number in numbers) and numbers != [
+        float(i) for i in range(1, len(read) + 1)
+    ]:
         raise InputError(
             f"{name} numbers its drums otherwise than 1, 2, 3 … from the base up; put the rows in that order."
         )
@@ -271,7 +277,7 @@ def _rows_of_text(text: str, name: str) -> tuple[list[list[str]], str]:
     lines = [line for line in text.splitlines() if not line.strip('";,\t ').startswith("#") and line.strip()]
     head, below = (*lines, "", "")[:2]
     separators = ";\t,"
-    if any(one in below for one in separators) and not any(one in head for one in separators):
+    if any(separator in below for separator in separators) and not any(separator in head for separator in separators):
         raise InputError(
             f"{name} has a line {printable(head.strip())!r} above its table, which is no row of names; put a # before it."
         )
@@ -284,8 +290,8 @@ def _rows_of_text(text: str, name: str) -> tuple[list[list[str]], str]:
 
 def _note(row: list[str], columns: list[str]) -> str:
     """What a row says of its drum, in one line."""
-    said = [cell for cell, key in zip(row, columns) if key == NOTE]
-    return " ".join("".join(one if one.isprintable() else " " for one in "".join(said)).split())
+    notes = [cell for cell, key in zip(row, columns) if key == NOTE]
+    return " ".join("".join(character if character.isprintable() else " " for character in "".join(notes)).split())
 
 
 def _tables(facts: dict[str, Any], rows: list[dict[str, float]], stone: str | None, name: str) -> dict[str, Any]:
@@ -294,7 +300,7 @@ def _tables(facts: dict[str, Any], rows: list[dict[str, float]], stone: str | No
     if stone is not None:
         table["material"] = stone
     if "material" not in table:
-        short = next((one for one in ("density", "normal_stiffness", "shear_stiffness") if one not in rows[0]), None)
+        short = next((key for key in ("density", "normal_stiffness", "shear_stiffness") if key not in rows[0]), None)
         if short is not None:
             raise InputError(
                 f"{name} says nothing of its stone: it names no material and has no column {short!r}; name one, such as "
@@ -309,18 +315,18 @@ def _tables(facts: dict[str, Any], rows: list[dict[str, float]], stone: str | No
     if others:
         table["joint_override"] = others
     states = [{key: row[key] for key in (*LENGTHS[5:], *ANGLES) if key in row} for row in rows]
-    found: dict[str, Any] = {key: facts[key] for key in ("base_tilt", "base_azimuth") if key in facts}
+    as_found: dict[str, Any] = {key: facts[key] for key in ("base_tilt", "base_azimuth") if key in facts}
     drums = [{"index": i, **state} for i, state in enumerate(states, 1) if any(state.values())]
     if drums:
-        found["drum"] = drums
-    return table | ({"as_found": found} if found else {})
+        as_found["drum"] = drums
+    return table | ({"as_found": as_found} if as_found else {})
 
 
-def _turn_bearings(found: dict[str, Any], north: float | None, name: str) -> None:
+def _turn_bearings(fields: dict[str, Any], north: float | None, name: str) -> None:
     """Azimuths from x towards y in place of bearings, which run the other way round and from north."""
-    for bearing in [key for key in BEARINGS if key in found]:
+    for bearing in [key for key in BEARINGS if key in fields]:
         azimuth = BEARINGS[bearing]
-        if azimuth in found:
+        if azimuth in fields:
             raise InputError(f"{name} has {bearing} and {azimuth}, which are one thing; keep one of the two.")
         if north is None:
             raise InputError(
@@ -328,7 +334,7 @@ def _turn_bearings(found: dict[str, Any], north: float | None, name: str) -> Non
                 "axis of the column: a line `# north: 37` above its table, or `north`.",
                 "north",
             )
-        found[azimuth] = (north - found.pop(bearing)) % 360.0
+        fields[azimuth] = (north - fields.pop(bearing)) % 360.0
 
 
 def _facts(rows: list[list[str]], separator: str, name: str) -> tuple[dict[str, Any], list[list[str]]]:
@@ -363,8 +369,8 @@ def _typed_columns(text: str) -> list[tuple[str, float]]:
     """Columns as typed, and how many of their units are one of the SI."""
     columns = []
     for part in text.split(","):
-        found = re.fullmatch(r"\s*(?P<name>-|\w[\w ]*?)\s*(?:\[\s*(?P<unit>[^\]]*?)\s*\])?\s*", part)
-        name, unit = (found["name"].replace(" ", "_"), found["unit"]) if found else ("", None)
+        match = re.fullmatch(r"\s*(?P<name>-|\w[\w ]*?)\s*(?:\[\s*(?P<unit>[^\]]*?)\s*\])?\s*", part)
+        name, unit = (match["name"].replace(" ", "_"), match["unit"]) if match else ("", None)
         if name in LENGTHS and unit in UNITS:
             columns.append((name, UNITS[unit]))
         elif name in (IGNORED, "drum", NOTE, "density", *DIRECTIONS, *JOINT) and unit in (None, _unit_of(name)):
@@ -373,7 +379,7 @@ def _typed_columns(text: str) -> list[tuple[str, float]]:
             remedy = f"write it as {name} [m], for one; " if name in LENGTHS else suggest(name, NAMES)
             raise InputError(
                 f"`columns` {text!r}: {part.strip()!r} is not understood; {remedy}allowed are lengths "
-                f"({', '.join(LENGTHS)}) with [m], [cm] or [mm], {', '.join(one for one in NAMES if one not in LENGTHS)}, "
+                f"({', '.join(LENGTHS)}) with [m], [cm] or [mm], {', '.join(key for key in NAMES if key not in LENGTHS)}, "
                 "and - for a column to leave out.",
                 "columns",
             )
@@ -409,15 +415,17 @@ def _proposed(head: list[str], rows: list[list[str]], decimal: str) -> str | Non
     own = []
     for cell in head:
         text = _text(cell)
-        own.append(max((one for one in NAMES if re.match(rf"{one}(?![a-z]|_a)", text)), key=len, default=""))
-    wanted = [one for one in wanted if one not in own]
-    found = []
+        own.append(
+            max((candidate for candidate in NAMES if re.match(rf"{candidate}(?![a-z]|_a)", text)), key=len, default="")
+        )
+    wanted = [candidate for candidate in wanted if candidate not in own]
+    columns = []
     for k, (cell, key) in enumerate(zip(head, own)):
         numbers = all(k < len(row) and _is_number(row[k], decimal) for row in rows)
         key = key or (wanted.pop(0) if numbers and wanted else IGNORED)
         unit = re.search(r"[\[(_ ](mm|cm|m)[\])]?\s*$", cell.lower())
-        found.append(f"{key} [{unit[1] if unit else 'm'}]" if key in LENGTHS else key)
-    return None if wanted else ", ".join(found)
+        columns.append(f"{key} [{unit[1] if unit else 'm'}]" if key in LENGTHS else key)
+    return None if wanted else ", ".join(columns)
 
 
 def _is_number(cell: str, decimal: str) -> bool:
@@ -456,18 +464,18 @@ def _row(row: list[str], columns: list[tuple[str, float]], number: int, decimal:
         raise InputError(
             f"row {number} of {name} has {len(row)} cells and the table {len(columns)} columns; mend the row."
         )
-    found: dict[str, float] = {}
+    values: dict[str, float] = {}
     for cell, (key, factor) in zip(row, columns):
         if cell.strip() and key not in (NOTE, IGNORED):
             value = _number(cell.strip(), f"{key} in row {number} of {name}", decimal)
-            found[key] = value / factor
-    missing = next((key for key in ("height", "bottom_width", "top_width") if key not in found), None)
+            values[key] = value / factor
+    missing = next((key for key in ("height", "bottom_width", "top_width") if key not in values), None)
     if missing is not None:
         raise InputError(f"row {number} of {name} has no {missing}; measure it, or leave the drum out.")
-    none = next((key for key in LENGTHS[:5] if not found.get(key, 1.0) > 0.0), None)
+    none = next((key for key in LENGTHS[:5] if not values.get(key, 1.0) > 0.0), None)
     if none is not None:
-        raise InputError(f"{none} in row {number} of {name} is {found[none]:g} m; give a length above 0 m.")
-    return found
+        raise InputError(f"{none} in row {number} of {name} is {values[none]:g} m; give a length above 0 m.")
+    return values
 
 
 def _number(text: str, what: str, decimal: str) -> float:

@@ -138,10 +138,10 @@ def _commands(path: Path) -> Iterator[tuple[int, str]]:
 
 
 def _polyhedron(command: str, line: int) -> Polyhedron:
-    found = re.fullmatch(r"\w+(?:\s+region\s+(\d+))?\s+(prism|face)\b(.*)", command, re.IGNORECASE | re.DOTALL)
-    if found is None:
+    match = re.fullmatch(r"\w+(?:\s+region\s+(\d+))?\s+(prism|face)\b(.*)", command, re.IGNORECASE | re.DOTALL)
+    if match is None:
         raise _Unknown
-    region, kind, rest = found.groups()
+    region, kind, rest = match.groups()
     loops = [_points(loop) for loop in re.split(r"\bface\b|\b[ab]\b", rest, flags=re.IGNORECASE) if loop.strip()]
     if kind.lower() == "prism":
         lower, upper = loops
@@ -171,7 +171,7 @@ def _points(text: str) -> np.ndarray:
     points = re.findall(r"\(([^()]*)\)", text)
     if re.sub(r"\([^()]*\)", "", text).strip():
         raise _Unknown
-    return np.array([[float(one) for one in point.replace(",", " ").split()] for point in points]).reshape(-1, 3)
+    return np.array([[float(number) for number in point.replace(",", " ").split()] for point in points]).reshape(-1, 3)
 
 
 def _range(words: list[str], ranges: dict[str, Range]) -> Range:

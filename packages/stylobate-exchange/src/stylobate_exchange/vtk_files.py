@@ -75,12 +75,12 @@ def links_grid(recording: Recording, index: int) -> Mesh:
 
 def grids(recording: Recording, index: int) -> dict[str, Mesh]:
     """Everything that there is at a recorded state: ``bodies``, and ``joints`` and ``links`` where there are some."""
-    found = {"bodies": bodies_grid(recording, index)}
+    meshes = {"bodies": bodies_grid(recording, index)}
     if recording.joints:
-        found["joints"] = joints_grid(recording, index)
+        meshes["joints"] = joints_grid(recording, index)
     if recording.link_ends(index):
-        found["links"] = links_grid(recording, index)
-    return found
+        meshes["links"] = links_grid(recording, index)
+    return meshes
 
 
 def collection(files: Sequence[tuple[float, int, str]]) -> str:

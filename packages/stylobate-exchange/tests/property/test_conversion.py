@@ -14,8 +14,7 @@ import numpy as np
 import openpyxl
 import pytest
 import trimesh
-from hypothesis import given, settings
-from hypothesis import strategies as some
+from hypothesis import given, settings, strategies
 
 import stylobate as st
 from stylobate.column.as_found import AsFound, FoundDrum
@@ -66,9 +65,9 @@ def test_there_and_back(name, ending, tmp_path):
     if name == "doric":
         shapes = [stone.shape for stone in second.stones]
         if ending == ".ply":
-            shapes.sort(key=lambda one: -one.bottom)
-        for drum, found in zip(first.drums, shapes, strict=True):
-            fits = (found.bottom, found.top, found.height)
+            shapes.sort(key=lambda shape: -shape.bottom)
+        for drum, shape in zip(first.drums, shapes, strict=True):
+            fits = (shape.bottom, shape.top, shape.height)
             assert fits == pytest.approx((drum.bottom_width, drum.top_width, drum.height), abs=1e-6)
 
 
@@ -92,7 +91,7 @@ def test_what_was_exported_from_a_run_can_be_stood_up_again(tmp_path):
     write(tmp_path / "b.obj", {"ground": part, "stone": stone, "step": step})
     structure, tables, _ = read_model(tmp_path / "a.obj", MARBLE)
     assert tables["ground"] == pytest.approx(2.0)
-    assert [one.name for one in structure.stones] == ["stone"]
+    assert [stone.name for stone in structure.stones] == ["stone"]
     moved, *_ = read_model(tmp_path / "b.obj", Reading("marble", fixed=("step",)))
     assert moved.ground == pytest.approx(2.0)  # it stays where there are supports, too
 
@@ -134,22 +133,22 @@ def test_a_drum_is_fitted_to_a_scan(tmp_path):
     _, tables, words = read_model(tmp_path / "a.obj", Reading("marble", tolerance=0.003, becomes="column"))
     (row,) = tables["drum"]
     assert (row["bottom_width"], row["top_width"], row["height"]) == pytest.approx((1.0, 0.9, 0.7), abs=0.002)
-    (found,) = tables["as_found"]["drum"]
-    assert found["tilt"] == pytest.approx(-3.0, abs=0.2)
-    assert found["tilt_azimuth"] == pytest.approx(0.0, abs=5.0)
+    (found_drum,) = tables["as_found"]["drum"]
+    assert found_drum["tilt"] == pytest.approx(-3.0, abs=0.2)
+    assert found_drum["tilt_azimuth"] == pytest.approx(0.0, abs=5.0)
     assert "drum: drum ⌀" in words[0]
 
 
 def test_a_column_as_found_comes_back_from_its_mesh(tmp_path):
     """Offsets and leans with their azimuths; drums of 48 corners whose feet are off by less than a micrometre."""
-    found = AsFound((FoundDrum(2, offset=0.03, offset_azimuth=120.0), FoundDrum(3, tilt=-1.2, tilt_azimuth=60.0)))
+    as_found = AsFound((FoundDrum(2, offset=0.03, offset_azimuth=120.0), FoundDrum(3, tilt=-1.2, tilt_azimuth=60.0)))
     drums = [st.Drum(0.8, 1.0 - 0.05 * i, 0.95 - 0.05 * i, 2700.0, "circular") for i in range(4)]
-    column = st.Column.of_drums(drums, st.Joint(1e9, 1e9, 35.0), name="found").replace(as_found=found)
+    column = st.Column.of_drums(drums, st.Joint(1e9, 1e9, 35.0), name="found").replace(as_found=as_found)
     write_column(column, tmp_path / "a.toml")
     convert(str(tmp_path / "a.toml"), tmp_path / "a.obj", Reading())
     again, _, words = read_model(tmp_path / "a.obj", Reading("marble", becomes="column"))
-    one, other = (space_geometry(each) for each in (column, again))
-    assert other.centroid == pytest.approx(one.centroid, abs=1e-6)
+    original, other = (space_geometry(each) for each in (column, again))
+    assert other.centroid == pytest.approx(original.centroid, abs=1e-6)
     second, third = again.as_found.of(2), again.as_found.of(3)
     assert (second.offset, second.offset_azimuth) == pytest.approx((0.03, 120.0), abs=1e-4)
     assert (third.tilt, third.tilt_azimuth) == pytest.approx((-1.2, 60.0), abs=1e-4)
@@ -193,7 +192,7 @@ def test_what_compas_writes_is_read(name):
 def keys_of(plain):
     """Every path of keys in plain values; keys that are numbers or identifiers are one."""
     if isinstance(plain, list):
-        return {(0, *path) for one in plain for path in keys_of(one)} | {()}
+        return {(0, *path) for item in plain for path in keys_of(item)} | {()}
     if not isinstance(plain, dict):
         return {()}
     named = {key if key.isidentifier() and len(key) < 30 else "*": value for key, value in plain.items()}
@@ -208,10 +207,10 @@ def test_compas_finds_the_keys_that_it_writes(name, layout, tmp_path):
     convert(str(tmp_path / "a.toml"), tmp_path / "a.json", Reading(), layout)
     theirs, ours = keys_of(json.loads(text)), keys_of(json.loads((tmp_path / "a.json").read_text()))
     optional = ("inheritance", "transformation", "facedata", "edgedata", "attributes")
-    missing = {path for path in theirs - ours if not any(one in optional for one in path)}
+    missing = {path for path in theirs - ours if not any(key in optional for key in path)}
     assert missing == set()
     second, *_ = read_model(tmp_path / "a.json", MARBLE)
-    assert [stone.name for stone in second.stones] == [one["name"] for one in _blocks(tmp_path / "a.toml")]
+    assert [stone.name for stone in second.stones] == [block["name"] for block in _blocks(tmp_path / "a.toml")]
 
 
 def _blocks(path):
@@ -249,11 +248,13 @@ def test_what_is_no_model_of_compas(change, says, tmp_path):
 @pytest.mark.filterwarnings("ignore::stylobate.errors.OutOfRangeWarning")  # sizes at random are not plausible
 @settings(max_examples=25, deadline=None)
 @given(
-    some.lists(
-        some.tuples(*(some.floats(0.2, 2.0) for _ in range(3)), some.floats(1000.0, 3000.0)), min_size=1, max_size=5
+    strategies.lists(
+        strategies.tuples(*(strategies.floats(0.2, 2.0) for _ in range(3)), strategies.floats(1000.0, 3000.0)),
+        min_size=1,
+        max_size=5,
     ),
-    some.booleans(),
-    some.integers(0, 2**32),
+    strategies.booleans(),
+    strategies.integers(0, 2**32),
 )
 def test_a_survey_is_the_column_to_the_last_digit(tmp_path_factory, sizes, round_, seed):
     random = np.random.default_rng(seed)
@@ -261,10 +262,10 @@ def test_a_survey_is_the_column_to_the_last_digit(tmp_path_factory, sizes, round
     depth = {} if round_ else {"depth": 0.7, "top_depth": 0.6}
     drums = [st.Drum(h, max(b, t), min(b, t), density, section, **depth) for h, b, t, density in sizes]
     joints = [st.Joint(1e9 * (1.0 + random.random()), 1e9, friction_angle=30.0 + random.random()) for _ in drums]
-    found = [
+    found_drums = [
         FoundDrum(i, offset=1e-3 * random.random(), turn=random.random(), chip_left=0.01) for i in range(2, len(drums))
     ]
-    base = AsFound(tuple(found), float(random.random()), 37.0)
+    base = AsFound(tuple(found_drums), float(random.random()), 37.0)
     column = st.Column.of_fields(
         drums=tuple(drums), joints=tuple(joints), as_found=base, links=(), name="a, b", gravity=9.81, material=None
     )
@@ -488,7 +489,7 @@ def test_a_survey_whose_columns_are_stated(above, encoding, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("columns", "said"),
+    ("columns", "message"),
     [
         ("drum, height [km], -, -, -", r"'height \[km\]' is not understood.*allowed are lengths"),
         ("drum, hight [cm], -, -, -", "did you mean height"),
@@ -499,9 +500,9 @@ def test_a_survey_whose_columns_are_stated(above, encoding, tmp_path):
         ("drum, height [cm], bottom_width [cm], top_width [cm], tilt", "tilt in row 1 .* is 'sì'"),
     ],
 )
-def test_stated_columns_of_a_survey_that_cannot_be(columns, said, tmp_path):
+def test_stated_columns_of_a_survey_that_cannot_be(columns, message, tmp_path):
     (tmp_path / "a.csv").write_text(ITALIAN, encoding="utf-8")
-    with pytest.raises(st.InputError, match=said):
+    with pytest.raises(st.InputError, match=message):
         convert(str(tmp_path / "a.csv"), tmp_path / "b.toml", Reading("marble", columns=columns))
     assert not (tmp_path / "b.toml").exists()
     with pytest.raises(st.InputError, match="`columns` are those of a survey"):
@@ -534,8 +535,8 @@ def test_bearings_of_a_survey_ask_where_north_is(tmp_path):
     with pytest.raises(st.InputError, match="does not say where north is"):
         survey_tables(path)
     column, _, _ = read_model(path, Reading(north=37.0))
-    found = column.as_found
-    assert (column.north, found.of(2).offset_azimuth, found.base_azimuth) == (37.0, 330.0, 307.0)
+    as_found = column.as_found
+    assert (column.north, as_found.of(2).offset_azimuth, as_found.base_azimuth) == (37.0, 330.0, 307.0)
     path.write_text(f"# north: 37\n{BY_COMPASS}", encoding="utf-8")
     assert read_model(path, Reading())[0] == column
     path.write_text(survey_text(column), encoding="utf-8")
@@ -564,6 +565,6 @@ def test_a_proposal_names_every_column_that_it_can(tmp_path):
         survey_tables(path, "marble")
     proposal = re.findall(r"`columns='(.*?)'`", str(refused.value))[0]
     assert proposal == "drum, height [cm], bottom_width [cm], top_width [cm], density, friction_angle, -"
-    tables, said = survey_tables(path, "marble", proposal)
+    tables, notes = survey_tables(path, "marble", proposal)
     assert tables["drum"] == [{"height": 0.8, "bottom_width": 1.0, "top_width": 0.98, "density": 2700.0}]
-    assert said == [ROUND]
+    assert notes == [ROUND]

@@ -111,12 +111,12 @@ def _with(histories, **changes):
 
 def accessor(file, number):
     """Numbers of an accessor as the specification of glTF 2.0 lays them out."""
-    one = file.accessors[number]
-    view = file.bufferViews[one.bufferView]
-    kind = {5126: "<f4", 5125: "<u4"}[one.componentType]
-    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[one.type]
+    entry = file.accessors[number]
+    view = file.bufferViews[entry.bufferView]
+    kind = {5126: "<f4", 5125: "<u4"}[entry.componentType]
+    width = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[entry.type]
     data = file.binary_blob()[view.byteOffset : view.byteOffset + view.byteLength]
-    return np.frombuffer(data, kind).reshape(one.count, width)
+    return np.frombuffer(data, kind).reshape(entry.count, width)
 
 
 def test_gltf_moves_as_the_response_does(in_space, tmp_path):
@@ -207,8 +207,10 @@ def test_a_viewer_in_a_browser_plays_it(in_space, tmp_path):
     assert boxes[0]["plinth"] == pytest.approx([-0.5, 0.0, -0.5, 0.5, 0.4, 0.5], abs=1e-6)
     assert boxes[0]["statue"] == pytest.approx([-0.3, 0.4, -0.3, 0.3, 1.6, 0.3], abs=1e-6)
     assert boxes[1]["statue"] == pytest.approx([-wide, 0.4, -0.1 - wide, wide, 1.6, -0.1 + wide], abs=1e-6)
-    seen = [np.asarray(matplotlib.image.imread(io.BytesIO(one)))[..., :3].min(axis=2) < 0.95 for one in pictures]
-    assert all(0.02 < one.mean() < 0.9 for one in seen)
+    seen = [
+        np.asarray(matplotlib.image.imread(io.BytesIO(picture)))[..., :3].min(axis=2) < 0.95 for picture in pictures
+    ]
+    assert all(0.02 < mask.mean() < 0.9 for mask in seen)
     assert (seen[0] != seen[1]).sum() > 100  # the statue has grown wider
 
 
@@ -242,10 +244,12 @@ def test_vtk_is_laid_out_as_its_manual_says(in_space, tmp_path):
     kinds = {"Int64": "<i8", "UInt8": "|u1", "Float64": "<f8"}
 
     def array(name):
-        (found,) = [
-            one for one in root.iter("DataArray") if one.get("Name") == name and one.get("NumberOfComponents") != "3"
+        (element,) = [
+            candidate
+            for candidate in root.iter("DataArray")
+            if candidate.get("Name") == name and candidate.get("NumberOfComponents") != "3"
         ]
-        text = found.text.strip()
+        text = element.text.strip()
         count = int.from_bytes(base64.b64decode(text[:8])[:4], "little")  # of blocks; their sizes are behind it
         head = 4 * -(-4 * (3 + count) // 3)
         sizes = np.frombuffer(base64.b64decode(text[:head]), "<u4")
@@ -253,7 +257,7 @@ def test_vtk_is_laid_out_as_its_manual_says(in_space, tmp_path):
         for size in sizes[3:].tolist():
             blocks.append(zlib.decompress(data[:size]))
             data = data[size:]
-        return np.frombuffer(b"".join(blocks), kinds[found.get("type")]).tolist()
+        return np.frombuffer(b"".join(blocks), kinds[element.get("type")]).tolist()
 
     assert root.get("type") == "UnstructuredGrid"
     assert array("types") == [42] * 3
@@ -280,7 +284,7 @@ def test_vtk_over_time(in_plane, tmp_path):
     names = (tmp_path / "a" / "bodies.csv").read_text().splitlines()
     assert names[1] == "0,drum 1"
     drums = in_plane.column.drums
-    assert np.ptp(last.points[:, 1]) == pytest.approx(max(one.depth for one in drums))
+    assert np.ptp(last.points[:, 1]) == pytest.approx(max(drum.depth for drum in drums))
 
 
 def test_joints_go_with_the_drum_above_them(in_plane, tmp_path):

@@ -49,7 +49,7 @@ def write(path, meshes, digits=12):
     lines, first = [], 1
     for name, mesh in meshes.items():
         lines.append(f"o {name}")
-        lines += [" ".join(["v", *(f"{one:.{digits}f}" for one in point)]) for point in mesh.vertices]
+        lines += [" ".join(["v", *(f"{coordinate:.{digits}f}" for coordinate in point)]) for point in mesh.vertices]
         lines += [" ".join(["f", *(str(i + first) for i in face)]) for face in mesh.faces]
         first += len(mesh.vertices)
     path.write_text("\n".join(lines))
@@ -81,8 +81,8 @@ def test_a_chip_in_two_rings_of_corners_stays(damage, sides, tmp_path):
     assert "(no round drum within" in words[0]
     drum, _, words = read_model(path, Reading("marble", tolerance=0.06))
     price = float(re.search(r"limit analysis tells up to ([\d.]+) % too much", words[0])[1])
-    (told,) = limit_directions(drum, [0.0]).limits
-    assert told.multiplier > limit.multiplier > (1.0 - 0.01 * price - 0.001) * told.multiplier
+    (drum_limit,) = limit_directions(drum, [0.0]).limits
+    assert drum_limit.multiplier > limit.multiplier > (1.0 - 0.01 * price - 0.001) * drum_limit.multiplier
 
 
 @pytest.mark.parametrize("sides", [12, 16, 24, 64])
@@ -180,10 +180,12 @@ def test_what_rounding_leaves_between_stones_is_closed(digits, shift, tmp_path):
     structure, _, words = read_model(write(tmp_path / "b.obj", arch(0.5, shift), digits), MARBLE)
     assert len(exact.space_joints) == len(structure.space_joints) == 16
     assert any(re.search(r"brought into common planes: corners moved by up to 0\.\d+ mm", word) for word in words)
-    assert sum(one.mass for one in structure.stones) == pytest.approx(sum(one.mass for one in exact.stones), rel=1e-3)
+    assert sum(stone.mass for stone in structure.stones) == pytest.approx(
+        sum(stone.mass for stone in exact.stones), rel=1e-3
+    )
     azimuth = [math.degrees(0.5)]
-    one, other = (limit_directions(each, azimuth).limits[0].multiplier for each in (exact, structure))
-    assert other == pytest.approx(one, rel=2.0 * 10.0**-digits / 0.6)
+    exact_multiplier, other = (limit_directions(each, azimuth).limits[0].multiplier for each in (exact, structure))
+    assert other == pytest.approx(exact_multiplier, rel=2.0 * 10.0**-digits / 0.6)
 
 
 def test_gaps_and_overlaps_up_to_the_tolerance_are_closed(tmp_path):
@@ -193,7 +195,7 @@ def test_gaps_and_overlaps_up_to_the_tolerance_are_closed(tmp_path):
         path = write(tmp_path / f"{gap}.obj", {"a": prism(box, 0.8), "b": prism(box, 0.8, level=0.8 + gap)})
         structure, *_ = read_model(path, MARBLE)
         assert len(structure.space_joints) == 2
-        assert sum(one.mass for one in structure.stones) == pytest.approx(2700.0 * (1.6 + gap), rel=1e-9)
+        assert sum(stone.mass for stone in structure.stones) == pytest.approx(2700.0 * (1.6 + gap), rel=1e-9)
         with pytest.raises(st.InputError, match=r"(hangs in the air|overlap by).* allow more with `tolerance=0\.002`"):
             read_model(path, Reading("marble", tolerance=1e-4))
 
@@ -232,9 +234,9 @@ def test_the_axis_upward_is_stated(ending, tmp_path):
     (tmp_path / f"a{ending}").write_text(TEXTS[ending](named))
     beside, _, words = read_model(tmp_path / f"a{ending}", MARBLE)
     assert "z is taken as upward; `up` says otherwise" in words
-    assert np.ptp([one.position[2] for one in beside.stones]) == pytest.approx(0.0)
+    assert np.ptp([stone.position[2] for stone in beside.stones]) == pytest.approx(0.0)
     stacked, *_ = read_model(tmp_path / f"a{ending}", Reading("marble", up="y"))
-    assert sorted(one.position[2] for one in stacked.stones) == pytest.approx([0.4, 1.2])
+    assert sorted(stone.position[2] for stone in stacked.stones) == pytest.approx([0.4, 1.2])
     with pytest.raises(st.InputError, match="`up` is 'x'; allowed are y, z"):
         Reading("marble", up="x")
 
@@ -269,7 +271,7 @@ def plain_meshes():
     box = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
     blocks = [("a", prism(box, 0.8), True, 0.0), ("b", prism(box, 0.8, level=0.8), False, 0.0)]
     model, assembly = (json.loads(compas_json("pair", blocks, layout)) for layout in ("dem", "assembly"))
-    meshes = [one["data"]["geometry"] for one in model["data"]["elements"].values()]
+    meshes = [element["data"]["geometry"] for element in model["data"]["elements"].values()]
     return meshes, model, assembly
 
 
@@ -286,7 +288,7 @@ def test_layouts_of_compas_in_use(tmp_path):
     ):
         (tmp_path / "a.json").write_text(json.dumps(content))
         structure, *_ = read_model(tmp_path / "a.json", MARBLE)
-        assert [one.fixed for one in structure.stones] == fixed
+        assert [stone.fixed for stone in structure.stones] == fixed
         assert structure.stones[0].mass == pytest.approx(2700.0 * 0.8)
 
 

@@ -128,7 +128,7 @@ class CardRecords:
 
     def views(self) -> dict[str, np.ndarray]:
         """Numbers of bodies, joints and lanes here, as bits; each of shape (rows, fields, blocks, lanes)."""
-        found = {}
+        arrays = {}
         for record in ("body", "joint", *OF_LANES):
             array = self.here["site" if record in ("body", "joint") else record]
             bits = array.view(np.int64).reshape(self.blocks, -1, array.dtype.itemsize // 8)
@@ -138,8 +138,8 @@ class CardRecords:
                 bits = bits[:, :rows, first // 8 : (first + kind.itemsize) // 8]
             fields = bits.reshape(self.blocks, bits.shape[1], -1, self.lanes)
             assert np.shares_memory(fields, array)
-            found[record] = fields.transpose(1, 2, 0, 3)
-        return found
+            arrays[record] = fields.transpose(1, 2, 0, 3)
+        return arrays
 
     def advance(self, chunks: int) -> None:
         """Advance all lanes by so many chunks of steps, or to the end of their runs.

@@ -76,11 +76,11 @@ def copy_of(record: np.dtype, names: tuple[str, ...]) -> Callable[..., None]:
     name, half = names[0], len(names) // 2
     *rows, _ = record[name].shape
     if half:
-        some, others = copy_of(record, names[:half]), copy_of(record, names[half:])
+        first_copy, others = copy_of(record, names[:half]), copy_of(record, names[half:])
 
         @law
         def copy(to, m, source, l):
-            some(to, m, source, l)
+            first_copy(to, m, source, l)
             others(to, m, source, l)
 
     elif rows:
@@ -132,13 +132,13 @@ def _kernel_on(site_of_types: np.dtype, own: tuple[np.dtype, ...], laws: Laws):
     """
     joint_force, move, no_momentum, add_work, ground_at, look = laws[:6]
     of_body, of_joint, of_load, _, of_sums, of_ground = own
-    lanes, rows, held = of_sums["work"].shape[0], AHEAD + 1, laws.held is not None
+    lanes, rows, own_records = of_sums["work"].shape[0], AHEAD + 1, laws.held is not None
     site_record, ground_record = from_dtype(site_of_types), from_dtype(of_ground)
     body_record, joint_record, load_record, lane_record, sums_record, step_record = (
         from_dtype(of_one_lane(record)) for record in own
     )
     take_body, take_joint, _, take_lane, put_sums, take_ground = (copy_of(record, record.names or ()) for record in own)
-    asked, told, put_body, put_joint = (
+    copy_body, copy_load, put_body, put_joint = (
         copy_of(record, tuple(name for name in names if name in (record.names or ())))
         for record, names in zip((of_body, of_load, of_body, of_joint), laws.held or ((),) * 4, strict=True)
     )
@@ -157,7 +157,7 @@ def _kernel_on(site_of_types: np.dtype, own: tuple[np.dtype, ...], laws: Laws):
         for i in range(cuda.threadIdx.x, bodies, lanes * drums):
             s[i] = site[b][i]
         cuda.syncthreads()
-        if held:
+        if own_records:
             m = 0
             own_bodies = cuda.local.array(2, body_record)
             own_loads = cuda.local.array(2, load_record)
@@ -179,7 +179,7 @@ def _kernel_on(site_of_types: np.dtype, own: tuple[np.dtype, ...], laws: Laws):
             own = goes_on(w, l)
             if going == 0:
                 break
-            if held:
+            if own_records:
                 take_body(v, 0, s[j]["body"], l)
                 take_body(u, 0, s[j + 1]["body"], l)
                 take_joint(e, 0, s[j]["joint"], l)
@@ -191,15 +191,15 @@ def _kernel_on(site_of_types: np.dtype, own: tuple[np.dtype, ...], laws: Laws):
                 for k in range(AHEAD):
                     cuda.syncthreads()
                     if own:
-                        if held:
-                            asked(v, 0, s[j]["body"], l)
+                        if own_records:
+                            copy_body(v, 0, s[j]["body"], l)
                         joint_force(u, v, e, under, o, sums, m)
-                        if held:
-                            told(s[j]["load"], l, under, 0)
+                        if own_records:
+                            copy_load(s[j]["load"], l, under, 0)
                     cuda.syncthreads()
                     if own:
-                        if held:
-                            told(above, 0, s[j + 1]["load"], l)
+                        if own_records:
+                            copy_load(above, 0, s[j + 1]["load"], l)
                             take_ground(own_ground[0], 0, g[k], l)
                             take_ground(own_ground[1], 0, g[k + 1], l)
                             now, then = own_ground[0], own_ground[1]
@@ -208,10 +208,10 @@ def _kernel_on(site_of_types: np.dtype, own: tuple[np.dtype, ...], laws: Laws):
                         no_momentum(sums, m)
                         move(u, under, above, o, sums, now, m)
                         add_work(o, sums, now, then, m)
-                        if held:
-                            asked(s[j + 1]["body"], l, u, 0)
+                        if own_records:
+                            copy_body(s[j + 1]["body"], l, u, 0)
                 cuda.syncthreads()
-            if held and own:
+            if own_records and own:
                 put_body(s[j + 1]["body"], l, u, 0)
                 put_joint(s[j]["joint"], l, e, 0)
                 put_sums(s[j]["sums"], l, sums, 0)

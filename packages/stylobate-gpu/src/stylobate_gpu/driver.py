@@ -52,12 +52,12 @@ class Card:
         if not count:
             raise InputError(f"`device` is gpu, and no NVIDIA card is found; {INSTEAD}.", "device")
         (device,) = self._ask(driver.cuDeviceGet(0))
-        asked = driver.CUdevice_attribute
+        attributes = driver.CUdevice_attribute
         capability = tuple(
-            self._ask(driver.cuDeviceGetAttribute(one, device))[0]
-            for one in (
-                asked.CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR,
-                asked.CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR,
+            self._ask(driver.cuDeviceGetAttribute(attribute, device))[0]
+            for attribute in (
+                attributes.CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR,
+                attributes.CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR,
             )
         )
         (name,) = self._ask(driver.cuDeviceGetName(128, device))
@@ -70,10 +70,10 @@ class Card:
                 "device",
             )
         (self._processors,) = self._ask(
-            driver.cuDeviceGetAttribute(asked.CU_DEVICE_ATTRIBUTE_MULTIPROCESSOR_COUNT, device)
+            driver.cuDeviceGetAttribute(attributes.CU_DEVICE_ATTRIBUTE_MULTIPROCESSOR_COUNT, device)
         )
         self.name = f"{words}, sm_{capability[0]}{capability[1]}, CUDA {version // 1000}.{version % 1000 // 10}"
-        optin = asked.CU_DEVICE_ATTRIBUTE_MAX_SHARED_MEMORY_PER_BLOCK_OPTIN
+        optin = attributes.CU_DEVICE_ATTRIBUTE_MAX_SHARED_MEMORY_PER_BLOCK_OPTIN
         (self.shared,) = self._ask(driver.cuDeviceGetAttribute(optin, device))
         (self._context,) = self._ask(driver.cuDevicePrimaryCtxRetain(device))
         self._kernels: dict[str, tuple[Any, int]] = {}  # with the shared memory for which they are ready
@@ -83,8 +83,8 @@ class Card:
         from .kinds import ENTRY, text_of
 
         driver = self._current()
-        found, ready = self._kernels.get(name, (None, 0))
-        if found is None:
+        function, ready = self._kernels.get(name, (None, 0))
+        if function is None:
             text = text_of(name).encode() + b"\0"
             try:
                 (module,) = self._ask(driver.cuModuleLoadData(text))
@@ -94,17 +94,21 @@ class Card:
                     "newer driver, or leave `device` out.",
                     "device",
                 ) from None
-            (found,) = self._ask(driver.cuModuleGetFunction(module, ENTRY.encode()))
-        asked, ready = driver.CUfunction_attribute, max(shared, ready)  # never less than records in use have
-        self._ask(driver.cuFuncSetAttribute(found, asked.CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES, ready))
+            (function,) = self._ask(driver.cuModuleGetFunction(module, ENTRY.encode()))
+        attributes, ready = driver.CUfunction_attribute, max(shared, ready)  # never less than records in use have
+        self._ask(
+            driver.cuFuncSetAttribute(function, attributes.CU_FUNC_ATTRIBUTE_MAX_DYNAMIC_SHARED_SIZE_BYTES, ready)
+        )
         # all that a processor of the card has is for shared memory: by itself the driver leaves room for a single block
         whole = driver.CUshared_carveout.CU_SHAREDMEM_CARVEOUT_MAX_SHARED
         self._ask(
-            driver.cuFuncSetAttribute(found, asked.CU_FUNC_ATTRIBUTE_PREFERRED_SHARED_MEMORY_CARVEOUT, int(whole))
+            driver.cuFuncSetAttribute(
+                function, attributes.CU_FUNC_ATTRIBUTE_PREFERRED_SHARED_MEMORY_CARVEOUT, int(whole)
+            )
         )
-        self._kernels[name] = found, ready
-        (most,) = self._ask(driver.cuFuncGetAttribute(asked.CU_FUNC_ATTRIBUTE_MAX_THREADS_PER_BLOCK, found))
-        return found, most
+        self._kernels[name] = function, ready
+        (most,) = self._ask(driver.cuFuncGetAttribute(attributes.CU_FUNC_ATTRIBUTE_MAX_THREADS_PER_BLOCK, function))
+        return function, most
 
     def at_once(self, kernel: Any, threads: int, shared: int) -> int:
         """Blocks of so many threads, with so much shared memory [bytes], that the card runs at a time."""
@@ -124,8 +128,8 @@ class Card:
     def queue(self) -> Any:
         """A queue of what the card is asked for, one after the other; others go on beside it."""
         driver = self._current()
-        (found,) = self._ask(driver.cuStreamCreate(driver.CUstream_flags.CU_STREAM_NON_BLOCKING))
-        return found
+        (stream,) = self._ask(driver.cuStreamCreate(driver.CUstream_flags.CU_STREAM_NON_BLOCKING))
+        return stream
 
     def end(self, queue: Any) -> None:
         """Give a queue back."""

@@ -69,15 +69,15 @@ def space_kernel(face: str, damped: bool, rolling: bool) -> str:
 @cache
 def kinds() -> dict[str, Types]:
     """Record types of every kernel that is built, by its name."""
-    found: dict[str, Types] = {}
+    record_types: dict[str, Types] = {}
     for damped in (False, True):
         joint = in_plane.point_joint(POINTS, damped, BLOCK_LANES)
         own = in_plane.types(joint, damped, POINTS, BLOCK_LANES, False)
-        found[plane_kernel(damped)] = own | {"body": _without(own["body"], IN_LOADS)}
+        record_types[plane_kernel(damped)] = own | {"body": _without(own["body"], IN_LOADS)}
     for face, damped, rolling in (*product(FACES, (False, True), (False,)), ("rim", True, True)):
         own = in_space.types(face, damped, rolling, lanes=BLOCK_LANES)
-        found[space_kernel(face, damped, rolling)] = own | {"body": _without(own["body"], IN_LOADS_IN_SPACE)}
-    return found
+        record_types[space_kernel(face, damped, rolling)] = own | {"body": _without(own["body"], IN_LOADS_IN_SPACE)}
+    return record_types
 
 
 def lanes_of(name: str) -> int:

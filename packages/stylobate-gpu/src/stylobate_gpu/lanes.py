@@ -89,10 +89,10 @@ class CardLanes:
 
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run has ended; the lane is free afterwards."""
-        found = self.ended.pop(lane)
-        if isinstance(found, Exception):
-            raise found
-        return found
+        measures = self.ended.pop(lane)
+        if isinstance(measures, Exception):
+            raise measures
+        return measures
 
     def _begin(self) -> None:
         """Begin the runs of cases, and bring all lanes that go on anew to the card."""
@@ -137,8 +137,8 @@ class CardLanes:
         for name, view in self.views.items():
             view[(slice(None), slice(None), *there)] = _fields(block, name, view)[..., own]
         feed = self.card.here["feed"]
-        for one, *place in zip(own.tolist(), *there, strict=True):
-            case = block.cases[one]
+        for lane, *place in zip(own.tolist(), *there, strict=True):
+            case = block.cases[lane]
             assert case is not None
             for name, samples in _components(case).items():
                 if name in (feed.dtype.names or ()):

@@ -35,13 +35,13 @@ def test_every_lane_of_wide_blocks_has_the_run_that_was_put_there(monkeypatch):
     def block(*width):
         return engine_for(model, COLUMN).block(options, *width)
 
-    found = dict(run_lanes(lambda: lanes.CardLanes(IdleCard(8), "plane", block, len(cases), Lock()), cases, 1))
-    assert sorted(found) == list(range(len(cases)))
+    measures = dict(run_lanes(lambda: lanes.CardLanes(IdleCard(8), "plane", block, len(cases), Lock()), cases, 1))
+    assert sorted(measures) == list(range(len(cases)))
     for number, case in enumerate(cases):
-        assert found[number].steps * found[number].time_step == pytest.approx(case.motion.duration, rel=1e-9)
-        assert found[number].time_step <= engine_for(model, case.column).step
-        assert found[number].computed_by == "gpu (idle)"
-        assert found[number].residual_top_displacement == pytest.approx(0.0, abs=1e-12)  # rounding of a place of 3 m
+        assert measures[number].steps * measures[number].time_step == pytest.approx(case.motion.duration, rel=1e-9)
+        assert measures[number].time_step <= engine_for(model, case.column).step
+        assert measures[number].computed_by == "gpu (idle)"
+        assert measures[number].residual_top_displacement == pytest.approx(0.0, abs=1e-12)  # rounding of a place of 3 m
 
 
 def test_the_figures_of_a_card_are_measured_without_one(monkeypatch, tmp_path):
@@ -54,8 +54,8 @@ def test_the_figures_of_a_card_are_measured_without_one(monkeypatch, tmp_path):
     idle = IdleCard(2)
     monkeypatch.setattr(driver, "the_card", lambda: idle)
     monkeypatch.setattr(card_check, "check", lambda *_: None)
-    found: dict = {}
-    figures.measure("plane", 60.0, 0, True, found.update, tmp_path)
-    (first, *_) = found.values()
+    results: dict = {}
+    figures.measure("plane", 60.0, 0, True, results.update, tmp_path)
+    (first, *_) = results.values()
     assert first["by"] == ["gpu (idle)"]
     assert np.isfinite(first["runs_per_s"])

@@ -47,17 +47,17 @@ def test_runs_of_the_card_have_the_bits_of_the_loop(batches, batch):
     # one drum: falls and stands from a pose, in the plane more runs than lanes; three: scatter, losses of stone in the
     # plane, a run that ends early; others, by their names: ``PYTHONPATH=tests NUMBA_ENABLE_CUDASIM=1 python
     # packages/stylobate-gpu/tests/simulated_card.py sliding with_corners drums_of_stone``
-    found = batches[batch]
-    assert [one["bits"] for one in found["card"]] == [one["bits"] for one in found["loop"]]
+    results = batches[batch]
+    assert [run["bits"] for run in results["card"]] == [run["bits"] for run in results["loop"]]
 
 
 @simulated
 @pytest.mark.parametrize("batch", BATCHES)
 def test_sums_of_work_differ_by_their_order_only(batches, batch):
     # three sums, rounded once per step and drum: in two orders they differ by half a unit each time, of what is at stake
-    found = batches[batch]
-    for card, loop in zip(found["card"], found["loop"], strict=True):
-        terms = 3 * card["steps"] * found["drums"]
+    results = batches[batch]
+    for card, loop in zip(results["card"], results["loop"], strict=True):
+        terms = 3 * card["steps"] * results["drums"]
         assert abs(card["energy_imbalance"] - loop["energy_imbalance"]) <= terms * np.finfo(float).eps
 
 
@@ -70,16 +70,16 @@ def test_a_run_has_the_same_bits_however_launches_cut_it(batches, batch):
 @simulated
 def test_the_batches_fall_rock_slide_and_end_early(batches):
     for names, seen in ((BATCHES[:2], {"collapsed", "rocked"}), (BATCHES[2:], {"collapsed", "displaced"})):
-        outcomes = {one["outcome"] for name in names for one in batches[name]["card"]}
+        outcomes = {run["outcome"] for name in names for run in batches[name]["card"]}
         assert seen <= outcomes, outcomes
-    assert all(len({one["steps"] for one in found["card"]}) > 1 for found in batches.values())
+    assert all(len({run["steps"] for run in batch["card"]}) > 1 for batch in batches.values())
 
 
 @simulated
 def test_runs_say_what_computed_them(batches):
-    found = [one["by"] for batch in batches.values() for one in batch["card"]]
-    assert set(found) == {"gpu (simulated)"}
-    assert {one["by"] for batch in batches.values() for one in batch["loop"]} == {"cpu"}
+    devices = [run["by"] for batch in batches.values() for run in batch["card"]]
+    assert set(devices) == {"gpu (simulated)"}
+    assert {run["by"] for batch in batches.values() for run in batch["loop"]} == {"cpu"}
 
 
 def built():
@@ -145,8 +145,8 @@ class Wrong:
         return getattr(self.block, name)
 
     def collect(self, lane):
-        found = self.block.collect(lane)
-        return dataclasses.replace(found, peak_rotation=found.peak_rotation * (1.0 + self.share))
+        measures = self.block.collect(lane)
+        return dataclasses.replace(measures, peak_rotation=measures.peak_rotation * (1.0 + self.share))
 
 
 def test_a_card_that_computes_otherwise_is_not_used(monkeypatch):

@@ -74,12 +74,12 @@ def test_energy_is_kept_as_by_the_processor(both):
 
 def test_a_run_has_the_same_bits_again_shuffled_and_cut(both, monkeypatch):
     column, model, motions, tables = both
-    told = tables["gpu"].drop(columns="wall_s")
+    gpu_table = tables["gpu"].drop(columns="wall_s")
     order = np.random.default_rng(2).permutation(len(motions))
     shuffled = st.simulate_many(column, [motions[k] for k in order], model, device="gpu").drop(columns="wall_s")
-    assert told.iloc[order].reset_index(drop=True).equals(shuffled)
+    assert gpu_table.iloc[order].reset_index(drop=True).equals(shuffled)
     monkeypatch.setattr(lanes, "CHUNKS_PER_LAUNCH", 37)
-    assert told.equals(st.simulate_many(column, motions, model, device="gpu").drop(columns="wall_s"))
+    assert gpu_table.equals(st.simulate_many(column, motions, model, device="gpu").drop(columns="wall_s"))
 
 
 def test_what_was_stopped_goes_on_to_the_same_rows(tmp_path):

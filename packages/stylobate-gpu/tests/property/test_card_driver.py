@@ -110,9 +110,9 @@ def drive(monkeypatch, tmp_path):
 
 def test_the_card_tells_its_name(drive):
     drive()
-    found = driver.Card()
-    assert found.name == "NVIDIA H100, sm_90, CUDA 13.0"
-    assert found.shared == 232448
+    device = driver.Card()
+    assert device.name == "NVIDIA H100, sm_90, CUDA 13.0"
+    assert device.shared == 232448
 
 
 @pytest.mark.parametrize(
@@ -223,12 +223,12 @@ def test_memory_is_given_back_when_nobody_holds_the_records(drive):
 def test_samples_are_brought_once_and_forgotten(drive):
     made = drive()
     records = card.CardRecords(driver.Card(), "rim", 1, 1)
-    one, other = np.arange(10.0), np.arange(5.0)
-    place = records.address(one)
-    assert records.address(one) == place
-    assert made.memory[place].view(float).tolist() == one.tolist()
+    samples, other = np.arange(10.0), np.arange(5.0)
+    place = records.address(samples)
+    assert records.address(samples) == place
+    assert made.memory[place].view(float).tolist() == samples.tolist()
     gone = records.address(other)
-    records.forget_samples({one.ctypes.data})
+    records.forget_samples({samples.ctypes.data})
     assert place in made.memory
     assert gone not in made.memory
     assert records.address(None) == 0

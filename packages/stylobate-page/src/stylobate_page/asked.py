@@ -57,12 +57,12 @@ class MotionAsked(Table):
             Paths of the record.
         """
         options = ("across", "unit", "dt", "columns", "component", "azimuth", "pga", "scale")
-        found: dict[str, Any] = {name: value for name in options if (value := getattr(self, name))}
+        parameters: dict[str, Any] = {name: value for name in options if (value := getattr(self, name))}
         if self.vertical == "off":
-            found["vertical"] = "off"
+            parameters["vertical"] = "off"
         if self.kind in ("sample", "record"):
-            return found | {"motion": [f"sample:{self.text}"] if self.kind == "sample" else list(files)}
-        return found | {self.kind: self.text}
+            return parameters | {"motion": [f"sample:{self.text}"] if self.kind == "sample" else list(files)}
+        return parameters | {self.kind: self.text}
 
 
 class JobAsked(Table):
@@ -105,12 +105,12 @@ class JobAsked(Table):
     state: str | None = None
 
 
-def requests(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[dict[str, Any]]:
+def requests(job_request: JobAsked, records: Mapping[str, Sequence[str]]) -> list[dict[str, Any]]:
     """Requests to commands, as :func:`stylobate.cli.main.run_request` takes them; paths from the folder of the job.
 
     Parameters
     ----------
-    asked : JobAsked
+    job_request : JobAsked
     records : mapping
         Paths of the files of each record, by its id.
 
@@ -119,35 +119,40 @@ def requests(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[dict
     InputError
         Something is missing.
     """
-    if asked.kind in FORMS:
-        return [_of_form(asked, FORMS[asked.kind], records)]
-    if asked.kind == "domain":
+    if job_request.kind in FORMS:
+        return [_of_form(job_request, FORMS[job_request.kind], records)]
+    if job_request.kind == "domain":
         return [{"command": "domain", "what": STUDY, "out": RESULT}]
-    made = {"command": asked.kind, "column": _stands(asked)}
-    end = _without_empty(tail=asked.tail) | {"out": RESULT}
-    if asked.kind in ("run", "critical"):
+    made = {"command": job_request.kind, "column": _stands(job_request)}
+    end = _without_empty(tail=job_request.tail) | {"out": RESULT}
+    if job_request.kind in ("run", "critical"):
         more = (
-            {"pictures": False} if asked.kind == "run" else {"from": asked.first, "to": asked.last, "step": asked.step}
+            {"pictures": False}
+            if job_request.kind == "run"
+            else {"from": job_request.first, "to": job_request.last, "step": job_request.step}
         )
-        made |= _model(asked.model, asked.settings) | _motion(_the_motion(asked), records)
-        return [made | _without_empty(replicates=asked.replicates, **more) | end]
+        made |= _model(job_request.model, job_request.settings) | _motion(_the_motion(job_request), records)
+        return [made | _without_empty(replicates=job_request.replicates, **more) | end]
     from stylobate.probability.fragility import FEWEST
 
-    if not asked.records:
+    if not job_request.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
-    made |= {"sources": _each(asked.records, records)} | _model(asked.model, asked.settings)
-    made |= _without_empty(unit=asked.unit, columns=asked.columns, im=asked.im, runs=asked.runs) | end
-    curve = {"command": "fragility", "sources": [RESULT], **_without_empty(state=asked.state), "out": FRAGILITY}
-    return [made] if len(asked.records) < FEWEST else [made, curve]
+    made |= {"sources": _each(job_request.records, records)} | _model(job_request.model, job_request.settings)
+    made |= (
+        _without_empty(unit=job_request.unit, columns=job_request.columns, im=job_request.im, runs=job_request.runs)
+        | end
+    )
+    curve = {"command": "fragility", "sources": [RESULT], **_without_empty(state=job_request.state), "out": FRAGILITY}
+    return [made] if len(job_request.records) < FEWEST else [made, curve]
 
 
-def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) -> dict[str, Any]:
+def _of_form(job_request: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) -> dict[str, Any]:
     """The request of an analysis: what it takes of the page, and what its fields hold."""
     takes, boxes = form.takes, {box.option: box for box in form.boxes}
-    unknown = next((name for name in asked.options if name not in boxes), None)
+    unknown = next((name for name in job_request.options if name not in boxes), None)
     if unknown is not None:
         raise InputError(f"{form.title!r} has no field {unknown!r}; reload the page.")
-    given = {name: asked.options.get(name, box.start).strip() for name, box in boxes.items()}
+    given = {name: job_request.options.get(name, box.start).strip() for name, box in boxes.items()}
     empty = next((box for name, box in boxes.items() if box.start and not given[name]), None)
     if empty is not None:
         raise InputError(f"“{empty.label}” is empty; give it, such as {empty.start}.", empty.option)
@@ -155,34 +160,34 @@ def _of_form(asked: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) 
     if "ruin" in takes:
         made["ruin"] = RUIN
     elif "column" in takes:
-        made["column"] = _stands(asked)
+        made["column"] = _stands(job_request)
     if "source" in takes:
-        made["source"] = RUNS if asked.table is None else TABLE
+        made["source"] = RUNS if job_request.table is None else TABLE
     if "model" in takes:
-        model = given.pop("model", asked.model)
-        made |= _model(model, asked.settings if model == asked.model else {})
-    if "motions" in takes and asked.records:
-        made["motion"] = _each(asked.records, records)
+        model = given.pop("model", job_request.model)
+        made |= _model(model, job_request.settings if model == job_request.model else {})
+    if "motions" in takes and job_request.records:
+        made["motion"] = _each(job_request.records, records)
     elif {"motion", "motions", "round"} & {*takes}:
         given = {
             name: text for name, text in given.items() if name not in ("unit", "columns")
         }  # the page's motion has its own
-        motion = _the_motion(asked)
+        motion = _the_motion(job_request)
         made |= _motion(motion.model_copy(update={"azimuth": None}) if "round" in takes else motion, records)
     if {"hazard", "hazards"} & {*takes}:
-        number = len(asked.hazards)
+        number = len(job_request.hazards)
         if not number or (number > 1 and "hazard" in takes):
             wanted = "one" if "hazard" in takes else "at least one"
             raise InputError(
                 f"{number} hazard curves are open; {form.title.lower()} takes {wanted}: open its file.", "hazard"
             )
-        files = [f"{HAZARDS}/{name}" for name in hazard_files(asked)]
+        files = [f"{HAZARDS}/{name}" for name in hazard_files(job_request)]
         made["hazard"] = files if "hazards" in takes else files[0]
     made |= _without_empty(**{name: text and text + boxes[name].unit for name, text in given.items()}) | form.fixed
-    return made | _without_empty(tail=asked.tail if "tail" in takes else None) | {"out": RESULT}
+    return made | _without_empty(tail=job_request.tail if "tail" in takes else None) | {"out": RESULT}
 
 
-def hazard_files(asked: JobAsked) -> dict[str, str]:
+def hazard_files(job_request: JobAsked) -> dict[str, str]:
     """Texts of the hazard curves by the names of their files in the folder of the job: those that they had, made safe.
 
     Raises
@@ -190,13 +195,13 @@ def hazard_files(asked: JobAsked) -> dict[str, str]:
     InputError
         Two are called the same.
     """
-    found: dict[str, str] = {}
-    for name, text in asked.hazards.items():
+    files: dict[str, str] = {}
+    for name, text in job_request.hazards.items():
         safe = safe_name(name, "hazard")
-        if safe in found:
+        if safe in files:
             raise InputError(f"two hazard curves are called {safe!r}; rename one of the files.", "hazard")
-        found[safe] = text
-    return found
+        files[safe] = text
+    return files
 
 
 def safe_name(name: str, otherwise: str) -> str:
@@ -204,14 +209,14 @@ def safe_name(name: str, otherwise: str) -> str:
     return re.sub(r"[^\w.() -]+", "_", name).strip(". ")[-60:] or otherwise
 
 
-def _the_motion(asked: JobAsked) -> MotionAsked:
-    if asked.motion is None:
+def _the_motion(job_request: JobAsked) -> MotionAsked:
+    if job_request.motion is None:
         raise InputError("there is no motion; choose one.")
-    return asked.motion
+    return job_request.motion
 
 
-def _stands(asked: JobAsked) -> str:
-    return COLUMN if asked.assembly is None else ASSEMBLY
+def _stands(job_request: JobAsked) -> str:
+    return COLUMN if job_request.assembly is None else ASSEMBLY
 
 
 def _model(model: str, settings: Mapping[str, str]) -> dict[str, Any]:
@@ -225,7 +230,7 @@ def _each(chosen: Sequence[str], records: Mapping[str, Sequence[str]]) -> list[s
     return [path for record in chosen for path in _files(record, records)]
 
 
-def study(asked: JobAsked) -> dict[str, Any]:
+def study(job_request: JobAsked) -> dict[str, Any]:
     """The study file of a domain, as TOML gives it.
 
     Raises
@@ -233,18 +238,23 @@ def study(asked: JobAsked) -> dict[str, Any]:
     InputError
         A time cannot be read.
     """
-    found = {"column": COLUMN, "model": asked.model, "frequencies": asked.frequencies, "amplitudes": asked.amplitudes}
-    found |= {name: parse_time(text, name) for name in ("duration", "tail") if (text := getattr(asked, name))}
-    settings = {name: value for name, value in asked.settings.items() if value}
-    missing = next((name for name, value in found.items() if value is None), None)
+    tables = {
+        "column": COLUMN,
+        "model": job_request.model,
+        "frequencies": job_request.frequencies,
+        "amplitudes": job_request.amplitudes,
+    }
+    tables |= {name: parse_time(text, name) for name in ("duration", "tail") if (text := getattr(job_request, name))}
+    settings = {name: value for name, value in job_request.settings.items() if value}
+    missing = next((name for name, value in tables.items() if value is None), None)
     if missing is not None:
         raise InputError(f"a domain has no {missing}; give them, such as 0.33:4:24 and 0.05g:0.6g:32.", missing)
-    cells = len(frequency_range(str(asked.frequencies))) * len(amplitude_range(str(asked.amplitudes)))
+    cells = len(frequency_range(str(job_request.frequencies))) * len(amplitude_range(str(job_request.amplitudes)))
     if cells > CELLS:
         raise InputError(
             f"the domain has {cells} cells; the page takes up to {CELLS}: give fewer frequencies.", "frequencies.number"
         )
-    return found | ({"set": settings} if settings else {})
+    return tables | ({"set": settings} if settings else {})
 
 
 def report_of(folder: Path) -> list[dict[str, Any]]:
@@ -255,10 +265,10 @@ def report_of(folder: Path) -> list[dict[str, Any]]:
     InputError
         Nothing has been computed there.
     """
-    found = [name for name in (RESULT, FRAGILITY) if (folder / name).is_dir()]
-    if not found:
+    folders = [name for name in (RESULT, FRAGILITY) if (folder / name).is_dir()]
+    if not folders:
         raise InputError("there is no result to report on; run the job first.")
-    return [{"command": "report", "folders": found, "out": REPORT}]
+    return [{"command": "report", "folders": folders, "out": REPORT}]
 
 
 def _without_empty(**values: Any) -> dict[str, Any]:

@@ -50,7 +50,7 @@ def column_of(table: Mapping[str, Any]) -> Column:
         for words in error.places:  # in a file, which its reader does not see
             error.without(words)
         group, _, rest = (error.field or "").partition(".")
-        own = [str(one.get("index")) for one in table.get("joint_override") or ()]
+        own = [str(override.get("index")) for override in table.get("joint_override") or ()]
         if group == "override" and rest.partition(".")[0] not in own:  # what is wrong there is that of all joints
             error.field = f"joint.{rest.partition('.')[2]}"
         if group in _PLACES and len(error.places) > 1:
@@ -105,7 +105,7 @@ def describe(table: Mapping[str, Any]) -> dict[str, Any]:
     seen = {"xz": _outlines(column, 0), "yz": _outlines(column, 1)} if in_space else {"xz": _in_plane(column)}
     return {
         "facts": facts,
-        "outlines": {name: [one.round(4).tolist() for one in found] for name, found in seen.items()},
+        "outlines": {name: [outline.round(4).tolist() for outline in outlines] for name, outlines in seen.items()},
         "in_space": in_space,
         "links": _links(column, in_space),
         "slope": float(np.tan(np.radians(column.as_found.base_tilt))) if not in_space else 0.0,

@@ -45,23 +45,23 @@ def curves(folder: Path) -> dict[str, Any]:
     folder : Path
         Of the job.
     """
-    found: dict[str, Any] = {}
+    plots: dict[str, Any] = {}
     if (folder / RESULT / "capacities.csv").is_file():
-        found["ida"] = _ida(folder / RESULT)
+        plots["ida"] = _ida(folder / RESULT)
     for name, file in (("fragility", folder / FRAGILITY / "fragility.json"), ("growing", folder / GROWING)):
-        if file.is_file() and "fragility" not in found:
-            found[name] = _fragility(json.loads(file.read_text(encoding="utf-8")))
+        if file.is_file() and "fragility" not in plots:
+            plots[name] = _fragility(json.loads(file.read_text(encoding="utf-8")))
     if (folder / RESULT / "critical.csv").is_file():
-        found["critical"] = [
+        plots["critical"] = [
             [_number(row["amplitude_g"]), _moved(row), row["verdict"]]
             for row in _rows(folder / RESULT / "critical.csv")
         ]
-    return found
+    return plots
 
 
 def _ida(folder: Path) -> dict[str, Any]:
     """Intensity over the response of every record, collapses as plateaus; and the curves of the records' shares."""
-    said = json.loads((folder / "ida.json").read_text(encoding="utf-8"))
+    summary = json.loads((folder / "ida.json").read_text(encoding="utf-8"))
     runs: dict[tuple[str, str], list[tuple[float, float]]] = {}
     width = 1.0
     for row in _rows(folder / "runs.csv"):
@@ -74,11 +74,11 @@ def _ida(folder: Path) -> dict[str, Any]:
         stands, falls = _number(row["stands_until"]), _number(row["collapses_from"])
         below = [
             (0.0, 0.0),
-            *sorted(one for one in runs.get(_curve(row), ()) if falls is None or one[0] < falls),
+            *sorted(point for point in runs.get(_curve(row), ()) if falls is None or point[0] < falls),
         ]
-        lines.append({"name": _curve(row)[0], "x": [one[1] for one in below], "y": [one[0] for one in below]})
+        lines.append({"name": _curve(row)[0], "x": [point[1] for point in below], "y": [point[0] for point in below]})
         ends.append(None if falls is None else math.sqrt(stands * falls) if stands else 0.5 * falls)
-    right = ROOM * (max((max(one["x"]) for one in lines), default=0.0) or 1.0)
+    right = ROOM * (max((max(line["x"]) for line in lines), default=0.0) or 1.0)
     for line, end in zip(lines, ends, strict=True):
         if end is not None:
             line["x"] += [line["x"][-1], right]
@@ -98,9 +98,11 @@ def _ida(folder: Path) -> dict[str, Any]:
     for line in lines:
         line["x"], line["y"] = _plain(line["x"]), _plain(line["y"])
     moves = (
-        "peak displacement [m]" if said.get("edp") == "peak_displacement_m" else "peak top displacement [base widths]"
+        "peak displacement [m]"
+        if summary.get("edp") == "peak_displacement_m"
+        else "peak top displacement [base widths]"
     )
-    return {"records": lines, "shares": shares, "right": right, "moves": moves, "words": _words(said)}
+    return {"records": lines, "shares": shares, "right": right, "moves": moves, "words": _words(summary)}
 
 
 def write_points(analysis: Ida, state: str, target: Path) -> Path:
@@ -108,27 +110,28 @@ def write_points(analysis: Ida, state: str, target: Path) -> Path:
     from stylobate.probability.evidence import evidence
     from stylobate.probability.fragility import points_of
 
-    told = evidence(analysis, state=state)
-    points = points_of(told, told.codes, "records" if told.brackets else "runs")
-    said = {"im": told.measure, "state": told.state, "points": points.table()}
+    run_evidence = evidence(analysis, state=state)
+    points = points_of(run_evidence, run_evidence.codes, "records" if run_evidence.brackets else "runs")
+    summary = {"im": run_evidence.measure, "state": run_evidence.state, "points": points.table()}
     with replacing(target) as partial:
-        partial.write_text(json.dumps(said), encoding="utf-8")
+        partial.write_text(json.dumps(summary), encoding="utf-8")
     return target
 
 
-def _fragility(said: Mapping[str, Any]) -> dict[str, Any]:
+def _fragility(summary: Mapping[str, Any]) -> dict[str, Any]:
     """The curve with its band, the shares of the records with their intervals, and the interval of the median."""
     points = [
-        [_number(one[key]) for key in ("im", "share", "low", "high", "records")] for one in said.get("points", ())
+        [_number(point[key]) for key in ("im", "share", "low", "high", "records")]
+        for point in summary.get("points", ())
     ]
-    points = [one for one in points if one[0] is not None]
-    interval = [_number(said.get(key)) for key in ("median_low", "median_high")]
-    drawn = {name: _plain(values) for name, values in said.get("curve", {}).items()}
-    return {"curve": drawn, "points": points, "median": interval, "state": said["state"], "words": _words(said)}
+    points = [point for point in points if point[0] is not None]
+    interval = [_number(summary.get(key)) for key in ("median_low", "median_high")]
+    drawn = {name: _plain(values) for name, values in summary.get("curve", {}).items()}
+    return {"curve": drawn, "points": points, "median": interval, "state": summary["state"], "words": _words(summary)}
 
 
-def _words(said: Mapping[str, Any]) -> str:
-    return "intensity" if said["im"] == "im" else parse_measure(said["im"]).words
+def _words(summary: Mapping[str, Any]) -> str:
+    return "intensity" if summary["im"] == "im" else parse_measure(summary["im"]).words
 
 
 def _moved(row: Mapping[str, str]) -> float | None:
@@ -170,9 +173,9 @@ def new_cells(folder: Path, known: set[int]) -> list[list[Any]]:
         Numbers of the cells that the caller has; what is returned is added to it.
     """
     table = folder / RESULT / "domain.csv"
-    found = _in_table(table) if table.is_file() else _in_ledger(folder, known)
-    new = [one for one in found if one[0] not in known]
-    known.update(one[0] for one in new)
+    cells = _in_table(table) if table.is_file() else _in_ledger(folder, known)
+    new = [cell for cell in cells if cell[0] not in known]
+    known.update(cell[0] for cell in new)
     return new
 
 
@@ -256,4 +259,4 @@ def _plain_history(values: np.ndarray) -> list[Any]:
     rounded = np.where(np.isfinite(values), np.round(values, 4), np.nan)
     if rounded.ndim == 2:
         return [_plain_history(row) for row in rounded]
-    return [None if one != one else one for one in rounded.tolist()]
+    return [None if value != value else value for value in rounded.tolist()]

@@ -96,7 +96,7 @@ MEASURES = {
     "decided": "decided",
     "collapse_time_s": "falls at [s]",
     "collapse_probability": "probability of collapse",
-    **{one.key: f"{one.label} [{one.unit}]" for one in DECLARED if one.label},
+    **{measure.key: f"{measure.label} [{measure.unit}]" for measure in DECLARED if measure.label},
 }
 
 FORMS = {
@@ -289,33 +289,33 @@ def label(name: str) -> str:
     return f"“{ALL_LABELS.get(option, option.replace('-', ' '))}”"
 
 
-def in_page_words(said: Any, of_text: bool = False) -> Any:
+def in_page_words(content: Any, of_text: bool = False) -> Any:
     """Sentences for somebody who sees fields, not parameters: errors, texts, also in lists and in values of tables.
 
     Parameters
     ----------
-    said : error, text, list, dict, or anything else, which stays as it is
+    content : error, text, list, dict, or anything else, which stays as it is
         Of an error, the number is in the unit of its field, and the key that it is about in words.
     of_text : bool
         It is about the text of a file, in which keys and numbers are written as they are.
     """
-    if isinstance(said, InputError):
-        sentence = str(said)
+    if isinstance(content, InputError):
+        sentence = str(content)
         if not of_text:
-            for words in zip(*in_units(said), strict=True):
+            for words in zip(*in_units(content), strict=True):
                 sentence = sentence.replace(*words)
-            key = (said.field or "").rpartition(".")[2]
+            key = (content.field or "").rpartition(".")[2]
             sentence = sentence.replace(key, key.replace("_", " ")) if "_" in key else sentence
         return reworded(sentence, label)
-    if isinstance(said, Exception):
-        return in_page_words(str(said))
-    if isinstance(said, str):
-        return reworded(said, label)
-    if isinstance(said, dict):
-        return {key: in_page_words(value) for key, value in said.items()}
-    if isinstance(said, (list, tuple)):
-        return [in_page_words(value) for value in said]
-    return said
+    if isinstance(content, Exception):
+        return in_page_words(str(content))
+    if isinstance(content, str):
+        return reworded(content, label)
+    if isinstance(content, dict):
+        return {key: in_page_words(value) for key, value in content.items()}
+    if isinstance(content, (list, tuple)):
+        return [in_page_words(value) for value in content]
+    return content
 
 
 def in_units(error: InputError) -> tuple[tuple[str, ...], tuple[str, ...]]:

@@ -92,7 +92,7 @@ class Guard:
             if message["type"] == "http.response.start":
                 given = {name for name, _ in message["headers"]}
                 new = [(name.encode(), value.encode()) for name, value in added.items()]
-                message["headers"] = [*message["headers"], *(one for one in new if one[0] not in given)]
+                message["headers"] = [*message["headers"], *(header for header in new if header[0] not in given)]
             await send(message)
 
         refusal = self._refusal(scope, headers, most)
@@ -185,12 +185,12 @@ class Keys:
         if self._is_token(cookies.get(_cookie(scope), "")):
             return True
         try:
-            asked = parse_qs(scope["query_string"].decode("latin-1"), max_num_fields=20)
+            query = parse_qs(scope["query_string"].decode("latin-1"), max_num_fields=20)
         except ValueError:
             return False
-        if self._is_token(asked.get(TOKEN, [""])[-1]):
+        if self._is_token(query.get(TOKEN, [""])[-1]):
             return None
-        ticket = asked.get(TICKET, [""])[-1]
+        ticket = query.get(TICKET, [""])[-1]
         if ticket in self._tickets:
             self._tickets.discard(ticket)
             return None
@@ -269,7 +269,7 @@ class Connection(H11Protocol):
                 if isinstance(connection, Connection) and connection._end is not None
             ]
             if len(silent) > SILENT:
-                longest = min(silent, key=lambda one: one._since)
+                longest = min(silent, key=lambda connection: connection._since)
                 longest._cease()  # it is lost a moment later: until then the next one is not to find it again
                 longest.transport.abort()
 

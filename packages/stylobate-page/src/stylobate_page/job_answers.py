@@ -82,11 +82,11 @@ class JobAnswers:
         """Hear of what happens in the workshop, in the loop that calls this."""
         loop = asyncio.get_running_loop()
 
-        def told() -> None:
+        def notify() -> None:
             with suppress(RuntimeError):  # the loop has ended
                 loop.call_soon_threadsafe(self._ring)
 
-        self.workshop.told = told
+        self.workshop.told = notify
 
     def close(self) -> None:
         """End the lines on which news are told."""
@@ -104,21 +104,21 @@ class JobAnswers:
     async def new(self, request: Request) -> Response:
         """Put a job into the queue."""
         body = await json_object(request)
-        asked = checked(body, JobAsked, "the job")
-        takes = FORMS[asked.kind].takes if asked.kind in FORMS else ("column",)
-        stone = _structure(asked) if "column" in takes else None
-        source = self._source(asked) if "source" in takes else None
-        tables = study(asked) if asked.kind == "domain" else None
+        job_request = checked(body, JobAsked, "the job")
+        takes = FORMS[job_request.kind].takes if job_request.kind in FORMS else ("column",)
+        stone = _structure(job_request) if "column" in takes else None
+        source = self._source(job_request) if "source" in takes else None
+        tables = study(job_request) if job_request.kind == "domain" else None
         if "ruin" in takes and stone is not None:
-            await run_in_threadpool(ruin_of, asked.ruin, stone, asked.assembly)
-        wanted = [record for record in asked.records if not record.startswith("sample:")]
-        if asked.motion is not None and asked.motion.kind == "record":
-            wanted.append(asked.motion.text)
-        names = {one: self.records.names(one) for one in wanted}
-        needed = requests(asked, names)
+            await run_in_threadpool(ruin_of, job_request.ruin, stone, job_request.assembly)
+        wanted = [record for record in job_request.records if not record.startswith("sample:")]
+        if job_request.motion is not None and job_request.motion.kind == "record":
+            wanted.append(job_request.motion.text)
+        names = {record: self.records.names(record) for record in wanted}
+        needed = requests(job_request, names)
 
         def prepare(folder: Path) -> None:
-            _write(asked, stone, folder)
+            _write(job_request, stone, folder)
             self.records.copy(wanted, folder / RECORDS)
             if source is not None:
                 _copy_result(source.folder / RESULT, folder / RUNS)
@@ -126,18 +126,18 @@ class JobAnswers:
                 (folder / STUDY).write_text(tomli_w.dumps(tables), encoding="utf-8")
 
         stands = _called(stone) if stone is not None else source.title if source is not None else "table of runs"
-        title = _title(asked, stands, self.records)
-        job = await run_in_threadpool(self.workshop.submit, asked.kind, title, needed, body, prepare)
+        title = _title(job_request, stands, self.records)
+        job = await run_in_threadpool(self.workshop.submit, job_request.kind, title, needed, body, prepare)
         return Answer(self._shown(job), 201)
 
-    def _source(self, asked: JobAsked) -> Job | None:
+    def _source(self, job_request: JobAsked) -> Job | None:
         """The job on whose runs another one rests; None where it brings a table of its own."""
-        if asked.table is not None:
+        if job_request.table is not None:
             return None
-        found = self.workshop.jobs.get(asked.source or "")
-        if found is None or not (found.folder / RESULT / "runs.csv").is_file():
+        job = self.workshop.jobs.get(job_request.source or "")
+        if job is None or not (job.folder / RESULT / "runs.csv").is_file():
             raise InputError("no fragility is chosen; compute one, or open a table of runs.", "source")
-        return found
+        return job
 
     async def one(self, request: Request) -> Response:
         """One job."""
@@ -234,30 +234,30 @@ class JobAnswers:
         try:
             while not self.closing:
                 rung.clear()
-                said = []
+                messages = []
                 if ready != self.workshop.ready:
                     ready = self.workshop.ready
-                    said.append(_event("ready", ready))
+                    messages.append(_event("ready", ready))
                 if seen != self.workshop.version:
                     before, seen = seen, self.workshop.version
                     jobs = list(self.workshop.jobs.values())
                     changed = [job for job in jobs if job.version > before or job.state == "waiting"]
-                    said += [_event("job", self._shown(job)) for job in changed]
+                    messages += [_event("job", self._shown(job)) for job in changed]
                     ids = {job.id for job in jobs}
-                    said += [_event("gone", one) for one in there - ids]
+                    messages += [_event("gone", job_id) for job_id in there - ids]
                     there = ids
                 if followed is not None and followed.kind == "domain":
                     over = not followed.open
                     cells = await run_in_threadpool(new_cells, followed.folder, known)
                     if cells:
-                        said.append(_event("cells", {"job": followed.id, "cells": cells}))
+                        messages.append(_event("cells", {"job": followed.id, "cells": cells}))
                     if over:
                         followed = None
-                if not said and time.monotonic() - last >= SILENCE:
-                    said = [": still here\n\n"]
-                if said:
+                if not messages and time.monotonic() - last >= SILENCE:
+                    messages = [": still here\n\n"]
+                if messages:
                     last = time.monotonic()
-                    yield "".join(said)
+                    yield "".join(messages)
                 with suppress(TimeoutError):
                     await asyncio.wait_for(rung.wait(), SILENCE if followed is None else LOOK)
                 await asyncio.sleep(PACE)
@@ -287,49 +287,57 @@ def _copy_result(source: Path, target: Path) -> None:
     shutil.copytree(source, target, ignore=shutil.ignore_patterns("*.sqlite*"))
 
 
-def _write(asked: JobAsked, stone: Structure | None, folder: Path) -> None:
+def _write(job_request: JobAsked, stone: Structure | None, folder: Path) -> None:
     """Write what the page sent with a job into its folder."""
-    if stone is not None and asked.assembly is None:
+    if stone is not None and job_request.assembly is None:
         write_column(stone.stack, folder / COLUMN)
-    texts = {ASSEMBLY: asked.assembly, RUIN: asked.ruin, TABLE: asked.table}
-    texts |= {f"{HAZARDS}/{name}": text for name, text in hazard_files(asked).items()}
+    texts = {ASSEMBLY: job_request.assembly, RUIN: job_request.ruin, TABLE: job_request.table}
+    texts |= {f"{HAZARDS}/{name}": text for name, text in hazard_files(job_request).items()}
     for name, text in texts.items():
         if text is not None:
             (folder / name).parent.mkdir(exist_ok=True)
             (folder / name).write_text(text, encoding="utf-8")
 
 
-def _structure(asked: JobAsked) -> Structure:
+def _structure(job_request: JobAsked) -> Structure:
     """Structure: a column, or an assembly, which has no domain."""
-    if asked.assembly is not None:
-        if asked.kind == "domain":
-            raise InputError(f"a {asked.kind} takes a column here; go back to one.")
-        return assembly_of(asked.assembly)
-    if asked.column is None:
+    if job_request.assembly is not None:
+        if job_request.kind == "domain":
+            raise InputError(f"a {job_request.kind} takes a column here; go back to one.")
+        return assembly_of(job_request.assembly)
+    if job_request.column is None:
         raise InputError("there is neither a column nor an assembly; choose a column.")
-    columns.refuse_large(asked.column)
-    return columns.column_of(asked.column)
+    columns.refuse_large(job_request.column)
+    return columns.column_of(job_request.column)
 
 
-def _title(asked: JobAsked, name: str, records: Records) -> str:
+def _title(job_request: JobAsked, name: str, records: Records) -> str:
     """A job in a line."""
-    form, shaken = FORMS.get(asked.kind), ""
-    if asked.motion is not None:
-        kept = records.kept.get(asked.motion.text)
-        shaken = kept.name if kept is not None else asked.motion.text
-        shaken += f" at {asked.motion.azimuth}" if asked.motion.azimuth and asked.kind != "directions" else ""
-        shaken += f" scaled to {asked.motion.pga}" if asked.motion.pga else ""
-    model = asked.options.get("model") or asked.model
+    form, shaken = FORMS.get(job_request.kind), ""
+    if job_request.motion is not None:
+        kept = records.kept.get(job_request.motion.text)
+        shaken = kept.name if kept is not None else job_request.motion.text
+        shaken += (
+            f" at {job_request.motion.azimuth}"
+            if job_request.motion.azimuth and job_request.kind != "directions"
+            else ""
+        )
+        shaken += f" scaled to {job_request.motion.pga}" if job_request.motion.pga else ""
+    model = job_request.options.get("model") or job_request.model
     if form is not None:
-        shaken = f"{len(asked.records)} records" if "motions" in form.takes and asked.records else shaken
+        shaken = f"{len(job_request.records)} records" if "motions" in form.takes and job_request.records else shaken
         model = model if "model" in form.takes else ""
-        return " · ".join(one for one in (name, form.title.lower(), shaken, model) if one)
-    if asked.kind == "domain":
-        what = f"domain {asked.frequencies} Hz × {asked.amplitudes}"
-    elif asked.kind == "ida":
-        what = f"{len(asked.records)} records by {asked.im or 'pgv'}"
+        return " · ".join(part for part in (name, form.title.lower(), shaken, model) if part)
+    if job_request.kind == "domain":
+        what = f"domain {job_request.frequencies} Hz × {job_request.amplitudes}"
+    elif job_request.kind == "ida":
+        what = f"{len(job_request.records)} records by {job_request.im or 'pgv'}"
     else:
-        what = shaken if asked.kind == "run" else f"what brings it down of {shaken}, {asked.first} to {asked.last}"
+        what = (
+            shaken
+            if job_request.kind == "run"
+            else f"what brings it down of {shaken}, {job_request.first} to {job_request.last}"
+        )
     return f"{name} · {what} · {model}"
 
 

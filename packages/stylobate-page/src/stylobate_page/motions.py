@@ -20,12 +20,12 @@ from .forms import doubted, warned
 POINTS, PATH = 2400, 1500
 
 
-def describe(asked: MotionAsked, files: Sequence[str], column: Column | None) -> dict[str, Any]:
+def describe(motion_choice: MotionAsked, files: Sequence[str], column: Column | None) -> dict[str, Any]:
     """Motion on the page.
 
     Parameters
     ----------
-    asked : MotionAsked
+    motion_choice : MotionAsked
     files : sequence of str
         Of the record.
     column : Column, optional
@@ -37,7 +37,7 @@ def describe(asked: MotionAsked, files: Sequence[str], column: Column | None) ->
         There is no such motion.
     """
     with doubted() as doubts:
-        request = MotionRequest.typed(**asked.words(files))
+        request = MotionRequest.typed(**motion_choice.words(files))
         motion = request.motion(None if column is None else column.frequency_parameter)
         summary = motion_summary(motion, spectrum=False)
         warn_of_drift(motion)

@@ -89,8 +89,8 @@ class Records:
         self.kept: dict[str, Record] = {}
         self._lock = threading.Lock()
         self._coming: list[_Upload] = []
-        for one in sorted(self._found(), key=lambda one: self._path(one.names[0]).stat().st_mtime):
-            self.kept[one.id] = replace(one, name=self._unlike(one.name))
+        for record in sorted(self._found(), key=lambda item: self._path(item.names[0]).stat().st_mtime):
+            self.kept[record.id] = replace(record, name=self._unlike(record.name))
 
     async def receive(self, name: str, chunks: AsyncIterator[bytes], joined: str = "", beside: str = "") -> Record:
         """Keep a file as it comes in; nothing is left of one that is too large or breaks off.
@@ -110,8 +110,8 @@ class Records:
         InputError
             There are too many, or too much.
         """
-        for one in filter(None, (joined, beside)):
-            if len(self._record(one).files) >= PARTS and joined:
+        for record_id in filter(None, (joined, beside)):
+            if len(self._record(record_id).files) >= PARTS and joined:
                 raise InputError(f"the record has {PARTS} files, and more are not taken; leave some out.")
         upload = _Upload(self.folder)
         upload.path = self.folder / f"{_COMING}{upload.token}"
@@ -134,13 +134,13 @@ class Records:
 
     def remove(self, record: str) -> None:
         """Forget a record; jobs have copies of their own."""
-        found = self.kept.pop(record, None)
-        if found is None:
+        entry = self.kept.pop(record, None)
+        if entry is None:
             return
-        for file in (f".{found.id}.json", *found.files):
-            (self.folder / found.place / file).unlink(missing_ok=True)
+        for file in (f".{entry.id}.json", *entry.files):
+            (self.folder / entry.place / file).unlink(missing_ok=True)
         with suppress(OSError):  # others lie beside it
-            (self.folder / found.place).rmdir()
+            (self.folder / entry.place).rmdir()
 
     def paths(self, record: str) -> list[str]:
         """Place of the files of a record.
@@ -159,9 +159,9 @@ class Records:
     def copy(self, records: Sequence[str], folder: Path) -> None:
         """Copy the files of records into a folder, with the descriptions of stations that came together with them."""
         wanted = [self._record(record) for record in records]
-        places = {one.place for one in wanted}
-        beside = [one for one in self.kept.values() if one.place in places and one.describes]
-        for name in dict.fromkeys(name for one in (*wanted, *beside) for name in one.names):
+        places = {record.place for record in wanted}
+        beside = [record for record in self.kept.values() if record.place in places and record.describes]
+        for name in dict.fromkeys(name for record in (*wanted, *beside) for name in record.names):
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(self._path(name), folder / name)
 
@@ -177,8 +177,8 @@ class Records:
         """Refuse what is too large, alone or with all others, those that are coming in as well."""
         if upload.size > FILE:
             raise InputError(f"the file is larger than {FILE / 1e6:g} MB, which is the most allowed; cut it.")
-        kept = sum(one.size for one in self.kept.values())
-        if kept + sum(one.size for one in self._coming) > ALL:
+        kept = sum(record.size for record in self.kept.values())
+        if kept + sum(incoming.size for incoming in self._coming) > ALL:
             raise InputError(
                 f"there is no room for the file: {len(self.kept)} records are kept, with {kept / 1e6:.3g} of "
                 f"{ALL / 1e6:g} MB; remove some."
@@ -204,13 +204,13 @@ class Records:
 
     def _unlike(self, name: str, but: str = "") -> str:
         """A name that no other record has: with a number where it must."""
-        taken = {one.name for one in self.kept.values() if one.id != but}
+        taken = {record.name for record in self.kept.values() if record.id != but}
         stem, dot, ending = name.rpartition(".")
-        number, found = 1, name
-        while found in taken:
+        number, candidate = 1, name
+        while candidate in taken:
             number += 1
-            found = f"{stem} ({number}){dot}{ending}" if stem else f"{name} ({number})"
-        return found
+            candidate = f"{stem} ({number}){dot}{ending}" if stem else f"{name} ({number})"
+        return candidate
 
     # -- over restarts -------------------------------------------------------------------------------------------
 
@@ -221,14 +221,14 @@ class Records:
 
     def _found(self) -> Iterator[Record]:
         """Records that lie here: as their notes say, and files without a note each as a record of its own."""
-        for left in self.folder.glob(f"{_COMING}*"):  # a page that was killed had not received it to its end
-            left.unlink()
+        for leftover in self.folder.glob(f"{_COMING}*"):  # a page that was killed had not received it to its end
+            leftover.unlink()
         for file in _plain(self.folder):  # as earlier versions kept them
             token = _token(file.name) or secrets.token_hex(4)
             (self.folder / token).mkdir(mode=PRIVATE_FOLDER, exist_ok=True)
             file.rename(self.folder / token / file.name)
         for place in sorted(path for path in self.folder.iterdir() if path.is_dir() and not path.is_symlink()):
-            files = {one.name: one.stat().st_size for one in _plain(place)}
+            files = {path.name: path.stat().st_size for path in _plain(place)}
             for token, name, parts in _notes(place):
                 if all(part in files for part in parts):
                     yield Record(token, name, place.name, parts, sum(files.pop(part) for part in parts))
@@ -239,14 +239,14 @@ class Records:
 
 def _plain(folder: Path) -> list[Path]:
     """Files in a folder, without hidden ones and links."""
-    found = (path for path in folder.iterdir() if path.name[0] != "." and path.is_file() and not path.is_symlink())
-    return sorted(found)
+    paths = (path for path in folder.iterdir() if path.name[0] != "." and path.is_file() and not path.is_symlink())
+    return sorted(paths)
 
 
 def _token(file: str) -> str | None:
     """The token in the name of a file."""
-    found = _KEPT.search(file)
-    return found[1] if found is not None and found.end() == len(file) else None
+    match = _KEPT.search(file)
+    return match[1] if match is not None and match.end() == len(file) else None
 
 
 def _notes(place: Path) -> Iterable[tuple[str, str, tuple[str, ...]]]:

@@ -75,10 +75,10 @@ class Site:
 
     async def static(self, request: Request) -> Response:
         """One of its files."""
-        found = PAGES.get(request.url.path)
-        if found is None:
+        path = PAGES.get(request.url.path)
+        if path is None:
             return missing("file")
-        return FileResponse(found, media_type=KINDS[found.suffix], headers={"cache-control": "no-cache"})
+        return FileResponse(path, media_type=KINDS[path.suffix], headers={"cache-control": "no-cache"})
 
     async def about(self, request: Request) -> Response:
         """Choices."""
@@ -90,7 +90,11 @@ class Site:
                 "samples": listed,
                 "labels": LABELS,
                 "forms": FORMS_SHOWN,
-                "measures": [{"key": one.key, "label": one.label, "unit": one.unit} for one in MEASURES if one.label],
+                "measures": [
+                    {"key": measure.key, "label": measure.label, "unit": measure.unit}
+                    for measure in MEASURES
+                    if measure.label
+                ],
             }
         )
 
@@ -141,8 +145,8 @@ class Site:
     async def motion(self, request: Request) -> Response:
         """The plot and the measures of a motion."""
         body = await json_object(request)
-        asked = checked(body.get("motion") or {}, MotionAsked, "the motion")
-        files = self.records.paths(asked.text) if asked.kind == "record" else []
+        motion_choice = checked(body.get("motion") or {}, MotionAsked, "the motion")
+        files = self.records.paths(motion_choice.text) if motion_choice.kind == "record" else []
         column = None
         if body.get("column"):
             try:
@@ -151,7 +155,7 @@ class Site:
                 column = None
         try:
             async with self._reading:
-                return Answer(await run_in_threadpool(motions.describe, asked, files, column))
+                return Answer(await run_in_threadpool(motions.describe, motion_choice, files, column))
         except InputError as error:
             return found_wrong(error)
 
@@ -165,7 +169,7 @@ class Site:
     async def record_list(self, request: Request) -> Response:
         """Records that are here."""
         kept = self.records.kept.values()
-        return Answer({"records": [_of_record(one) for one in kept]})
+        return Answer({"records": [_of_record(record) for record in kept]})
 
     async def record_remove(self, request: Request) -> Response:
         """Forget one."""
@@ -175,14 +179,14 @@ class Site:
 
 async def _opened(text: str) -> Response:
     """An assembly file with its model, and what is wrong in it."""
-    found: dict[str, Any] = {"assembly": text, "model": "dem2d"}
+    answer: dict[str, Any] = {"assembly": text, "model": "dem2d"}
     try:
-        found["model"] = texts.model_of(await run_in_threadpool(texts.assembly_of, text))
+        answer["model"] = texts.model_of(await run_in_threadpool(texts.assembly_of, text))
     except InputError as error:
         if len(text) > texts.LARGEST:
             raise
-        found["error"] = in_page_words(error, of_text=True)
-    return Answer(found)
+        answer["error"] = in_page_words(error, of_text=True)
+    return Answer(answer)
 
 
 def _of_record(record: Record) -> dict[str, Any]:

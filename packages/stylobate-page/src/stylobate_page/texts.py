@@ -63,11 +63,15 @@ def _only_presets(tables: Any) -> None:
 
 
 def _no_meshes(tables: Any) -> None:
-    blocks = [one for one in tables if isinstance(one, dict)] if isinstance(tables, list) else []
+    blocks = [block for block in tables if isinstance(block, dict)] if isinstance(tables, list) else []
     parts = [
-        part for one in blocks if isinstance(one.get("parts"), list) for part in one["parts"] if isinstance(part, dict)
+        part
+        for block in blocks
+        if isinstance(block.get("parts"), list)
+        for part in block["parts"]
+        if isinstance(part, dict)
     ]
-    if any("mesh" in one for one in (*blocks, *parts)):
+    if any("mesh" in table for table in (*blocks, *parts)):
         raise InputError(
             "a block of the assembly is a mesh, and the page has no other file at hand; give its vertices."
         )
@@ -95,7 +99,7 @@ def describe(text: str) -> dict[str, Any]:
     from stylobate.plots.drawing import VIEWS, solids_of
     from stylobate.plots.scene import OBLIQUE
 
-    bodies = [one for one in assembly.bodies if not (one.fixed and one.size > FAR_AWAY)]
+    bodies = [body for body in assembly.bodies if not (body.fixed and body.size > FAR_AWAY)]
     plane, solids = assembly.space_joints is None, solids_of(assembly)[0]
     return {
         "facts": {
@@ -110,23 +114,23 @@ def describe(text: str) -> dict[str, Any]:
         },
         "model": model_of(assembly),
         "views": [
-            _view(assembly, solids, view, said)
-            for view, said in (VIEWS[:1] if plane else (*VIEWS, (OBLIQUE, "from above")))
+            _view(assembly, solids, view, caption)
+            for view, caption in (VIEWS[:1] if plane else (*VIEWS, (OBLIQUE, "from above")))
         ],
         "warnings": warned(doubts),
     }
 
 
-def _view(assembly: Structure, solids: list[Any], view: Any, said: str) -> dict[str, Any]:
+def _view(assembly: Structure, solids: list[Any], view: Any, caption: str) -> dict[str, Any]:
     """What is seen from a direction: polygons with their colours in the order of painting, links, the ground's level [m]."""
     from stylobate.plots.scene import painted
 
     polygons, colours, outlines = painted(solids, view)
     lines = [(low, high) for _, (*_, low), (*_, high) in strokes(assembly.placed_links)]
     return {
-        "said": said,
-        "polygons": [one.round(4).tolist() for one in polygons],
-        "colours": ["#" + "".join(f"{round(255 * float(part)):02x}" for part in one) for one in colours],
+        "said": caption,
+        "polygons": [polygon.round(4).tolist() for polygon in polygons],
+        "colours": ["#" + "".join(f"{round(255 * float(part)):02x}" for part in colour) for colour in colours],
         "outlines": outlines,
         "links": [[view.across(end).round(4).tolist() for end in ends] for ends in lines],
         "ground": assembly.ground if view.elevation == 0.0 else None,
@@ -165,15 +169,15 @@ def ruin_of(text: str | None, stone: Structure, assembly: str | None) -> Ruin:
                 write_column(stone.stack, Path(folder) / COLUMN)
             else:
                 (Path(folder) / ASSEMBLY).write_text(assembly, encoding="utf-8")
-            found = read_ruin(path)
+            ruin = read_ruin(path)
         except InputError as error:
             error.without(f"{folder}/")
             error.without(f"{RUIN}: ")
             point_to(error, text, "ruin")
             raise
-    if found.simulations > MOST:
-        raise InputError(f"{found.simulations} simulations are asked for; the page takes up to {MOST}.", "ruin")
-    return found
+    if ruin.simulations > MOST:
+        raise InputError(f"{ruin.simulations} simulations are asked for; the page takes up to {MOST}.", "ruin")
+    return ruin
 
 
 def _only_what_is_here(data: dict[str, object], here: str) -> None:
@@ -206,17 +210,17 @@ def point_to(error: InputError, text: str, field: str) -> None:
 
 def _line(error: InputError, lines: list[str]) -> int | None:
     """Number of the line that an error is about, from 1."""
-    said, (*table, key) = str(error), (error.field or "").split(".")
-    if (stopped := _AT.search(said)) is not None:
+    message, (*table, key) = str(error), (error.field or "").split(".")
+    if (stopped := _AT.search(message)) is not None:
         return int(stopped[1])
     if len(table) == 2 and table[1].isdecimal():
         begins = _header(lines, table[0], int(table[1]))
         return begins and (_key(lines, key, begins) or begins)
-    if key and (found := _key(lines, key)) is not None:
-        return found
-    for name in _NAMED.findall(said):
+    if key and (number := _key(lines, key)) is not None:
+        return number
+    for name in _NAMED.findall(message):
         named = next(
-            (k for k, one in enumerate(lines, 1) if re.match(rf"\s*name\s*=\s*(['\"]){re.escape(name)}\1", one)), None
+            (k for k, text in enumerate(lines, 1) if re.match(rf"\s*name\s*=\s*(['\"]){re.escape(name)}\1", text)), None
         )
         numbered = _NUMBERED.fullmatch(name)
         if named is None and numbered is not None:
@@ -228,15 +232,15 @@ def _line(error: InputError, lines: list[str]) -> int | None:
 
 def _header(lines: list[str], table: str, number: int) -> int | None:
     """Line at which the table of that number in a list begins."""
-    headers = [k for k, one in enumerate(lines, 1) if re.match(rf"\s*\[\[\s*{re.escape(table)}\s*\]\]", one)]
+    headers = [k for k, line in enumerate(lines, 1) if re.match(rf"\s*\[\[\s*{re.escape(table)}\s*\]\]", line)]
     return headers[number - 1] if 0 < number <= len(headers) else None
 
 
 def _key(lines: list[str], key: str, begins: int | None = None) -> int | None:
     """First line that gives a key; of the table that begins at a line, where there is one."""
-    for k, one in enumerate(lines[begins or 0 :], 1 + (begins or 0)):
-        if begins is not None and re.match(r"\s*\[", one) and not re.match(r"\s*\[\s*-?[\d\[]", one):
+    for k, line in enumerate(lines[begins or 0 :], 1 + (begins or 0)):
+        if begins is not None and re.match(r"\s*\[", line) and not re.match(r"\s*\[\s*-?[\d\[]", line):
             return None
-        if re.match(rf"\s*(['\"]?){re.escape(key)}\1\s*=", one):
+        if re.match(rf"\s*(['\"]?){re.escape(key)}\1\s*=", line):
             return k
     return None

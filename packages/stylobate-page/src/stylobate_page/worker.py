@@ -123,23 +123,23 @@ def work(job: dict[str, Any], requests: Sequence[dict[str, Any]], tell: Callable
 
     tell(id=job["id"], begun=True)
     os.chdir(job["folder"])
-    state = next((one["state"] for one in requests if "state" in one), "collapse")
+    state = next((entry["state"] for entry in requests if "state" in entry), "collapse")
     for number, request in enumerate(requests):
-        said, complained = io.StringIO(), io.StringIO()
+        output, complained = io.StringIO(), io.StringIO()
         console.VIEWER, console.WORDING = viewer(job["id"], request, state, tell), worded
-        with redirect_stdout(said), redirect_stderr(complained):
+        with redirect_stdout(output), redirect_stderr(complained):
             code = run_request(request | {"json": True})
         console.VIEWER, console.WORDING = None, console.in_options
         lines = [line.removeprefix("stylobate: ") for line in complained.getvalue().splitlines()]
-        tell(id=job["id"], number=number, code=code, said=said.getvalue(), complained=lines, field=console.FIELD)
+        tell(id=job["id"], number=number, code=code, said=output.getvalue(), complained=lines, field=console.FIELD)
         if code:
             return
     tell(id=job["id"], done=True)
 
 
-def worded(said: object) -> str:
+def worded(message: object) -> str:
     """What a command says, in words of the page, which knows nothing of the files of the job."""
-    sentence = str(in_page_words(said))
+    sentence = str(in_page_words(message))
     for file in (COLUMN, ASSEMBLY, STUDY, RUIN):
         sentence = sentence.removeprefix(f"{file}: ")
     return sentence
@@ -149,8 +149,8 @@ def viewer(job: str, request: dict[str, Any], state: str, tell: Callable[..., No
     """What sees what a command has come to: a film is made of one run, and of an analysis its points so far."""
     if request["command"] == "ida":
         return growing(job, state, tell)
-    one = request["command"] == "sequence" or (request["command"] == "run" and "azimuths" not in request)
-    return partial(make_film, job, tell) if one else None
+    single_run = request["command"] == "sequence" or (request["command"] == "run" and "azimuths" not in request)
+    return partial(make_film, job, tell) if single_run else None
 
 
 def growing(job: str, state: str, tell: Callable[..., None]) -> Callable[[Callable[[], Ida]], None]:

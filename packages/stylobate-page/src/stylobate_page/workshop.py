@@ -90,8 +90,10 @@ class Job:
         """Files that can be taken away: what stood, what was asked and what has come of it; not what is kept half-way."""
         if self._files is not None:
             return self._files
-        found = [path for path in self.folder.rglob("*") if path.is_file() and not path.is_symlink()]
-        names = [one.relative_to(self.folder).as_posix() for one in found if one.name[0] != "." and one.name != LIST]
+        paths = [path for path in self.folder.rglob("*") if path.is_file() and not path.is_symlink()]
+        names = [
+            path.relative_to(self.folder).as_posix() for path in paths if path.name[0] != "." and path.name != LIST
+        ]
         self._files = sorted(name for name in names if name not in (JOB, FILM, GROWING) and ".sqlite" not in name)
         return self._files
 
@@ -170,12 +172,12 @@ class Workshop:
         Called, from any thread, when something has changed.
     """
 
-    def __init__(self, folder: Path, worker: Sequence[str], told: Callable[[], None] = lambda: None) -> None:
-        self.folder, self.worker, self.told = private(folder), list(worker), told
+    def __init__(self, folder: Path, worker: Sequence[str], notify: Callable[[], None] = lambda: None) -> None:
+        self.folder, self.worker, self.told = private(folder), list(worker), notify
         self._log = self.folder.parent / LOG
         self._log.unlink(missing_ok=True)
         loaded = [Job.load(path) for path in self.folder.iterdir() if path.is_dir()]
-        self.jobs = {one.id: one for one in sorted((job for job in loaded if job), key=lambda job: job.created)}
+        self.jobs = {job.id: job for job in sorted((job for job in loaded if job), key=lambda job: job.created)}
         self.version = 0
         self._queue: deque[str] = deque()
         self._lock, self._wake = threading.RLock(), threading.Condition()
@@ -258,7 +260,7 @@ class Workshop:
     def _unlike(self, title: str) -> str:
         """The title, with a number where jobs at hand have it already."""
         taken = {job.title for job in self.jobs.values()}
-        return next(one for k in count(1) if (one := title if k == 1 else f"{title} ({k})") not in taken)
+        return next(candidate for k in count(1) if (candidate := title if k == 1 else f"{title} ({k})") not in taken)
 
     def again(self, job: Job) -> None:
         """Do a job once more, in its folder: one that was stopped goes on where it was."""
@@ -291,8 +293,8 @@ class Workshop:
             self.jobs.pop(job.id, None)
             self.version += 1
         self.told()
-        for one in self._leaving:  # it may have been paused a moment ago
-            one.join(PATIENCE)
+        for process in self._leaving:  # it may have been paused a moment ago
+            process.join(PATIENCE)
         shutil.rmtree(job.folder, ignore_errors=True)
 
     def place(self, job: Job) -> int:
@@ -315,7 +317,7 @@ class Workshop:
         return len(self._queue) if job.kind in LONG else self._before_long()
 
     def _before_long(self) -> int:
-        kinds = [self.jobs[one].kind if one in self.jobs else "" for one in self._queue]
+        kinds = [self.jobs[job_id].kind if job_id in self.jobs else "" for job_id in self._queue]
         return next((k for k, kind in enumerate(kinds) if kind in LONG), len(kinds))
 
     def _make_room(self) -> None:
@@ -355,20 +357,20 @@ class Workshop:
                 self._follow(job, process)
             finally:
                 self._current = None
-        both = [one for one in (self._process, self._spare) if one is not None]
-        for one in both:
-            one.tell()
-        for one in both:
-            one.put_away()
-        for one in self._leaving:
-            one.join()
+        both = [worker for worker in (self._process, self._spare) if worker is not None]
+        for worker in both:
+            worker.tell()
+        for worker in both:
+            worker.put_away()
+        for worker in self._leaving:
+            worker.join()
 
     def _taken(self, process: Process) -> Job | None:
         """The first of the queue, which is computed from now on; None where there is none that could be."""
         if not self._queue or process.over:  # it was stopped while this waited for the lock
             return None
         job = self.jobs.get(self._queue[0])
-        if job is not None and job.kind in LONG and any(one.is_alive() for one in self._leaving):
+        if job is not None and job.kind in LONG and any(process.is_alive() for process in self._leaving):
             return None  # it may be the one that has just paused, whose ledger is held until its process has ended
         self._queue.popleft()
         if job is None or job.state != WAITING:
@@ -385,7 +387,7 @@ class Workshop:
                 # Let a process end by itself, and go on meanwhile.
                 leaving = threading.Thread(target=self._process.put_away, name="leaving", daemon=True)
                 leaving.start()
-                self._leaving = [one for one in self._leaving if one.is_alive()] + [leaving]
+                self._leaving = [process for process in self._leaving if process.is_alive()] + [leaving]
             spare, self._spare = self._spare, None
             if spare is not None and spare.over:
                 spare.put_away()
@@ -447,7 +449,7 @@ class Workshop:
             job.filmed, job.grown = job.filmed or "film" in what, job.grown + ("grown" in what)
             self._changed(job)
             return False
-        complaints = [str(one) for one in what["complained"]]
+        complaints = [str(complaint) for complaint in what["complained"]]
         job.warnings += [
             complaint.removeprefix("warning: ") for complaint in complaints if complaint.startswith("warning: ")
         ]

@@ -15,26 +15,26 @@ def home(tmp_path_factory):
 @pytest.fixture(scope="module")
 def client(home):
     """The page with a process that computes nothing."""
-    with served(home, FAKE) as found:
-        yield found
+    with served(home, FAKE) as page_client:
+        yield page_client
 
 
 @pytest.fixture
 def fresh(tmp_path):
     """The same, without anything that other tests have left."""
-    with served(tmp_path, FAKE) as found:
-        yield found
+    with served(tmp_path, FAKE) as page_client:
+        yield page_client
 
 
 @pytest.fixture
 def table():
     """A column of three drums as the page holds it."""
-    found = presets()["paper-12-drums"]
-    return found | {"drum": found["drum"][:3]}
+    column = presets()["paper-12-drums"]
+    return column | {"drum": column["drum"][:3]}
 
 
 @pytest.fixture
-def asked(table):
+def run_request(table):
     """A run."""
     return {"kind": "run", "column": table, "motion": {"kind": "harmonic", "text": "1Hz,0.3g,2s"}, "model": "dem2d"}
 
@@ -53,30 +53,32 @@ def site(tmp_path_factory):
 def chromium():
     playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
     with playwright.sync_playwright() as engine:
-        found = engine.chromium.launch(executable_path=browser(), args=["--no-sandbox", "--disable-gpu"])
-        yield found
-        found.close()
+        chrome = engine.chromium.launch(executable_path=browser(), args=["--no-sandbox", "--disable-gpu"])
+        yield chrome
+        chrome.close()
 
 
 @pytest.fixture
 def open_page(chromium, site):
     """Opens the page at a width; afterwards nothing has been complained of, and nothing asked of another machine."""
-    opened, said, asked = [], [], []
+    opened, complaints, urls = [], [], []
 
     def opening(width, height=900):
         page = chromium.new_page(viewport={"width": width, "height": height})
         page.set_default_timeout(15_000)
-        page.on("console", lambda one: said.append(one.text) if one.type in ("error", "warning") else None)
-        page.on("pageerror", lambda one: said.append(str(one)))
+        page.on(
+            "console", lambda message: complaints.append(message.text) if message.type in ("error", "warning") else None
+        )
+        page.on("pageerror", lambda error: complaints.append(str(error)))
         page.on(
             "response",
-            lambda one: (
-                said.append(f"{one.status} {one.url} {one.request.post_data} {one.text()}")
-                if one.status >= 400
+            lambda response: (
+                complaints.append(f"{response.status} {response.url} {response.request.post_data} {response.text()}")
+                if response.status >= 400
                 else None
             ),
         )
-        page.on("request", lambda one: asked.append(one.url))
+        page.on("request", lambda request: urls.append(request.url))
         page.goto(site + KEYS.printed("/"))
         page.wait_for_selector("html[data-ready]")
         opened.append(page)
@@ -85,5 +87,5 @@ def open_page(chromium, site):
     yield opening
     for page in opened:
         page.close()
-    assert said == []
-    assert [one for one in asked if not one.startswith((site, "data:", "blob:"))] == []
+    assert complaints == []
+    assert [url for url in urls if not url.startswith((site, "data:", "blob:"))] == []

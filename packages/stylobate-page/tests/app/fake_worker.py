@@ -43,8 +43,8 @@ for line in sys.stdin:
         os._exit(7)
     code = 2 if how == "refused" else 0
     complained = ["warning: a doubt", "the model is 'refused'; allowed is another."] if code else ["warning: a doubt"]
-    said = {"id": job["id"], "number": 0, "code": code, "said": '{"outcome": "rocked"}', "complained": complained}
-    said |= {"field": "model" if code else None}
-    print(json.dumps(said), flush=True)
+    answer = {"id": job["id"], "number": 0, "code": code, "said": '{"outcome": "rocked"}', "complained": complained}
+    answer |= {"field": "model" if code else None}
+    print(json.dumps(answer), flush=True)
     if not code:
         print(json.dumps({"id": job["id"], "done": True}), flush=True)

@@ -24,7 +24,7 @@ period = [0.4, 1.4]
 
 @pytest.fixture
 def wanted(table):
-    drums = [{name: value for name, value in one.items() if name != "depth"} for one in table["drum"]]
+    drums = [{name: value for name, value in drum.items() if name != "depth"} for drum in table["drum"]]
     return {
         "kind": "infer",
         "column": table | {"section": "circular", "drum": drums},
@@ -110,15 +110,15 @@ HAZARDS = {"site A.csv": HAZARD}
         ),
     ],
 )
-def test_an_analysis_is_a_command_line(fresh, asked, kind, more, line):
-    asked = asked | {"kind": kind, "settings": {"points": "2"}, "tail": "1s"} | more
-    asked["motion"] = asked["motion"] | ({"azimuth": "45deg"} if kind == "directions" else {})
-    made = fresh.post("/api/jobs", json=asked)
+def test_an_analysis_is_a_command_line(fresh, run_request, kind, more, line):
+    run_request = run_request | {"kind": kind, "settings": {"points": "2"}, "tail": "1s"} | more
+    run_request["motion"] = run_request["motion"] | ({"azimuth": "45deg"} if kind == "directions" else {})
+    made = fresh.post("/api/jobs", json=run_request)
     assert made.status_code == 201, made.text
     job = ended(fresh, made.json()["id"])
     assert job["commands"] == [f"stylobate {line} --out=result"]
-    assert all((one in job["files"]) == (one in line) for one in ("column.toml", "opened-table.csv"))
-    assert all(one in line for one in job["files"] if one.startswith("hazards/"))
+    assert all((file in job["files"]) == (file in line) for file in ("column.toml", "opened-table.csv"))
+    assert all(file in line for file in job["files"] if file.startswith("hazards/"))
 
 
 @pytest.mark.parametrize(
@@ -143,8 +143,8 @@ def test_an_analysis_is_a_command_line(fresh, asked, kind, more, line):
     ],
     ids=str,
 )
-def test_an_analysis_that_lacks_something_is_refused(fresh, asked, change, why, field):
-    refused = fresh.post("/api/jobs", json=asked | {"kind": "risk", "table": RUNS, "hazards": HAZARDS} | change)
+def test_an_analysis_that_lacks_something_is_refused(fresh, run_request, change, why, field):
+    refused = fresh.post("/api/jobs", json=run_request | {"kind": "risk", "table": RUNS, "hazards": HAZARDS} | change)
     assert refused.status_code == 422
     assert why in refused.json()["error"]
     assert refused.json()["field"] == field
@@ -172,14 +172,14 @@ def test_every_field_and_answer_of_a_form_is_one_of_its_command(tmp_path, capsys
         known = capsys.readouterr().out
         assert all(f"--{box.option}" in known for box in form.boxes), kind
         assert call([form.command, *lines[kind], f"--out={kind}", "--json"]) == 0, capsys.readouterr().err
-        said = json.loads(capsys.readouterr().out)
-        rows = said.get(form.rows, [])
+        answer = json.loads(capsys.readouterr().out)
+        rows = answer.get(form.rows, [])
         rows = rows if isinstance(rows, list) else [*rows.values()]
         measured = {key.partition(".")[0] for row in rows for key in row}
         elsewhere = measures_of(BlockMeasures) + measures_of(SpaceMeasures)  # of assemblies, in space
-        optional = {"collapse_probability", *(one.key for one in elsewhere)}
+        optional = {"collapse_probability", *(measure.key for measure in elsewhere)}
         assert {key.partition(".")[0] for key in form.columns} - measured <= optional, kind
-        assert set(form.facts) <= set(said), kind
+        assert set(form.facts) <= set(answer), kind
         drawn = {path.stem for path in (tmp_path / kind).glob("*.png")}
         assert set(form.pictures) - drawn <= {"design", "matches", "observations"}, kind  # of links, and of some ruins
 

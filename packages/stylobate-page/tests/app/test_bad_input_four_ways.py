@@ -25,7 +25,7 @@ COLUMNS = [
 ]
 
 
-@pytest.mark.parametrize(("path", "value", "field", "words"), COLUMNS, ids=lambda one: str(one)[:30])
+@pytest.mark.parametrize(("path", "value", "field", "words"), COLUMNS, ids=lambda parameter: str(parameter)[:30])
 def test_a_column(client, table, path, value, field, words, tmp_path, capsys):
     wrong = copy.deepcopy(table)
     inner = wrong
@@ -72,14 +72,14 @@ MOTIONS = [
 IN_FIELDS = {"is -9.81 m/s²": "is -1 g", "[0, 10000] m/s²": "[0, 1019.37] g"}
 
 
-@pytest.mark.parametrize(("typed", "field", "words", "option"), MOTIONS, ids=lambda one: str(one)[:40])
+@pytest.mark.parametrize(("typed", "field", "words", "option"), MOTIONS, ids=lambda parameter: str(parameter)[:40])
 def test_a_motion(client, typed, field, words, option, capsys):
     with pytest.raises(st.InputError) as caught:
         st.MotionRequest.typed(**typed).motion()
     column = ["paper-monolithic", "--model=housner", "--replicates=0"]
     assert call(["run", *column, *(f"--{name}={value}" for name, value in typed.items())]) == 2
     line = capsys.readouterr().err
-    kind = next(one for one in ("harmonic", "pulse", "synthetic") if one in typed)
+    kind = next(name for name in ("harmonic", "pulse", "synthetic") if name in typed)
     more = {name: value for name, value in typed.items() if name != kind}
     page = client.post("/api/motion", json={"motion": {"kind": kind, "text": typed[kind], **more}}).json()
     for text in (str(caught.value), line):
@@ -103,9 +103,9 @@ def test_a_motion(client, typed, field, words, option, capsys):
         ({"frequencies": "0.5:2:0"}, "frequencies.number", ["with 0 values", "1 to 100000"]),
         ({"amplitudes": "-1g:1g:2"}, "amplitudes", ["is -9.81 m/s²", "(0, 10000] m/s²"]),
     ],
-    ids=lambda one: str(one)[:40],
+    ids=lambda parameter: str(parameter)[:40],
 )
-def test_a_grid(client, asked, change, field, words, tmp_path, capsys):
+def test_a_grid(client, run_request, change, field, words, tmp_path, capsys):
     grid = {"frequencies": "0.5:2:4", "amplitudes": "0.1g:0.4g:3"} | change
     assert call(["domain", "paper-monolithic", *(f"--{name}={value}" for name, value in grid.items())]) == 2
     line = capsys.readouterr().err
@@ -115,7 +115,7 @@ def test_a_grid(client, asked, change, field, words, tmp_path, capsys):
     from_file = capsys.readouterr().err
     with pytest.raises(st.InputError) as caught:
         st.campaign.grid.read_grid(file)
-    page = client.post("/api/jobs", json=asked | {"kind": "domain", "motion": None} | grid).json()
+    page = client.post("/api/jobs", json=run_request | {"kind": "domain", "motion": None} | grid).json()
     for text in (line, from_file, page.get("error", from_file)):  # the page leaves ranges to its jobs
         assert all(word in text for word in words), text
     assert OPTION.search(from_file) is None

@@ -130,8 +130,8 @@ def test_by_keyboard_alone(open_page):
         reached.append(
             page.evaluate("document.activeElement.dataset.tab || document.activeElement.dataset.field || ''")
         )
-    for one in ("column", "motion", "run", "domain", "fragility", "jobs", "preset", "name"):
-        assert one in reached
+    for name in ("column", "motion", "run", "domain", "fragility", "jobs", "preset", "name"):
+        assert name in reached
     page.locator("[data-tab=motion]").focus()
     page.keyboard.press("Enter")
     page.locator("#motion canvas[role=slider]").focus()
@@ -148,13 +148,13 @@ def test_an_elevation_has_its_own_labels_until_the_next_is_known(open_page):
     elevation = page.locator("canvas.elevation")
     empty = elevation.evaluate("canvas => canvas.toDataURL()")
     until(lambda: elevation.evaluate("canvas => canvas.toDataURL()") != empty)
-    before, held = elevation.evaluate("canvas => canvas.toDataURL()"), []
-    page.route("**/api/column", lambda route: held.append(route))
+    before, routes = elevation.evaluate("canvas => canvas.toDataURL()"), []
+    page.route("**/api/column", lambda route: routes.append(route))
     page.select_option("[data-field=preset]", "paper-monolithic")
     expect(elevation).to_have_class("elevation past")
     assert elevation.evaluate("canvas => canvas.toDataURL()") == before
-    until(lambda: page.wait_for_timeout(20) or held)
-    held[0].continue_()
+    until(lambda: page.wait_for_timeout(20) or routes)
+    routes[0].continue_()
     expect(elevation).to_have_class("elevation")
     expect(page.locator("#column-facts")).to_contain_text("5 m")
     assert elevation.evaluate("canvas => canvas.toDataURL()") != before
@@ -263,27 +263,27 @@ def test_records_to_a_fragility_and_what_brings_it_down(open_page, tmp_path):
     page.fill("#fragility [data-field=runs]", "4")
     page.keyboard.press("Tab")
     page.click("#fragility-asked button.primary")
-    found = page.locator("#fragility-found")
-    expect(found.locator(".verdict").first).to_contain_text("half of the records bring collapse", timeout=60_000)
-    expect(found).to_contain_text("of 10 records")
-    expect(found).to_contain_text("notes <i>.txt was left out")
-    expect(found.locator("canvas[data-curves=ida]")).to_be_visible()
-    expect(found.locator("canvas[data-curves=fragility]")).to_be_visible()
+    panel = page.locator("#fragility-found")
+    expect(panel.locator(".verdict").first).to_contain_text("half of the records bring collapse", timeout=60_000)
+    expect(panel).to_contain_text("of 10 records")
+    expect(panel).to_contain_text("notes <i>.txt was left out")
+    expect(panel.locator("canvas[data-curves=ida]")).to_be_visible()
+    expect(panel.locator("canvas[data-curves=fragility]")).to_be_visible()
     blank = """one => [...one.querySelectorAll('canvas')].map(canvas => {
         const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
         return data.filter((value, k) => k % 4 === 3 && value > 0).length; })"""
-    assert min(found.evaluate(blank)) > 2000
+    assert min(panel.evaluate(blank)) > 2000
 
     page.click("[data-tab=run]")
     page.locator("#critical summary").click()
     for name, value in (("start", "0.1"), ("stop", "0.5"), ("step", "0.1")):
         page.fill(f'[data-field="{name}"]', value)
     page.click("text=Find it")
-    said = page.locator("#run-said")
-    expect(said.locator(".verdict:not(.sentence)")).to_contain_text("collapses at 0.4 g", timeout=30_000)
+    answer = page.locator("#run-said")
+    expect(answer.locator(".verdict:not(.sentence)")).to_contain_text("collapses at 0.4 g", timeout=30_000)
     expect(page.locator("canvas[data-curves=critical]")).to_be_visible()
     page.click("text=Run it at this amplitude")
-    expect(said.locator(".verdict:not(.sentence)")).to_contain_text("The block collapsed", timeout=30_000)
+    expect(answer.locator(".verdict:not(.sentence)")).to_contain_text("The block collapsed", timeout=30_000)
 
     # another page takes up the settings of a job
     other = open_page(390)
@@ -315,7 +315,7 @@ def test_an_assembly_and_links_through_the_page(open_page, tmp_path):
     portal = tmp_path / "portal.toml"
     joint = "[joint]\nnormal_stiffness = 5e9\nshear_stiffness = 2.5e9\nfriction_angle = 35\n"
     blocks = [(0, 1, 0, 3), (4, 5, 0, 3), (0, 5, 3, 4)]
-    corners = ["[[block]]\nvertices = [[{0},{2}],[{1},{2}],[{1},{3}],[{0},{3}]]\n".format(*one) for one in blocks]
+    corners = ["[[block]]\nvertices = [[{0},{2}],[{1},{2}],[{1},{3}],[{0},{3}]]\n".format(*block) for block in blocks]
     portal.write_text('name = "portal <b>"\ndensity = 2500.0\n' + joint + "".join(corners))
     page.set_input_files("[data-upload=column]", str(portal))
     expect(page.locator("#column-facts")).to_contain_text("portal <b>", timeout=60_000)
@@ -384,7 +384,7 @@ def test_what_is_no_number_is_told_in_the_words_of_its_field(open_page):
     expect(page.locator("#motion-facts")).to_contain_text("No motion yet")
     page.fill("#motion [data-field=frequency]", "1")
     expect(page.locator("#motion .error")).to_have_count(0)
-    for tab, button, field, typed, said in (
+    for tab, button, field, typed, message in (
         ("run", "#go", "tail", "1 s", "“Tail after the motion” is “1 s”; it must be a number [s], such as 5."),
         ("domain", "text=Map it", "frequencies", "", "“Hz, from” is empty; give a number [Hz], such as 0.33."),
         ("domain", "text=Map it", "frequencies.last", "0.1", "“to” is 0.1; it must be above “Hz, from”, which is 0.33"),
@@ -396,7 +396,7 @@ def test_what_is_no_number_is_told_in_the_words_of_its_field(open_page):
         before = box.input_value()
         box.fill(typed)
         page.click(button)
-        expect(page.locator(f"#{tab} .error")).to_contain_text(said)
+        expect(page.locator(f"#{tab} .error")).to_contain_text(message)
         expect(box).to_have_attribute("aria-invalid", "true")
         box.fill(before)
     assert page.evaluate(JOBS) == jobs

@@ -31,10 +31,10 @@ def test_cells_of_the_ledger_are_those_of_the_table_and_none_comes_twice(tmp_pat
     )  # what else is in the ledger is no cell
     st.collapse_domain(st.preset("paper-monolithic"), st.HousnerBlock(), *grid, out=out)
     of_the_table = new_cells(tmp_path, set())
-    assert [one[0] for one in of_the_table] == list(range(6))
+    assert [cell[0] for cell in of_the_table] == list(range(6))
     (out / "domain.csv").unlink()
     known = {2, 3}
     of_the_ledger = new_cells(tmp_path, known)
-    assert sorted(of_the_ledger) == [one for one in of_the_table if one[0] not in (2, 3)]
+    assert sorted(of_the_ledger) == [cell for cell in of_the_table if cell[0] not in (2, 3)]
     assert known == set(range(6))
     assert new_cells(tmp_path, known) == []

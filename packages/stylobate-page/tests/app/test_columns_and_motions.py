@@ -11,14 +11,14 @@ from stylobate_exchange.convert import Reading, convert
 
 
 def test_a_column_has_the_properties_of_the_library(client, table):
-    found = client.post("/api/column", json=table).json()
+    answer = client.post("/api/column", json=table).json()
     column = st.Column.of_drums(
-        [st.Drum(one["height"], one["bottom_width"], one["top_width"], 1600.0) for one in table["drum"]],
+        [st.Drum(drum["height"], drum["bottom_width"], drum["top_width"], 1600.0) for drum in table["drum"]],
         st.Joint(5e10, 2.5e10, friction_coefficient=0.7),
     )
-    assert found["facts"]["mass"] == pytest.approx(column.mass)
-    assert found["facts"]["uplift_g"] == pytest.approx(column.uplift_acceleration / st.g)
-    corners = np.array(found["outlines"]["xz"][2])
+    assert answer["facts"]["mass"] == pytest.approx(column.mass)
+    assert answer["facts"]["uplift_g"] == pytest.approx(column.uplift_acceleration / st.g)
+    corners = np.array(answer["outlines"]["xz"][2])
     assert corners[:, 1].max() == pytest.approx(column.height, abs=1e-4)
     assert np.ptp(corners[:, 0]) == pytest.approx(table["drum"][2]["bottom_width"], abs=2e-4)
 
@@ -26,10 +26,10 @@ def test_a_column_has_the_properties_of_the_library(client, table):
 def test_offsets_move_the_outlines(client, table):
     straight = client.post("/api/column", json=table).json()["outlines"]["xz"]
     moved = table | {"as_found": {"drum": [{"index": 2, "offset": 0.05}]}}
-    found = client.post("/api/column", json=moved).json()["outlines"]["xz"]
-    assert np.array(found[0]) == pytest.approx(np.array(straight[0]), abs=1e-4)
+    outlines = client.post("/api/column", json=moved).json()["outlines"]["xz"]
+    assert np.array(outlines[0]) == pytest.approx(np.array(straight[0]), abs=1e-4)
     for i in (1, 2):
-        assert np.array(found[i])[:, 0] == pytest.approx(np.array(straight[i])[:, 0] + 0.05, abs=2e-4)
+        assert np.array(outlines[i])[:, 0] == pytest.approx(np.array(straight[i])[:, 0] + 0.05, abs=2e-4)
     aside = table | {"as_found": {"drum": [{"index": 2, "offset": 0.05, "offset_azimuth": 90}]}}
     in_space = client.post("/api/column", json=aside).json()
     assert in_space["in_space"]
@@ -38,21 +38,21 @@ def test_offsets_move_the_outlines(client, table):
 
 
 def put(table, path, value):
-    found = copy.deepcopy(table)
+    changed_table = copy.deepcopy(table)
     group, *rest = path.split(".")
     if group == "drum":
-        found["drum"][int(rest[0]) - 1][rest[1]] = value
+        changed_table["drum"][int(rest[0]) - 1][rest[1]] = value
     elif group == "found":
-        found["as_found"] = {"drum": [{"index": 1, "offset": 0.001}, {"index": int(rest[0]), rest[1]: value}]}
+        changed_table["as_found"] = {"drum": [{"index": 1, "offset": 0.001}, {"index": int(rest[0]), rest[1]: value}]}
     elif group == "override":
-        found["joint_override"] = [{"index": int(rest[0]), rest[1]: value}]
+        changed_table["joint_override"] = [{"index": int(rest[0]), rest[1]: value}]
     elif group == "joint":
-        found["joint"] = {"normal_stiffness": 5e10, "shear_stiffness": 2.5e10} | {rest[0]: value}
+        changed_table["joint"] = {"normal_stiffness": 5e10, "shear_stiffness": 2.5e10} | {rest[0]: value}
     elif group.startswith("base"):
-        found["as_found"] = {group: value}
+        changed_table["as_found"] = {group: value}
     else:
-        found[group] = value
-    return found
+        changed_table[group] = value
+    return changed_table
 
 
 FIELDS = (
@@ -95,7 +95,7 @@ DOWEL = {"kind": "dowel", "joint": 2, "diameter": 0.03, "embedment": 0.1, "mater
 )  # fmt: skip
 def test_an_error_of_a_link_finds_its_field(client, table, field, value):
     assert "error" not in client.post("/api/column", json=table | {"link": [DOWEL]}).json()
-    wrong = {key: one for key, one in (DOWEL | {field: value}).items() if one is not None}
+    wrong = {key: entry for key, entry in (DOWEL | {field: value}).items() if entry is not None}
     answer = client.post("/api/column", json=table | {"link": [DOWEL, wrong]}).json()
     assert answer["field"] == f"link.2.{field}", answer["error"]
 
@@ -103,15 +103,15 @@ def test_an_error_of_a_link_finds_its_field(client, table, field, value):
 def test_links_are_where_they_are_drawn(client, table):
     """A dowel through its joint as far as it reaches into both drums; a tie from drum to drum; both seen from two sides."""
     tie = {"kind": "tie", "at": [0.6, 0.2], "from_drum": 0, "to_drum": 3, "diameter": 0.02, "material": "titanium"}
-    told = client.post("/api/column", json=table | {"link": [DOWEL, tie]}).json()
-    joint, (_, middle) = table["drum"][0]["height"], _span(told["outlines"]["xz"][2])
-    assert np.array(told["links"]["xz"]) == pytest.approx(
+    answer = client.post("/api/column", json=table | {"link": [DOWEL, tie]}).json()
+    joint, (_, middle) = table["drum"][0]["height"], _span(answer["outlines"]["xz"][2])
+    assert np.array(answer["links"]["xz"]) == pytest.approx(
         np.array([[[0.0, joint - 0.1], [0.0, joint + 0.1]], [[0.6, 0.0], [0.6, middle]]]), abs=1e-3
     )
     aside = {"as_found": {"drum": [{"index": 2, "offset": 0.05, "offset_azimuth": 90}]}}
-    told = client.post("/api/column", json=table | aside | {"link": [DOWEL, tie]}).json()["links"]
-    assert told["yz"][1][0] == pytest.approx([0.2, 0.0], abs=1e-3)
-    assert told["yz"][1][1][0] == pytest.approx(0.25, abs=1e-3)  # it goes with the drum that is offset
+    answer = client.post("/api/column", json=table | aside | {"link": [DOWEL, tie]}).json()["links"]
+    assert answer["yz"][1][0] == pytest.approx([0.2, 0.0], abs=1e-3)
+    assert answer["yz"][1][1][0] == pytest.approx(0.25, abs=1e-3)  # it goes with the drum that is offset
 
 
 def _span(corners):
@@ -122,23 +122,23 @@ def _span(corners):
 
 def test_a_missing_value_finds_its_field(client, table):
     del table["drum"][1]["height"]
-    found = client.post("/api/column", json=table).json()
-    assert found == {
+    answer = client.post("/api/column", json=table).json()
+    assert answer == {
         "error": "drum 2: key 'height' is missing; add it.",
         "field": "drum.2.height",
     }
 
 
 def test_a_joint_without_contact_is_found_at_the_offset_above_it(client, table):
-    found = client.post("/api/column", json=put(table, "found.2.offset", 0.96)).json()
-    assert "has no contact left" in found["error"]
-    assert found["field"] == "found.2.offset"
+    answer = client.post("/api/column", json=put(table, "found.2.offset", 0.96)).json()
+    assert "has no contact left" in answer["error"]
+    assert answer["field"] == "found.2.offset"
 
 
 def test_errors_about_no_field_have_none(client, table):
     assert client.post("/api/column", json=table | {"drum": []}).json()["field"] is None
-    asked = {"kind": "sample", "text": "nowhere"}
-    assert client.post("/api/motion", json={"motion": asked}).json()["field"] is None
+    motion = {"kind": "sample", "text": "nowhere"}
+    assert client.post("/api/motion", json={"motion": motion}).json()["field"] is None
 
 
 def test_a_survey_opens_as_convert_opens_it(client, tmp_path):
@@ -164,7 +164,7 @@ def test_a_column_file_goes_out_and_comes_back(client, table):
     text = client.post("/api/column/toml", json=table).text
     assert "[[drum]]" in text
     back = client.post("/api/column/file", content=text.encode()).json()["table"]
-    same = [client.post("/api/column", json=one).json()["facts"]["digest"] for one in (table, back)]
+    same = [client.post("/api/column", json=column).json()["facts"]["digest"] for column in (table, back)]
     assert same[0] == same[1]
     answer = client.post("/api/column/file", content=b"height = ")
     assert answer.status_code == 422
@@ -172,15 +172,15 @@ def test_a_column_file_goes_out_and_comes_back(client, table):
 
 
 def test_a_sine_is_shown_with_its_measures(client, table):
-    asked = {"motion": {"kind": "harmonic", "text": "1Hz,0.3g,4s", "azimuth": "90deg"}, "column": table}
-    found = client.post("/api/motion", json=asked).json()
-    assert found["summary"]["pga_g"]["y"] == pytest.approx(0.3, abs=1e-4)
-    time, values = found["lines"]["y"]
+    request_body = {"motion": {"kind": "harmonic", "text": "1Hz,0.3g,4s", "azimuth": "90deg"}, "column": table}
+    answer = client.post("/api/motion", json=request_body).json()
+    assert answer["summary"]["pga_g"]["y"] == pytest.approx(0.3, abs=1e-4)
+    time, values = answer["lines"]["y"]
     assert len(time) == len(values) <= 2401
     assert max(values) == pytest.approx(0.3, abs=1e-4)
     facts = client.post("/api/column", json=table).json()["facts"]
     tangent = np.tan(facts["slenderness"])  # the sine is all along y: it is that which the column feels
-    assert found["relative"]["pga_over_g_tan_alpha"] == pytest.approx(0.3 / tangent, rel=1e-3)
+    assert answer["relative"]["pga_over_g_tan_alpha"] == pytest.approx(0.3 / tangent, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -203,14 +203,14 @@ def test_a_record_is_uploaded_and_its_unit_asked_for(client, table):
     lines = "\n".join(f"{0.01 * k:.2f} {0.2 * np.sin(0.3 * k):.6f}" for k in range(400)) + "\n"
     kept = client.post("/api/records", content=lines.encode(), headers={"x-name": "my%20record.txt"}).json()
     assert kept["name"] == "my record.txt"
-    asked = {"kind": "record", "text": kept["id"]}
-    refused = client.post("/api/motion", json={"motion": asked})
+    motion = {"kind": "record", "text": kept["id"]}
+    refused = client.post("/api/motion", json={"motion": motion})
     assert refused.json()["field"] == "unit"
-    found = client.post("/api/motion", json={"motion": asked | {"unit": "m/s2"}}).json()
-    assert found["summary"]["format"] == "columns of text"
-    assert re.fullmatch(r"my-record-[0-9a-f]{8}\.txt", found["summary"]["file"])
+    answer = client.post("/api/motion", json={"motion": motion | {"unit": "m/s2"}}).json()
+    assert answer["summary"]["format"] == "columns of text"
+    assert re.fullmatch(r"my-record-[0-9a-f]{8}\.txt", answer["summary"]["file"])
     assert client.delete(f"/api/records/{kept['id']}").status_code == 200
-    assert "upload it again" in client.post("/api/motion", json={"motion": asked}).json()["error"]
+    assert "upload it again" in client.post("/api/motion", json={"motion": motion}).json()["error"]
 
 
 ASSEMBLY = """name = "portal"
@@ -226,22 +226,22 @@ density = 2500
 
 def test_an_assembly_is_told_apart_from_a_column(client):
     assert client.post("/api/column/file", content=ASSEMBLY.encode()).json() == {"assembly": ASSEMBLY, "model": "dem2d"}
-    told = client.post("/api/assembly", json={"assembly": ASSEMBLY}).json()
-    assert told["facts"] | {"digest": ""} == {
+    answer = client.post("/api/assembly", json={"assembly": ASSEMBLY}).json()
+    assert answer["facts"] | {"digest": ""} == {
         "name": "portal", "blocks": 1, "fixed": 0, "joints": 1, "links": 0, "mass": 7500.0, "height": 3.0, "digest": ""
     }  # fmt: skip
-    (view,) = told["views"]  # the outline of the block, and its face
+    (view,) = answer["views"]  # the outline of the block, and its face
     assert (
         sorted(view["polygons"][0]) == sorted(view["polygons"][1]) == [[0.0, 0.0], [0.0, 3.0], [1.0, 0.0], [1.0, 3.0]]
     )
     assert (view["outlines"][0], view["ground"]) == (True, 0.0)
-    asked = {"kind": "run", "assembly": ASSEMBLY, "motion": {"kind": "harmonic", "text": "1Hz,0.1g,1s"}}
-    job = client.post("/api/jobs", json=asked).json()
+    run_request = {"kind": "run", "assembly": ASSEMBLY, "motion": {"kind": "harmonic", "text": "1Hz,0.1g,1s"}}
+    job = client.post("/api/jobs", json=run_request).json()
     assert job["commands"][0].startswith("stylobate run assembly.toml --model=dem2d ")
     steps = {"first": "0.1g", "last": "0.2g", "step": "0.1g"}
-    job = client.post("/api/jobs", json=asked | {"kind": "critical"} | steps).json()
+    job = client.post("/api/jobs", json=run_request | {"kind": "critical"} | steps).json()
     assert job["commands"][0].startswith("stylobate critical assembly.toml ")
-    wrong = client.post("/api/jobs", json=asked | {"kind": "domain"})
+    wrong = client.post("/api/jobs", json=run_request | {"kind": "domain"})
     assert (wrong.status_code, "takes a column" in wrong.json()["error"]) == (422, True)
 
 
@@ -272,11 +272,11 @@ def test_an_assembly_with_a_mistake_opens_to_be_mended(client):
     text = ASSEMBLY.replace("[1,3]", "[1,-3]")
     opened = client.post("/api/column/file", content=text.encode()).json()
     assert (opened["assembly"], "block 1" in opened["error"]) == (text, True)
-    told = client.post("/api/assembly", json={"assembly": text}).json()
-    assert told["field"].startswith("assembly.")
+    answer = client.post("/api/assembly", json={"assembly": text}).json()
+    assert answer["field"].startswith("assembly.")
 
 
-def test_keys_of_a_file_stay_as_they_are_written(client, asked):
+def test_keys_of_a_file_stay_as_they_are_written(client, run_request):
     """Who writes what the remedy says has it right."""
     wrong = ASSEMBLY.replace("friction_angle", "friction_angel")
     for answer in (
@@ -285,7 +285,9 @@ def test_keys_of_a_file_stay_as_they_are_written(client, asked):
         client.post("/api/column/file", content=b"section = 'circular'\n[joint]\nfriction_angel = 3\n"),
     ):
         assert "did you mean friction_angle?" in answer.json()["error"]
-    ruin = client.post("/api/jobs", json=asked | {"kind": "infer", "ruin": "columns = []\n[prior]\npg_v = 1\n"}).json()
+    ruin = client.post(
+        "/api/jobs", json=run_request | {"kind": "infer", "ruin": "columns = []\n[prior]\npg_v = 1\n"}
+    ).json()
     assert (ruin["field"].partition(".")[0], "'pg_v'" in ruin["error"]) == ("ruin", True)
 
 
@@ -310,14 +312,14 @@ at = [0.0, 0.0, 0.5]
 def test_an_assembly_in_space_is_seen_from_two_sides_from_above_and_askew(client):
     opened = client.post("/api/column/file", content=IN_SPACE.encode()).json()
     assert opened["model"] == "dem3d"
-    told = client.post("/api/assembly", json=opened).json()
-    facts = told["facts"]
+    answer = client.post("/api/assembly", json=opened).json()
+    facts = answer["facts"]
     assert (facts["blocks"], facts["fixed"], facts["joints"], facts["mass"]) == (2, 1, 1, pytest.approx(750.0))
-    sides = [np.ptp(np.concatenate(view["polygons"]), axis=0).tolist() for view in told["views"]]
+    sides = [np.ptp(np.concatenate(view["polygons"]), axis=0).tolist() for view in answer["views"]]
     assert sides[:3] == [[2.0, 2.0], [1.0, 2.0], [2.0, 1.0]]
-    assert [view["ground"] for view in told["views"]] == [0.0, 0.0, None, None]
-    asked = {"kind": "run", "assembly": IN_SPACE, "model": "dem3d", "replicates": "3"}
-    job = client.post("/api/jobs", json=asked | {"motion": {"kind": "harmonic", "text": "1Hz,0.1g,1s"}}).json()
+    assert [view["ground"] for view in answer["views"]] == [0.0, 0.0, None, None]
+    run_request = {"kind": "run", "assembly": IN_SPACE, "model": "dem3d", "replicates": "3"}
+    job = client.post("/api/jobs", json=run_request | {"motion": {"kind": "harmonic", "text": "1Hz,0.1g,1s"}}).json()
     assert job["commands"][0].startswith("stylobate run assembly.toml --model=dem3d ")
 
 
@@ -369,8 +371,8 @@ vertices = [[4, 0], [5, 0], [5, 3], [4, 3]]
 def test_an_error_in_the_text_of_an_assembly_is_of_its_line(client, old, new, line):
     assert "error" not in client.post("/api/assembly", json={"assembly": TEXT}).json()
     wrong = "[[blok]]" if old == "[[block]]" else TEXT.replace(old, new, 1)
-    told = client.post("/api/assembly", json={"assembly": wrong}).json()
-    assert told["field"] == ("assembly" if line is None else f"assembly.{line}"), told["error"]
+    answer = client.post("/api/assembly", json={"assembly": wrong}).json()
+    assert answer["field"] == ("assembly" if line is None else f"assembly.{line}"), answer["error"]
 
 
 @pytest.mark.parametrize(
@@ -381,9 +383,9 @@ def test_a_size_that_no_drum_has_is_marked_and_not_the_slope_on_which_it_falls(c
     """A column of such a drum stands on no slope; what was typed last is what is wrong."""
     wrong = copy.deepcopy(table) | {"as_found": {"base_tilt": 0.5}}
     wrong["drum"][1][key] = value
-    found = client.post("/api/column", json=wrong).json()
-    assert found["field"] == f"drum.2.{key}", found
-    assert "is not in equilibrium" in found["error"]
-    assert says in found["error"]
+    answer = client.post("/api/column", json=wrong).json()
+    assert answer["field"] == f"drum.2.{key}", answer
+    assert "is not in equilibrium" in answer["error"]
+    assert says in answer["error"]
     sound = copy.deepcopy(table) | {"as_found": {"base_tilt": 44.0}}
     assert client.post("/api/column", json=sound).json()["field"] == "base_tilt"

@@ -31,9 +31,9 @@ def test_names_of_this_machine_are_taken(client, host):
 
 
 @pytest.mark.parametrize("origin", ["https://evil.example", "http://127.0.0.1:9", "null", "https://127.0.0.1"])
-def test_other_sites_are_refused(client, asked, origin):
+def test_other_sites_are_refused(client, run_request, origin):
     for method, path in (("POST", "/api/jobs"), ("GET", "/api/jobs")):
-        answer = client.request(method, path, json=asked, headers={"origin": origin})
+        answer = client.request(method, path, json=run_request, headers={"origin": origin})
         assert answer.status_code == 403
     assert client.get("/api/jobs", headers={"origin": str(client.base_url).rstrip("/")}).status_code == 200
 
@@ -90,13 +90,13 @@ def test_a_body_is_cut_off_while_it_comes_in(tmp_path, monkeypatch):
 
     async def story():
         ready, over = asyncio.Event(), asyncio.Event()
-        told = []
+        startups = []
 
         async def lifespan_receive():
-            if told:
+            if startups:
                 await over.wait()
                 return {"type": "lifespan.shutdown"}
-            told.append(1)
+            startups.append(1)
             return {"type": "lifespan.startup"}
 
         async def lifespan_send(message):
@@ -144,7 +144,7 @@ def test_names_of_files_are_made_here(client, home, name):
     from urllib.parse import quote
 
     kept = client.post("/api/records", content=b"1 2\n", headers={"x-name": quote(name)}).json()
-    assert sum(one.name.split(".")[0].endswith(kept["id"]) for one in (home / "records").iterdir()) == 1
+    assert sum(path.name.split(".")[0].endswith(kept["id"]) for path in (home / "records").iterdir()) == 1
 
 
 PATHS = (
@@ -159,8 +159,8 @@ PATHS = (
 
 
 @pytest.mark.parametrize("path", PATHS)
-def test_paths_lead_nowhere(client, asked, path):
-    job = client.post("/api/jobs", json=asked).json()["id"]
+def test_paths_lead_nowhere(client, run_request, path):
+    job = client.post("/api/jobs", json=run_request).json()["id"]
     ended(client, job)
     assert client.get(f"/api/jobs/{job}/files/result/made.txt").text == "kept"
     assert client.get(f"/api/jobs/{job}/files/{path}").status_code in (404, 405)
@@ -168,10 +168,10 @@ def test_paths_lead_nowhere(client, asked, path):
     assert client.get(f"/api/jobs/..%2f..%2f{path}").status_code == 404
 
 
-def test_scripts_in_names_stay_text(client, asked):
+def test_scripts_in_names_stay_text(client, run_request):
     evil = "</script><img src=x onerror=alert(1)>"
-    asked["column"]["name"] = evil
-    answer = client.post("/api/jobs", json=asked)
+    run_request["column"]["name"] = evil
+    answer = client.post("/api/jobs", json=run_request)
     assert answer.headers["content-type"] == "application/json"
     job = ended(client, answer.json()["id"])
     assert job["title"].startswith(evil)
@@ -181,17 +181,17 @@ def test_scripts_in_names_stay_text(client, asked):
 
 
 @pytest.mark.parametrize("value", ["--out=/tmp/elsewhere", "dem2d --out=/tmp", "-x", "--json"])
-def test_values_do_not_become_options(client, asked, value):
+def test_values_do_not_become_options(client, run_request, value):
     """Each value stays that of its own option, in the request and on the command line."""
-    asked |= {"model": value, "replicates": value, "settings": {"law": value}}
-    line = client.post("/api/jobs", json=asked).json()["commands"][0]
+    run_request |= {"model": value, "replicates": value, "settings": {"law": value}}
+    line = client.post("/api/jobs", json=run_request).json()["commands"][0]
     assert "--out=result" in line
-    (request,) = requests(JobAsked(**asked), {})
+    (request,) = requests(JobAsked(**run_request), {})
     assert (request["model"], request["set"], request["out"]) == (value, [f"law={value}"], "result")
     words = words_of(request)
     assert words[:2] == ["run", "column.toml"]
-    assert sum(one.startswith("--out") for one in words) == 1
-    assert all(one.startswith("--") for one in words[2:])
+    assert sum(word.startswith("--out") for word in words) == 1
+    assert all(word.startswith("--") for word in words[2:])
 
 
 @pytest.mark.parametrize("body", [b"", b"[]", b"null", b"{" * 50_000, b"[" * 200_000, b'{"a": NaN', b"\xff\xfe"])
@@ -206,9 +206,9 @@ def test_what_is_no_object_is_refused_in_a_sentence(client, body):
     "text",
     [r'"\ud800"', r'"a\udfffb"', "NaN", "-Infinity", "1e999", "1" * 400, "[" * 30 + "]" * 30, r'{"\ud800": 1}'],
 )
-def test_what_no_file_can_hold_is_refused_before_it_is_kept(client, asked, text):
+def test_what_no_file_can_hold_is_refused_before_it_is_kept(client, run_request, text):
     """A job that held it could be shown to nobody, nor could the list that it is in."""
-    body = json.dumps(asked | {"page": {"x": "HERE"}}).replace('"HERE"', text)
+    body = json.dumps(run_request | {"page": {"x": "HERE"}}).replace('"HERE"', text)
     for path in ("/api/column", "/api/motion", "/api/jobs", "/api/assembly"):
         answer = client.post(path, content=body)
         assert answer.status_code == 422, answer.text
@@ -227,13 +227,13 @@ def test_a_job_that_an_earlier_page_kept_is_shown_and_can_be_removed(tmp_path):
     (tmp_path / "jobs" / "c3").mkdir()
     (tmp_path / "jobs" / "c3" / "job.json").write_text(json.dumps(kept | {"id": "c3", "created": "yesterday"}))
     with served(tmp_path) as page:
-        assert [one["title"] for one in page.get("/api/jobs").json()["jobs"]] == ["\ud800", "well"]
+        assert [job["title"] for job in page.get("/api/jobs").json()["jobs"]] == ["\ud800", "well"]
         assert page.get("/api/jobs/a1").json()["results"] == [{"x": None, "y": "\ud800"}]
         assert page.get("/api/jobs/a1/zip").status_code == 200
         assert page.get("/api/jobs/a1/commands.txt").text == "stylobate run '\\ud800'\n"
         assert "is of an earlier version" in page.post("/api/jobs/a1/again").json()["error"]
         assert page.delete("/api/jobs/a1").status_code == 200
-        assert [one["id"] for one in page.get("/api/jobs").json()["jobs"]] == ["b2"]
+        assert [job["id"] for job in page.get("/api/jobs").json()["jobs"]] == ["b2"]
 
 
 def half_sent(port, head=b"GET / HTTP/1.1\r\nhost: 127"):
@@ -255,8 +255,8 @@ def test_half_sent_heads_lock_nobody_out(client, monkeypatch):
         lines[-1].sendall(b".0.0.1\r\n\r\n")
         assert lines[-1].recv(12) == b"HTTP/1.1 200"
     finally:
-        for one in lines:
-            one.close()
+        for line in lines:
+            line.close()
 
 
 def test_a_head_has_a_limited_time_and_size(client, monkeypatch):
@@ -268,7 +268,7 @@ def test_a_head_has_a_limited_time_and_size(client, monkeypatch):
                 slow.sendall(b"1")
                 time.sleep(0.02)
         assert time.monotonic() - started < 2.0
-        assert [one.recv(1) for one in (silent, mute)] == [b"", b""]
+        assert [connection.recv(1) for connection in (silent, mute)] == [b"", b""]
     with half_sent(port, b"GET / HTTP/1.1\r\nhost: 127.0.0.1\r\nx: " + b"y" * (2 * guard.HEAD)) as large:
         assert large.recv(12) == b"HTTP/1.1 400"
     with half_sent(

@@ -18,14 +18,14 @@ def keys():
 @pytest.fixture(scope="module")
 def page(tmp_path_factory, keys):
     """A page that asks for its token, and a browser that has visited it."""
-    with served(tmp_path_factory.mktemp("page"), FAKE, keys) as found:
-        yield found
+    with served(tmp_path_factory.mktemp("page"), FAKE, keys) as page_client:
+        yield page_client
 
 
 @pytest.fixture
 def stranger(page):
-    with httpx.Client(base_url=page.base_url) as found:
-        yield found
+    with httpx.Client(base_url=page.base_url) as client:
+        yield client
 
 
 @pytest.mark.parametrize(
@@ -42,8 +42,8 @@ def test_nothing_is_told_without_the_token(stranger, path):
         assert stranger.get(path, headers=sent).status_code == 403
 
 
-def test_nothing_is_taken_without_the_token(page, stranger, asked):
-    assert stranger.post("/api/jobs", json=asked).status_code == 403
+def test_nothing_is_taken_without_the_token(page, stranger, run_request):
+    assert stranger.post("/api/jobs", json=run_request).status_code == 403
     assert stranger.post("/api/records", content=b"1 2\n").status_code == 403
     assert page.get("/api/jobs").json() == {"jobs": []}
     assert page.get("/api/records").json() == {"records": []}
@@ -73,9 +73,9 @@ def test_what_a_browser_is_started_with_is_worth_nothing_afterwards(page, strang
 def test_what_is_kept_is_nobody_elses_to_read(page, tmp_path):
     with served(tmp_path / "kept") as other:
         other.post("/api/records", content=b"1 2\n", headers={"x-name": "a.csv"})
-        parts = [one for one in (tmp_path / "kept").iterdir() if one.is_dir()]
-        assert sorted(one.name for one in parts) == ["jobs", "records"]
-        assert {stat.S_IMODE(one.stat().st_mode) for one in parts} == {0o700}
+        parts = [part for part in (tmp_path / "kept").iterdir() if part.is_dir()]
+        assert sorted(part.name for part in parts) == ["jobs", "records"]
+        assert {stat.S_IMODE(part.stat().st_mode) for part in parts} == {0o700}
         assert stat.S_IMODE((tmp_path / "kept" / "worker.log").stat().st_mode) == 0o600
 
 

@@ -26,16 +26,16 @@ def listed(page):
     return page.get("/api/records").json()["records"]
 
 
-def test_records_are_there_after_a_restart(tmp_path, asked):
+def test_records_are_there_after_a_restart(tmp_path, run_request):
     with served(tmp_path) as first:
-        one = put(first, "own.csv")
+        own = put(first, "own.csv")
         two = put(first, "é <b>.csv")
         put(first, "second.csv", **{"with": two["id"]})
         before = listed(first)
     with served(tmp_path) as second:
         assert listed(second) == before
-        assert [one["files"] for one in before] == [1, 2]
-        job = second.post("/api/jobs", json=asked | {"motion": {"kind": "record", "text": one["id"]}})
+        assert [record["files"] for record in before] == [1, 2]
+        job = second.post("/api/jobs", json=run_request | {"motion": {"kind": "record", "text": own["id"]}})
         assert job.status_code == 201
         for record in before:
             second.delete(f"/api/records/{record['id']}")
@@ -51,12 +51,12 @@ def test_files_without_a_note_count_and_can_be_removed(tmp_path):
     (place / "0a0a0a0a" / ".0a0a0a0a.json").write_text("{damaged")
     (place / ".coming-89abcdef").write_bytes(b"half")
     with served(tmp_path) as page:
-        found = {one["id"]: (one["name"], one["size"]) for one in listed(page)}
-        assert found == {"01234567": ("own.csv", len(LINES)), "0a0a0a0a": ("other.csv", len(LINES))}
+        records = {record["id"]: (record["name"], record["size"]) for record in listed(page)}
+        assert records == {"01234567": ("own.csv", len(LINES)), "0a0a0a0a": ("other.csv", len(LINES))}
         assert page.post("/api/motion", json={"motion": {"kind": "record", "text": "01234567"}}).json()["duration"] > 0
-        for one in found:
-            page.delete(f"/api/records/{one}")
-    assert [one.name for one in place.rglob("*")] == []
+        for record_id in records:
+            page.delete(f"/api/records/{record_id}")
+    assert [path.name for path in place.rglob("*")] == []
 
 
 def test_a_note_names_no_file_elsewhere(tmp_path):
@@ -73,7 +73,7 @@ def test_a_note_names_no_file_elsewhere(tmp_path):
 def test_what_is_uploaded_twice_has_two_names(fresh):
     names = [put(fresh, "own.csv")["name"] for _ in range(3)] + [put(fresh, "plain")["name"] for _ in range(2)]
     assert names == ["own.csv", "own (2).csv", "own (3).csv", "plain", "plain (2)"]
-    assert len({one["name"] for one in listed(fresh)}) == 5
+    assert len({record["name"] for record in listed(fresh)}) == 5
 
 
 def mseed():
@@ -87,7 +87,7 @@ def mseed():
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_a_station_is_described_by_what_came_with_its_record(fresh, asked):
+def test_a_station_is_described_by_what_came_with_its_record(fresh, run_request):
     """Neither a broken description of another person's makes a record unreadable, nor a wrong one changes its size."""
     from fuzz.records import STATION
 
@@ -99,10 +99,10 @@ def test_a_station_is_described_by_what_came_with_its_record(fresh, asked):
     own = put(fresh, "own.mseed", data)
     put(fresh, "station.xml", STATION.encode(), beside=own["id"])
     asked_for = {"motion": {"kind": "record", "text": own["id"]}}
-    found = fresh.post("/api/motion", json=asked_for).json()
+    answer = fresh.post("/api/motion", json=asked_for).json()
     # 1 m/s², less the mean of a sine that is not whole, a hundredth; b.xml would make it a hundred thousand times that
-    assert found["summary"]["pga_g"]["x"] == pytest.approx(1.0 / 9.80665, rel=0.02)
-    job = fresh.post("/api/jobs", json=asked | asked_for).json()
+    assert answer["summary"]["pga_g"]["x"] == pytest.approx(1.0 / 9.80665, rel=0.02)
+    job = fresh.post("/api/jobs", json=run_request | asked_for).json()
     copied = [name.rpartition(".")[2] for name in ended(fresh, job["id"])["files"] if name.startswith("records/")]
     assert sorted(copied) == ["mseed", "xml"]
     alone = put(fresh, "alone.mseed", data)
@@ -127,8 +127,8 @@ def test_open_uploads_are_no_kept_records(tmp_path, monkeypatch):
             threading.Thread(target=lambda: answers.append(page.post("/api/records", content=slow()).status_code))
             for _ in range(3)
         ]
-        for one in open_ones:
-            one.start()
+        for thread in open_ones:
+            thread.start()
         for _ in range(500):
             if len(list((tmp_path / "records").glob(".coming-*"))) == 3:
                 break
@@ -137,8 +137,8 @@ def test_open_uploads_are_no_kept_records(tmp_path, monkeypatch):
         assert fourth.status_code == 422
         assert fourth.json()["error"] == "3 files are coming in at this moment; send this one after them."
         go_on.set()
-        for one in open_ones:
-            one.join()
+        for thread in open_ones:
+            thread.join()
         assert answers == [200] * 3
         put(page, "own.csv", b"1" * 900)
         full = page.post("/api/records", content=b"1" * 200).json()["error"]

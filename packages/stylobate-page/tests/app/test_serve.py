@@ -52,13 +52,13 @@ def test_a_port_that_is_taken_is_said_in_one_sentence(capsys):
 
 @pytest.mark.parametrize("missing", ["starlette", "uvicorn"])
 def test_a_missing_extra_is_said_in_one_sentence(capsys, monkeypatch, missing):
-    for name in [one for one in sys.modules if one.startswith(("stylobate_page", missing))]:
+    for name in [module for module in sys.modules if module.startswith(("stylobate_page", missing))]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, missing, None)
     assert call(["serve", "--no-browser"]) == 2
-    said = capsys.readouterr().err
-    assert missing in said
-    assert "pip install stylobate-page" in said
+    message = capsys.readouterr().err
+    assert missing in message
+    assert "pip install stylobate-page" in message
 
 
 def test_a_folder_is_of_one_page_at_a_time(tmp_path, capsys, monkeypatch):
@@ -68,9 +68,9 @@ def test_a_folder_is_of_one_page_at_a_time(tmp_path, capsys, monkeypatch):
     with locked_folder(kept):
         assert kept.stat().st_mode & 0o777 == 0o700
         assert call(["serve", "--port", "0", "--no-browser", "--out", str(kept)]) == 2
-        said = capsys.readouterr().err
-        assert said.startswith(f"stylobate: {kept} is not free: a page is served from it already; ")
-        assert said.count("\n") == 1
+        message = capsys.readouterr().err
+        assert message.startswith(f"stylobate: {kept} is not free: a page is served from it already; ")
+        assert message.count("\n") == 1
     with locked_folder(kept):  # it is free again
         pass
 

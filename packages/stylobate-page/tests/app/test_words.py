@@ -25,7 +25,7 @@ COMMAND = re.compile(r"\bstylobate [a-z]|command line|same command")
 
 
 @pytest.mark.parametrize(
-    ("said", "shown"),
+    ("sentence", "shown"),
     [
         ("a states no unit: `unit='g'`, or gal.", "a states no unit: “Unit” g, or gal."),
         ("state it: `dt=0.01`.", "state it: “Step” 0.01s."),
@@ -35,9 +35,9 @@ COMMAND = re.compile(r"\bstylobate [a-z]|command line|same command")
         ("a drum -- or two--three - is -1 m; <!-- no -->", "a drum -- or two--three - is -1 m; <!-- no -->"),
     ],
 )  # fmt: skip
-def test_parameters_and_options_become_fields(said, shown):
-    assert in_page_words(said) == shown
-    assert in_page_words({"a": [said, 1, None]}) == {"a": [shown, 1, None]}
+def test_parameters_and_options_become_fields(sentence, shown):
+    assert in_page_words(sentence) == shown
+    assert in_page_words({"a": [sentence, 1, None]}) == {"a": [shown, 1, None]}
 
 
 def test_an_error_is_about_a_field_in_its_unit():
@@ -51,7 +51,7 @@ def test_an_error_is_about_a_field_in_its_unit():
 
 
 def test_the_scripts_take_the_names_of_fields_from_one_list():
-    scripts = "".join(one.read_text(encoding="utf-8") for one in STATIC.glob("*.js"))
+    scripts = "".join(script.read_text(encoding="utf-8") for script in STATIC.glob("*.js"))
     assert {name for name in LABELS if f"labels.{name}" not in scripts} == set()
     assert set(re.findall(r"labels\.(\w+)", scripts)) == set(LABELS)
 
@@ -67,9 +67,9 @@ def test_the_page_itself_names_no_option():
 def test_what_a_job_says_is_in_words_of_the_page(tmp_path):
     job = Job("a", tmp_path, "run", "one", [["run", "--tail=5s"]], {"column": {"name": "--tail"}})
     job.results = [{"certainty": {"sentence": "give `tail=5`"}}]
-    told = job.to_dict()
-    assert told["results"] == [{"certainty": {"sentence": "give “Tail after the motion” 5s"}}]
-    assert told["asked"]["column"]["name"] == "--tail"  # what was typed stays
+    contents = job.to_dict()
+    assert contents["results"] == [{"certainty": {"sentence": "give “Tail after the motion” 5s"}}]
+    assert contents["asked"]["column"]["name"] == "--tail"  # what was typed stays
     assert job.lines() == b"stylobate run --tail=5s\n"
 
 
@@ -106,23 +106,23 @@ def test_every_request_hears_its_own_warnings():
             heard.setdefault(number, []).append(warned(doubts))
 
     threads = [threading.Thread(target=ask, args=(number,)) for number in range(8)]
-    for one in threads:
-        one.start()
-    for one in threads:
-        one.join()
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
     assert heard == {number: [[f"doubt {number}", f"more {number}"]] * 5 for number in range(8)}
 
 
 def lists(name):
     """Lists by name of an object of lists in the form of a column, with the lists that it takes in."""
     text = (STATIC / "column.js").read_text(encoding="utf-8")
-    shared = {word: re.findall(r'"(\w+)"', some) for word, some in re.findall(r"\b([A-Z]+) = \[(.*?)\]", text)}
+    shared = {word: re.findall(r'"(\w+)"', items) for word, items in re.findall(r"\b([A-Z]+) = \[(.*?)\]", text)}
     body = re.search(rf"const {name} = \{{(.*?)\}};", text, re.DOTALL).group(1)
-    found = {}
-    for kind, some, whole in re.findall(r"(\w+): (?:\[(.*?)\]|([A-Z]+))", body):
-        taken = [key for word in re.findall(r"\.\.\.([A-Z]+)", some) for key in shared[word]]
-        found[kind] = {*re.findall(r'"(\w+)"', some), *taken, *shared.get(whole, ())}
-    return found
+    keys_by_kind = {}
+    for kind, items, whole in re.findall(r"(\w+): (?:\[(.*?)\]|([A-Z]+))", body):
+        taken = [key for word in re.findall(r"\.\.\.([A-Z]+)", items) for key in shared[word]]
+        keys_by_kind[kind] = {*re.findall(r'"(\w+)"', items), *taken, *shared.get(whole, ())}
+    return keys_by_kind
 
 
 def test_the_form_of_a_column_knows_every_kind_of_link_by_what_it_has():
@@ -131,7 +131,7 @@ def test_the_form_of_a_column_knows_every_kind_of_link_by_what_it_has():
     text = (STATIC / "column.js").read_text(encoding="utf-8")
     words = {*re.findall(r'(\w+): "', re.search(r"const WORDS = \{(.*?)\};", text, re.DOTALL).group(1))}
     for kind, made in COLUMN_KINDS.items():
-        fields = {one.name for one in dataclasses.fields(made)} - {"between", "numbers", "name"}
+        fields = {field.name for field in dataclasses.fields(made)} - {"between", "numbers", "name"}
         assert shown[kind] | more[kind] <= fields & words
         assert not shown[kind] & more[kind]
 
@@ -139,10 +139,10 @@ def test_the_form_of_a_column_knows_every_kind_of_link_by_what_it_has():
 #: Bad input of every kind of job: what it has instead of good input.
 ODD = {
     "run": [
-        *({"replicates": one} for one in ("x", "-1", "1e9", "0.5")),
-        *({"tail": one} for one in ("x", "-1s", "5", "1e9s")),
-        *({"model": one} for one in ("hausner", "housner", "")),
-        *({"settings": one} for one in ({"points": "0"}, {"point": "2"}, {"law": "bed"}, {"losses": "wood"})),
+        *({"replicates": replicates} for replicates in ("x", "-1", "1e9", "0.5")),
+        *({"tail": tail} for tail in ("x", "-1s", "5", "1e9s")),
+        *({"model": model} for model in ("hausner", "housner", "")),
+        *({"settings": settings} for settings in ({"points": "0"}, {"point": "2"}, {"law": "bed"}, {"losses": "wood"})),
     ],
     "critical": [
         {"first": "0.5g", "last": "0.1g", "step": "0.1g"},
@@ -159,35 +159,35 @@ ODD = {
     ],
     "ida": [
         {"records": []},
-        *({"records": ["sample:el-centro-1940"], "runs": one} for one in ("x", "2", "1e9")),
-        *({"records": ["sample:el-centro-1940"], "im": one} for one in ("x", "d5_95", "sa:x")),
+        *({"records": ["sample:el-centro-1940"], "runs": runs} for runs in ("x", "2", "1e9")),
+        *({"records": ["sample:el-centro-1940"], "im": measure} for measure in ("x", "d5_95", "sa:x")),
         {"records": ["sample:nowhere"]},
         {"records": ["sample:el-centro-1940", "sample:el-centro-1940"]},
         {"records": ["sample:el-centro-1940"], "unit": "furlong"},
     ],
-    "directions": [{"options": {"azimuths": one}} for one in ("x", "0:360:13", "0:330", "0:330:0", "0:330:1000000")],
+    "directions": [{"options": {"azimuths": angles}} for angles in ("x", "0:360:13", "0:330", "0:330:0", "0:330:1000000")],
     "compare": [
-        *({"options": {"models": one}} for one in ("", "dem2d,dem2d", "dem2d,hausner", "dem2d,housner")),
+        *({"options": {"models": models}} for models in ("", "dem2d,dem2d", "dem2d,hausner", "dem2d,housner")),
         {"options": {"models": "dem2d"}, "tail": "x"},
     ],
     "sequence": [
-        *({"options": {"repeat": one}} for one in ("x", "0", "-1", "1000000")),
-        *({"options": {"rest": one}} for one in ("x", "-1", "1e9")),
-        *({"options": {"factors": one}} for one in ("x", "1,,2", "-1", "0")),
+        *({"options": {"repeat": repeats}} for repeats in ("x", "0", "-1", "1000000")),
+        *({"options": {"rest": rest}} for rest in ("x", "-1", "1e9")),
+        *({"options": {"factors": factors}} for factors in ("x", "1,,2", "-1", "0")),
         {"options": {"factors": "1,2,3"}, "records": ["sample:el-centro-1940", "sample:waipukurau-2018"]},
         {"options": {"unit": "g"}, "records": ["sample:el-centro-1940"]},
         {"options": {"replicates": "x"}},
     ],
     "risk": [
-        *({"hazards": {"a.csv": one}} for one in ("", "x", "im,rate\n1,2\n", HAZARD.replace("pgv_m_s", "pga_g"))),
-        *({"table": one} for one in ("", "x", "record,im\na,1\n", RUNS[:80], RUNS.replace("0.4", "x", 1))),
-        *({"options": one} for one in ({"im": "x"}, {"im": "pga"}, {"state": "x"}, {"state": "top:0.35d"}, {})),
+        *({"hazards": {"a.csv": hazard}} for hazard in ("", "x", "im,rate\n1,2\n", HAZARD.replace("pgv_m_s", "pga_g"))),
+        *({"table": table} for table in ("", "x", "record,im\na,1\n", RUNS[:80], RUNS.replace("0.4", "x", 1))),
+        *({"options": options} for options in ({"im": "x"}, {"im": "pga"}, {"state": "x"}, {"state": "top:0.35d"}, {})),
     ],
-    "survival": [{"options": {"im": "pgv", "age": one}} for one in ("x", "-1", "0", "1e9", "")],
+    "survival": [{"options": {"im": "pgv", "age": age}} for age in ("x", "-1", "0", "1e9", "")],
     "modes": [
-        *({"options": {"number": one}} for one in ("x", "0", "")),
-        *({"options": {"measured": one, "ground": "rigid"}} for one in ("x", "12Hz", "12s±3%", "1e9Hz±3%", "900Hz±3%")),
-        *({"options": {"measured": "12Hz±3%", "ground": one}} for one in ("", "x", "vs=200", "vs=1m/s,half_width=4m")),
+        *({"options": {"number": number}} for number in ("x", "0", "")),
+        *({"options": {"measured": mode, "ground": "rigid"}} for mode in ("x", "12Hz", "12s±3%", "1e9Hz±3%", "900Hz±3%")),
+        *({"options": {"measured": "12Hz±3%", "ground": ground}} for ground in ("", "x", "vs=200", "vs=1m/s,half_width=4m")),
         {"options": {"ground": "rigid"}},
     ],
 }  # fmt: skip
@@ -195,26 +195,28 @@ ODD = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ODD)
-def test_no_job_names_an_option_or_a_command(fresh, asked, tmp_path, monkeypatch, kind):
+def test_no_job_names_an_option_or_a_command(fresh, run_request, tmp_path, monkeypatch, kind):
     """What the page refuses, and what the process of jobs says of the rest."""
     good = (
         {"table": RUNS, "hazards": {"a.csv": HAZARD}, "options": {"im": "pgv"}} if kind in ("risk", "survival") else {}
     )
-    good |= {"motion": asked["motion"] | {"text": "1Hz,?g,1s"}} if kind == "critical" else {}
+    good |= {"motion": run_request["motion"] | {"text": "1Hz,?g,1s"}} if kind == "critical" else {}
     refused = 0
     for change in ODD[kind]:
-        answer, told = fresh.post("/api/jobs", json=asked | {"kind": kind} | good | change), []
+        answer, messages = fresh.post("/api/jobs", json=run_request | {"kind": kind} | good | change), []
         if answer.status_code == 422:
-            told.append(answer.json()["error"])
+            messages.append(answer.json()["error"])
         else:
             folder = tmp_path / "jobs" / answer.json()["id"]
             requests = json.loads((folder / "job.json").read_text())["requests"]
             monkeypatch.chdir(folder)
-            worker.work({"id": "a", "folder": str(folder)}, requests, lambda told=told, **what: told.append(what))
-            told = [in_page_words(what[key]) for what in told if "code" in what for key in ("said", "complained")]
-        said = str(told)
-        refused += bool(told)
-        assert OPTION.search(said) is None, (change, said)
-        assert COMMAND.search(said) is None, (change, said)
-        assert "`" not in said, (change, said)
+            worker.work({"id": "a", "folder": str(folder)}, requests, lambda log=messages, **what: log.append(what))
+            messages = [
+                in_page_words(what[key]) for what in messages if "code" in what for key in ("said", "complained")
+            ]
+        text = str(messages)
+        refused += bool(messages)
+        assert OPTION.search(text) is None, (change, text)
+        assert COMMAND.search(text) is None, (change, text)
+        assert "`" not in text, (change, text)
     assert refused

@@ -96,31 +96,35 @@ def write_report(
     target = Path(out)
     if target.suffix.lower() not in (".html", ".htm"):
         raise InputError(f"{target} ends in {target.suffix!r}; a report is an HTML file: name it such as report.html.")
-    found = [one for given in results for one in ([given] if isinstance(given, Result) else read_results([given]))]
-    if not found:
+    all_results = [
+        result for given in results for result in ([given] if isinstance(given, Result) else read_results([given]))
+    ]
+    if not all_results:
         raise InputError("no result is given to report; give the folder in which a command wrote it.")
     names = [target.name, *([target.with_suffix(".pdf").name] if pdf else [])]
     with output_folder(target.parent, names) as folder:
-        return _write(found, folder / target.name, title, pdf, project)
+        return _write(all_results, folder / target.name, title, pdf, project)
 
 
-def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, project: Project | None) -> list[Path]:
+def _write(
+    results: Sequence[Result], target: Path, title: str | None, pdf: bool, project: Project | None
+) -> list[Path]:
     shown: dict[bytes, int] = {}
-    own = _names(found) | ({project.site} if project is not None else set())
+    own = _names(results) | ({project.site} if project is not None else set())
     language = language_of("en" if project is None else project.language, own)
     with speaking(language):
         cases = []
-        for number, one in enumerate(found, start=1):
-            _log.info("case %d of %d: %s, %s.", number, len(found), one.kind.value, one.folder)
-            cases.append(_case(one, number, shown, found, language))
+        for number, result in enumerate(results, start=1):
+            _log.info("case %d of %d: %s, %s.", number, len(results), result.kind.value, result.folder)
+            cases.append(_case(result, number, shown, results, language))
     notes = _notes([case["notes"] for case in cases]) if project is not None or len(cases) > 1 else []
     front = []
     if project is not None:
-        front = [page.part(language.section(section)) for section in front_sections(project, found, cases, notes)]
+        front = [page.part(language.section(section)) for section in front_sections(project, results, cases, notes)]
     cited = list(dict.fromkeys(text for case in cases for text in case["cited"]))
-    end = [files_section(found), page.Section(SOURCES, [page.Points(list(map(page.Exact, cited)))])]
-    names = _heading(found, project)
-    kinds = joined(", ", dict.fromkeys(TITLES[one.kind.value] for one in found))
+    end = [files_section(results), page.Section(SOURCES, [page.Points(list(map(page.Exact, cited)))])]
+    names = _heading(results, project)
+    kinds = joined(", ", dict.fromkeys(TITLES[result.kind.value] for result in results))
     day = date.today().isoformat()
     written = say(
         "{kinds:capital}. Written on {day} by stylobate {version}.",
@@ -130,7 +134,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool, 
     )
     lead = [language.say(written)]
     values = {
-        "notes": page.kinds([language.item(one) for one in notes]),
+        "notes": page.kinds([language.item(note) for note in notes]),
         "version": __version__,
         "day": day,
         "lead": page.kinds(lead),
@@ -173,36 +177,36 @@ def _spoken(language: Language) -> list[page.Item]:
     """How numbers are written, and which parts of the report stayed English; nothing of a report in English."""
     if not language.foreign:
         return []
-    said = [language.say(SPOKEN_IN)]
+    texts = [language.say(SPOKEN_IN)]
     if language.english:
-        said.append(language.say(PARTS_IN_ENGLISH.of(sections=Exact(", ".join(language.english)))))
-    return [page.Note(said, "fair" if language.english else "")]
+        texts.append(language.say(PARTS_IN_ENGLISH.of(sections=Exact(", ".join(language.english)))))
+    return [page.Note(texts, "fair" if language.english else "")]
 
 
-def _heading(found: Sequence[Result], project: Project | None) -> str:
+def _heading(results: Sequence[Result], project: Project | None) -> str:
     """What a report is of: the site of its project, or what stands; the name of a result where nothing is known to stand."""
     if project is not None:
         return project.site
-    standing = dict.fromkeys(stands.name for one in found for stands in one.structures)
-    return ", ".join(standing or dict.fromkeys(one.name for one in found))
+    standing = dict.fromkeys(stands.name for result in results for stands in result.structures)
+    return ", ".join(standing or dict.fromkeys(result.name for result in results))
 
 
-def _names(found: Sequence[Result]) -> set[str]:
+def _names(results: Sequence[Result]) -> set[str]:
     """Names that people gave, of which a report translates nothing."""
-    asked = [one.asked for one in found if one.asked is not None]
-    motions = [str(motion.get(key)) for one in asked for motion in one.motions for key in ("name", "record")]
-    runs = [run for one in found for run in (one.runs if isinstance(one, SeveralRuns) else (one,))]
-    motions += [str(one.response.provenance.get("motion")) for one in runs if isinstance(one, RunResult)]
-    standing = [stands for one in found for stands in one.structures if stands.stack is None]
-    compared = [one for one in found if isinstance(one, Numbers) and one.kind is Kind.STATES]
-    labels = [state["label"] for one in compared for state in one.summary["states"]]
+    requests = [result.asked for result in results if result.asked is not None]
+    motions = [str(motion.get(key)) for request in requests for motion in request.motions for key in ("name", "record")]
+    runs = [run for result in results for run in (result.runs if isinstance(result, SeveralRuns) else (result,))]
+    motions += [str(run.response.provenance.get("motion")) for run in runs if isinstance(run, RunResult)]
+    standing = [stands for result in results for stands in result.structures if stands.stack is None]
+    compared = [result for result in results if isinstance(result, Numbers) and result.kind is Kind.STATES]
+    labels = [state["label"] for result in compared for state in result.summary["states"]]
     bodies = [body.name for stands in standing for body in stands.bodies if not (body.fixed and body.name == "ground")]
     given = {
         *motions,
         *(name for name in bodies if not numbered(name)),
         *(label for label in labels if label not in NO_MEASURE),
-        *(one.name for one in found),
-        *(stands.name for one in found for stands in one.structures),
+        *(result.name for result in results),
+        *(stands.name for result in results for stands in result.structures),
     }
     return given - {*TITLES.values()}
 
@@ -214,8 +218,8 @@ def _case(
     sections = _sections_of(result, all_)
     notes = [item for item in sections[0].items if isinstance(item, page.Note) and "verdict" in item.look]
     verdict = joined(" ", (text for note in notes for text in note.texts[: note.first]))
-    said = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
-    known = [text.values["text"] for text in said if isinstance(text, Message) and text.template == NOTE]
+    texts = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
+    known = [text.values["text"] for text in texts if isinstance(text, Message) and text.template == NOTE]
     sources = [item for part in sections if part.title == SOURCES for item in part.items]
     rest = [part for part in sections[1:] if part.title != SOURCES]
     parts = [sections[0], *(_once(part, number, shown) for part in rest)]
@@ -248,14 +252,14 @@ def _once(section: page.Section, number: int, shown: dict[bytes, int]) -> page.S
 
 def _notes(notes: Sequence[Sequence[str]]) -> list[page.Item]:
     """Caveats for the reader before relying on any of the results, each once, with the results that it holds for."""
-    told: dict[str, list[int]] = {}
+    cases_by_text: dict[str, list[int]] = {}
     for number, texts in enumerate(notes, start=1):
         for text in dict.fromkeys(texts):
-            told.setdefault(text, []).append(number)
+            cases_by_text.setdefault(text, []).append(number)
     on, on_all = say("On {cases}: {text}"), say("On all of them: {text}")
     each = [
         (on_all if len(cases) == len(notes) else on).of(cases=", ".join(map(str, cases)), text=text)
-        for text, cases in told.items()
+        for text, cases in cases_by_text.items()
     ]
     return [page.Note(each, "fair")] if each else []
 
@@ -279,7 +283,7 @@ def _sections(result: Result, all_: Sequence[Result]) -> list[page.Section]:
     if isinstance(result, SeveralRuns):
         return several_sections(result)
     mine = {structure.digest for structure in result.structures}
-    runs = [one for one in all_ if isinstance(one, RunResult) and one.response.structure.digest in mine]
+    runs = [run for run in all_ if isinstance(run, RunResult) and run.response.structure.digest in mine]
     return sections_of(result, next((run for run in runs if run.motion is not None), None))
 
 

@@ -63,19 +63,19 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
     low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
     how_many = say("none") if not fell else say("all") if fell == number else str(fell)
     words = say("Of {count} {like} like this one, {fell} collapse")
-    said = (say("Of {count} {like} like this one, {fell} collapses") if fell == 1 else words).of(
+    sentence = (say("Of {count} {like} like this one, {fell} collapses") if fell == 1 else words).of(
         count=number, like=say(like), fell=how_many
     )
     if low is not None and high is not None:
-        said += say(
+        sentence += say(
             " ({share}): under this motion and in this model the probability of collapse is {range}, with "
             "{level} confidence",
             share=percents(fell / number, (fell + open_) / number), range=percents(low, high),
             level=percent(known.get("confidence", 0.95)),
         )  # fmt: skip
         if alone := known.get("interval_of_columns"):
-            said += say(" ({alone} if the law of its joints were known)", alone=percents(*alone))
-    texts = [said + "."]
+            sentence += say(" ({alone} if the law of its joints were known)", alone=percents(*alone))
+    texts = [sentence + "."]
     if open_:
         both = say("{count} of them had not come to rest and are counted both ways.")
         texts.append(
@@ -92,8 +92,8 @@ def beside_them(summary: Mapping[str, Any]) -> str:
     if not isinstance(known, Mapping):
         return ""
     limits = tuple(known["interval"]) if known.get("interval") else None
-    said = set_against(summary, known, float(known.get("confidence") or 0.95), limits)
-    return said or str(known.get("beside") or "")
+    sentence = set_against(summary, known, float(known.get("confidence") or 0.95), limits)
+    return sentence or str(known.get("beside") or "")
 
 
 def certainty_section(summary: Mapping[str, Any]) -> Section | None:
@@ -103,7 +103,7 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
         return None
     low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
     like = str(known.get("like", "columns"))
-    one = ONE_OF.get(like, "structure")
+    singular = ONE_OF.get(like, "structure")
     counts = joined(" / ", (str(known.get(name, 0)) for name in ("collapsed", "stands", "undecided", "failed")))
     pairs = [
         (say("{like} computed: collapse / stand / undecided / could not be computed", like=say(like)), counts),
@@ -126,8 +126,8 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
         spread = known.get(key)
         if isinstance(spread, list):
             shown = [
-                say("collapse") if one is None else n.length(one) if key.endswith("_m") else digits(one, ".4f")
-                for one in spread
+                say("collapse") if value is None else n.length(value) if key.endswith("_m") else digits(value, ".4f")
+                for value in spread
             ]
             own = None if summary.get("collapsed") else summary.get(key)
             far = n.length(own) if key.endswith("_m") else digits(own or 0.0, ".4f")
@@ -144,7 +144,7 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
         pairs.append(
             (
                 say("does not vary, because the model does not take it"),
-                joined(", ", (say(one.replace("_", " ")) for one in known["left_out"])),
+                joined(", ", (say(name.replace("_", " ")) for name in known["left_out"])),
             )
         )
     if known.get("offsets_reduced"):
@@ -157,7 +157,7 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
             "Nobody knows {one} to the last digit. The same motion was computed for {like} that differ from this one "
             "by as much as a survey leaves open; the share of them that collapses says how far the verdict can be "
             "relied on. It does not say how probable this earthquake is, nor how well the model fits nature.",
-            one=one,
+            one=singular,
             like=say(like),
         ),
         Facts(pairs),
@@ -168,7 +168,9 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
 
 def _bodies(known: Mapping[str, Any]) -> list[Item]:
     """Of each body of an assembly that fell or is undecided in some of those like it, in how many, and where it was."""
-    bodies = {key: one for key, one in (known.get("bodies") or {}).items() if one.get("fell") or one.get("undecided")}
+    bodies = {
+        key: body for key, body in (known.get("bodies") or {}).items() if body.get("fell") or body.get("undecided")
+    }
     if not bodies:
         return []
     header = [
@@ -184,15 +186,15 @@ def _bodies(known: Mapping[str, Any]) -> list[Item]:
     rows = [
         [
             name,
-            str(one["fell"]),
-            str(one["undecided"]),
-            percents(one["interval_low"], one["interval_high"]),
-            *(digits(one[key], ".2f") for key in ("middle_x_m", "middle_y_m", "region_50_m", "region_90_m")),
+            str(body["fell"]),
+            str(body["undecided"]),
+            percents(body["interval_low"], body["interval_high"]),
+            *(digits(body[key], ".2f") for key in ("middle_x_m", "middle_y_m", "region_50_m", "region_90_m")),
         ]
-        for name, one in sorted(bodies.items(), key=lambda pair: (-pair[1]["fell"], -pair[1]["undecided"]))
+        for name, body in sorted(bodies.items(), key=lambda pair: (-pair[1]["fell"], -pair[1]["undecided"]))
     ]
-    seen = only_as_seen(max(sum(one[key] for key in ("fell", "stood", "undecided")) for one in bodies.values()))
-    said = (
+    seen = only_as_seen(max(sum(body[key] for key in ("fell", "stood", "undecided")) for body in bodies.values()))
+    caption = (
         say(
             "Bodies that fell, or are undecided, in some of them: {over}, the median way in plan from where each "
             "stood to where it was when its run ended, and within which distances of that half and 90 % of the runs "
@@ -200,4 +202,4 @@ def _bodies(known: Mapping[str, Any]) -> list[Item]:
             over=OVER_ALL,
         )
     ) + (say(" {seen:capital}.", seen=seen) if seen else "")
-    return [Rows(header, rows, said, numbers=True)]
+    return [Rows(header, rows, caption, numbers=True)]

@@ -27,9 +27,9 @@ def records_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items += kept(
         result.pictures, "records", say("Spectra of the scaled records, their mean, the target, and the misfit.")
     )
-    if drifting := [str(one["record"]) for one in s["records"] if one.get("drift_m")]:
-        said = say("Displacements of these records drift after double integration; correct the baseline first:")
-        items.append(Note([said, joined(", ", drifting)], "fair"))
+    if drifting := [str(record["record"]) for record in s["records"] if record.get("drift_m")]:
+        warning = say("Displacements of these records drift after double integration; correct the baseline first:")
+        items.append(Note([warning, joined(", ", drifting)], "fair"))
     if s["refused"]:
         body = [[Exact(name), why] for name, why in s["refused"].items()]
         items.append(
@@ -45,8 +45,8 @@ def calibration_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """Losses with their intervals, and how well the motion with them follows the measured one."""
     s, body = result.summary, []
     for name, unit in (("stiffness_damping", "s"), ("rolling_resistance", "–")):
-        if one := s.get(name):
-            numbers = (n.plain(one[key]) for key in ("value", "low", "high", "told"))
+        if loss := s.get(name):
+            numbers = (n.plain(loss[key]) for key in ("value", "low", "high", "told"))
             body.append([Exact(f"{name} [{unit}]"), *numbers])
     header = [say("loss"), say("value"), say("low"), say("high"), say("told by the history")]
     items: list[Item] = [
@@ -109,13 +109,19 @@ def modes_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         header = ["", *map(say, ("median", "low", "high")), say("low side by"), say("high side by")]
         items.append(Rows(header, body, say("Joints by the measured frequencies, intervals of 95 %."), numbers=True))
         best = [
-            one | {"best_hz": inferred["best_hz"][f"{one['kind']} {one['number']}"]} for one in inferred["measured"]
+            frequency | {"best_hz": inferred["best_hz"][f"{frequency['kind']} {frequency['number']}"]}
+            for frequency in inferred["measured"]
         ]
         keys = ["kind", "number", "frequency_hz", "standard_deviation_hz", "best_hz"]
         items.append(table(best, keys, say("What was measured, and the frequencies of the best stiffnesses.")))
     if s["drops"]:
-        header = [say("{kind} {number}", kind=say(one["kind"]), number=one["number"]) for one in s["drops"][0]["drops"]]
-        body = [[row["joint"], *(digits(100.0 * one["drop"], ".2g") for one in row["drops"])] for row in s["drops"]]
+        header = [
+            say("{kind} {number}", kind=say(change["kind"]), number=change["number"])
+            for change in s["drops"][0]["drops"]
+        ]
+        body = [
+            [row["joint"], *(digits(100.0 * change["drop"], ".2g") for change in row["drops"])] for row in s["drops"]
+        ]
         words = say("Change of each frequency [%] where {share} of the stiffness of one joint remains.")
         items.append(Rows([say("joint"), *header], body, words.of(share=percent(s["left"])), numbers=True))
     notes = [*inferred.get("open", ()), *s["left_out"]]

@@ -31,7 +31,7 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     records = s.get("records") or []
     pairs = [
         (say("runs"), n.plain(s["runs"])),
-        (joined(" / ", map(say, v.COMPUTED)), joined(" / ", (n.plain(s.get(one)) for one in v.COMPUTED))),
+        (joined(" / ", map(say, v.COMPUTED)), joined(" / ", (n.plain(s.get(name)) for name in v.COMPUTED))),
     ]
     if (own := s.get("as_recorded")) is not None:
         pairs.append((say("the record as it is"), as_recorded(own)))
@@ -40,8 +40,13 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         items += _twins(s)
     if s.get("alternation"):
         rows = [
-            [digits(one["from_g"], ".4g"), digits(one["to_g"], ".4g"), say(one["verdict"]), str(one["runs"])]
-            for one in s["alternation"]
+            [
+                digits(stretch["from_g"], ".4g"),
+                digits(stretch["to_g"], ".4g"),
+                say(stretch["verdict"]),
+                str(stretch["runs"]),
+            ]
+            for stretch in s["alternation"]
         ]
         items.append(
             Rows(
@@ -61,14 +66,14 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     )
     items += kept(result.pictures, "directions", say("By direction of the motion."))
     recorded = say("The record as it is, {recorded}.", recorded=as_recorded(own)) if own is not None else ""
-    said = joined(" ", [s["sentence"], recorded])
-    return (said, "" if s["lowest_collapse_g"] is None else " bad"), items
+    sentence = joined(" ", [s["sentence"], recorded])
+    return (sentence, "" if s["lowest_collapse_g"] is None else " bad"), items
 
 
 def _twins(s: dict[str, Any]) -> list[Item]:
     """Columns like the one of a critical amplitude: by which amplitude shares of them fall, and the share at each."""
-    told, scale = s["certainty"], [None] * len(s["amplitudes_g"]) if s.get("factors") is None else s["factors"]
-    shown, like = told | told.get("bounds", {}), told.get("like", "columns")
+    certainty, scale = s["certainty"], [None] * len(s["amplitudes_g"]) if s.get("factors") is None else s["factors"]
+    shown, like = certainty | certainty.get("bounds", {}), certainty.get("like", "columns")
     fallen = say("{share} % of {count} {like} like this one have fallen by")
     pairs = [
         (fallen.of(share=share, count=s["replicates"], like=say(like)), say("{at} g", at=n.plain(shown[name])))
@@ -76,7 +81,7 @@ def _twins(s: dict[str, Any]) -> list[Item]:
         if shown.get(name := f"critical_{share}_g") is not None
     ]
     limits = zip(s["collapse_interval_low"], s["collapse_interval_high"])
-    counts = zip(*(s[f"twins_{one}"] for one in v.COMPUTED))
+    counts = zip(*(s[f"twins_{name}"] for name in v.COMPUTED))
     rows = [
         [digits(a, ".4g"), n.plain(factor), *map(str, verdicts), _share(*verdicts[:3]), percents(*interval)]
         for a, factor, verdicts, interval in zip(s["amplitudes_g"], scale, counts, limits)

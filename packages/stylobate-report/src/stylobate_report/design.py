@@ -66,8 +66,10 @@ def design_of(result: Result) -> Design | None:
             return None
         values = design_values(SideBySide(list(result.responses.values()), list(result.responses)))
         motions = result.asked.motions if result.asked is not None else ()
-        each = [one.get("peaks_g") or {} for one in motions]
-        peaks = [max((one[axis] for axis in "xy" if axis in one), default=0.0) for one in each]
+        each = [motion.get("peaks_g") or {} for motion in motions]
+        peaks = [
+            max((motion_peaks[axis] for axis in "xy" if axis in motion_peaks), default=0.0) for motion_peaks in each
+        ]
         return Design(values, _as_scaled([1.0], peaks or [0.0])) if len(values) else None
     tables = result.tables if isinstance(result, Numbers) else {}
     values = tables.get("design")
@@ -108,7 +110,7 @@ def design_items(design: Design | None, pictures: dict[str, Path]) -> list[Item]
     which = WHICH_LEVEL if where(values) and "told" in values else ""
     items: list[Item] = []
     if len(worst := worst_of(values)):
-        limited, acts = (told if set(told.values()) <= set(worst) else {} for told in (LIMITED, ACTS))
+        limited, acts = (columns if set(columns.values()) <= set(worst) else {} for columns in (LIMITED, ACTS))
         texts = [
             say("Design values") + meant,
             say("Both also over the capacity; links used most come first."),
@@ -136,8 +138,8 @@ def design_items(design: Design | None, pictures: dict[str, Path]) -> list[Item]
 def governing_rows(design: Design) -> list[list[str]]:
     """Of every state the rows of the link that governs, as of :data:`SHOWN`."""
     values, level = design
-    each = [governing(some) for _, some in values.groupby("state", sort=False)]
-    return [row for some in each for row in _texts(some, SHOWN, level)]
+    each = [governing(group) for _, group in values.groupby("state", sort=False)]
+    return [row for frame in each for row in _texts(frame, SHOWN, level)]
 
 
 def _rows(values: pandas.DataFrame, shown: dict[str, str], caption: str, level: str) -> Rows:
@@ -145,5 +147,5 @@ def _rows(values: pandas.DataFrame, shown: dict[str, str], caption: str, level: 
 
 
 def _texts(values: pandas.DataFrame, shown: dict[str, str], level: str) -> list[list[str]]:
-    rows = as_read(values.assign(level=[say(level, level=n.plain(one)) for one in values["level"].tolist()]))
-    return [[n.plain(one[key]) for key in shown.values()] for one in rows.to_dict("records")]
+    rows = as_read(values.assign(level=[say(level, level=n.plain(value)) for value in values["level"].tolist()]))
+    return [[n.plain(row[key]) for key in shown.values()] for row in rows.to_dict("records")]

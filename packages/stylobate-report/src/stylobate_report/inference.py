@@ -12,8 +12,8 @@ from .tables import table
 
 def inference_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """The sentence of an inference, and its tables and pictures."""
-    s, odd = result.summary, [one for one in result.summary["checks"] if one["odd"]]
-    rows = [{"parameter": name, **one} for name, one in s["posterior"].items()]
+    s, odd = result.summary, [check for check in result.summary["checks"] if check["odd"]]
+    rows = [{"parameter": name, **marginal} for name, marginal in s["posterior"].items()]
     keys = ["parameter", "median", "low", "high", "spread_over_prior", "informative"]
     items: list[Item] = [
         table(
@@ -26,11 +26,14 @@ def inference_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     ]
     items += kept(result.pictures, "infer", say("Posterior of the shaking; the prior is grey."))
     if odd:
-        said = joined(
-            "; ", (say("{one[observation]}, where the rest predicts {one[expected]}", one=one) for one in odd)
+        listing = joined(
+            "; ", (say("{one[observation]}, where the rest predicts {one[expected]}", one=check) for check in odd)
         )
-        items.append(Note([say("Not as shaking alone would leave it: {said}.", said=said)], "verdict bad"))
-    seen = [one | {"chance": check["chance"]} for one, check in zip(s["observations"], s["checks"], strict=True)]
+        items.append(Note([say("Not as shaking alone would leave it: {said}.", said=listing)], "verdict bad"))
+    seen = [
+        observation | {"chance": check["chance"]}
+        for observation, check in zip(s["observations"], s["checks"], strict=True)
+    ]
     if seen:
         caption = say("Spread of ln PGV over the prior's with an observation alone and without it; chance by all else.")
         items.append(table(seen, ["observation", "spread_alone", "spread_without", "chance"], caption))

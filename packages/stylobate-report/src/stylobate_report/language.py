@@ -103,10 +103,10 @@ class Language:
         )
 
     def _template(self, template: str) -> str:
-        found = self.catalogue.get(template)
-        if found is None and template not in self.own and has_words(template):
+        translation = self.catalogue.get(template)
+        if translation is None and template not in self.own and has_words(template):
             self.missing.setdefault(str(template))
-        return template if found is None else found
+        return template if translation is None else translation
 
     def _name(self, text: str) -> str:
         """A name as it is; nouns of one that the program has given in this language."""
@@ -142,7 +142,7 @@ class Language:
         """A section in this language; that a part of it stayed English is kept in mind."""
         before = len(self.missing)
         title = self.say(section.title)
-        items = [self.item(one) for one in section.items]
+        items = [self.item(item) for item in section.items]
         if len(self.missing) > before:
             self.english.setdefault(title)
         return Section(title, items)
@@ -198,19 +198,19 @@ def language_of(name: str, own: Iterable[str] = ()) -> Language:
     if name == "en":
         return Language()
     if name not in LANGUAGES and not name.endswith(".po"):
-        known = ", ".join(f'"{one}"' for one in ("en", *LANGUAGES))
+        known = ", ".join(f'"{tag}"' for tag in ("en", *LANGUAGES))
         raise InputError(
             f"language is {name!r}; it is one of {known}, or a catalogue such as de.po, of which 'stylobate report' writes "
             "a template.",
             "language",
         )
-    found = dict(catalogue_of(file_of(name) if name in LANGUAGES else Path(name)))
-    head = dict(line.partition(": ")[::2] for line in found.pop("", "").splitlines())
+    catalogue = dict(catalogue_of(file_of(name) if name in LANGUAGES else Path(name)))
+    head = dict(line.partition(": ")[::2] for line in catalogue.pop("", "").splitlines())
     if not head.get("Language"):
         raise InputError(
             f"{printable(name)} states no Language in its head; add it there, such as Language: de.", "language"
         )
-    return Language(head["Language"], found, own, head.get(DECIMAL, "."), head.get(GROUPS, ","))
+    return Language(head["Language"], catalogue, own, head.get(DECIMAL, "."), head.get(GROUPS, ","))
 
 
 def file_of(tag: str) -> Path:
@@ -227,7 +227,7 @@ def catalogue_of(path: Path) -> dict[str, str]:
     InputError
         It is no catalogue, or a translation does not hold the fields of its message.
     """
-    found: dict[str, str] = {}
+    catalogue: dict[str, str] = {}
     for entry in re.split(r"\n\s*\n", read_bytes(path, MOST).decode("utf-8", "replace")):
         parts = {"msgid": "", "msgstr": ""}
         key = ""
@@ -240,16 +240,16 @@ def catalogue_of(path: Path) -> dict[str, str]:
                 parts[key] += ast.literal_eval(line[start.end() :] if start else line)
             except (KeyError, SyntaxError, TypeError, ValueError):
                 raise InputError(f"{printable(path)} is no catalogue: {line[:60]!r} is not understood.") from None
-        english, said = parts["msgid"], parts["msgstr"]
-        if not said.strip() or re.search(r"^#,.*\bfuzzy\b", entry, re.MULTILINE):
+        english, translation = parts["msgid"], parts["msgstr"]
+        if not translation.strip() or re.search(r"^#,.*\bfuzzy\b", entry, re.MULTILINE):
             continue
-        if set(FIELD.findall(said)) != set(FIELD.findall(english)) and english:
+        if set(FIELD.findall(translation)) != set(FIELD.findall(english)) and english:
             raise InputError(
                 f"{printable(path)}: the translation of {english!r} must hold "
                 f"{', '.join(FIELD.findall(english)) or 'no field'} in braces, as the message does."
             )
-        found[english] = said
-    return found
+        catalogue[english] = translation
+    return catalogue
 
 
 def write_template(path: Path) -> Path:

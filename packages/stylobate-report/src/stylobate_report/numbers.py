@@ -62,7 +62,8 @@ def plain(value: Any) -> str:
         return joined(", ", map(plain, value)) or NONE
     if isinstance(value, dict):
         return (
-            joined(", ", (say("{key}: {value}", key=say(key), value=plain(one)) for key, one in value.items())) or NONE
+            joined(", ", (say("{key}: {value}", key=say(key), value=plain(part)) for key, part in value.items()))
+            or NONE
         )
     if isinstance(value, (Message, Exact)):
         return value

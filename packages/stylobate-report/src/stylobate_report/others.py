@@ -64,7 +64,7 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
     run : RunResult, optional
         Of the same column in the same report: its motion is the demand in the capacity spectrum check of a pushover.
     """
-    asked = result.asked
+    request = result.asked
     columns = [structure.stack for structure in result.structures if structure.stack is not None]
     labels = _labels(result)
     if result.kind is Kind.STATES:
@@ -81,7 +81,7 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
             section = structure_section(structure)
             section = replace(section, title=say("The state “{label}”", label=label)) if label else section
             parts.append(section)
-        parts += [motions_section(result)] if asked is not None and asked.motions else []
+        parts += [motions_section(result)] if request is not None and request.motions else []
         parts.append(Section(say("What was found"), body))
     if result.kind is Kind.PUSHOVER and columns:
         parts.append(code_check(columns[0], result, run))
@@ -90,19 +90,21 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
         if labels[0]:
             statics = replace(statics, items=[say("Of the state “{label}”.", label=labels[0]), *statics.items])
         parts.append(statics)
-    models = [str(model["name"]) for model in asked.models] if asked is not None else []
+    models = [str(model["name"]) for model in request.models] if request is not None else []
     models = models or [str(result.summary[key]) for key in ("model",) if key in result.summary]
     if result.kind in (Kind.PUSHOVER, Kind.LIMIT):
         parts.append(static_model())
     elif models:
         parts.append(model_section(models))
-    parameters = asked.models[0]["parameters"] if asked is not None and len(asked.models) == 1 else {}
+    parameters = request.models[0]["parameters"] if request is not None and len(request.models) == 1 else {}
     parts.append(record_section(parameters, versions_of(result)))
     keys = [key for name in models if (kind := known_model(name)) for key in kind.references]
     if isinstance(result, Grid) and result.data.provenance:
         parts.append(sources_section(cite_run(result.data.provenance)))
     else:
-        keys += [key for motion in (asked.motions if asked is not None else ()) for key in motion.get("references", ())]
+        keys += [
+            key for motion in (request.motions if request is not None else ()) for key in motion.get("references", ())
+        ]
         keys += ["beaumont2002", "fearnhead2012", "mavroeidis2003", "anderson1999"] if result.kind is Kind.INFER else []
         keys += ["baraldi"] if result.kind in (Kind.PUSHOVER, Kind.LIMIT) else []
         parts.append(sources_section(cite(keys)))
@@ -112,7 +114,7 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
 def _labels(result: Result) -> list[str]:
     """Of each structure the state that it was computed as; empty where there is one, or where its runs name none."""
     kept = result.asked.structures if result.asked is not None else ()
-    names = [str(one.get("state") or "") for one in kept]
+    names = [str(structure.get("state") or "") for structure in kept]
     return names if len(names) == len(result.structures) > 1 else [""] * max(len(result.structures), 1)
 
 
@@ -137,7 +139,7 @@ def _doubts(result: Result) -> list[str]:
     """Doubts about a result: because of its model, or of the runs of others that it rests on."""
     if result.kind not in FROM_RUNS:
         doubt = result.summary.get("doubt") or ""
-        return [one for one in getattr(doubt, "parts", ()) or (doubt,) if one.strip()]
+        return [part for part in getattr(doubt, "parts", ()) or (doubt,) if part.strip()]
     curves = result.summary.get("curves") or [result.summary]
     return list(dict.fromkeys(text for curve in curves for text in curve.get("warnings") or ()))
 
@@ -211,12 +213,12 @@ def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
 
 def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     runs = result.summary["runs"]
-    found = suite_shares(runs)
+    shares = suite_shares(runs)
     rows = [{"motion": run["record"], **run, CHANCE: chance_words(run)} for run in runs]
     keys = ["column", "motion", "factor", "pga_g", "pgv_m_s", "verdict", CHANCE, "peak_top_displacement_m"]
     if "peak_displacement_m" in (runs or [{}])[0]:
         keys[-1] = "peak_displacement_m"
-    body = [[one.label, *counts_of(one)] for one in found]
+    body = [[share.label, *counts_of(share)] for share in shares]
     items: list[Item] = [
         Rows(
             [say("column"), *COUNTED],
@@ -232,9 +234,9 @@ def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items += kept(result.pictures, "suite", say("Peak response against a measure of the records."))
     items += kept(result.pictures, "directions", say("Share of collapses by direction."))
     items += design_items(design_of(result), result.pictures)
-    said = [*(one.collapses for one in found), factors_in_words(runs)]
-    said.append(result.summary.get("sentence") or result.summary.get("undecided", ""))
-    return (joined(" ", said), " bad" if any(one.exceeded for one in found) else ""), items
+    sentences = [*(share.collapses for share in shares), factors_in_words(runs)]
+    sentences.append(result.summary.get("sentence") or result.summary.get("undecided", ""))
+    return (joined(" ", sentences), " bad" if any(share.exceeded for share in shares) else ""), items
 
 
 def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -247,7 +249,7 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     keys = ["motion", "realisation", "stands_until", "collapses_from", "resurrections", "runs", "open"]
     items: list[Item] = [table(rows, keys, say("Capacity under each motion."))]
     items += kept(result.pictures, "ida", say("Response over the intensity, a curve for each record."))
-    if max((one.get("records") or 0 for one in s.get("measures") or ()), default=0) >= FEWEST:
+    if max((measure.get("records") or 0 for measure in s.get("measures") or ()), default=0) >= FEWEST:
         items.append(
             table(
                 s["measures"],
@@ -265,19 +267,19 @@ def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
         for row in rows:
             open_ = "" if row["decided"] or row["outcome"] == "failed" else say(", undecided")
             row["model"], row["outcome"] = Exact(row["model"]), say(str(row["outcome"]).replace("_", " ")) + open_
-        said = joined("; ", (say("{row[model]} {row[outcome]}", row=row) for row in rows))
+        comparison = joined("; ", (say("{row[model]} {row[outcome]}", row=row) for row in rows))
         top = "peak_top_displacement_m" in result.table
         farthest = say("Displacement of the body that has moved farthest of each model under the same motion.")
         caption = say("Top displacement of each model under the same motion.") if top else farthest
-        sentence = say("Models under one motion: {said}.", said=said)
+        sentence = say("Models under one motion: {said}.", said=comparison)
         went = [f"{when}_{'top_' * top}displacement_m" for when in ("peak", "residual")]
         keys = ["model", "outcome", "collapse_time_s", *went, "energy_imbalance"]
     else:
         differ = say("{row[first]} and {row[second]} differ in {row[differing]} of {row[comparable]} cells{open}")
         more = say(" and are undecided in {count} more")
         open_ = [more.of(count=row["undecided"]) if row.get("undecided") else "" for row in rows]
-        said = joined(", ", (differ.of(row=row, open=text) for row, text in zip(rows, open_, strict=True)))
-        sentence, caption = say("Models over one domain: {said}.", said=said), say("Boundaries of the domains.")
+        comparison = joined(", ", (differ.of(row=row, open=text) for row, text in zip(rows, open_, strict=True)))
+        sentence, caption = say("Models over one domain: {said}.", said=comparison), say("Boundaries of the domains.")
         keys = list(rows[0])[:7] if rows else []
     text = say("Where models differ, the difference says how far a verdict hangs on the model; none of them is nature.")
     return (sentence, ""), [
@@ -317,7 +319,7 @@ def _shares_of_study(study: StudyResult) -> Rows:
     """Shares by column, model and level: at each level of the cases that are finished for every column and model."""
     axes, codes = study.plan.axes, codes_of(study.verdicts).reshape(study.plan.shape)
     records = np.repeat([str(motion["record"]) for motion in axes["motions"]], study.plan.shape[-1])
-    names = [(one["column"], model["model"]) for model in axes["models"] for one in axes["columns"]]
+    names = [(column["column"], model["model"]) for model in axes["models"] for column in axes["columns"]]
     rows = []
     for place, level in enumerate(axes["levels"]):
         each = codes[:, :, :, place].reshape(len(names), -1)

@@ -214,13 +214,13 @@ def needs_browser() -> str:
     StylobateError
         There is none.
     """
-    found = find_browser()
-    if found is None:
+    browser = find_browser()
+    if browser is None:
         raise StylobateError(
             f"no Chromium is found to print with (looked for {', '.join(BROWSERS[:3])}); install one, or open the HTML file "
             "in any browser and print it from there."
         )
-    return found
+    return browser
 
 
 def print_pdf(page: Path, target: Path) -> Path:
@@ -261,8 +261,8 @@ def print_pdf(page: Path, target: Path) -> Path:
                 f"{browser} did not print {page} in {PATIENCE:.0f} s; open the HTML file in a browser and print it there."
             ) from None
         if done.returncode or not printed.is_file() or printed.read_bytes()[:5] != b"%PDF-":
-            said = done.stderr.decode("utf-8", "replace").strip().splitlines()
-            why = said[-1][:200] if said else f"it ended with code {done.returncode}"
+            lines = done.stderr.decode("utf-8", "replace").strip().splitlines()
+            why = lines[-1][:200] if lines else f"it ended with code {done.returncode}"
             raise StylobateError(
                 f"{browser} could not print {page}: {why}; open the HTML file in a browser and print it from there."
             )

@@ -26,7 +26,7 @@ def picture(figure: Figure, caption: str) -> Picture:
             text.set_text(language.say(text.get_text()))
         axes: list[Any] = figure.findobj(Axis)
         for ticks in {
-            id(one): one for axis in axes for one in [axis.get_major_formatter()]
+            id(formatter): formatter for axis in axes for formatter in [axis.get_major_formatter()]
         }.values():  # some are shared
             ticks.format_ticks = partial(_ticks, language, ticks.format_ticks)
     content = io.BytesIO()
@@ -36,7 +36,7 @@ def picture(figure: Figure, caption: str) -> Picture:
 
 def _ticks(language: Language, made: Callable[[Any], list[str]], places: Any) -> list[str]:
     """Numbers of an axis, as readers of a language write them, and names along it."""
-    return [language.say(one) if WORD.search(one) else language.numbers(one) for one in made(places)]
+    return [language.say(label) if WORD.search(label) else language.numbers(label) for label in made(places)]
 
 
 def kept(pictures: dict[str, Path], name: str, caption: str) -> list[Picture]:

@@ -80,13 +80,14 @@ def front_sections(
     apart = ("role", "place", "language")
     known = [(say(key), Exact(value)) for key, value in project if isinstance(value, str) and key not in apart]
     answers = [[str(k), Exact(case["title"]), Exact(case["verdict"])] for k, case in enumerate(cases, start=1)]
-    said = list(map(Exact, project.assumptions or ())) or [say("None are told in the project file.")]
+    assumptions = list(map(Exact, project.assumptions or ())) or [say("None are told in the project file.")]
     return [
         Section(say("Project"), [Facts(known)]),
         Section(say("Answers"), [*notes, Rows([say("case"), say("result"), say("answer")], answers)]),
         *_design_values(results),
         Section(
-            say("Assumptions of this report"), [Points(said), say("What the models assume stands with each case.")]
+            say("Assumptions of this report"),
+            [Points(assumptions), say("What the models assume stands with each case.")],
         ),
         Section(say("Limits: what is not covered"), _limits(results)),
         Section(say("Sources of the results"), _sources(results)),
@@ -95,8 +96,10 @@ def front_sections(
 
 def _design_values(results: Sequence[Result]) -> list[Section]:
     """Of every state the design value that governs, where there are some."""
-    designed = [(str(k), one) for k, result in enumerate(results, start=1) if (one := design_of(result)) is not None]
-    body = [[k, *row] for k, one in designed for row in governing_rows(one)]
+    designed = [
+        (str(k), design) for k, result in enumerate(results, start=1) if (design := design_of(result)) is not None
+    ]
+    body = [[k, *row] for k, design in designed for row in governing_rows(design)]
     caption = say(
         "Of every state the link that is used most, at the level that is told: what 84 % of the motions do not "
         "exceed, and its 95 % interval. A ductile link at its capacity bears no more; its slip then tells how "
@@ -113,7 +116,7 @@ def _design_values(results: Sequence[Result]) -> list[Section]:
 
 def _limits(results: Sequence[Result]) -> list[Item]:
     """Limits of the models of all results, each model once."""
-    names = dict.fromkeys(name for one in results for name in _models(one))
+    names = dict.fromkeys(name for result in results for name in _models(result))
     kinds = {name: kind for name in names if (kind := known_model(name)) is not None}
     items: list[Item] = [say("The results are no check against a code. Where models end:")] if kinds else []
     for name, kind in kinds.items():
@@ -125,14 +128,14 @@ def _models(result: Result) -> list[str]:
     if isinstance(result, RunResult):
         return [result.response.model]
     if isinstance(result, SeveralRuns):
-        return [one.response.model for one in result.runs]
+        return [run.response.model for run in result.runs]
     return [str(model["name"]) for model in result.asked.models] if result.asked is not None else []
 
 
 def _sources(results: Sequence[Result]) -> list[Item]:
     """Programs, and the digest by which the signature holds for the files that are listed at the end."""
     listed = joined("", (say("{file.digest}  {file.name}\n", file=file) for _, file in files_of(results)))
-    computed = dict.fromkeys(one.asked.version for one in results if one.asked is not None)
+    computed = dict.fromkeys(result.asked.version for result in results if result.asked is not None)
     pairs = [
         (say("computed by stylobate"), joined(", ", computed) or say("not known")),
         (say("written by stylobate"), __version__),

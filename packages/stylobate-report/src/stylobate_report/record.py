@@ -31,21 +31,21 @@ FOUND = ("limit_analysis_g",)
 def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Section:
     """Request: the command as typed, and what else was chosen."""
     items: list[Item] = []
-    asked = result.asked
-    if asked is not None and asked.command:
-        items.append(Code(typed(asked.command)))
+    request = result.asked
+    if request is not None and request.command:
+        items.append(Code(typed(request.command)))
     pairs = list(more)
-    if asked is not None:
-        if asked.models and not any(name == "model" for name, _ in more):
-            pairs.append((say("model"), joined(", ", (titled(model["name"]) for model in asked.models))))
+    if request is not None:
+        if request.models and not any(name == "model" for name, _ in more):
+            pairs.append((say("model"), joined(", ", (titled(model["name"]) for model in request.models))))
         options = {
             key: value
-            for key, value in asked.options.items()
+            for key, value in request.options.items()
             if value not in (None, [], "", False) and key not in FOUND
         }
         pairs += [(n.named(key), n.plain(value)) for key, value in options.items()]
-        if asked.day:
-            pairs.append((say("computed on"), Exact(asked.day)))
+        if request.day:
+            pairs.append((say("computed on"), Exact(request.day)))
     else:
         items.append(
             say("The folder does not hold the command line: it was written by a version that did not keep it.")
@@ -152,8 +152,8 @@ def in_the_plane(result: Result) -> bool:
     if isinstance(result, RunResult):
         models = [(result.response.model, result.response.provenance.get("parameters"))]
     else:
-        asked = result.asked.models if result.asked is not None else ()
-        models = [(str(one["name"]), one.get("parameters")) for one in asked]
+        model_tables = result.asked.models if result.asked is not None else ()
+        models = [(str(model["name"]), model.get("parameters")) for model in model_tables]
     known = [(known_model(name), parameters or {}) for name, parameters in models]
     return bool(known) and all(kind is not None and kind.is_plane(parameters) for kind, parameters in known)
 
@@ -165,18 +165,18 @@ def headline(result: Result, answer: str) -> str:
 
 def warnings_of(result: Result, more: Sequence[str] = ()) -> list[Item]:
     """A note with everything that the reader must know before relying on the result; none if there is nothing."""
-    found = list(more)
+    warnings = list(more)
     if result.asked is not None:
-        found += result.asked.warnings
+        warnings += result.asked.warnings
         if result.asked.version != __version__:
             words = say("Computed by version {version}; this report is written by {own}.")
-            found.append(words.of(version=result.asked.version, own=__version__))
+            warnings.append(words.of(version=result.asked.version, own=__version__))
     changed = [file.name for file in result.files if file.unchanged is False]
     if changed:
         alone = say("Changed by somebody since stylobate wrote it: {names}.")
         words = alone if len(changed) == 1 else say("Changed by somebody since stylobate wrote them: {names}.")
-        found.append(words.of(names=joined(", ", changed)))
-    return noted(found)
+        warnings.append(words.of(names=joined(", ", changed)))
+    return noted(warnings)
 
 
 def noted(texts: Iterable[str]) -> list[Item]:
@@ -221,8 +221,8 @@ def files_of(results: Sequence[Result]) -> list[tuple[int, FileFact]]:
     return [
         (k, file)
         for k, result in enumerate(results, start=1)
-        for one in (result.runs if isinstance(result, SeveralRuns) else (result,))
-        for file in one.files
+        for member in (result.runs if isinstance(result, SeveralRuns) else (result,))
+        for file in member.files
     ]
 
 
@@ -239,12 +239,12 @@ def sources_section(citation: Citation) -> Section:
 
 def versions_of(result: Result) -> dict[str, str]:
     """Of the package, Python and the machine, as far as the folder tells."""
-    asked = result.asked
-    if asked is None:
+    request = result.asked
+    if request is None:
         return {}
-    found = {"stylobate": asked.version, "Python": asked.python, "machine": asked.machine}
-    digests = [str(structure.get("digest", "")) for structure in asked.structures]
-    return found | ({"digest of what stood": joined("\n", digests)} if digests else {})
+    versions = {"stylobate": request.version, "Python": request.python, "machine": request.machine}
+    digests = [str(structure.get("digest", "")) for structure in request.structures]
+    return versions | ({"digest of what stood": joined("\n", digests)} if digests else {})
 
 
 def titled(name: str) -> str:

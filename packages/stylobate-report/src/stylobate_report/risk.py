@@ -21,10 +21,10 @@ from .tables import table
 def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """Median, interval and fit of fragility curves."""
     curves = result.summary.get("curves") or [result.summary]
-    one = curves[0]
-    said = [_of_curve(each) for each in curves[:MOST_LISTED]]
+    first_curve = curves[0]
+    sentences = [_of_curve(each) for each in curves[:MOST_LISTED]]
     if len(curves) > MOST_LISTED:
-        said.append(say("{most_told} more curves stand in the table.", most_told=len(curves) - MOST_LISTED))
+        sentences.append(say("{most_told} more curves stand in the table.", most_told=len(curves) - MOST_LISTED))
     for each in curves:
         each["records"] = None if each.get("records_are_one") else each["records"]
         each["known of the median"] = median_words(each) if each.get("outside") else None
@@ -38,37 +38,37 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items += kept(
         result.pictures,
         "fragility",
-        say("Probability over the intensity, with its interval over {over}.", over=_over(one)),
+        say("Probability over the intensity, with its interval over {over}.", over=_over(first_curve)),
     )
-    if float(one.get("p_value") or 1.0) < 0.05:
+    if float(first_curve.get("p_value") or 1.0) < 0.05:
         items.append(Note([say("A lognormal curve fits these points badly; read the points, not the curve.")], "fair"))
-    items.append(_HOLDS.of(what=_over(one)))
-    return (joined("\n", said), ""), items
+    items.append(_HOLDS.of(what=_over(first_curve)))
+    return (joined("\n", sentences), ""), items
 
 
-def _of_curve(one: Mapping[str, Any]) -> str:
+def _of_curve(curve: Mapping[str, Any]) -> str:
     """What one curve says, in sentences."""
-    limits = between(one.get("median_low"), one.get("median_high"), one.get("unit") or "-")
-    texts = [one["sentence"], say("The 95 % interval of the median is {limits}.", limits=limits)]
-    if one.get("outside"):
+    limits = between(curve.get("median_low"), curve.get("median_high"), curve.get("unit") or "-")
+    texts = [curve["sentence"], say("The 95 % interval of the median is {limits}.", limits=limits)]
+    if curve.get("outside"):
         above = say(
             "{one[name]}: the fitted median of {state} ({one[im]}) lies above all runs ({levels}); 95 % interval: {limits}."
         )
         below = say(
             "{one[name]}: the fitted median of {state} ({one[im]}) lies below all runs ({levels}); 95 % interval: {limits}."
         )
-        words = above if one["median"] > one["levels"][1] else below
+        words = above if curve["median"] > curve["levels"][1] else below
         texts = [
             words.of(
-                one=one,
-                state=say(one["state"]),
-                levels=between(*one["levels"], one.get("unit") or "-", 3),
+                one=curve,
+                state=say(curve["state"]),
+                levels=between(*curve["levels"], curve.get("unit") or "-", 3),
                 limits=limits,
             )
         ]
-    elif one.get("bracket"):
+    elif curve.get("bracket"):
         texts.append(say("How capacities scatter is not seen."))
-    return joined(" ", texts) + open_runs(one, say("left out of the curve, and counted both ways in its interval"))
+    return joined(" ", texts) + open_runs(curve, say("left out of the curve, and counted both ways in its interval"))
 
 
 #: Most curves whose medians are told in sentences.
@@ -111,7 +111,7 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         ),
     ]
     if known:
-        median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
+        median, beta = (between(known[f"{name}_low"], known[f"{name}_high"]) for name in ("median", "beta"))
         levels = between(*known["levels"], digits=3)
         counted = [*(["records"] * (_over(known) == "records")), "runs", "exceeded", "undecided", "failed"]
         limited = say("{value} ({limits}, 95 %)")
@@ -119,7 +119,7 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
             (say("median of the fragility"), limited.of(value=median_words(known), limits=median)),
             (say("dispersion β of the fragility"), limited.of(value=n.plain(known["beta"]), limits=beta)),
             (say("intensities of its runs"), say("{levels}{unit}", levels=levels, unit=unit)),
-            (joined(" / ", map(say, counted)), joined(" / ", (str(known[one]) for one in counted))),
+            (joined(" / ", map(say, counted)), joined(" / ", (str(known[key]) for key in counted))),
             (say("p of its fit"), n.plain(known["p_value"])),
         ]  # fmt: skip
     items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", say("Where the rate comes from, by intensity."))]
@@ -134,21 +134,21 @@ def survival_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         return _weighing(result)
     keys = [
         "hazard",
-        *(["hazard_statistic"] if any(one.get("hazard_statistic") for one in s["hazards"]) else []),
+        *(["hazard_statistic"] if any(hazard.get("hazard_statistic") for hazard in s["hazards"]) else []),
         "annual_rate",
         "survival_probability",
         "survival_probability_low",
         "survival_probability_high",
         "weight",
     ]
-    said = joined(
+    listing = joined(
         ", ",
         (say("{hazard[hazard]}: {survives}", hazard=hazard, survives=_survives(hazard)) for hazard in s["hazards"]),
     )
     sentence = say(
         "Probability that the column would still stand after {age_y} years, by hazard curve: {said}.",
         age_y=n.plain(s.get("age_y")),
-        said=said,
+        said=listing,
     )
     items: list[Item] = [table(s["hazards"], keys, say("Hazard curves compared."))]
     items += kept(result.pictures, "survival", say("Probability of having stood, over the years."))
@@ -168,7 +168,7 @@ def _weighing(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     keys = ["hazard", "prior_weight", "weight", "weight_if_own", "weight_if_shared"]
     keys += ["probability", "probability_low", "probability_high"]
-    shown = sorted(s["hazards"], key=lambda one: -max(one["prior_weight"], one["weight"]))
+    shown = sorted(s["hazards"], key=lambda hazard: -max(hazard["prior_weight"], hazard["weight"]))
     items: list[Item] = [
         table(
             shown,

@@ -59,10 +59,10 @@ def run_sections(run: RunResult) -> list[Section]:
     """All sections of one run."""
     r, summary = run.response, run.summary
     column = r.structure.stack
-    asked = run.asked.motions[0] if run.asked is not None and run.asked.motions else None
+    motion_facts = run.asked.motions[0] if run.asked is not None and run.asked.motions else None
     parts = [Section(say("Verdict"), [_verdict(run), *warnings_of(run, _doubts(run))]), asked_section(run, _asked(r))]
     parts.append(structure_section(r.structure))
-    parts.append(motion_section(run.motion, r, asked, column))
+    parts.append(motion_section(run.motion, r, motion_facts, column))
     parts += sequence_section(run)
     parts += _motion_of_what_stood(r, summary)
     sure = certainty_section(summary)
@@ -124,13 +124,13 @@ def _how_far(r: Response) -> list[str]:
     )
     was = say("Its top moved by up to {far}, {share:.2f} of the width of the base, and was at the end {left} from where it "
               "stood.")  # fmt: skip
-    far, left = n.length(m.peak_top_displacement), n.length(abs(m.residual_top_displacement))
-    said = [(rests if r.decided else was).of(far=far, share=m.peak_top_displacement / width, left=left)]
+    far, residual = n.length(m.peak_top_displacement), n.length(abs(m.residual_top_displacement))
+    sentences = [(rests if r.decided else was).of(far=far, share=m.peak_top_displacement / width, left=residual)]
     plain = len(r.structure.shapes) == 1 and not (r.structure.as_found or r.structure.links) and r.dims != "xyz"
     if plain and math.isfinite(m.peak_rotation):
         turned = say("It turned by up to {share:.2f} of the slenderness α, at which it is balanced on its edge.")
-        said.append(turned.of(share=m.peak_rotation / angle))
-    return said
+        sentences.append(turned.of(share=m.peak_rotation / angle))
+    return sentences
 
 
 def _scope(run: RunResult) -> str:
@@ -156,8 +156,8 @@ def _doubts(run: RunResult) -> list[str]:
                 energy_imbalance=percent(abs(r.energy_imbalance)),
             )
         )
-    asked = run.asked.motions if run.asked is not None else ()
-    if left_out := (asked[0].get("left_out") if asked else None) or r.provenance.get("left_out"):
+    motions = run.asked.motions if run.asked is not None else ()
+    if left_out := (motions[0].get("left_out") if motions else None) or r.provenance.get("left_out"):
         words = say("left out of the motion, which the model does not take: {names}.")
         doubts.append(words.of(names=joined("; ", left_out)))
     return doubts
@@ -232,18 +232,18 @@ def _measures(r: Response) -> list[tuple[str, str]]:
     pairs = [(say("outcome"), _outcome(r))]
     if m.collapsed:
         pairs.append((say("collapse certain at"), say("{m.collapse_time:.2f} s", m=m)))
-    told, base = [one for one in m.shown(space=True) if not math.isnan(one[1])], r.structure.base_width
-    far = [(one, value) for one, value in told if one.peak and "displacement" in one.field]
-    for one, value in far:
+    measures, base = [pair for pair in m.shown(space=True) if not math.isnan(pair[1])], r.structure.base_width
+    far = [(measure, value) for measure, value in measures if measure.peak and "displacement" in measure.field]
+    for measure, value in far:
         share = "" if base is None else say(" ({base:.2f} base widths)", base=value / base)
-        pairs.append((one.phrase + until, n.length(value) + share))
+        pairs.append((measure.phrase + until, n.length(value) + share))
     if m.blocks is not None and r.fell_at:
         fell = (say("{name} ({time:.2f} s)", name=name, time=when) for name, when in r.fell_at.items())
         pairs.append((say("fell"), joined(", ", fell)))
-    pairs += [(one.phrase, n.length(value)) for one, value in told if one.residual and not m.collapsed]
-    others = [(one, value) for one, value in told if one.peak and (one, value) not in far]
+    pairs += [(measure.phrase, n.length(value)) for measure, value in measures if measure.residual and not m.collapsed]
+    others = [(measure, value) for measure, value in measures if measure.peak and (measure, value) not in far]
     shown = {"m": n.length, "rad": n.angle}
-    return pairs + [(one.phrase + until, shown[one.unit](value)) for one, value in others]
+    return pairs + [(measure.phrase + until, shown[measure.unit](value)) for measure, value in others]
 
 
 def _outcome(r: Response) -> str:
@@ -263,8 +263,8 @@ def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
     body = []
     for i, gap in enumerate(opening):
         row = [str(i + 1), n.NONE if gap is None else digits(1000.0 * gap, ".2f")]
-        one = slip[i] if isinstance(slip, list) and i < len(slip) else None
-        row.append(n.NONE if one is None else digits(1000.0 * one, ".2f"))
+        joint_slip = slip[i] if isinstance(slip, list) and i < len(slip) else None
+        row.append(n.NONE if joint_slip is None else digits(1000.0 * joint_slip, ".2f"))
         if twist:
             row.append(n.NONE if twist[i] is None else digits(math.degrees(twist[i]), ".2f"))
         body.append(row)
@@ -288,13 +288,13 @@ def _bodies(r: Response) -> list[Item]:
         say("residual displacement [mm]"),
     ]
     body = []
-    for one in blocks.bodies:
-        side = n.NONE if one.fall_azimuth is None else digits(math.degrees(one.fall_azimuth), ".0f")
-        far = n.NONE if one.fell_at is not None else digits(1000.0 * math.hypot(*one.moved), ".2f")
-        fell = n.NONE if one.fell_at is None else digits(one.fell_at, ".2f")
-        body.append([one.name, digits(math.degrees(one.peak_tilt), ".2f"), fell, side, far])
-    said = say("Bodies that can move; tilts over the whole run, the fall included. Azimuths from x towards y.")
-    return [Rows(header, body, said, numbers=True)] if body else []
+    for block in blocks.bodies:
+        side = n.NONE if block.fall_azimuth is None else digits(math.degrees(block.fall_azimuth), ".0f")
+        far = n.NONE if block.fell_at is not None else digits(1000.0 * math.hypot(*block.moved), ".2f")
+        fell = n.NONE if block.fell_at is None else digits(block.fell_at, ".2f")
+        body.append([block.name, digits(math.degrees(block.peak_tilt), ".2f"), fell, side, far])
+    caption = say("Bodies that can move; tilts over the whole run, the fall included. Azimuths from x towards y.")
+    return [Rows(header, body, caption, numbers=True)] if body else []
 
 
 def _joints_of_blocks(r: Response, opening: list[float | None]) -> list[Item]:
@@ -363,13 +363,13 @@ def worst_of(runs: Sequence[RunResult]) -> int:
 
 def _record_of(run: RunResult) -> str:
     """The record that its motion is of; the motion itself where the folder does not tell."""
-    asked = run.asked.motions if run.asked is not None else ()
-    return str((asked[0].get("record") if asked else None) or run.folder.name)
+    motions = run.asked.motions if run.asked is not None else ()
+    return str((motions[0].get("record") if motions else None) or run.folder.name)
 
 
-def several_sections(found: SeveralRuns) -> list[Section]:
+def several_sections(result: SeveralRuns) -> list[Section]:
     """A table of all runs, and the one with the most harm in full."""
-    runs = found.runs
+    runs = result.runs
     codes = codes_of(np.array([verdict(run.response.summary()) for run in runs]))
     (share,) = shares({runs[0].response.structure.name: codes}, [_record_of(run) for run in runs])
     header = [say("motion"), say("PGA [g]"), say("outcome"), CHANCE, say("peak displacement"), say("folder")]
@@ -395,7 +395,7 @@ def several_sections(found: SeveralRuns) -> list[Section]:
     lead = Section(
         say("All runs"),
         [
-            Note([headline(found, share.collapses)], "verdict bad" if share.exceeded else "verdict"),
+            Note([headline(result, share.collapses)], "verdict bad" if share.exceeded else "verdict"),
             *noted(doubts),
             Rows(
                 header,

@@ -21,18 +21,18 @@ HEADER = (
 
 def sequence_section(run: RunResult) -> list[Section]:
     """The earthquakes of a sequence; nothing of any other run."""
-    told = run.summary.get("events")
-    if not told:
+    event_rows = run.summary.get("events")
+    if not event_rows:
         return []
-    spans = [Span(*(one[name] for name in ("motion", "begins_s", "quiet_s", "ends_s"))) for one in told]
+    spans = [Span(*(row[name] for name in ("motion", "begins_s", "quiet_s", "ends_s"))) for row in event_rows]
     events = events_of(run.response, spans)
     body = []
-    for one in told[:MOST]:
-        alone = one["alone"]
+    for event in event_rows[:MOST]:
+        alone = event["alone"]
         cells = [
-            str(one["earthquake"]),
-            Exact(one["motion"]),
-            say(one["outcome"].replace("_", " ")),
+            str(event["earthquake"]),
+            Exact(event["motion"]),
+            say(event["outcome"].replace("_", " ")),
             n.angle(alone["peak_rotation_rad"]),
         ]
         cells += [
@@ -44,7 +44,7 @@ def sequence_section(run: RunResult) -> list[Section]:
     caption = say(
         "Each earthquake began as the one before had left the structure; slip added is the largest of a joint."
     )
-    caption = joined(" ", [caption, n.first_of(MOST, len(told))])
+    caption = joined(" ", [caption, n.first_of(MOST, len(event_rows))])
     items: list[Item] = [
         run.summary.get("sentence", ""),
         Rows(HEADER, body, caption, mark=2, looks=LOOKS, numbers=True),
@@ -70,8 +70,8 @@ def until_fall_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     rows = (
         result.tables["until_fall"].astype(object).where(result.tables["until_fall"].notna(), None).to_dict("records")
     )
-    one = rows[0]
-    sentence = say("Earthquakes until it falls, {one[motion]} again and again: {one[earthquakes]}.", one=one)
+    first_row = rows[0]
+    sentence = say("Earthquakes until it falls, {one[motion]} again and again: {one[earthquakes]}.", one=first_row)
     if len(rows) > 1:
         sentence = say(
             "Earthquakes until it falls, over {rows} kinds, each again and again: {over[sentence]}.",

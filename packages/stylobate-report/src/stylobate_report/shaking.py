@@ -33,7 +33,7 @@ SAID = ("station", "station_name", "network", "event", "start_time", "stage", "t
 
 
 def motion_section(
-    motion: Motion | None, response: Response | None, asked: Mapping[str, Any] | None, column: Column | None
+    motion: Motion | None, response: Response | None, motion_facts: Mapping[str, Any] | None, column: Column | None
 ) -> Section:
     """The section on the motion of a run.
 
@@ -43,7 +43,7 @@ def motion_section(
         What acted; None where the folder does not hold it.
     response : Response
         Whose recorded ground is taken where there is no motion.
-    asked : mapping or None
+    motion_facts : mapping or None
         What is known of the motion.
     column : Column or None
         What it is compared with.
@@ -62,7 +62,7 @@ def motion_section(
         ]
     else:
         return Section(say("The ground motion"), [say("It is not kept with these results.")])
-    known = dict(asked or {})
+    known = dict(motion_facts or {})
     facts = [(say("motion"), Exact(known.get("name") or motion.name))]
     facts.append((say("duration and time step"), say("{motion.duration:.2f} s, {motion.dt:.4g} s", motion=motion)))
     metadata = known.get("metadata") or {}
@@ -82,7 +82,7 @@ def motion_section(
     if metadata.get("stage") in ("uncorrected", "raw counts"):
         text = (
             say("Its source gives this record as uncorrected; what was corrected stands under processing.")
-            if any(CORRECTED.search(one) for one in done)
+            if any(CORRECTED.search(step) for step in done)
             else say("Its source gives this record as uncorrected; its baseline was not corrected here either: "
                      "velocities and displacements may drift.")
         )  # fmt: skip
@@ -138,7 +138,7 @@ def motions_section(result: Result) -> Section:
         say("digest"),
     ]
     items: list[Item] = [Rows(header, body, caption, numbers=True)]
-    facts = [(Exact(motion.get("name")), joined("\n", told)) for motion in motions[:MOST] if (told := _done(motion))]
+    facts = [(Exact(motion.get("name")), joined("\n", texts)) for motion in motions[:MOST] if (texts := _done(motion))]
     if facts:
         items.append(
             Facts(facts, say("Where they come from, what was done to them, and what the model leaves out of them."))
@@ -151,14 +151,16 @@ def axes_in_words(motion: Mapping[str, Any]) -> str:
     azimuths = motion.get("azimuths") or {}
     each = [axis if azimuths.get(axis) is None else f"{axis} {azimuths[axis]:g}°" for axis in motion["components"]]
     x, before = azimuths.get("x"), motion.get("azimuth_deg")
-    told = x is not None and before is not None and round(x - before) % 360 == 180  # these are the azimuths as reversed
-    return ", ".join(each) + (say(", reversed") if motion.get("reversed") and not told else "")
+    half_turn = (
+        x is not None and before is not None and round(x - before) % 360 == 180
+    )  # these are the azimuths as reversed
+    return ", ".join(each) + (say(", reversed") if motion.get("reversed") and not half_turn else "")
 
 
 def _peaks(motion: Mapping[str, Any]) -> str:
     peaks = (
-        say("{axis}\N{NO-BREAK SPACE}{peak:.3f}", axis=axis, peak=one)
-        for axis, one in (motion.get("peaks_g") or {}).items()
+        say("{axis}\N{NO-BREAK SPACE}{peak:.3f}", axis=axis, peak=peak)
+        for axis, peak in (motion.get("peaks_g") or {}).items()
     )
     return joined(", ", peaks) or n.NONE
 
@@ -179,7 +181,7 @@ def _done(motion: Mapping[str, Any]) -> list[str]:
         for key in SAID
         if metadata.get(key) not in (None, "", "None")
     ]
-    left_out = [say("left out: {what}", what=one) for one in motion.get("left_out") or ()]
+    left_out = [say("left out: {what}", what=part) for part in motion.get("left_out") or ()]
     done = dict.fromkeys([*(motion.get("processing") or ()), *left_out])
     return [*([joined(", ", known)] if known else []), *done]
 

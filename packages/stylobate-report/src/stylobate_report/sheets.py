@@ -111,7 +111,7 @@ def _fitting(seen: StructureViews, paper: str, scale: int | None) -> tuple[tuple
             places = _places(seen, size, number)
             if places is not None:
                 return size, number, places
-    least = next((one for one in SCALES if any(_places(seen, size, one) for size in sheets)), None)
+    least = next((candidate for candidate in SCALES if any(_places(seen, size, candidate) for size in sheets)), None)
     if least is None:
         raise InputError(
             f"{seen.structure.name!r} does not fit on {paper} at 1:{SCALES[-1]}; take a larger paper.", "paper"
@@ -155,7 +155,10 @@ def _pages(
     words = [LINE * lines_under(plan) * INCH / POINTS + WORDS for plan in plans]
     largest = 2000.0 * max(reach)
     # at least three beside one another, so that few sheets hold all
-    scale = next((one for one in SCALES if largest / one <= min(wide / 3.0 - GAP, 0.5 * high - max(words))), SCALES[-1])
+    scale = next(
+        (candidate for candidate in SCALES if largest / candidate <= min(wide / 3.0 - GAP, 0.5 * high - max(words))),
+        SCALES[-1],
+    )
     sizes = [2000.0 * half / scale for half in reach]
     page: list[tuple[int, Place]] = []
     top = 0.0
@@ -176,13 +179,13 @@ def _pages(
 def _rows(widths: Sequence[float], wide: float) -> list[list[int]]:
     """Numbers of what stands beside one another, in order, with a gap between."""
     rows: list[list[int]] = []
-    left = -1.0
+    room = -1.0
     for which, width in enumerate(widths):
-        if left < width:
+        if room < width:
             rows.append([])
-            left = wide
+            room = wide
         rows[-1].append(which)
-        left -= width + GAP
+        room -= width + GAP
     return rows
 
 
@@ -201,8 +204,8 @@ def _sheet(size: tuple[float, float], title: str, scale: int, paper: str) -> Fig
     axes.text(
         frame + 4.0, line - 4.0, textwrap.shorten(title, 84, placeholder=" …"), fontsize=9.5, weight="bold", va="top"
     )
-    said = f"1:{scale} on {paper}, measures in m; what is as found is red, links are blue. stylobate {__version__}"
-    axes.text(frame + 4.0, frame + 3.0, said, fontsize=6.5, color=GREY, va="bottom")
+    note = f"1:{scale} on {paper}, measures in m; what is as found is red, links are blue. stylobate {__version__}"
+    axes.text(frame + 4.0, frame + 3.0, note, fontsize=6.5, color=GREY, va="bottom")
     _bar(axes, right - 6.0, frame + 4.5, scale)
     return figure
 
@@ -226,8 +229,8 @@ def _bar(axes: Axes, right: float, level: float, scale: int) -> None:
             edgecolor=BLACK,
             linewidth=0.5,
         )
-    for x, said in ((left, "0"), (right, f"{length:g} m")):
-        axes.text(x, level + 2.2, said, fontsize=6.5, ha="center" if x == left else "right", va="bottom")
+    for x, label in ((left, "0"), (right, f"{length:g} m")):
+        axes.text(x, level + 2.2, label, fontsize=6.5, ha="center" if x == left else "right", va="bottom")
 
 
 def _axes(figure: Figure, sheet: tuple[float, float], place: Place, title: str) -> Axes:

@@ -43,7 +43,9 @@ def states_items(result: Numbers) -> list[Item]:
     items: list[Item] = [Points(basis + _at_capacity(s["links"]))]
     share = say("share that collapses") if s["state"] == "collapse" else say("share that exceeds {s[state]}", s=s)
     header = [say("state"), say("same runs"), verb, say("do not"), say("undecided"), share, say("95 % of the share")]
-    open_ = any(one["fragility"] and one["fragility"]["undecided"] + one["fragility"]["failed"] for one in s["states"])
+    open_ = any(
+        state["fragility"] and state["fragility"]["undecided"] + state["fragility"]["failed"] for state in s["states"]
+    )
     header += [say("failed"), say("median intensity (undecided both ways)") if open_ else say("median intensity")]
     body = []
     for state in s["states"]:
@@ -89,21 +91,21 @@ def states_items(result: Numbers) -> list[Item]:
 
 def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
     """Of each state the link that bore its whole capacity in most runs, and the one that broke in most."""
-    said = []
+    sentences = []
     for state in dict.fromkeys(link["state"] for link in links):
         mine = [link for link in links if link["state"] == state]
-        full, broken = (max(mine, key=lambda one: one.get(key, 0)) for key in ("at_capacity", "broken"))
+        full, broken = (max(mine, key=lambda link: link.get(key, 0)) for key in ("at_capacity", "broken"))
         if full.get("at_capacity", 0):
             most = say("“{state}”: {f[link]}, most of all, was at its capacity in {f[at_capacity]} of {f[runs]} runs")
             only = say("“{state}”: {f[link]} was at its capacity in {f[at_capacity]} of {f[runs]} runs")
             words = (most if len(mine) > 1 else only).of(state=state, f=full)
             broke = say("; {b[link]} broke in {b[broken]}.", b=broken) if broken["broken"] else say(", and none broke.")
-            said.append(joined(" ", [words + broke, YIELDS]))
-    return said
+            sentences.append(joined(" ", [words + broke, YIELDS]))
+    return sentences
 
 
-def _share(one: dict[str, Any], name: str) -> str:
-    low, high = one.get(f"{name}_low"), one.get(f"{name}_high")
+def _share(row: dict[str, Any], name: str) -> str:
+    low, high = row.get(f"{name}_low"), row.get(f"{name}_high")
     return n.NONE if low is None or high is None else percents(low, high)
 
 
@@ -114,15 +116,20 @@ def _by_level(result: Numbers) -> list[Item]:
     labels = [state["label"] for state in s["states"]]
     size = len(table) // len(labels)  # the runs of one state after those of the other
     each = [table.iloc[k * size : (k + 1) * size] for k in range(len(labels))]
-    told = [evidence(one, None, s["state"], label) for one, label in zip(each, labels, strict=True)]
-    levels = sorted(set(told[0].im.tolist()))
+    state_evidence = [evidence(frame, None, s["state"], label) for frame, label in zip(each, labels, strict=True)]
+    levels = sorted(set(state_evidence[0].im.tolist()))
     if len(levels) < 2:
         return []
     body = []
     for level in levels:
-        found = shares({one.name: one.codes[one.im == level] for one in told}, told[0].records[told[0].im == level])
-        words = (say("{one.words} ({one.interval_words})", one=one) if one.runs else n.NONE for one in found)
-        body.append([digits(level, ".4g"), str(found[0].runs), *words])
+        level_shares = shares(
+            {sample.name: sample.codes[sample.im == level] for sample in state_evidence},
+            state_evidence[0].records[state_evidence[0].im == level],
+        )
+        words = (
+            say("{one.words} ({one.interval_words})", one=share) if share.runs else n.NONE for share in level_shares
+        )
+        body.append([digits(level, ".4g"), str(level_shares[0].runs), *words])
     measure = str(table["measure"].iloc[0])
     level = say("factor") if measure == "factor" else f"{measure} [{parse_measure(measure).unit}]"
     caption = say(

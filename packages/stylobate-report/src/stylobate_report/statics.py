@@ -26,8 +26,8 @@ _LINK = ("link", "action", "force_n", "capacity_n", "yields")
 
 def statics_section(column: Column, run: RunResult | None) -> Section:
     """Statics under horizontal forces: uplift and limit analysis."""
-    opens, said = what_opens(column, run is not None and run.response.dims == "xyz")
-    pairs = [(say("opens the first joint"), said)]
+    opens, sentence = what_opens(column, run is not None and run.response.dims == "xyz")
+    pairs = [(say("opens the first joint"), sentence)]
     try:
         pairs += _around(column) if column.as_found else _in_plane(column)
     except StylobateError as error:
@@ -62,11 +62,14 @@ def statics_of_states(columns: Mapping[str, Column]) -> Section:
 
 
 def _in_plane(column: Column) -> list[tuple[str, str]]:
-    found = limit_analysis(column)
+    limit = limit_analysis(column)
     return [
-        (say("limit analysis: becomes a mechanism at"), say("{found.multiplier:.4g} g", found=found)),
-        (say("bounds from below and from above"), say("{found.lower:.5g} and {found.upper:.5g} g", found=found)),
-        (say("mechanism"), joined("; ", (_rocks(one.joint, one.mode) for one in found.active[:4]))),
+        (say("limit analysis: becomes a mechanism at"), say("{found.multiplier:.4g} g", found=limit)),
+        (say("bounds from below and from above"), say("{found.lower:.5g} and {found.upper:.5g} g", found=limit)),
+        (
+            say("mechanism"),
+            joined("; ", (_rocks(active_joint.joint, active_joint.mode) for active_joint in limit.active[:4])),
+        ),
     ]
 
 
@@ -132,11 +135,11 @@ def code_check(column: Column, result: Result, run: RunResult | None) -> Section
                 )
             ],
         )
-    asked = result.asked.options if result.asked is not None else {}
+    options = result.asked.options if result.asked is not None else {}
     loads = {
-        key: asked[key]
+        key: options[key]
         for key in ("pattern", "base_tilt", "compressive_strength", "direction")
-        if asked.get(key) is not None
+        if options.get(key) is not None
     }
     try:
         check = capacity_spectrum_check(
@@ -160,19 +163,19 @@ def _beside_run(check: CapacityCheck, result: Result, run: RunResult) -> list[It
     if not ultimate or not np.isfinite(moved) or not check.zero_displacement > 0.0:
         return []
     expected = check.demand * ultimate / check.zero_displacement
-    said = say(
+    sentence = say(
         "At the top the demand is {expected}; in the run in time under the same motion the top moved by up to {moved}",
         expected=n.length(expected), moved=n.length(moved),
     )  # fmt: skip
     if moved <= expected:
-        return [Note([said + "."])]
+        return [Note([sentence + "."])]
     if check.passed and moved > 0.4 * ultimate:
         beyond = say(
             ", beyond the usable {usable}: by the run the check would not be passed", usable=n.length(0.4 * ultimate)
         )
-        said += beyond
+        sentence += beyond
     less = say("The check underestimates the displacement here: rely on the run.")
-    return [Note([joined(" ", [said + ".", less])], "fair")]
+    return [Note([joined(" ", [sentence + ".", less])], "fair")]
 
 
 def check_items(check: CapacityCheck, demand: str) -> list[Item]:
@@ -220,7 +223,7 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         )
     to = say(", pushed towards azimuth {s[weakest_azimuth_deg]:g}°", s=s) if "weakest_azimuth_deg" in s else ""
     sentence = joined("", [becomes.of(s=s), to, "."])
-    modes = joined("; ", (_rocks(one["joint"], one["mode"]) for one in s.get("active_joints", ())))
+    modes = joined("; ", (_rocks(joint["joint"], joint["mode"]) for joint in s.get("active_joints", ())))
     pairs = [
         (say("mechanism"), modes or n.NONE),
         (say("numbers of the joints at their strength"), n.plain(s.get("joints_at_strength"))),
@@ -233,8 +236,8 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items: list[Item] = [Facts([(name, value) for name, value in pairs if value != n.NONE])]
     items += kept(result.pictures, "limit", say("Mechanism: velocities drawn as displacements."))
     items += kept(result.pictures, "directions", say("The multiplier by the direction in which the forces push."))
-    if held := [link for link in s.get("links", ()) if link.get("force_n")]:
-        body = [[Exact(one[key]) if key == "link" else n.plain(one[key]) for key in _LINK] for one in held]
+    if loaded_links := [link for link in s.get("links", ()) if link.get("force_n")]:
+        body = [[Exact(link[key]) if key == "link" else n.plain(link[key]) for key in _LINK] for link in loaded_links]
         items.append(
             Rows(
                 list(map(n.named, _LINK)),

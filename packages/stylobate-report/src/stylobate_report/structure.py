@@ -46,7 +46,7 @@ def state_section(column: Column, label: str, first: Column, against: str) -> Se
         (column.links != first.links, _links_of(column), str(len(first.links)) if first.links else say("none")),
         (
             column.as_found != first.as_found,
-            *(say("as found") if one.as_found else say("as built") for one in (column, first)),
+            *(say("as found") if variant.as_found else say("as built") for variant in (column, first)),
         ),
     ]
     differs = joined(
@@ -62,16 +62,16 @@ def state_section(column: Column, label: str, first: Column, against: str) -> Se
 
 def _links_of(column: Column) -> str:
     count = len(column.links)
-    some = say("1 link") if count == 1 else say("{count} links", count=count)
-    return some if count else say("no links")
+    words = say("1 link") if count == 1 else say("{count} links", count=count)
+    return words if count else say("no links")
 
 
 def _column(column: Column) -> list[Item]:
     round_ = column.section == "circular"
-    found: list[Item] = [Facts(_properties(column), say("Properties")), _drums(column, round_), _elevation(column)]
-    found += _found_and_links(column)
+    items: list[Item] = [Facts(_properties(column), say("Properties")), _drums(column, round_), _elevation(column)]
+    items += _found_and_links(column)
     return [
-        *found,
+        *items,
         *(say("Beyond what columns of stone are known to be: {doubt}", doubt=doubt) for doubt in unit_doubts(column)),
     ]
 
@@ -94,8 +94,8 @@ def _elevation(column: Column) -> Picture:
 
 
 def _found_and_links(column: Column) -> list[Item]:
-    found: list[Item] = [_as_found(column)] if column.as_found else []
-    return [*found, _links(column), *_stone(column)] if column.links else found
+    items: list[Item] = [_as_found(column)] if column.as_found else []
+    return [*items, _links(column), *_stone(column)] if column.links else items
 
 
 def _stone(structure: Structure) -> list[Item]:
@@ -191,7 +191,7 @@ def _links(column: Column) -> Rows:
             say("from drum {drum}", drum=low) if low is not None else "",
             say("to drum {drum}", drum=high) if high is not None else "",
         ]
-        at = joined(" / ", (digits(one, "g") for one in values.pop("at", (0.0, 0.0))))
+        at = joined(" / ", (digits(coordinate, "g") for coordinate in values.pop("at", (0.0, 0.0))))
         kind, name = values.pop("kind"), values.pop("name", "")
         kind, rest = say(kind), joined(", ", starmap(_property, values.items()))
         called = say("{name} ({kind})", name=Exact(name), kind=kind) if name else kind
@@ -211,33 +211,33 @@ def _chips(drum: FoundDrum, deep: bool) -> str:
     """Loss of the lower face [mm], and where the right of a round one is."""
     if not drum.chipped:
         return n.NONE
-    said = joined(" / ", (digits(1000.0 * chip, ".0f") for chip in drum.chips[: 4 if deep else 2]))
-    return said + (say(", right at {azimuth:g}°", azimuth=drum.chip_azimuth) if drum.chip_azimuth else "")
+    text = joined(" / ", (digits(1000.0 * chip, ".0f") for chip in drum.chips[: 4 if deep else 2]))
+    return text + (say(", right at {azimuth:g}°", azimuth=drum.chip_azimuth) if drum.chip_azimuth else "")
 
 
-def _place(found: AsFound, drum: FoundDrum) -> str:
+def _place(as_found: AsFound, drum: FoundDrum) -> str:
     """Where the offsets up to a drum leave it."""
-    far, azimuth = found.place(drum.drum)
+    far, azimuth = as_found.place(drum.drum)
     if not far:
         return say("back in line") if drum.offset else n.NONE
     return say("{far:.1f} mm to {azimuth:.0f}°", far=1000.0 * far, azimuth=azimuth)
 
 
 def _as_found(column: Column) -> Rows:
-    found = column.as_found
-    deep = any(drum.chip_front or drum.chip_back for drum in found.drums)
+    as_found = column.as_found
+    deep = any(drum.chip_front or drum.chip_back for drum in as_found.drums)
     body = [
         [
             str(drum.drum),
             digits(1000.0 * drum.offset, "+.1f") if drum.offset else n.NONE,
             digits(drum.offset_azimuth, "g") if drum.offset else n.NONE,
-            _place(found, drum),
+            _place(as_found, drum),
             digits(drum.tilt, "+.3g") if drum.tilt else n.NONE,
             digits(drum.tilt_azimuth, "g") if drum.tilt else n.NONE,
             digits(drum.turn, "+.3g") if drum.turn else n.NONE,
             _chips(drum, deep),
         ]
-        for drum in found.drums
+        for drum in as_found.drums
     ]
     header = [
         say("drum"),
@@ -249,14 +249,14 @@ def _as_found(column: Column) -> Rows:
         say("turned [°]"),
         say("chips left / right / front / back [mm]") if deep else say("chips left / right [mm]"),
     ]
-    rises = say("The base rises by {f.base_tilt:g}°.", f=found)
-    if found.base_azimuth:
-        rises = say("The base rises by {f.base_tilt:g}° to azimuth {f.base_azimuth:g}°.", f=found)
+    rises = say("The base rises by {f.base_tilt:g}°.", f=as_found)
+    if as_found.base_azimuth:
+        rises = say("The base rises by {f.base_tilt:g}° to azimuth {f.base_azimuth:g}°.", f=as_found)
     caption = say(
         "As found: each drum over the joint under it; what stands on it goes along. “In all” is where the "
         "offsets up to a drum leave it, from its place as built. Azimuths are from x towards y."
     )
-    caption = joined(" ", [caption, rises if found.base_tilt else ""])
+    caption = joined(" ", [caption, rises if as_found.base_tilt else ""])
     return Rows(header, body, caption, numbers=True)
 
 
@@ -269,7 +269,7 @@ FOUND_AT = say(
 def _found_at(structure: Structure) -> list[list[str]]:
     """Joints of an assembly in space where something is off or lost."""
     plans = zip(joint_plans(structure), structure.space_joints or ())
-    names = [one.name for one in structure.bodies]
+    names = [body.name for body in structure.bodies]
     return [
         [
             str(k),
@@ -295,13 +295,13 @@ def _blocks(structure: Structure) -> list[Item]:
         )
     caption = joined(" ", [caption.of(name=structure.name), say("Blue: links.") if structure.links else ""])
     bodies = structure.bodies[structure.first :]
-    near = [one for one in bodies if np.ptp(one.corners, axis=0).max() <= FAR_AWAY]
-    held = sum(one.fixed for one in near)
+    near = [block for block in bodies if np.ptp(block.corners, axis=0).max() <= FAR_AWAY]
+    fixed_count = sum(block.fixed for block in near)
     facts = [
         (
             say("blocks"),
-            say("{sum} that can move", sum=sum(not one.fixed for one in bodies))
-            + (say(", {held} held", held=held) if held else ""),
+            say("{sum} that can move", sum=sum(not block.fixed for block in bodies))
+            + (say(", {held} held", held=fixed_count) if fixed_count else ""),
         ),
         (say("joints"), str(len(joints_of))),
         (
@@ -313,10 +313,10 @@ def _blocks(structure: Structure) -> list[Item]:
         (say("north"), structure.north_words),
     ]
     body = []
-    for one in near[:MOST]:
-        size, depth = np.ptp(one.shape.outline, axis=0), np.ptp(one.shape.mesh().vertices[:, 1])
-        kind = say("held") if one.fixed else digits(one.mass, ".0f")
-        body.append([one.name, digits(size[0], ".3f"), digits(size[1], ".3f"), digits(depth, ".3f"), kind])
+    for block in near[:MOST]:
+        size, depth = np.ptp(block.shape.outline, axis=0), np.ptp(block.shape.mesh().vertices[:, 1])
+        kind = say("held") if block.fixed else digits(block.mass, ".0f")
+        body.append([block.name, digits(size[0], ".3f"), digits(size[1], ".3f"), digits(depth, ".3f"), kind])
     rows = Rows(
         [say("block"), say("width [m]"), say("height [m]"), say("depth [m]"), say("mass [kg]")],
         body,
@@ -341,10 +341,10 @@ def _blocks(structure: Structure) -> list[Item]:
         numbers=True,
     )
     drawn = draw_elevation(structure) if contacts is None else draw_views(structure)
-    found: list[Item] = [picture(drawn, caption), Facts(facts), rows, *([joints] if laws else [])]
+    items: list[Item] = [picture(drawn, caption), Facts(facts), rows, *([joints] if laws else [])]
     if contacts is not None and (seen_at := _found_at(structure)):
-        found.append(Rows([say("joint"), say("between"), say("as found")], seen_at, FOUND_AT, numbers=True))
-    return [*found, _links_between_blocks(structure), *_stone(structure)] if structure.links else found
+        items.append(Rows([say("joint"), say("between"), say("as found")], seen_at, FOUND_AT, numbers=True))
+    return [*items, _links_between_blocks(structure), *_stone(structure)] if structure.links else items
 
 
 def _links_between_blocks(assembly: Structure) -> Rows:

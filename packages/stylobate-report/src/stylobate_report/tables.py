@@ -25,10 +25,10 @@ COUNTED_HOW = say(
 )
 
 
-def counts_of(one: Share) -> list[str]:
+def counts_of(share: Share) -> list[str]:
     """The cells of a share under :data:`COUNTED`."""
-    counts = [one.runs, one.records, one.exceeded, one.not_exceeded, one.undecided]
-    return [*map(str, counts), one.words or n.NONE, one.interval_words or n.NONE, str(one.failed)]
+    counts = [share.runs, share.records, share.exceeded, share.not_exceeded, share.undecided]
+    return [*map(str, counts), share.words or n.NONE, share.interval_words or n.NONE, str(share.failed)]
 
 
 #: Keys of columns that hold names, which are in no language.

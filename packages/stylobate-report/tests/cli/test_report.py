@@ -127,16 +127,16 @@ def folders(place):
 
 
 def test_every_kind_is_told_from_its_files(place):
-    kinds = {one.folder.name[4:-4]: one.kind for folder in folders(place) for one in read_results([folder])}
+    kinds = {result.folder.name[4:-4]: result.kind for folder in folders(place) for result in read_results([folder])}
     expected = {name: Kind(name) for name in kinds if name in {kind.value for kind in Kind}}
     expected |= {"assembly": Kind.RUN, "critical over records": Kind.CRITICAL, "statics": Kind.PUSHOVER}
     assert kinds == expected
-    assert {one.kind for one in read_results([place / "out statics <i>"])} == {Kind.PUSHOVER, Kind.LIMIT}
+    assert {result.kind for result in read_results([place / "out statics <i>"])} == {Kind.PUSHOVER, Kind.LIMIT}
     for folder in folders(place):
-        for one in read_results([folder]):
-            assert one.asked is not None
-            assert str(folder) in one.asked.command
-            assert all(fact.unchanged for fact in one.files), [fact for fact in one.files if not fact.unchanged]
+        for result in read_results([folder]):
+            assert result.asked is not None
+            assert str(folder) in result.asked.command
+            assert all(fact.unchanged for fact in result.files), [fact for fact in result.files if not fact.unchanged]
 
 
 def test_a_command_lists_every_file_that_it_writes(place):
@@ -145,7 +145,9 @@ def test_a_command_lists_every_file_that_it_writes(place):
         others = [
             path.name for path in folder.iterdir() if path.is_file() and path.name[0] != "." and not own.holds(path)
         ]
-        assert not {one for one in others if not one.startswith("runs.sqlite")}, folder  # the ledger is kept by itself
+        assert not {name for name in others if not name.startswith("runs.sqlite")}, (
+            folder
+        )  # the ledger is kept by itself
 
 
 @pytest.fixture(scope="module")
@@ -155,13 +157,13 @@ def page(place):
 
 
 def test_names_of_strangers_are_text(page):
-    found = Page(page)
-    assert not found.tags & {"script", "iframe", "object", "embed", "link", "form", "b", "i", "svg"}
-    assert all(src.startswith("data:image/png;base64,") for name, src in found.attributes if name == "src")
-    assert not [name for name, _ in found.attributes if name.startswith("on")]
+    document = Page(page)
+    assert not document.tags & {"script", "iframe", "object", "embed", "link", "form", "b", "i", "svg"}
+    assert all(src.startswith("data:image/png;base64,") for name, src in document.attributes if name == "src")
+    assert not [name for name, _ in document.attributes if name.startswith("on")]
     assert not re.search(r"https?://", page)
     for name in (EVIL, "<img src=x onerror=alert(1)>", "a <b>", "out run <i>"):
-        assert name in found.text
+        assert name in document.text
     assert "default-src 'none'" in page
 
 
@@ -172,10 +174,12 @@ def test_every_kind_of_result_in_another_language_has_no_english_of_the_table(pl
     (file,) = write_report(folders(place), tmp_path / "r.html", project=project)
     content = re.sub(r'<p class="code">.*?</p>', "", file.read_text(encoding="utf-8"))
     text = " ".join(Page(content).text.replace("\N{NO-BREAK SPACE}", " ").split())
-    pieces = {one.strip(" .:;,()") for text in catalogue_of(file_of(tag)) for one in re.split(r"\{[^{}]*\}|\n", text)}
-    long = [one for one in pieces if len(re.findall("[A-Za-z]{2,}", one)) >= 4]
+    pieces = {
+        piece.strip(" .:;,()") for text in catalogue_of(file_of(tag)) for piece in re.split(r"\{[^{}]*\}|\n", text)
+    }
+    long = [piece for piece in pieces if len(re.findall("[A-Za-z]{2,}", piece)) >= 4]
     assert len(long) > 300
-    assert [one for one in long if one in text] == []
+    assert [piece for piece in long if piece in text] == []
     assert catalogue_of(file_of(tag))["Sources to cite"] in text
 
 
@@ -216,9 +220,9 @@ def test_the_first_page_has_the_shares_and_each_doubt_once():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(case, "_title", lambda result, language: "")
         patch.setattr(case, "_sections_of", lambda result, all_: [result])
-        cases = [case._case(one, k, {}, [], Language()) for k, one in enumerate((run, several), start=1)]
-    assert [one["verdict"] for one in cases] == ["It stands. 1 of 15 falls.", "It falls at 1 g."]
-    (note,) = case._notes([one["notes"] for one in cases])
+        cases = [case._case(result, k, {}, [], Language()) for k, result in enumerate((run, several), start=1)]
+    assert [entry["verdict"] for entry in cases] == ["It stands. 1 of 15 falls.", "It falls at 1 g."]
+    (note,) = case._notes([entry["notes"] for entry in cases])
     assert note.texts == [f"On all of them: {plane}", f"On 2: {other}"]
 
 
@@ -226,18 +230,18 @@ def test_a_verdict_says_when_columns_like_it_do_otherwise():
     from stylobate_report.certainty import certainty_sentence
 
     known = {"collapsed": 4, "stands": 1, "undecided": 0, "failed": 1, "confidence": 0.95}
-    found = {"certainty": known, "collapse_interval_low": 0.3, "collapse_interval_high": 0.99}
-    said = certainty_sentence(found | {"collapsed": False})
-    assert "Of 5 columns like this one, 4 collapse" in said
-    assert "the probability of collapse is 30 to 99 %, with 95 % confidence" in said
-    assert "1 more could not be computed" in said
-    assert "4 of 6, this one and 5 like it, collapse (95 %: 30 to 90 %); 2 stand." in said
-    assert "like it" not in certainty_sentence(found | {"collapsed": True})
+    summary = {"certainty": known, "collapse_interval_low": 0.3, "collapse_interval_high": 0.99}
+    sentence = certainty_sentence(summary | {"collapsed": False})
+    assert "Of 5 columns like this one, 4 collapse" in sentence
+    assert "the probability of collapse is 30 to 99 %, with 95 % confidence" in sentence
+    assert "1 more could not be computed" in sentence
+    assert "4 of 6, this one and 5 like it, collapse (95 %: 30 to 90 %); 2 stand." in sentence
+    assert "like it" not in certainty_sentence(summary | {"collapsed": True})
     earlier = "13 of 15 columns like it stand though this one falls: take the share, not the single run."
     known = known | {"collapsed": 2, "stands": 13, "failed": 0, "beside": earlier}
-    said = certainty_sentence(found | {"collapsed": True, "certainty": known})
-    assert "single run" not in said
-    assert "3 of 16, this one and 15 like it, collapse" in said
+    sentence = certainty_sentence(summary | {"collapsed": True, "certainty": known})
+    assert "single run" not in sentence
+    assert "3 of 16, this one and 15 like it, collapse" in sentence
     assert "was not computed" in certainty_sentence({})
 
 
@@ -252,18 +256,20 @@ def test_what_was_changed_is_said(place, tmp_path):
 
 
 def test_a_survival_is_told_with_its_interval(place, tmp_path):
-    (found,) = read_results([place / "out survival <i>"])
-    (one,) = found.summary["hazards"]
-    ends = [one[f"survival_probability{end}"] for end in ("", "_low", "_high")]
-    (file,) = write_report([found], tmp_path / "r.html")
+    (result,) = read_results([place / "out survival <i>"])
+    (hazard,) = result.summary["hazards"]
+    ends = [hazard[f"survival_probability{end}"] for end in ("", "_low", "_high")]
+    (file,) = write_report([result], tmp_path / "r.html")
     assert "{:.2g} ({:.2g}–{:.2g}, 95 %)".format(*ends) in " ".join(Page(file.read_text(encoding="utf-8")).text.split())
 
 
 def test_states_have_a_page_of_their_own(place, tmp_path):
-    (found,) = read_results([place / "out states <i>"])  # not as a study, whose plan lies there as well
-    assert found.kind is Kind.STATES
-    assert [one.digest for one in found.structures] == [found.asked.structures[k]["digest"] for k in range(2)]
-    (file,) = write_report([found], tmp_path / "r.html")
+    (result,) = read_results([place / "out states <i>"])  # not as a study, whose plan lies there as well
+    assert result.kind is Kind.STATES
+    assert [structure.digest for structure in result.structures] == [
+        result.asked.structures[k]["digest"] for k in range(2)
+    ]
+    (file,) = write_report([result], tmp_path / "r.html")
     page = Page(file.read_text(encoding="utf-8"))
     text = " ".join(page.text.split())
     advice = "“<i>ties”: not shown to be stronger than “as built” against collapse, nor weaker"
@@ -275,8 +281,8 @@ def test_states_have_a_page_of_their_own(place, tmp_path):
     assert "did not keep it" not in text
     assert "study" not in text.lower().split("sources to cite")[0]
     pictures = [value for name, value in page.attributes if name == "alt"]
-    assert sum(one.startswith("Elevation of") for one in pictures) == 2
-    assert sum("Difference of the share, pair by pair" in one for one in pictures) == 1  # no curve beside it
+    assert sum(caption.startswith("Elevation of") for caption in pictures) == 2
+    assert sum("Difference of the share, pair by pair" in caption for caption in pictures) == 1  # no curve beside it
 
 
 def test_states_of_a_version_that_counted_otherwise_are_refused(place, tmp_path, capsys):
@@ -303,7 +309,7 @@ def test_a_state_of_other_stones_is_listed_in_full():
     wide = st.Column.of_drums([st.Drum(2.0, 1.2, 1.2, 2500.0)] * 2, joint, name="three")
     text, *rest = state_section(wide, "wide", first, "as built").items
     assert text == "Its drums or joints are not those of “as built”: all of it is listed."
-    assert any(isinstance(one, Rows) and one.header[0] == "drum" for one in rest)
+    assert any(isinstance(item, Rows) and item.header[0] == "drum" for item in rest)
 
 
 def test_a_study_sets_columns_side_by_side_over_the_same_cases():
@@ -356,9 +362,9 @@ def test_every_share_of_a_suite_has_its_interval_and_its_number():
 def test_an_undecided_run_of_a_model_is_told_beside_others(place):
     from stylobate_report.others import sections_of
 
-    (found,) = read_results([place / "out compare <i>"])
-    found.table["decided"] = [True, False]
-    text = sections_of(found, set())[0].items[0].texts[0]
+    (result,) = read_results([place / "out compare <i>"])
+    result.table["decided"] = [True, False]
+    text = sections_of(result, set())[0].items[0].texts[0]
     assert text.count(", undecided") == 1
 
 
@@ -435,9 +441,9 @@ def test_without_a_chromium_nothing_is_written(place, tmp_path, capsys, monkeypa
 @pytest.mark.skipif(pdf.find_browser() is None, reason="no Chromium is found on this machine")
 def test_pdf(place, tmp_path, capsys):
     assert call(["report", str(place / "out statics <i>"), "--out", str(tmp_path / "r.html"), "--pdf", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert [one["kind"] for one in told["results"]] == ["limit", "pushover"]
-    assert told["files"] == [str(tmp_path / "r.html"), str(tmp_path / "r.pdf")]
+    answer = json.loads(capsys.readouterr().out)
+    assert [result["kind"] for result in answer["results"]] == ["limit", "pushover"]
+    assert answer["files"] == [str(tmp_path / "r.html"), str(tmp_path / "r.pdf")]
     printed = (tmp_path / "r.pdf").read_bytes()
     assert printed.startswith(b"%PDF-")
     assert len(re.findall(rb"/Type\s*/Page\b", printed)) >= 3
@@ -457,8 +463,8 @@ def test_what_opens_first_is_told_with_its_direction():
     assert re.fullmatch(r"0\.25 g \(joint 1; pushed towards azimuth (90|270)°, the weakest of all directions\)", words)
     round_ = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0, section="circular")], st.Joint(5e10, 2.5e10, 35.0))
     assert what_opens(round_, in_space=True)[1].endswith("; in every direction)")
-    found = st.AsFound([st.FoundDrum(1, offset=0.1)])
-    assert what_opens(slab.replace(as_found=found))[1].endswith("; the weaker side along x)")
+    as_found = st.AsFound([st.FoundDrum(1, offset=0.1)])
+    assert what_opens(slab.replace(as_found=as_found))[1].endswith("; the weaker side along x)")
     two = st.Column.of_drums(slab.drums * 2, slab.joints[0])
     aside = st.AsFound([st.FoundDrum(2, offset=0.1, offset_azimuth=90.0)])  # its weight is 50 mm off the middle, 2 m up
     least, words = what_opens(two.replace(as_found=aside))
@@ -469,9 +475,9 @@ def test_what_opens_first_is_told_with_its_direction():
 def test_a_monolith_has_no_drum_that_could_be_shifted():
     from stylobate.outcome import Outcome
 
-    for one in Outcome:
-        assert "drum" not in one.sentence_of(1)
-        assert one.sentence_of(2) == one.sentence
+    for outcome in Outcome:
+        assert "drum" not in outcome.sentence_of(1)
+        assert outcome.sentence_of(2) == outcome.sentence
     block = st.simulate(st.preset("paper-monolithic"), st.harmonic(1.0, 0.5, 0.1), st.DistinctElement2D())
     assert block.sentence == "The block stood still: its joint did not open."
 
@@ -483,14 +489,14 @@ def test_the_worst_direction_and_what_is_undecided_stand_in_the_answer(tmp_path)
     turned = tmp_path / "turned"
     suite = ("suite", "paper-monolithic", str(record), "--model", "housner", "--azimuths", "0:270:4", "--scale", "2")
     assert call([*suite, "--out", str(turned)]) == 0
-    said = json.loads((turned / "suite.json").read_text())["sentence"]
+    sentence = json.loads((turned / "suite.json").read_text())["sentence"]
     assert call(["report", str(turned), "--out", str(tmp_path / "r.html")]) == 0
     page = (tmp_path / "r.html").read_text(encoding="utf-8").replace("\u00a0", " ")
-    assert said in page
+    assert sentence in page
     assert "The motions are multiplied by 2. Most harm" in page
     project = tmp_path / "project.toml"
     project.write_text('client = "c"\nsite = "s"\nengineer = "e"\nlanguage = "it"\n')
     assert call(["report", str(turned), "--out", str(tmp_path / "it.html"), "--project", str(project)]) == 0
     page = (tmp_path / "it.html").read_text(encoding="utf-8")
-    assert said not in page
+    assert sentence not in page
     assert re.search("Danno maggiore: moto ruotato a|Nessuna direzione la fa crollare", page)

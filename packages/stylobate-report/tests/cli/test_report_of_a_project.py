@@ -84,10 +84,10 @@ def test_a_file_that_cannot_be_signed_is_refused(statics, tmp_path, capsys, text
         (tmp_path / "p.toml").write_text(text)
     out = tmp_path / "r.html"
     assert call(["report", str(statics / "limit"), "--project", str(tmp_path / "p.toml"), "--out", str(out)]) == 2
-    said = capsys.readouterr().err
-    print(said)
-    assert why in said
-    assert "Traceback" not in said
+    message = capsys.readouterr().err
+    print(message)
+    assert why in message
+    assert "Traceback" not in message
     assert not out.exists()
 
 
@@ -132,17 +132,17 @@ def test_a_table_of_two_results_stands_once(statics, tmp_path):
 def test_what_is_said_of_undecided_runs_is_all_in_its_language(language):
     """A column that may have fallen below its first collapse, with columns like it and alone."""
     stretches = [("stands", 0.1, 0.2, 2), ("undecided", 0.3, 0.3, 1), ("collapsed", 0.4, 0.6, 3)]
-    found = {
+    summary = {
         "amplitudes_g": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6], "runs": 6, "undecided": 1, "failed": 0, "replicates": 4,
         "lowest_collapse_g": 0.3, "lowest_collapse_factor": 0.75, "critical_g": 0.4, "open_below": 2,
         "alternation": [{"verdict": v, "from_g": a, "to_g": b, "runs": n} for v, a, b, n in stretches],
     }  # fmt: skip
     twins = {"undecided": 3, "failed": 0, "critical_16_g": 0.3, "critical_50_g": 0.4, "bounds": {}}
     run = {"collapsed": False, "decided": False, "outcome": "displaced"}
-    said = [sentence(found | {"certainty": one}) for one in (twins, None)]
-    said.append(set_against(run, {"collapsed": 3, "stands": 0, "undecided": 0}, 0.95))
+    sentences = [sentence(summary | {"certainty": certainty}) for certainty in (twins, None)]
+    sentences.append(set_against(run, {"collapsed": 3, "stands": 0, "undecided": 0}, 0.95))
     spoken = language_of(language)
-    for text in said:
+    for text in sentences:
         assert "collapse" in text
         assert re.findall(r"\b(?:the|of|and|is|are)\b", spoken.say(text)) == []
     assert not spoken.missing
@@ -154,12 +154,14 @@ def test_the_executive_page_is_all_in_its_language(statics, tmp_path, language):
     out = tmp_path / "r.html"
     assert call(["report", str(statics / "limit"), "--project", str(tmp_path / "p.toml"), "--out", str(out)]) == 0
     page = html.unescape(out.read_text(encoding="utf-8"))
-    said = catalogue_of(file_of(language))
+    catalogue = catalogue_of(file_of(language))
     for english in ("Signature", "Answers", "Limits: what is not covered", "Assumptions of this report", "Verdict"):
         assert f"<h3>{english}</h3>" not in page
     for english in ("Signature", "Answers", "Limits: what is not covered", "Sources of the results"):
-        assert f"<h3>{said[english]}</h3>" in page
-    assert "<h1>" + said["Report: {names}"].format(names="Temple, column 5") + "</h1>" in page  # its site is a name
+        assert f"<h3>{catalogue[english]}</h3>" in page
+    assert (
+        "<h1>" + catalogue["Report: {names}"].format(names="Temple, column 5") + "</h1>" in page
+    )  # its site is a name
     number = re.search(r"[\d.,]+ (?=volte il suo peso|φορές το βάρος)", page)
     assert number, page[:3000]
     assert re.fullmatch(r"\d,\d+ ", number[0])  # as the readers of the language write it

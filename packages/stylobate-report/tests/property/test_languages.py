@@ -46,18 +46,18 @@ def _messages():
 def test_every_message_has_its_translation_with_its_fields(tag):
     catalogue = catalogue_of(file_of(tag))
     assert len(catalogue) > 1000
-    assert [one for one in _messages() if one not in catalogue] == []
-    for english, said in catalogue.items():
+    assert [message for message in _messages() if message not in catalogue] == []
+    for english, translation in catalogue.items():
         if english:
-            assert sorted(set(FIELD.findall(said))) == sorted(set(FIELD.findall(english))), english
+            assert sorted(set(FIELD.findall(translation))) == sorted(set(FIELD.findall(english))), english
 
 
 @pytest.mark.parametrize("tag", LANGUAGES)
 def test_formats_of_numbers_are_those_of_the_message(tag):
     """Digits after the point belong to the number, not to the language."""
-    for english, said in catalogue_of(file_of(tag)).items():
+    for english, translation in catalogue_of(file_of(tag)).items():
         if english:
-            assert set(re.findall(r"\{[^{}]*\}", said)) <= set(re.findall(r"\{[^{}]*\}", english)), english
+            assert set(re.findall(r"\{[^{}]*\}", translation)) <= set(re.findall(r"\{[^{}]*\}", english)), english
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,7 @@ def test_what_has_no_translation_is_told_and_names_are_not():
     language.say("the column of my uncle")
     language.say("north_column-2.csv")
     assert language.say("column 1, drum 7") == "colonna 1, rocco 7"
-    assert [language.say(one) for one in ("ground – drum 1", "dowel in joint 5, 1", "layer in joint 1")] == [
+    assert [language.say(text) for text in ("ground – drum 1", "dowel in joint 5, 1", "layer in joint 1")] == [
         "suolo – rocco 1", "perno nel giunto 5, 1", "strato nel giunto 1",
     ]  # fmt: skip
     assert not language.missing

@@ -98,8 +98,8 @@ def accepted(
     away, fold = np.zeros(targets.shape), np.arange(len(targets)) % FOLDS
     for k in range(FOLDS):
         others, own = fold != k, fold == k
-        found = expected(features[others], targets[others], np.vstack((features[own], seen)))
-        away[own] = found[:-1] - found[-1]
+        predictions = expected(features[others], targets[others], np.vstack((features[own], seen)))
+        away[own] = predictions[:-1] - predictions[-1]
     return nearest(away, targets - away, count, before)
 
 
@@ -143,13 +143,13 @@ def expected(features: np.ndarray, targets: np.ndarray, at: np.ndarray) -> np.nd
     size = np.where(size > 1e-12, size, np.inf)
     own, points, off = (features - middle) / size, (at - middle) / size, targets - mean
     squares, along = np.linalg.eigh(own.T @ own)  # singular values of many draws with few features, ten times as quick
-    some = squares > 1e-12 * squares.max(initial=1e-300)
-    squares, along = squares[some], along[:, some] / np.sqrt(squares[some])
+    mask = squares > 1e-12 * squares.max(initial=1e-300)
+    squares, along = squares[mask], along[:, mask] / np.sqrt(squares[mask])
     onto = along.T @ (own.T @ off)
     kept = squares / (squares + PENALTIES[:, None] * squares.max(initial=1e-300))
-    left = (off**2).sum(axis=0) - (1.0 - (1.0 - kept) ** 2) @ onto**2
+    residual = (off**2).sum(axis=0) - (1.0 - (1.0 - kept) ** 2) @ onto**2
     free = np.maximum(1e-12, 1.0 - (1.0 + kept.sum(axis=1)) / len(features))[:, None]
-    best = kept[np.argmin(np.where(free > 1e-6, left / free**2, np.inf), axis=0)].T
+    best = kept[np.argmin(np.where(free > 1e-6, residual / free**2, np.inf), axis=0)].T
     return mean + points @ (along @ (best * onto))
 
 

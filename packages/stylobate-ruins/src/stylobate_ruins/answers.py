@@ -33,21 +33,21 @@ BUMPS = 100
 
 def matches(fact: Fact, table: Simulations) -> np.ndarray:
     """Draws that leave an event as it is seen, shape (draws,)."""
-    left = table.left[fact.structure]
+    final_state = table.left[fact.structure]
     if fact.kind == "state":
-        return left.verdict == (FELL if fact.value[0] else STANDS)
+        return final_state.verdict == (FELL if fact.value[0] else STANDS)
     if fact.kind == "body":
-        return left.fallen[:, fact.joint] == bool(fact.value[0])
-    return (left.verdict == STANDS) & (left.largest <= fact.value[0])
+        return final_state.fallen[:, fact.joint] == bool(fact.value[0])
+    return (final_state.verdict == STANDS) & (final_state.largest <= fact.value[0])
 
 
 def left_by(fact: Fact, table: Simulations) -> np.ndarray:
     """What every draw leaves in the place of a number that is seen, shape (draws, values)."""
-    left = table.left[fact.structure]
+    final_state = table.left[fact.structure]
     if fact.kind in VECTORS:
-        return plan(fact, left)
-    alone = {"fell towards": left.towards, "largest": left.largest}
-    return (alone[fact.kind] if fact.kind in alone else left.twist[:, fact.joint])[:, None]
+        return plan(fact, final_state)
+    alone = {"fell towards": final_state.towards, "largest": final_state.largest}
+    return (alone[fact.kind] if fact.kind in alone else final_state.twist[:, fact.joint])[:, None]
 
 
 def errors(fact: Fact, shape: tuple[int, ...], seed: int) -> np.ndarray:
@@ -56,9 +56,9 @@ def errors(fact: Fact, shape: tuple[int, ...], seed: int) -> np.ndarray:
     return fact.sd * stream.standard_normal(shape)
 
 
-def plan(fact: Fact, left: FinalState) -> np.ndarray:
+def plan(fact: Fact, final_state: FinalState) -> np.ndarray:
     """What every draw leaves in the place of a vector in plan [m], shape (draws, 2)."""
-    return (left.slip if fact.kind == "offset" else left.moved)[:, fact.joint]
+    return (final_state.slip if fact.kind == "offset" else final_state.moved)[:, fact.joint]
 
 
 def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool = False) -> np.ndarray:
@@ -80,12 +80,12 @@ def features(facts: Sequence[Fact], values: Sequence[np.ndarray], *, sizes: bool
     each: list[np.ndarray] = []
     directions: list[np.ndarray] = []
     for structure in dict.fromkeys(fact.structure for fact in facts):
-        own = [(fact, one) for fact, one in zip(facts, values, strict=True) if fact.structure == structure]
+        own = [(fact, draws) for fact, draws in zip(facts, values, strict=True) if fact.structure == structure]
         for kind, of in _FEATURES.items():
-            some = [(fact, one) for fact, one in own if fact.kind == kind]
-            if some:
-                for all_of_them, one in zip((levels, each, directions), of(some), strict=True):
-                    all_of_them += one
+            pairs = [(fact, draws) for fact, draws in own if fact.kind == kind]
+            if pairs:
+                for all_of_them, arrays in zip((levels, each, directions), of(pairs), strict=True):
+                    all_of_them += arrays
     columns = levels if sizes else [*levels, *each, *directions, *_bumps(levels)]
     return np.column_stack(columns) if columns else np.zeros((len(values[0]) if values else 0, 0))
 
@@ -108,15 +108,15 @@ def _bumps(levels: Sequence[np.ndarray]) -> list[np.ndarray]:
     return list(np.exp(-np.maximum(squares, 0.0) / width).T) if width > 1e-12 else []
 
 
-def _of_offsets(some: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
-    x, y = np.stack([one.T / max(fact.sd, LEAST_OFFSET) for fact, one in some], axis=-1)  # each over its own error
+def _of_offsets(pairs: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
+    x, y = np.stack([draws.T / max(fact.sd, LEAST_OFFSET) for fact, draws in pairs], axis=-1)  # each over its own error
     square = x * x + y * y
     length = np.sqrt(square)
-    bottom, long = square.sum(axis=1) + len(some), length.sum(axis=1) + len(some)
+    bottom, long = square.sum(axis=1) + len(pairs), length.sum(axis=1) + len(pairs)
     directions = [(x * x - y * y).sum(axis=1) / bottom, (2.0 * x * y).sum(axis=1) / bottom]
     directions += [x.sum(axis=1) / long, y.sum(axis=1) / long]
     overall = [np.arcsinh(length.max(axis=1))]
-    if len(some) == 1:
+    if len(pairs) == 1:
         return overall, [], directions
     overall.append(np.arcsinh(np.sqrt(square.mean(axis=1))))
     axes = np.concatenate([x * x - y * y, 2.0 * x * y], axis=1) / np.tile(
@@ -125,16 +125,16 @@ def _of_offsets(some: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
     return overall, list(np.arcsinh(length).T), [*directions, *axes.T]
 
 
-def _of_sizes(some: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
+def _of_sizes(pairs: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
     """Of numbers without a direction: twists, the largest offset."""
-    least = [LEAST_OFFSET if fact.kind in LENGTHS else LEAST_TWIST for fact, _ in some]
-    scale = np.array([max(fact.sd, one) for (fact, _), one in zip(some, least, strict=True)])
-    sizes = np.arcsinh(np.abs(np.concatenate([one for _, one in some], axis=1)) / scale)
-    return [sizes.max(axis=1)], list(sizes.T) if len(some) > 1 else [], []
+    least = [LEAST_OFFSET if fact.kind in LENGTHS else LEAST_TWIST for fact, _ in pairs]
+    scale = np.array([max(fact.sd, floor) for (fact, _), floor in zip(pairs, least, strict=True)])
+    sizes = np.arcsinh(np.abs(np.concatenate([draws for _, draws in pairs], axis=1)) / scale)
+    return [sizes.max(axis=1)], list(sizes.T) if len(pairs) > 1 else [], []
 
 
-def _of_falls(some: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
-    ((_, angle),) = some
+def _of_falls(pairs: Sequence[tuple[Fact, np.ndarray]]) -> _Features:
+    ((_, angle),) = pairs
     return [], [], [*vectors(angle[:, 0], 180.0).T, *vectors(angle[:, 0], 360.0).T]
 
 
@@ -217,7 +217,7 @@ class Answers:
         self.weights = np.ones(len(table)) if weights is None else weights
         self.scores = {name: abc.Scores(table.parameters[name]) for name in UNITS if name != "azimuth_deg"}
         directions = abc.vectors(table.parameters["azimuth_deg"], table.prior.turn)
-        self.targets = np.column_stack([*(one.scores for one in self.scores.values()), directions])
+        self.targets = np.column_stack([*(scores.scores for scores in self.scores.values()), directions])
         self.matched = {fact: matches(fact, table) for fact in self.facts if fact.kind in EVENTS}
         self.exact = {fact: left_by(fact, table) for fact in self.facts if fact.kind not in EVENTS}
         self.values = {fact: exact + errors(fact, exact.shape, seed) for fact, exact in self.exact.items()}
@@ -225,25 +225,27 @@ class Answers:
     def matching(self, facts: Sequence[Fact]) -> np.ndarray:
         """Numbers of the draws that match all events among facts."""
         return np.flatnonzero(
-            np.all([self.weights > 0.0, *(self.matched[one] for one in facts if one in self.matched)], axis=0)
+            np.all([self.weights > 0.0, *(self.matched[fact] for fact in facts if fact in self.matched)], axis=0)
         )
 
     def of_draws(
         self, facts: Sequence[Fact], which: np.ndarray, *, sizes: bool = False
     ) -> tuple[np.ndarray, np.ndarray]:
         """Features of numbers among facts: of draws, shape (draws, features), and of what is seen, shape (features,)."""
-        told = [one for one in facts if one in self.exact and one.sd < BADLY * self.exact[one][which].std(axis=0).max()]
-        if not told:
+        precise_facts = [
+            fact for fact in facts if fact in self.exact and fact.sd < BADLY * self.exact[fact][which].std(axis=0).max()
+        ]
+        if not precise_facts:
             return np.zeros((len(which), 0)), np.zeros(0)
-        values = [np.vstack((self.values[one][which], [one.value])) for one in told]
-        found = features(told, values, sizes=sizes)
-        return found[:-1], found[-1]
+        values = [np.vstack((self.values[fact][which], [fact.value])) for fact in precise_facts]
+        all_features = features(precise_facts, values, sizes=sizes)
+        return all_features[:-1], all_features[-1]
 
     def to(self, facts: Sequence[Fact]) -> abc.Accepted:
         """Draws that are accepted for facts."""
         which = self.matching(facts)
-        found, seen = self.of_draws(facts, which)
-        near = abc.accepted(found, self.targets[which], seen, self._count(which, SHARE), self.weights[which])
+        drawn_features, seen = self.of_draws(facts, which)
+        near = abc.accepted(drawn_features, self.targets[which], seen, self._count(which, SHARE), self.weights[which])
         return replace(near, which=which[near.which])
 
     def _count(self, which: np.ndarray, share: float) -> int:
@@ -255,26 +257,26 @@ class Answers:
         It is not moved along a line: where next to nothing has moved, lines through rare events lead astray.
         """
         which = self.matching(facts)
-        found, seen = self.of_draws(facts, which, sizes=True)
-        away = (found - seen) / (found.std(axis=0) + 1e-12)
+        drawn_features, seen = self.of_draws(facts, which, sizes=True)
+        away = (drawn_features - seen) / (drawn_features.std(axis=0) + 1e-12)
         near = abc.nearest(away, what[which, None], self._count(which, CLOSE), self.weights[which])
         return replace(near, which=which[near.which])
 
     def posterior(self, taken: abc.Accepted) -> dict[str, Posterior]:
         """Parameters after accepted draws."""
-        found = {}
+        posteriors = {}
         for column, (name, scores) in enumerate(self.scores.items()):
             low, middle, high = scores.value(abc.quantiles(taken.targets[:, column], taken.weights)).tolist()
             before = float(scores.scores.std())
-            left = abc.spread(taken.targets[:, column], taken.weights) / before if before > 0.0 else 1.0
-            found[name] = Posterior(middle, low, high, left)
+            spread_ratio = abc.spread(taken.targets[:, column], taken.weights) / before if before > 0.0 else 1.0
+            posteriors[name] = Posterior(middle, low, high, spread_ratio)
         turn, prior = self.table.prior.turn, self.table.parameters["azimuth_deg"]
         angles = self.azimuths(taken)
         low, middle, high = abc.quantiles_around(angles, taken.weights, turn).tolist()
         before = abc.spread_around(prior, np.ones(len(prior)), turn)
-        left = abc.spread_around(angles, taken.weights, turn) / before if before > 0.0 else 1.0
-        found["azimuth_deg"] = Posterior(middle, low, high, left)
-        return found
+        spread_ratio = abc.spread_around(angles, taken.weights, turn) / before if before > 0.0 else 1.0
+        posteriors["azimuth_deg"] = Posterior(middle, low, high, spread_ratio)
+        return posteriors
 
     def azimuths(self, taken: abc.Accepted) -> np.ndarray:
         """Azimuths of accepted draws, not moved [degrees].
@@ -292,8 +294,8 @@ class Answers:
     def without(self, fact: Fact) -> list[Fact]:
         """All facts but one; without a state also what is seen of that structure or body besides."""
         if fact.kind == "state":
-            return [one for one in self.facts if one.structure != fact.structure]
-        return [one for one in self.facts if one is not fact and not self._is_body_of(fact, one)]
+            return [other for other in self.facts if other.structure != fact.structure]
+        return [other for other in self.facts if other is not fact and not self._is_body_of(fact, other)]
 
     @staticmethod
     def _is_body_of(state: Fact, fact: Fact) -> bool:
@@ -304,9 +306,11 @@ class Answers:
     def alone(self, fact: Fact) -> list[Fact]:
         """A fact alone, with the states that it needs."""
         return [
-            one
-            for one in self.facts
-            if one is fact or (one.kind == "state" and one.structure == fact.structure) or self._is_body_of(one, fact)
+            candidate
+            for candidate in self.facts
+            if candidate is fact
+            or (candidate.kind == "state" and candidate.structure == fact.structure)
+            or self._is_body_of(candidate, fact)
         ]
 
     def bayes_factor(self) -> tuple[float, bool]:
@@ -326,14 +330,14 @@ class Answers:
         likely = self.weights[which] * np.exp(logs[:-1] - logs[:-1].max())
         none = fallen * np.log(FALLS_OTHERWISE) + standing * np.log1p(-FALLS_OTHERWISE) + logs[-1] - logs[:-1].max()
         factor = min(MOST_TIMES, float(np.exp(min(700.0, np.log(likely.sum() / self.weights.sum()) - none))))
-        told = any(fact.kind != "fell towards" for fact in self.exact)
-        return factor, bool(factor == MOST_TIMES or (told and abc.effective(likely) < FEWEST))
+        measured = any(fact.kind != "fell towards" for fact in self.exact)
+        return factor, bool(factor == MOST_TIMES or (measured and abc.effective(likely) < FEWEST))
 
 
-def words_of(name: str, one: Posterior) -> str:
+def words_of(name: str, posterior: Posterior) -> str:
     """A posterior with its interval, for people."""
     unit = f" {UNITS[name]}" if UNITS[name] != "°" else "°"
-    return say("{p.median:.3g}{unit}, {p.low:.3g} to {p.high:.3g}", p=one, unit=unit)
+    return say("{p.median:.3g}{unit}, {p.low:.3g} to {p.high:.3g}", p=posterior, unit=unit)
 
 
 def listed(words: Sequence[str]) -> str:

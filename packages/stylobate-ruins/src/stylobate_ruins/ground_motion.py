@@ -131,8 +131,8 @@ _B14 = ("e1", "c1", "c2", "h", "c3", "b1", "b2", "b3", "gamma", *MECHANISMS)
 #: Models by the name that is typed. PGA of the first one has the coefficients of Bommer et al. (2012, table 5), PGV those of
 #: the paper (table 1); of the second one both are those of its electronic supplement, which the erratum confirms.
 MODELS = {
-    one.name: one
-    for one in (
+    model.name: model
+    for model in (
         GroundMotionModel(
             "akkar-bommer-2010",
             "the model of Akkar and Bommer (2010)",
@@ -266,8 +266,8 @@ class Events:
 
 def plane(places: Sequence[tuple[float, float]], middle: tuple[float, float]) -> np.ndarray:
     """East and north of a middle [km] of longitudes and latitudes [degrees], shape (n, 2); right within some 300 km."""
-    found = np.radians(np.asarray(places, dtype=float) - np.asarray(middle))
-    return EARTH * found * [math.cos(math.radians(middle[1])), 1.0]
+    angles = np.radians(np.asarray(places, dtype=float) - np.asarray(middle))
+    return EARTH * angles * [math.cos(math.radians(middle[1])), 1.0]
 
 
 def rupture_length(magnitude: float) -> float:
@@ -278,7 +278,7 @@ def rupture_length(magnitude: float) -> float:
 def events_of(source: Source, middle: tuple[float, float]) -> Events:
     """Ruptures of a source: evenly along a fault, never beyond its ends; about a point or in a disc by their strike."""
     ends = plane(source.ends, middle)
-    found = []
+    ruptures = []
     for magnitude, rate in zip(*source.sizes(), strict=True):
         length = rupture_length(float(magnitude))
         if len(ends) == 2:
@@ -287,15 +287,15 @@ def events_of(source: Source, middle: tuple[float, float]) -> Events:
             number = math.ceil(run / ALONG) + 1
             begin = np.linspace(0.0, run, number)[:, None] / whole
             end = begin + min(length, whole) / whole
-            pieces = np.stack([ends[0] + one * (ends[1] - ends[0]) for one in (begin, end)], axis=1)
+            pieces = np.stack([ends[0] + share * (ends[1] - ends[0]) for share in (begin, end)], axis=1)
         else:
             strikes = np.arange(STRIKES) * 180.0 / STRIKES if source.strike is None else np.array([source.strike])
             turned = np.radians(strikes)
             half = 0.5 * length * np.stack((np.sin(turned), np.cos(turned)), axis=1)
             middles = _disc(ends[0], source.radius)[:, None]
             pieces = np.stack((middles - half, middles + half), axis=2).reshape(-1, 2, 2)
-        found.append((np.full(len(pieces), magnitude), np.full(len(pieces), rate / len(pieces)), pieces))
-    return Events(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+        ruptures.append((np.full(len(pieces), magnitude), np.full(len(pieces), rate / len(pieces)), pieces))
+    return Events(*(np.concatenate(parts) for parts in zip(*ruptures, strict=True)))
 
 
 def _disc(centre: np.ndarray, radius: float) -> np.ndarray:
@@ -443,7 +443,7 @@ class SharedEvents:
         InputError
             The model does not hold for a magnitude, or as far as a place lies from a source.
         """
-        middle = (float(np.mean([one[0] for one in places])), float(np.mean([one[1] for one in places])))
+        middle = (float(np.mean([point[0] for point in places])), float(np.mean([point[1] for point in places])))
         flat = plane(places, middle)
         rates, medians = [], []
         for source in sources:
@@ -478,8 +478,8 @@ class SharedEvents:
         wide = np.sqrt(beta**2 + self.spread**2)
         return np.array(
             [
-                self.rate @ ndtr((self.log_median[:, at, None] - theta) / one)
-                for at, theta, one in zip(place, log_median, wide, strict=True)
+                self.rate @ ndtr((self.log_median[:, at, None] - theta) / width)
+                for at, theta, width in zip(place, log_median, wide, strict=True)
             ]
         )
 
@@ -509,17 +509,17 @@ class SharedEvents:
         shaken = self.log_median[matter, None, :] + normal @ self.root.T  # (e, q, s)
         missed = log_ndtr((log_median - shaken[..., place]) / beta).reshape(-1, len(place))
         survived = np.zeros((len(missed), len(sets)))
-        for one in np.unique(structures):
-            mine = np.flatnonzero(structures == one)
+        for structure in np.unique(structures):
+            mine = np.flatnonzero(structures == structure)
             if len(mine) == 1:
                 survived += missed[:, mine] * sets[:, mine].T
             else:
                 survived += np.where(sets[None][:, :, mine], missed[:, None, mine], 0.0).min(axis=2)
         reached = -np.expm1(missed) @ sets.T  # the sum of what each reaches, for every set
         twice = (-np.expm1(survived) - reached).reshape(-1, len(normal), len(sets)).mean(axis=1)
-        found = sets @ each + self.rate[matter] @ twice
+        rates = sets @ each + self.rate[matter] @ twice
         least = np.where(sets, each, 0.0).max(axis=1)
-        return np.clip(found, least, np.maximum(sets @ each, least))
+        return np.clip(rates, least, np.maximum(sets @ each, least))
 
 
 def _gathered(rate: np.ndarray, median: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -527,5 +527,5 @@ def _gathered(rate: np.ndarray, median: np.ndarray) -> tuple[np.ndarray, np.ndar
     _, cell = np.unique(np.round(median / CELL), axis=0, return_inverse=True)
     cell = cell.ravel()
     total = np.bincount(cell, rate)
-    mean = np.stack([np.bincount(cell, rate * one) / total for one in median.T], axis=1)
+    mean = np.stack([np.bincount(cell, rate * medians) / total for medians in median.T], axis=1)
     return total, mean

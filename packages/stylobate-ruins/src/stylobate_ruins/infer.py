@@ -91,14 +91,14 @@ class Inference(NotebookSummary):
         checks = checks_of(self.answers, FEWEST)
         lasted = self.outlasted
         if lasted is not None:
-            said = f"that some of it has fallen or moved by another earthquake, by {lasted.hazard.name}"
-            checks.append(Checked(lasted.label, lasted.chance, lasted.odd, said))
+            expected = f"that some of it has fallen or moved by another earthquake, by {lasted.hazard.name}"
+            checks.append(Checked(lasted.label, lasted.chance, lasted.odd, expected))
         return checks
 
     @property
     def odd(self) -> list[Checked]:
         """Things seen that all else does not predict."""
-        return [one for one in self.checks if one.odd]
+        return [check for check in self.checks if check.odd]
 
     @cached_property
     def records(self) -> list[dict[str, Any]]:
@@ -108,26 +108,30 @@ class Inference(NotebookSummary):
             return []
         number, before = self.answers.table.parameters["record"].astype(int), 1.0 / len(records)
         rows = []
-        for k, one in enumerate(records):
+        for k, record in enumerate(records):
             share = float(self.taken.weights[number[self.taken.which] == k].sum())
             odds = share / (1.0 - share) * (1.0 - before) / before if share < 1.0 and before < 1.0 else None
-            rows.append({"record": one.name, "probability": share, "bayes_factor_against_others": odds})
+            rows.append({"record": record.name, "probability": share, "bayes_factor_against_others": odds})
         return sorted(rows, key=lambda row: -row["probability"])
 
     @property
     def sentence(self) -> str:
         """The answer, in a few sentences."""
-        pgv, said = self.posterior["pgv_m_s"], [one.sentence for one in self.odd]
+        pgv, sentences = self.posterior["pgv_m_s"], [check.sentence for check in self.odd]
         if pgv.informative:
             all_of_it = say("If shaking alone did all of it, the peak ground velocity was {pgv} (90 %).")
-            words = all_of_it if said else say("The peak ground velocity was {pgv} (90 %).")
-            said.append(words.of(pgv=words_of("pgv_m_s", pgv)))
-        told = [name for name, one in self.posterior.items() if one.informative and name != "pgv_m_s"]
+            words = all_of_it if sentences else say("The peak ground velocity was {pgv} (90 %).")
+            sentences.append(words.of(pgv=words_of("pgv_m_s", pgv)))
+        informative = [
+            name for name, posterior in self.posterior.items() if posterior.informative and name != "pgv_m_s"
+        ]
         word = say("{name:capital} {value}.")
-        said += [word.of(name=say(LABELS[name]), value=words_of(name, self.posterior[name])) for name in told]
-        untold = [LABELS[name] for name, one in self.posterior.items() if not one.informative]
+        sentences += [
+            word.of(name=say(LABELS[name]), value=words_of(name, self.posterior[name])) for name in informative
+        ]
+        untold = [LABELS[name] for name, posterior in self.posterior.items() if not posterior.informative]
         if untold:
-            said.append(say("The shapes do not tell {names}: what they leave is the prior.", names=listed(untold)))
+            sentences.append(say("The shapes do not tell {names}: what they leave is the prior.", names=listed(untold)))
         factor, at_least = self.bayes_factor
         if self.answers.facts:
             with_, least = (
@@ -138,16 +142,16 @@ class Inference(NotebookSummary):
             words = (
                 without.of(factor=1.0 / factor) if factor < 1.0 else (least if at_least else with_).of(factor=factor)
             )
-            said.append(words)
+            sentences.append(words)
         if self.taken.effective < 0.5 * FEWEST:
             few = say(
                 "Draws that count as {number:.0f} carry all of this, and intervals are as wide as that asks for; raise "
                 "simulations."
             )
-            said.append(few.of(number=self.taken.effective))
+            sentences.append(few.of(number=self.taken.effective))
         if self.outlasted is not None:
-            said.append(self.outlasted.sentence(self.answers.matching(self.answers.facts)))
-        return joined(" ", said)
+            sentences.append(self.outlasted.sentence(self.answers.matching(self.answers.facts)))
+        return joined(" ", sentences)
 
     @property
     def table(self) -> pandas.DataFrame:
@@ -155,22 +159,25 @@ class Inference(NotebookSummary):
         import pandas
 
         return pandas.DataFrame(
-            [{"parameter": LABELS[name], "unit": UNITS[name], **one.summary()} for name, one in self.posterior.items()]
+            [
+                {"parameter": LABELS[name], "unit": UNITS[name], **posterior.summary()}
+                for name, posterior in self.posterior.items()
+            ]
         )
 
     @property
     def draws(self) -> pandas.DataFrame:
         """The accepted draws, the nearest first, with their weights."""
         order = np.argsort(self.taken.distance, kind="stable")
-        some = self.answers.table.table.iloc[self.taken.which[order]]
-        return some.assign(weight=self.taken.weights[order], distance=self.taken.distance[order])
+        rows = self.answers.table.table.iloc[self.taken.which[order]]
+        return rows.assign(weight=self.taken.weights[order], distance=self.taken.distance[order])
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate infer``."""
         factor, at_least = self.bayes_factor
         return {
             "sentence": self.sentence,
-            "posterior": {name: one.summary() for name, one in self.posterior.items()},
+            "posterior": {name: posterior.summary() for name, posterior in self.posterior.items()},
             "informative": self.informative,
             "bayes_factor_no_earthquake": factor,
             "bayes_factor_is_at_least": at_least,
@@ -180,14 +187,14 @@ class Inference(NotebookSummary):
             "accepted": len(self.taken.which),
             "effective": self.taken.effective,
             "observations": self.information,
-            "checks": [one.summary() for one in self.checks],
+            "checks": [check.summary() for check in self.checks],
             "consistent": not self.odd,
             "survival": None
             if self.outlasted is None
             else self.outlasted.summary(self.answers.matching(self.answers.facts)),
             "records": self.records,
-            "prior": self.ruin.prior.facts() | {"records": [one.name for one in self.ruin.prior.records]},
-            "columns": [one.name for one in self.ruin.structures],
+            "prior": self.ruin.prior.facts() | {"records": [record.name for record in self.ruin.prior.records]},
+            "columns": [structure.name for structure in self.ruin.structures],
             "model": self.ruin.model.name,
             "seed": self.ruin.seed,
             "wall_s": self.wall_time,
@@ -269,4 +276,4 @@ def _draw_words(answers: Answers, k: int, events: Sequence[Fact]) -> str:
     parameters = answers.table.parameters
     other = [fact.label for fact in events if not answers.matched[fact][k]]
     of = f"{parameters['pgv_m_s'][k]:.2g} m/s with {parameters['period_s'][k]:.2g} s"
-    return f"{of} (all but {listed([repr(one) for one in other])})"
+    return f"{of} (all but {listed([repr(label) for label in other])})"

@@ -60,7 +60,7 @@ class Capacity:
     doubts: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, told: Mapping[str, Any]) -> Capacity:
+    def of(cls, curve: Mapping[str, Any]) -> Capacity:
         """Capacity of a fragility, by its JSON object; its intervals hold what open runs may come to.
 
         Raises
@@ -69,26 +69,28 @@ class Capacity:
             A limit of the median or the dispersion is not known.
         """
         ends = [
-            float(told.get(f"{one}{side}") or "nan") for one in ("median", "beta") for side in ("", "_low", "_high")
+            float(curve.get(f"{quantity}{side}") or "nan")
+            for quantity in ("median", "beta")
+            for side in ("", "_low", "_high")
         ]
-        if not all(math.isfinite(one) and one > 0.0 for one in ends):
+        if not all(math.isfinite(end) and end > 0.0 for end in ends):
             raise InputError(
-                f"the fragility of {told.get('name')!r} leaves its median or dispersion without a limit, which nothing can "
+                f"the fragility of {curve.get('name')!r} leaves its median or dispersion without a limit, which nothing can "
                 "be weighed by; give it more levels or records.",
                 "fragility",
             )
-        q = float(ndtri(0.5 + 0.5 * float(told.get("confidence", 0.95))))
+        q = float(ndtri(0.5 + 0.5 * float(curve.get("confidence", 0.95))))
         best, low, high, wide, least, most = map(math.log, ends)
         return cls(
-            measure=str(told["im"]),
-            unit=str(told["unit"]),
-            state=str(told["state"]),
+            measure=str(curve["im"]),
+            unit=str(curve["unit"]),
+            state=str(curve["state"]),
             log_median=best,
             log_beta=wide,
             median_sides=(max(best - low, 0.0) / q, max(high - best, 0.0) / q),
             beta_sides=(max(wide - least, 0.0) / q, max(most - wide, 0.0) / q),
-            correlation=float(told.get("correlation") or 0.0),
-            doubts=tuple(told.get("warnings", ())),
+            correlation=float(curve.get("correlation") or 0.0),
+            doubts=tuple(curve.get("warnings", ())),
         )
 
     def draw(self, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -213,28 +215,28 @@ class Sites:
 
     def __post_init__(self) -> None:
         for what, names in (
-            ("sites", [one.name for one in self.sites]),
-            ("branches", [one.name for one in self.branches]),
-            ("states of monuments", [one.called for one in self.monuments]),
+            ("sites", [site.name for site in self.sites]),
+            ("branches", [branch.name for branch in self.branches]),
+            ("states of monuments", [monument.called for monument in self.monuments]),
         ):
             if not names:
                 raise InputError(f"no {what} are given; give at least one.")
-            twice = next((one for k, one in enumerate(names) if one in names[:k]), None)
+            twice = next((name for k, name in enumerate(names) if name in names[:k]), None)
             if twice is not None:
                 raise InputError(f"two {what} are called {twice!r}; give each a name of its own.")
-        known = {one.name: one for one in self.sites}
-        for one in self.monuments:
-            check_choice("site", one.site, known, of=repr(one.name))
-            if (one.site, one.age, one.until) != next(
-                (first.site, first.age, first.until) for first in self.monuments if first.name == one.name
+        known = {site.name: site for site in self.sites}
+        for monument in self.monuments:
+            check_choice("site", monument.site, known, of=repr(monument.name))
+            if (monument.site, monument.age, monument.until) != next(
+                (first.site, first.age, first.until) for first in self.monuments if first.name == monument.name
             ):
                 raise InputError(
-                    f"states of {one.name!r} differ in site, `age` or until; one monument has one of each."
+                    f"states of {monument.name!r} differ in site, `age` or until; one monument has one of each."
                 )
-        measures = {(one.capacity.measure, one.capacity.unit) for one in self.monuments}
+        measures = {(monument.capacity.measure, monument.capacity.unit) for monument in self.monuments}
         if len(measures) > 1:
-            told = ", ".join(sorted(f"{measure} in {unit}" for measure, unit in measures))
-            raise InputError(f"the fragilities are over different intensities ({told}); give all of one.", "im")
+            intensities = ", ".join(sorted(f"{measure} in {unit}" for measure, unit in measures))
+            raise InputError(f"the fragilities are over different intensities ({intensities}); give all of one.", "im")
         self._check_branches(known)
 
     def windows(self, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -245,16 +247,16 @@ class Sites:
         share : array
             Where in its spans the age of each state lies, and until when it is known, from 0 to 1, shape (n, 2).
         """
-        ages, untils = ([getattr(one, name) for one in self.monuments] for name in ("age", "until"))
+        ages, untils = ([getattr(monument, name) for monument in self.monuments] for name in ("age", "until"))
         begin, end = (
-            np.array([low + (high - low) * one for (low, high), one in zip(spans, part, strict=True)])
+            np.array([low + (high - low) * fraction for (low, high), fraction in zip(spans, part, strict=True)])
             for spans, part in zip((ages, untils), share.T, strict=True)
         )
         return begin, end
 
     def _check_branches(self, known: Mapping[str, Site]) -> None:
-        used = dict.fromkeys(one.site for one in self.monuments)
-        if len({bool(one.sources) for one in self.branches}) > 1:
+        used = dict.fromkeys(monument.site for monument in self.monuments)
+        if len({bool(branch.sources) for branch in self.branches}) > 1:
             raise InputError("some branches have hazard curves and some have sources; give all of one kind.")
         for branch in self.branches:
             missing = [name for name in used if branch.curves and name not in branch.curves]
@@ -262,7 +264,7 @@ class Sites:
             if missing:
                 what = "place (`at`)" if branch.sources else "hazard curve"
                 raise InputError(f"branch {branch.name!r} needs a {what} of site {missing[0]!r}; give one.")
-        total = sum(one.weight for one in self.branches)
+        total = sum(branch.weight for branch in self.branches)
         if abs(total - 1.0) > ROUNDED * (1.0 + 1e-9):  # three times 0.33 is 0.99
             raise InputError(
                 f"the weights of the branches sum to {total:.4g}; allowed is 1, within {ROUNDED:g}: correct them, or divide "
@@ -328,13 +330,22 @@ def read_sites(path: str | Path) -> Sites:
     """
     file, folder = read_table(path, SitesFile), Path(path).parent
     with within(printable(path)):
-        sites = tuple(Site(one.name, None if one.at is None else _pair("at", one.at), one.vs30) for one in file.sites)
+        sites = tuple(
+            Site(site.name, None if site.at is None else _pair("at", site.at), site.vs30) for site in file.sites
+        )
         monuments = []
-        for number, one in enumerate(file.monuments, 1):
+        for number, monument in enumerate(file.monuments, 1):
             with within(f"[[monuments]] number {number}", "monuments", number):
-                capacity = _capacity(one, folder)
+                capacity = _capacity(monument, folder)
                 monuments.append(
-                    Monument(one.name, one.site, capacity, one.seen, _span("age", one.age), _span("until", one.until))
+                    Monument(
+                        monument.name,
+                        monument.site,
+                        capacity,
+                        monument.seen,
+                        _span("age", monument.age),
+                        _span("until", monument.until),
+                    )
                 )
         branches = _branches(folder / file.branches, sites)
         return Sites(sites, tuple(monuments), branches, check_whole("`seed`", file.seed, 0, 2**63 - 1))
@@ -346,21 +357,21 @@ def _capacity(table: MonumentTable, folder: Path) -> Capacity:
         if table.median is None or table.beta is None or table.im is None:
             raise InputError("it needs fragility, a file or folder, or `im`, median and beta; give one of both.")
         measure = parse_measure(table.im)
-        told: dict[str, Any] = {"name": table.name, "im": measure.name, "unit": measure.unit, "state": table.state}
+        fragility: dict[str, Any] = {"name": table.name, "im": measure.name, "unit": measure.unit, "state": table.state}
         for name, best, limits in (("median", table.median, table.median_95), ("beta", table.beta, table.beta_95)):
             low, high = (best, best) if limits is None else _pair(f"{name}_95", limits)
             if not 0.0 < low <= best <= high:
                 raise InputError(
                     f"`{name}` is {best:g} and `{name}_95` {low:g} to {high:g}; give 0 < low ≤ {name} ≤ high.", name
                 )
-            told |= {name: best, f"{name}_low": low, f"{name}_high": high}
-        return Capacity.of(told)
-    if any(one is not None for one in numbers):
+            fragility |= {name: best, f"{name}_low": low, f"{name}_high": high}
+        return Capacity.of(fragility)
+    if any(number is not None for number in numbers):
         raise InputError("fragility and numbers of one are both given; leave one out.", "fragility")
     place = folder / table.fragility
     if (place / "fragility.json").is_file():
-        found = read_json(place / "fragility.json")
-        curves = [one for one in found.get("curves") or [found] if table.of in (None, one.get("name"))]
+        document = read_json(place / "fragility.json")
+        curves = [curve for curve in document.get("curves") or [document] if table.of in (None, curve.get("name"))]
         if len(curves) != 1 or not {"median", "beta", "im", "unit", "state"} <= set(curves[0]):
             raise InputError(
                 f"{printable(place)} holds {len(curves)} curves that may be meant; name one with `of`.", "of"
@@ -374,14 +385,14 @@ def _capacity(table: MonumentTable, folder: Path) -> Capacity:
 def _branches(path: Path, sites: tuple[Site, ...]) -> tuple[Branch, ...]:
     """A row for each branch: its weight, and a hazard file for each site, or a table of sources and a model."""
     table = tables.read(path, MOST, "branch", "the columns branch, weight, and one for each site, or sources and model")
-    known = {one.name.lower(): one for one in sites}
+    known = {site.name.lower(): site for site in sites}
     if "weight" not in table.columns:
         raise InputError(f"{table.name} has no column 'weight'; add what each branch weighs before anything is seen.")
     for column in table.columns:
         check_choice("column", column, [*BRANCH_COLUMNS, *known], of=table.name)
     if len(table.rows) > MOST_BRANCHES:
         raise InputError(f"{table.name} has {len(table.rows)} branches; allowed are {MOST_BRANCHES}.")
-    found = []
+    branches = []
     for line, weight, row in zip(table.lines, table.numbers("weight"), table.rows, strict=True):
         cells = dict(zip(table.columns, row, strict=True))
         with within(f"line {line} of {table.name}"):
@@ -395,8 +406,8 @@ def _branches(path: Path, sites: tuple[Site, ...]) -> tuple[Branch, ...]:
                 check_choice("model", cells["model"], MODELS)
                 model = MODELS[cells["model"]]
             events = tuple(_sources(path.parent / sources)) if sources else ()
-            found.append(Branch(cells["branch"], weight, curves, events, model))
-    return tuple(found)
+            branches.append(Branch(cells["branch"], weight, curves, events, model))
+    return tuple(branches)
 
 
 #: Columns of a table of sources.
@@ -410,35 +421,35 @@ def _sources(path: Path) -> list[Source]:
     )
     for column in table.columns:
         check_choice("column", column, [*SOURCE_COLUMNS, *FURTHER], of=table.name)
-    missing = next((one for one in SOURCE_COLUMNS if one not in table.columns), None)
+    missing = next((column for column in SOURCE_COLUMNS if column not in table.columns), None)
     if missing:
         raise InputError(f"{table.name} has no column {missing!r}; it needs {', '.join(SOURCE_COLUMNS)}.")
     numbers: dict[str, list[Any]] = {
-        one: table.numbers(one, float("nan") if one in FURTHER else None)
-        for one in table.columns
-        if one not in ("source", "mechanism")
+        column: table.numbers(column, float("nan") if column in FURTHER else None)
+        for column in table.columns
+        if column not in ("source", "mechanism")
     }
-    found = []
+    sources = []
     for k, name in enumerate(table.texts("source")):
-        row = {one: values[k] for one, values in numbers.items() if values[k] == values[k]}
+        row = {column: values[k] for column, values in numbers.items() if values[k] == values[k]}
         ends = [(row["lon"], row["lat"])]
         if ("lon2" in row) != ("lat2" in row):
             raise InputError(f"source {name!r} of {table.name} has one of lon2 and lat2; give both, or none.")
         if "lon2" in row:
             ends.append((row["lon2"], row["lat2"]))
         with within(f"line {table.lines[k]} of {table.name}"):
-            found.append(
+            sources.append(
                 Source(
                     name, tuple(ends), (row["magnitude_min"], row["magnitude_max"]), row["rate"], row["b"],
                     table.texts("mechanism")[k], row.get("radius_km", 0.0), row.get("strike"),
                 )
             )  # fmt: skip
-    return found
+    return sources
 
 
 def _pair(name: str, values: Any) -> tuple[float, float]:
     plain = isinstance(values, list) and len(values) == 2
-    if not plain or any(isinstance(one, bool) or not isinstance(one, (int, float)) for one in values):
+    if not plain or any(isinstance(value, bool) or not isinstance(value, (int, float)) for value in values):
         raise InputError(f"`{name}` is {as_typed(values)}; allowed is a list of two numbers.", name)
     return float(values[0]), float(values[1])
 

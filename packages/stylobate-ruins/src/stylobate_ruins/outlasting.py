@@ -119,7 +119,9 @@ def outlasting(table: Simulations, facts: list[Fact], survival: Outlasted, hazar
     unknown = np.stack([table.parameters[name] for name in ("law", "stiffness_damping_s")], axis=1)
     _, law = np.unique(unknown, axis=0, return_inverse=True)
     counts = np.bincount(law)
-    share = [np.bincount(law, rates * one) / np.maximum(np.bincount(law, rates), 1e-300) for one in (before, after)]
+    share = [
+        np.bincount(law, rates * changed) / np.maximum(np.bincount(law, rates), 1e-300) for changed in (before, after)
+    ]
     mu = rates.sum() * np.array(share)  # [1/y], shape (2, laws): all earthquakes shake columns of the same law
     logs = -np.einsum("gl,gd->ld", mu, years)
     lasts = np.exp(logs - logs.max())
@@ -164,48 +166,48 @@ def rates_of(sizes: np.ndarray, hazard: Hazard) -> np.ndarray:
     """
     order = np.argsort(sizes, kind="stable")
     classes = np.array_split(order, max(1, int(len(sizes) ** 0.5)))
-    least = np.array([hazard.at(float(sizes[one[0]])) for one in classes])
-    found = np.empty(len(sizes))
-    for some, rate in zip(classes, least - np.append(least[1:], 0.0), strict=True):
-        found[some] = rate / len(some)
-    return found
+    least = np.array([hazard.at(float(sizes[members[0]])) for members in classes])
+    rates = np.empty(len(sizes))
+    for draws, rate in zip(classes, least - np.append(least[1:], 0.0), strict=True):
+        rates[draws] = rate / len(draws)
+    return rates
 
 
 def changes(table: Simulations, facts: list[Fact]) -> tuple[np.ndarray, np.ndarray]:
     """Draws that would have changed what stood before the earthquake, and what stands since, shape (draws,) each."""
     before, after = np.zeros((2, len(table)), dtype=bool)
     for fact in facts:
-        left = table.left[fact.structure]
-        stood = left.verdict == STANDS
+        state = table.left[fact.structure]
+        stood = state.verdict == STANDS
         if fact.kind == "state":
-            before |= left.verdict == FELL
-            after |= (left.verdict == FELL) & (fact.value[0] == 0.0)
+            before |= state.verdict == FELL
+            after |= (state.verdict == FELL) & (fact.value[0] == 0.0)
         elif fact.kind == "body":
-            before |= left.fallen[:, fact.joint]
-            after |= left.fallen[:, fact.joint] & (fact.value[0] == 0.0)
+            before |= state.fallen[:, fact.joint]
+            after |= state.fallen[:, fact.joint] & (fact.value[0] == 0.0)
         elif fact.kind == "no slip above":
-            after |= stood & (left.largest > fact.value[0])
+            after |= stood & (state.largest > fact.value[0])
         elif fact.kind == "largest":
-            after |= stood & (left.largest > fact.value[0] + FARTHER * fact.sd)
+            after |= stood & (state.largest > fact.value[0] + FARTHER * fact.sd)
         elif fact.kind in VECTORS:
-            moved = np.linalg.norm(plan(fact, left), axis=1)
-            after |= (stood if fact.kind == "offset" else ~left.fallen[:, fact.joint]) & (
+            moved = np.linalg.norm(plan(fact, state), axis=1)
+            after |= (stood if fact.kind == "offset" else ~state.fallen[:, fact.joint]) & (
                 moved > float(np.linalg.norm(fact.value)) + FARTHER * fact.sd
             )
     return before | after, after
 
 
 def _refuse_weak(table: Simulations, hazard: Hazard, rates: np.ndarray, changed: np.ndarray) -> None:
-    name, said = MEASURES[hazard.unit]
+    name, peak = MEASURES[hazard.unit]
     counted = np.flatnonzero(rates > 0.0)
     if not len(counted):
-        raise InputError(f"no {said} of the prior is in {hazard.name}; widen one of the two.", "hazard")
+        raise InputError(f"no {peak} of the prior is in {hazard.name}; widen one of the two.", "hazard")
     sizes = table.parameters[name][counted]
     weakest = counted[np.argsort(sizes, kind="stable")[: max(1, int(len(rates) ** 0.5))]]
     share = float(changed[weakest].mean())
     if share > WEAKEST:
         raise InputError(
-            f"where prior and {hazard.name} begin, at a {said} of {sizes.min():.2g} {hazard.unit}, {100.0 * share:.0f} of a "
+            f"where prior and {hazard.name} begin, at a {peak} of {sizes.min():.2g} {hazard.unit}, {100.0 * share:.0f} of a "
             "hundred simulations change what stands already, and weaker shaking is not counted; begin lower.",
             "prior",
         )

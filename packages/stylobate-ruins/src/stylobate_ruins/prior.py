@@ -111,7 +111,7 @@ class Prior:
                 continue
             if not isinstance(given, (list, tuple)) or len(given) != 2:
                 raise InputError(f"`{name}` is {as_typed(given)}; allowed are two numbers, least and most.", name)
-            least, most = (check_range(f"`{name}`", one, low, high, unit=unit) for one in given)
+            least, most = (check_range(f"`{name}`", number, low, high, unit=unit) for number in given)
             if not (least < most or (least == most and name not in ("pgv", "pga", "scale"))):
                 raise InputError(
                     f"`{name}` is {as_typed(list(given))}; the first number must be below the second.", name
@@ -155,10 +155,10 @@ class Prior:
         unknown = float(self.scatter is None) if self.unknown_stiffness is None else self.unknown_stiffness
         unknown = check_range("unknown_stiffness of [prior]", unknown, 0.0, 1.0, field="unknown_stiffness")
         object.__setattr__(self, "unknown_stiffness", unknown)
-        for one in self.law:
-            check_choice("one of law", one, LAWS, field="law")
-        for one in self.stiffness_damping:
-            check_range("one of stiffness_damping", one, 0.0, 1.0, unit="s", field="stiffness_damping")
+        for value in self.law:
+            check_choice("one of law", value, LAWS, field="law")
+        for value in self.stiffness_damping:
+            check_range("one of stiffness_damping", value, 0.0, 1.0, unit="s", field="stiffness_damping")
         object.__setattr__(self, "records", records)
         object.__setattr__(self, "law", tuple(self.law))
         object.__setattr__(self, "stiffness_damping", tuple(map(float, self.stiffness_damping)))
@@ -170,10 +170,10 @@ class Prior:
 
     def facts(self) -> dict[str, Any]:
         """Plain values that decide what is drawn."""
-        found = {name: list(pair) for name in RANGES if (pair := getattr(self, name)) is not None}
-        records = [[one.name, one.digest] for one in self.records]
-        found |= {"records": records, "law": list(self.law), "stiffness_damping": list(self.stiffness_damping)}
-        return found | {"unknown_stiffness": self.unknown_stiffness}
+        values = {name: list(pair) for name in RANGES if (pair := getattr(self, name)) is not None}
+        records = [[record.name, record.digest] for record in self.records]
+        values |= {"records": records, "law": list(self.law), "stiffness_damping": list(self.stiffness_damping)}
+        return values | {"unknown_stiffness": self.unknown_stiffness}
 
     def draws(self, count: int, seed: int) -> Draws:
         """The first draws of a seed; draw k is the same for any ``count`` above k."""
@@ -216,22 +216,22 @@ class Draws:
         The period of a record is 2π PGV/PGA: that of the sine of the same two peaks.
         """
         prior = self.prior
-        found = {"azimuth_deg": self.between("azimuth")}
+        parameters = {"azimuth_deg": self.between("azimuth")}
         if prior.records:
             record, factor = self.one_of("record", prior.records), self.between("scale", "size")
-            sizes = np.array([peaks(one) for one in prior.records])[record]
-            found |= {"record": record.astype(float), "scale": factor, "pgv_m_s": factor * sizes[:, 0]}
-            found |= {"pga_g": factor * sizes[:, 1] / g, "period_s": 2.0 * math.pi * sizes[:, 0] / sizes[:, 1]}
+            sizes = np.array([peaks(motion) for motion in prior.records])[record]
+            parameters |= {"record": record.astype(float), "scale": factor, "pgv_m_s": factor * sizes[:, 0]}
+            parameters |= {"pga_g": factor * sizes[:, 1] / g, "period_s": 2.0 * math.pi * sizes[:, 0] / sizes[:, 1]}
         else:
-            found |= {name: self.between(name) for name in ("ellipticity", "cycles")}
-            found |= {"period_s": self.between("period"), "phase_deg": 360.0 * self._uniform["phase"]}
-            unit = np.array([peaks(self._unit(found, k))[1] for k in range(len(self))]) / g  # PGA of 1 m/s
+            parameters |= {name: self.between(name) for name in ("ellipticity", "cycles")}
+            parameters |= {"period_s": self.between("period"), "phase_deg": 360.0 * self._uniform["phase"]}
+            unit = np.array([peaks(self._unit(parameters, k))[1] for k in range(len(self))]) / g  # PGA of 1 m/s
             pgv = self.between("pgv", "size") if prior.pgv is not None else self.between("pga", "size") / unit
-            found |= {"pgv_m_s": pgv, "pga_g": pgv * unit}
-        found |= {"law": self.one_of("law", prior.law).astype(float)}
+            parameters |= {"pgv_m_s": pgv, "pga_g": pgv * unit}
+        parameters |= {"law": self.one_of("law", prior.law).astype(float)}
         damping = np.array(prior.stiffness_damping)
-        found |= {"unknown_stiffness": self._uniform["unknown_stiffness"]}
-        return found | {"stiffness_damping_s": damping[self.one_of("stiffness_damping", prior.stiffness_damping)]}
+        parameters |= {"unknown_stiffness": self._uniform["unknown_stiffness"]}
+        return parameters | {"stiffness_damping_s": damping[self.one_of("stiffness_damping", prior.stiffness_damping)]}
 
     def motion(self, k: int) -> Motion:
         """The motion of draw k."""

@@ -100,9 +100,9 @@ class Observed:
                 "fell_towards",
             )
         if (self.towards_sd is None) != (self.fell_towards is None):
-            one, other = ("fell_towards", "towards_sd")[:: 1 if self.towards_sd is None else -1]
+            present, other = ("fell_towards", "towards_sd")[:: 1 if self.towards_sd is None else -1]
             raise InputError(
-                f"{one} is given without {other}; give both, such as fell_towards = 200 and towards_sd = 15 [degrees].",
+                f"{present} is given without {other}; give both, such as fell_towards = 200 and towards_sd = 15 [degrees].",
                 other,
             )
         if self.fell_towards is not None and self.towards_sd is not None:
@@ -111,7 +111,7 @@ class Observed:
         if self.no_slip_above is not None:
             check_range("no_slip_above", self.no_slip_above, 0.0, 100.0, unit="m", open_low=True)
         for name, numbers in (("offsets", 4), ("twists", 3)):
-            rows = tuple(tuple(one) for one in getattr(self, name))
+            rows = tuple(tuple(row) for row in getattr(self, name))
             for row in rows:
                 self._check_row(name, row, numbers)
             joints = [row[0] for row in rows]
@@ -126,8 +126,8 @@ class Observed:
         bounds, largest = [], self.largest_slip
         if largest is not None:
             if not isinstance(largest, (list, tuple)) or len(largest) != 2:
-                said = "a length and its sd, such as [0.1, 0.01]"
-                raise InputError(f"largest_slip is {as_typed(largest)}; allowed are {said}.", "largest_slip")
+                words = "a length and its sd, such as [0.1, 0.01]"
+                raise InputError(f"largest_slip is {as_typed(largest)}; allowed are {words}.", "largest_slip")
             length = check_range("largest_slip", largest[0], 0.0, 100.0, unit="m")
             sd = check_range(
                 "sd of largest_slip", largest[1], 0.0, 100.0, unit="m", open_low=True, field="largest_slip"
@@ -138,10 +138,10 @@ class Observed:
         if self.no_slip_above is not None:
             bounds.append(("no_slip_above", self.no_slip_above, 0.0, slips))
         for name, bound, doubt, seen in bounds:
-            for said, length, sd in seen:
+            for words, length, sd in seen:
                 if length > bound + BEYOND * math.hypot(doubt, sd):
                     raise InputError(
-                        f"{said} {1e3 * length:.3g} mm out of place, and {name} is {1e3 * bound:.3g} mm; one of the two "
+                        f"{words} {1e3 * length:.3g} mm out of place, and {name} is {1e3 * bound:.3g} mm; one of the two "
                         "is wrong.",
                         name,
                     )
@@ -155,20 +155,20 @@ class Observed:
                 "fallen, leave the state out.",
                 "state",
             )
-        rows: tuple[Any, ...] = tuple(tuple(one) for one in self.moved)
+        rows: tuple[Any, ...] = tuple(tuple(row) for row in self.moved)
         for row in rows:
             if len(row) != 4 or not isinstance(row[0], str):
-                said = "body, x, y and sd, such as ['lintel', 0.031, -0.012, 0.003]"
-                raise InputError(f"a row of moved is {as_typed(list(row))}; allowed are {said}.", "moved")
-            for one in row[1:-1]:
-                check_range("a number of moved", one, -1e3, 1e3, unit="m", field="moved")
+                layout = "body, x, y and sd, such as ['lintel', 0.031, -0.012, 0.003]"
+                raise InputError(f"a row of moved is {as_typed(list(row))}; allowed are {layout}.", "moved")
+            for value in row[1:-1]:
+                check_range("a number of moved", value, -1e3, 1e3, unit="m", field="moved")
             check_range("sd of a row of moved", row[-1], 0.0, 1e3, unit="m", open_low=True, field="moved")
         moved = [row[0] for row in rows]
         for name, bodies in (("fell", fell), ("stand", stand), ("moved", moved)):
-            if twice := next((one for one in bodies if bodies.count(one) > 1), None):
+            if twice := next((body for body in bodies if bodies.count(body) > 1), None):
                 raise InputError(f"{twice!r} is twice in `{name}`; name each body once.", name)
         for name, bodies in (("stand", stand), ("moved", moved)):
-            if both := next((one for one in bodies if one in fell), None):
+            if both := next((body for body in bodies if body in fell), None):
                 raise InputError(f"{both!r} is in fell and in `{name}`; one of the two is wrong.", name)
         object.__setattr__(self, "moved", rows)
         object.__setattr__(self, "fell", tuple(fell))
@@ -179,12 +179,12 @@ class Observed:
     def _check_row(name: str, row: tuple, numbers: int) -> None:
         example = "[2, 0.031, -0.012, 0.003]" if numbers == 4 else "[2, 4.0, 1.0]"
         if len(row) != numbers:
-            said = "joint, x, y and sd" if numbers == 4 else "joint, angle and sd"
-            raise InputError(f"a row of `{name}` is {list(row)}; allowed are {said}, such as {example}.", name)
+            layout = "joint, x, y and sd" if numbers == 4 else "joint, angle and sd"
+            raise InputError(f"a row of `{name}` is {list(row)}; allowed are {layout}, such as {example}.", name)
         check_whole(f"joint of a row of `{name}`", row[0], 1, remedy="1 is at the base", field=name)
         limit, unit = (100.0, "m") if numbers == 4 else (360.0, "degrees")
-        for one in row[1:-1]:
-            check_range(f"a number of `{name}`", one, -limit, limit, unit=unit, field=name)
+        for value in row[1:-1]:
+            check_range(f"a number of `{name}`", value, -limit, limit, unit=unit, field=name)
         check_range(f"sd of a row of `{name}`", row[-1], 0.0, limit, unit=unit, open_low=True, field=name)
 
 
@@ -258,115 +258,123 @@ class Ruin:
         check_whole("`seed`", self.seed, 0, 2**31)
         usual = type(self.model)()
         refuse_drawn([name for name in DRAWN_OF_MODEL if getattr(self.model, name, 0) != getattr(usual, name, 0)])
-        if alone := next((one for one in structures if not one.scattered), None):
+        if alone := next((structure for structure in structures if not structure.scattered), None):
             raise InputError(
                 f"{alone.name!r} is {alone.described}, and a ruin is of columns and assemblies in space; leave it out.",
                 "columns",
             )
-        names = [one.name for one in structures]
+        names = [structure.name for structure in structures]
         if not names:
             raise InputError("the ruin names no column; give at least one in columns.", "columns")
         if twice := next((name for name in names if names.count(name) > 1), None):
             raise InputError(f"two columns are called {twice!r}; give each a name of its own.", "columns")
-        seen = [one.column for one in observed]
+        seen = [observation.column for observation in observed]
         if twice := next((name for name in seen if seen.count(name) > 1), None):
             raise InputError(
                 f"{twice!r} is observed twice; put all that is seen of it into one [[observed]].", "column"
             )
-        for one in observed:
-            if one.column not in names:
+        for observation in observed:
+            if observation.column not in names:
                 raise InputError(
-                    f"{one.column!r} is observed, and is no column of the ruin; {suggest(one.column, names)}known are "
-                    f"{', '.join(names)}.",
+                    f"{observation.column!r} is observed, and is no column of the ruin; "
+                    f"{suggest(observation.column, names)}known are {', '.join(names)}.",
                     "column",
                 )
-            self._check_joints(one, structures[names.index(one.column)])
-            self._check_bodies(one, structures[names.index(one.column)])
+            self._check_joints(observation, structures[names.index(observation.column)])
+            self._check_bodies(observation, structures[names.index(observation.column)])
         object.__setattr__(self, "structures", structures)
-        object.__setattr__(self, "observed", tuple(sorted(observed, key=lambda one: names.index(one.column))))
+        object.__setattr__(
+            self, "observed", tuple(sorted(observed, key=lambda observation: names.index(observation.column)))
+        )
 
     @staticmethod
-    def _check_joints(one: Observed, structure: Structure) -> None:
+    def _check_joints(observation: Observed, structure: Structure) -> None:
         count = joints_of(structure)
-        for name, row in [("offsets", row) for row in one.offsets] + [("twists", row) for row in one.twists]:
+        for name, row in [("offsets", row) for row in observation.offsets] + [
+            ("twists", row) for row in observation.twists
+        ]:
             if row[0] > count:
                 raise InputError(
-                    f"{name} name joint {row[0]}, and {one.column!r} has {count} joint{'s' * (count > 1)}, counted "
+                    f"{name} name joint {row[0]}, and {observation.column!r} has {count} joint{'s' * (count > 1)}, counted "
                     "from the base.",
                     name,
                 )
         column = structure.stack
         widths = [] if column is None else [float(width) for width in column.joint_widths]
         seen = [
-            ("offsets", f"joint {joint}", math.hypot(x, y), range(joint - 1, joint)) for joint, x, y, _ in one.offsets
+            ("offsets", f"joint {joint}", math.hypot(x, y), range(joint - 1, joint))
+            for joint, x, y, _ in observation.offsets
         ]
-        if one.largest_slip is not None:
-            seen.append(("largest_slip", "a joint", one.largest_slip[0], range(count)))
+        if observation.largest_slip is not None:
+            seen.append(("largest_slip", "a joint", observation.largest_slip[0], range(count)))
         for name, which, length, joints in seen if widths else ():
             width = max(widths[joint] for joint in joints)
             if length >= width:
                 raise InputError(
-                    f"{which} of {one.column!r} is {length:.3g} m out of place, and {width:.3g} m wide: its drum would have "
-                    "fallen; offsets are in metres.",
+                    f"{which} of {observation.column!r} is {length:.3g} m out of place, and {width:.3g} m wide: its drum "
+                    "would have fallen; offsets are in metres.",
                     name,
                 )
 
     @staticmethod
-    def _check_bodies(one: Observed, structure: Structure) -> None:
-        named, known = (*one.fell, *one.stand), bodies_of(structure)
+    def _check_bodies(observation: Observed, structure: Structure) -> None:
+        named, known = (*observation.fell, *observation.stand), bodies_of(structure)
         if named and structure.stack is not None:
             raise InputError(
-                f"bodies are named of {one.column!r}, which is a column and falls as a whole; give its state.", "fell"
+                f"bodies are named of {observation.column!r}, which is a column and falls as a whole; give its state.",
+                "fell",
             )
         if unknown := next((name for name in named if name not in known), None):
             raise InputError(
-                f"{unknown!r} is no body of {one.column!r} that can move; {suggest(unknown, known)}known are "
+                f"{unknown!r} is no body of {observation.column!r} that can move; {suggest(unknown, known)}known are "
                 f"{', '.join(known)}.",
-                "fell" if unknown in one.fell else "stand",
+                "fell" if unknown in observation.fell else "stand",
             )
 
     @property
     def informative(self) -> list[Observed]:
         """Those of which something is seen that follows from this earthquake."""
-        return [one for one in self.observed if one.state in ("stands", "fell") or one.stand]
+        return [
+            observation for observation in self.observed if observation.state in ("stands", "fell") or observation.stand
+        ]
 
     @property
     def simulated(self) -> list[Structure]:
         """Structures of which something is seen."""
-        by_name = {one.name: one for one in self.structures}
-        return [by_name[one.column] for one in self.informative]
+        by_name = {structure.name: structure for structure in self.structures}
+        return [by_name[observation.column] for observation in self.informative]
 
     @property
     def facts(self) -> list[Fact]:
         """All that is seen, one by one."""
-        found: list[Fact] = []
-        for i, (one, structure) in enumerate(zip(self.informative, self.simulated, strict=True)):
-            fell, name, bodies = one.state == "fell", one.column, bodies_of(structure)
-            if one.state != "unknown":
-                found.append(Fact(i, "state", f"{name} {one.state}", (float(fell),)))
-            for body in (*one.fell, *one.stand):
-                down, number = body in one.fell, bodies.index(body)
+        facts: list[Fact] = []
+        for i, (observation, structure) in enumerate(zip(self.informative, self.simulated, strict=True)):
+            fell, name, bodies = observation.state == "fell", observation.column, bodies_of(structure)
+            if observation.state != "unknown":
+                facts.append(Fact(i, "state", f"{name} {observation.state}", (float(fell),)))
+            for body in (*observation.fell, *observation.stand):
+                down, number = body in observation.fell, bodies.index(body)
                 label = f"{name}: {body} {'fell' if down else 'stands'}"
-                found.append(Fact(i, "body", label, (float(down),), joint=number))
-            for body, x, y, sd in one.moved:
+                facts.append(Fact(i, "body", label, (float(down),), joint=number))
+            for body, x, y, sd in observation.moved:
                 label = f"{name}: {body} moved by {1e3 * math.hypot(x, y):.3g} mm"
-                found.append(Fact(i, "moved", label, (x, y), sd, bodies.index(body)))
-            if one.no_slip_above is not None:
-                bound = one.no_slip_above
-                found.append(Fact(i, "no slip above", f"{name}: no slip above {1e3 * bound:.3g} mm", (bound,)))
-            if one.largest_slip is not None:
-                length, sd = one.largest_slip
+                facts.append(Fact(i, "moved", label, (x, y), sd, bodies.index(body)))
+            if observation.no_slip_above is not None:
+                bound = observation.no_slip_above
+                facts.append(Fact(i, "no slip above", f"{name}: no slip above {1e3 * bound:.3g} mm", (bound,)))
+            if observation.largest_slip is not None:
+                length, sd = observation.largest_slip
                 label = f"{name}: largest offset, {1e3 * length:.3g} mm"
-                found.append(Fact(i, "largest", label, (length,), sd))
-            if one.fell_towards is not None and one.towards_sd is not None:
-                label = f"{name} fell towards {one.fell_towards:g}°"
-                found.append(Fact(i, "fell towards", label, (one.fell_towards,), one.towards_sd))
-            for joint, x, y, sd in one.offsets:
+                facts.append(Fact(i, "largest", label, (length,), sd))
+            if observation.fell_towards is not None and observation.towards_sd is not None:
+                label = f"{name} fell towards {observation.fell_towards:g}°"
+                facts.append(Fact(i, "fell towards", label, (observation.fell_towards,), observation.towards_sd))
+            for joint, x, y, sd in observation.offsets:
                 label = f"{name}: offset of joint {joint}, {1e3 * math.hypot(x, y):.3g} mm"
-                found.append(Fact(i, "offset", label, (x, y), sd, joint - 1))
-            for joint, angle, sd in one.twists:
-                found.append(Fact(i, "twist", f"{name}: twist of joint {joint}, {angle:.3g}°", (angle,), sd, joint - 1))
-        return found
+                facts.append(Fact(i, "offset", label, (x, y), sd, joint - 1))
+            for joint, angle, sd in observation.twists:
+                facts.append(Fact(i, "twist", f"{name}: twist of joint {joint}, {angle:.3g}°", (angle,), sd, joint - 1))
+        return facts
 
 
 def bodies_of(structure: Structure) -> list[str]:

@@ -64,18 +64,18 @@ def checks_of(answers: Answers, fewest: int) -> list[Checked]:
     fewest : int
         Of draws that must match the rest.
     """
-    found: list[tuple[Fact, float, str]] = []
+    predictions: list[tuple[Fact, float, str]] = []
     for fact in answers.facts:
         rest = answers.without(fact)
         if len(answers.matching(rest)) < fewest:
-            found.append((fact, float("nan"), "nothing: too few simulations match the rest"))
+            predictions.append((fact, float("nan"), "nothing: too few simulations match the rest"))
             continue
-        found.append((fact, *(_event if fact.kind in EVENTS else _number)(answers, fact, rest)))
+        predictions.append((fact, *(_event if fact.kind in EVENTS else _number)(answers, fact, rest)))
     states = sum(fact.kind in STATES for fact in answers.facts)
-    others = len(found) - states
+    others = len(predictions) - states
     return [
-        Checked(fact.label, chance, bool(chance * (states if fact.kind in STATES else others) < CHANCE), said)
-        for fact, chance, said in found
+        Checked(fact.label, chance, bool(chance * (states if fact.kind in STATES else others) < CHANCE), expected)
+        for fact, chance, expected in predictions
     ]
 
 

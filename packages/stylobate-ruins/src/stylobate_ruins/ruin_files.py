@@ -101,9 +101,9 @@ def read_ruin(path: str | Path) -> Ruin:
     with within(printable(path)):
         structures = [load_structure(name if name in PRESETS else folder / name) for name in table.columns]
         observed = []
-        for number, one in enumerate(table.observed or [], 1):
+        for number, observation in enumerate(table.observed or [], 1):
             with within(f"[[observed]] number {number}", "observed", number):
-                observed.append(_observed(one, table.columns, structures))
+                observed.append(_observed(observation, table.columns, structures))
         with within("[prior]", "prior"):
             prior = _prior(table.prior, folder)
         settings = {key: str(value) for key, value in (table.set or {}).items()}
@@ -117,7 +117,7 @@ def read_ruin(path: str | Path) -> Ruin:
 def _observed(table: ObservedTable, files: Sequence[str], structures: Sequence[Structure]) -> Observed:
     """What is seen of a column, which is named by its file as the ruin lists it, or by its own name."""
     fields: dict[str, Any] = {name: getattr(table, name) for name in ("state", "no_slip_above", "largest_slip")}
-    names = dict(zip(files, (one.name for one in structures), strict=True))
+    names = dict(zip(files, (structure.name for structure in structures), strict=True))
     names |= {Path(file).stem: name for file, name in names.items()}
     fields |= {name: tuple(getattr(table, name) or ()) for name in ("fell", "stand", "moved")}
     fields |= {
@@ -132,7 +132,7 @@ def _observed(table: ObservedTable, files: Sequence[str], structures: Sequence[S
 
 def _survival(table: SurvivalTable, folder: Path) -> Outlasted:
     given: dict[str, Any] = {
-        name: tuple(one) if isinstance(one := getattr(table, name), list) else one
+        name: tuple(value) if isinstance(value := getattr(table, name), list) else value
         for name in SurvivalTable.model_fields
     }
     given |= {"hazard": folder / table.hazard}
@@ -150,11 +150,11 @@ def _prior(table: PriorTable, folder: Path) -> Prior:
     }
     for name, parse in units.items():
         given = getattr(table, name)
-        fields[name] = None if given is None else [_number(name, one, parse) for one in given]
+        fields[name] = None if given is None else [_number(name, value, parse) for value in given]
     for name in ("ellipticity", "cycles", "scale", *units):
         fields[name] = None if fields[name] is None else tuple(fields[name])
     damping = table.stiffness_damping
-    losses = LOSSES if damping is None else [_number("stiffness_damping", one, parse_time) for one in damping]
+    losses = LOSSES if damping is None else [_number("stiffness_damping", value, parse_time) for value in damping]
     scatter = None if table.scatter is None else table.scatter.scatter or AS_SURVEYED
     for name in ("unit", "columns"):
         if getattr(table, name) is not None and not table.records:

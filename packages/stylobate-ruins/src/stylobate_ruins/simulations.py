@@ -127,13 +127,15 @@ class Simulations:
     @property
     def sound(self) -> np.ndarray:
         """Draws under which every structure could be computed, shape (draws,)."""
-        return np.all([one.verdict != FAILED for one in self.left], axis=0) if self.left else np.ones(len(self), bool)
+        return (
+            np.all([state.verdict != FAILED for state in self.left], axis=0) if self.left else np.ones(len(self), bool)
+        )
 
     def some(self, which: np.ndarray) -> Simulations:
         """Some of the draws."""
-        left = [FinalState(one.name, *(getattr(one, name)[which] for name in FIELDS)) for one in self.left]
+        states = [FinalState(state.name, *(getattr(state, name)[which] for name in FIELDS)) for state in self.left]
         return replace(
-            self, parameters={name: values[which] for name, values in self.parameters.items()}, left=tuple(left)
+            self, parameters={name: values[which] for name, values in self.parameters.items()}, left=tuple(states)
         )
 
     @property
@@ -141,15 +143,15 @@ class Simulations:
         """One row per draw: its motion, the verdict and the longest offset of each structure."""
         import pandas
 
-        found = {"draw": np.arange(1, len(self) + 1)} | dict(self.parameters)
-        law = found.pop("law").astype(int)
-        found["law"] = np.array(self.prior.law)[law]
+        data = {"draw": np.arange(1, len(self) + 1)} | dict(self.parameters)
+        law = data.pop("law").astype(int)
+        data["law"] = np.array(self.prior.law)[law]
         words = np.array(["stands", "fell", "failed"])
-        for one in self.left:
-            found[f"{one.name}: state"] = words[one.verdict]
-            found[f"{one.name}: fell towards [deg]"] = one.towards
-            found[f"{one.name}: largest slip [m]"] = np.where(one.verdict == STANDS, one.largest, np.nan)
-        return pandas.DataFrame(found)
+        for state in self.left:
+            data[f"{state.name}: state"] = words[state.verdict]
+            data[f"{state.name}: fell towards [deg]"] = state.towards
+            data[f"{state.name}: largest slip [m]"] = np.where(state.verdict == STANDS, state.largest, np.nan)
+        return pandas.DataFrame(data)
 
 
 #: Arrays of what is left of a structure.
@@ -193,10 +195,12 @@ def simulations_of(
             "model",
         )
     campaign = campaign or Campaign()
-    table = _Table(tuple(one.stack or one for one in structures), prior.draws(count, seed), model, campaign)
+    table = _Table(
+        tuple(structure.stack or structure for structure in structures), prior.draws(count, seed), model, campaign
+    )
     kept = None if folder is None else Path(folder) / TABLE_FILE
-    if kept is not None and (found := table.read(kept)) is not None:
-        return found
+    if kept is not None and (simulations := table.read(kept)) is not None:
+        return simulations
     rows = run_all(table.request(), campaign.kept_in(folder)) if structures else Rows(0)
     made = table.of(rows)
     if kept is not None:
@@ -211,7 +215,9 @@ class _Table:
         self.structures, self.draws, self.model = structures, draws, model
         self.options = replace(campaign.options, quiet=0.0 if campaign.whole else QUIET)
         given = draws.prior.scatter
-        self.scatter = [replace(usual_scatter(one), offset=0.0) if given is None else given for one in structures]
+        self.scatter = [
+            replace(usual_scatter(structure), offset=0.0) if given is None else given for structure in structures
+        ]
 
     def case(self, number: int) -> Case:
         """A case: a twin of a structure, and the motion of the draw."""
@@ -226,13 +232,13 @@ class _Table:
     def groups(self) -> list[Group]:
         """All columns together, which carry their losses; assemblies, whose losses are the model's, by their damping."""
         numbers = np.arange(len(self.draws) * len(self.structures)).reshape(len(self.draws), -1)
-        columns = np.array([one.stack is not None for one in self.structures])
-        found = [(numbers[:, columns].ravel(), self.model, self.options)]
+        columns = np.array([structure.stack is not None for structure in self.structures])
+        groups = [(numbers[:, columns].ravel(), self.model, self.options)]
         damping = self.draws.parameters["stiffness_damping_s"] if not columns.all() else np.zeros(0)
         for size in np.unique(damping).tolist():
             model = replace(self.model, stiffness_damping=size)
-            found.append((numbers[damping == size][:, ~columns].ravel(), model, self.options))
-        return [group for group in found if len(group[0])]
+            groups.append((numbers[damping == size][:, ~columns].ravel(), model, self.options))
+        return [group for group in groups if len(group[0])]
 
     def request(self) -> Request:
         """All cases, to be run."""
@@ -240,40 +246,40 @@ class _Table:
         digests, groups = np.empty((count, LENGTH), dtype=np.uint8), self.groups()
         for numbers, model, _ in groups:
             for first in range(0, len(numbers), TOGETHER):  # a hasher keeps the samples that it has read
-                some = numbers[first : first + TOGETHER].tolist()
-                cases = Cases(len(some), lambda j, some=some: self.case(some[j]))
-                digests[some] = Hasher(model, self.options).of_cases(cases, [self.options.quiet] * len(some))
+                chunk = numbers[first : first + TOGETHER].tolist()
+                cases = Cases(len(chunk), lambda j, chunk=chunk: self.case(chunk[j]))
+                digests[chunk] = Hasher(model, self.options).of_cases(cases, [self.options.quiet] * len(chunk))
         return Request(Cases(count, self.case), Digests(digests), groups)
 
     def of(self, rows: Rows) -> Simulations:
         """The table of finished runs."""
-        n, left = len(self.structures), []
+        n, states = len(self.structures), []
         for i, structure in enumerate(self.structures):
             own = [rows[k * n + i] or {} for k in range(len(self.draws))]
-            left.append(FinalState.of(structure, own))
-        return Simulations(self.draws.prior, self.draws.parameters, tuple(left), self.draws.seed)
+            states.append(FinalState.of(structure, own))
+        return Simulations(self.draws.prior, self.draws.parameters, tuple(states), self.draws.seed)
 
     @property
     def digest(self) -> str:
         """Of all that decides the table."""
-        said = {
-            "structures": [one.nameless_digest for one in self.structures],
-            "scatter": [one.given for one in self.scatter],
+        content = {
+            "structures": [structure.nameless_digest for structure in self.structures],
+            "scatter": [scatter.given for scatter in self.scatter],
             "prior": self.draws.prior.facts(),
             "draws": [len(self.draws), self.draws.seed],
             "model": [self.model.name, self.model.parameters()],
             "options": [self.options.tail, self.options.quiet],
             "laws": [__version__, *laws()],
             "sources": [
-                digest_of_file(Path(__file__).with_name(f"{one}.py"))
-                for one in ("simulations", "prior", "ground_motion")
+                digest_of_file(Path(__file__).with_name(f"{module}.py"))
+                for module in ("simulations", "prior", "ground_motion")
             ],
         }
-        return hashlib.sha256(json.dumps(said, sort_keys=True, default=str).encode()).hexdigest()
+        return hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode()).hexdigest()
 
     def write(self, place: Path, made: Simulations) -> None:
         """Keep the table, whole or not at all."""
-        arrays = {f"{i} {name}": getattr(one, name) for i, one in enumerate(made.left) for name in FIELDS}
+        arrays = {f"{i} {name}": getattr(state, name) for i, state in enumerate(made.left) for name in FIELDS}
         arrays |= {f"parameter {name}": values for name, values in made.parameters.items()}
         content = io.BytesIO()
         np.savez(content, digest=np.array(self.digest), **arrays)
@@ -285,17 +291,19 @@ class _Table:
         if not place.is_file():
             return None
         try:
-            with np.load(place, allow_pickle=False) as found:
-                if "digest" not in found.files:
+            with np.load(place, allow_pickle=False) as archive:
+                if "digest" not in archive.files:
                     raise InputError(f"{place} is there already and is no table of simulations; move it away.")
-                if str(found["digest"]) != self.digest:
+                if str(archive["digest"]) != self.digest:
                     return None
                 names = [structure.name for structure in self.structures]
-                left = [FinalState(name, *(found[f"{i} {field}"] for field in FIELDS)) for i, name in enumerate(names)]
+                states = [
+                    FinalState(name, *(archive[f"{i} {field}"] for field in FIELDS)) for i, name in enumerate(names)
+                ]
                 start = "parameter "
-                parameters = {name[len(start) :]: found[name] for name in found.files if name.startswith(start)}
+                parameters = {name[len(start) :]: archive[name] for name in archive.files if name.startswith(start)}
         except InputError:
             raise
         except Exception:  # whatever a damaged file makes of it
             return None
-        return Simulations(self.draws.prior, parameters, tuple(left), self.draws.seed)
+        return Simulations(self.draws.prior, parameters, tuple(states), self.draws.seed)

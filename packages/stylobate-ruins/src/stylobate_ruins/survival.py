@@ -70,9 +70,9 @@ class Pattern:
         exposed = (begin[None] > middle[:, None]) & (end[None] < middle[:, None])
         which = np.flatnonzero(reached)
         bits = (np.arange(2 ** len(which))[:, None] >> np.arange(len(which))) & 1
-        asked = np.broadcast_to(~reached, (len(bits), len(reached))).copy()
-        asked[:, which] = bits.astype(bool)
-        rows = (exposed[None] & asked[:, None]).reshape(-1, len(reached))
+        avoided = np.broadcast_to(~reached, (len(bits), len(reached))).copy()
+        avoided[:, which] = bits.astype(bool)
+        rows = (exposed[None] & avoided[:, None]).reshape(-1, len(reached))
         sets, place = np.unique(rows, axis=0, return_inverse=True)
         years = np.zeros((len(bits), len(sets)))
         np.add.at(years, (np.repeat(np.arange(len(bits)), len(lasts)), place.ravel()), np.tile(lasts, len(bits)))
@@ -103,12 +103,12 @@ def together(rates: np.ndarray, sets: np.ndarray, structures: np.ndarray, shared
     """
     if shared:
         structures = np.zeros_like(structures)
-    found = np.zeros((len(sets), *rates.shape[1:]))
-    for one in np.unique(structures):
-        mine = np.flatnonzero(structures == one)
+    total = np.zeros((len(sets), *rates.shape[1:]))
+    for structure in np.unique(structures):
+        mine = np.flatnonzero(structures == structure)
         chosen = sets[:, mine].reshape(len(sets), len(mine), *(1,) * (rates.ndim - 1))
-        found += np.where(chosen, rates[mine], 0.0).max(axis=1)
-    return found
+        total += np.where(chosen, rates[mine], 0.0).max(axis=1)
+    return total
 
 
 # -- What the age of a column that still stands says about hazard curves ----------------------------------------------
@@ -132,18 +132,18 @@ class Survival(NotebookSummary):
     @property
     def probability(self) -> np.ndarray:
         """Probability that the column would still stand, by hazard curve, shape (k,): exp(−λ t)."""
-        return stands(np.array([one.rate for one in self.risks]), self.age)
+        return stands(np.array([risk.rate for risk in self.risks]), self.age)
 
     @property
     def interval(self) -> tuple[np.ndarray, np.ndarray]:
         """Its limits, by the interval of the rate."""
-        low, high = (np.array([getattr(one, name) for one in self.risks]) for name in ("high", "low"))
+        low, high = (np.array([getattr(risk, name) for risk in self.risks]) for name in ("high", "low"))
         return stands(low, self.age), stands(high, self.age)
 
     @property
     def likelihood(self) -> np.ndarray:
         """Likelihood of each hazard curve given that the column stands, over the largest one, shape (k,)."""
-        exponent = -self.age * np.array([one.rate for one in self.risks])
+        exponent = -self.age * np.array([risk.rate for risk in self.risks])
         return np.exp(exponent - exponent.max())
 
     def summary(self) -> dict[str, Any]:
@@ -153,24 +153,24 @@ class Survival(NotebookSummary):
         return {
             "age_y": self.age,
             "survival_probability": {
-                one.hazard.name: float(p) for one, p in zip(self.risks, self.probability, strict=True)
+                risk.hazard.name: float(p) for risk, p in zip(self.risks, self.probability, strict=True)
             },
             "hazards": [
                 {
-                    "hazard": one.hazard.name,
-                    "hazard_statistic": one.hazard.statistic or None,
-                    "annual_rate": one.rate,
-                    "return_period_y": 1.0 / one.rate if one.rate > 0.0 else None,
+                    "hazard": risk.hazard.name,
+                    "hazard_statistic": risk.hazard.statistic or None,
+                    "annual_rate": risk.rate,
+                    "return_period_y": 1.0 / risk.rate if risk.rate > 0.0 else None,
                     "survival_probability": float(self.probability[k]),
                     "survival_probability_low": float(low[k]),
                     "survival_probability_high": float(high[k]),
                     "relative_likelihood": float(likelihood[k]),
                     "weight": float(likelihood[k] / likelihood.sum()),
                 }
-                for k, one in enumerate(self.risks)
+                for k, risk in enumerate(self.risks)
             ],
             "state": self.risks[0].fragility.evidence.state,
-            "warnings": list(dict.fromkeys(text for one in self.risks for text in one.warnings)),
+            "warnings": list(dict.fromkeys(text for risk in self.risks for text in risk.warnings)),
         }
 
 
@@ -189,7 +189,7 @@ def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Sur
     years = check_range("age", age, 0.0, 1e6, unit="years", open_low=True)
     if not hazards:
         raise InputError("no hazard curve is given; give at least one of them.")
-    names = [one.name for one in hazards]
+    names = [hazard.name for hazard in hazards]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InputError(
@@ -200,9 +200,9 @@ def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Sur
 
 def parse_age(text: str) -> float:
     """An age as typed, ``2400y`` [y]."""
-    found = re.fullmatch(r"\s*([0-9.eE+-]+)\s*(y|yr|a|years?)\s*", text)
+    match = re.fullmatch(r"\s*([0-9.eE+-]+)\s*(y|yr|a|years?)\s*", text)
     try:
-        value = float(found[1]) if found else math.nan
+        value = float(match[1]) if match else math.nan
     except ValueError:
         value = math.nan
     if math.isnan(value):
@@ -283,9 +283,9 @@ class Outlasted:
         stream = np.random.default_rng([seed, 3])
         even, normal = stream.random((DATES, 3)), stream.standard_normal((DATES, 2))
         drawn = [
-            None if one is None else one[0] + (one[1] - one[0]) * even[:, k] if isinstance(one, (list, tuple))
-            else one + sd * normal[:, k]
-            for k, (one, sd) in enumerate(((self.since, self.since_sd), (self.earthquake, self.earthquake_sd)))
+            None if year is None else year[0] + (year[1] - year[0]) * even[:, k] if isinstance(year, (list, tuple))
+            else year + sd * normal[:, k]
+            for k, (year, sd) in enumerate(((self.since, self.since_sd), (self.earthquake, self.earthquake_sd)))
         ]  # fmt: skip
         built, shaken = drawn
         if shaken is None:

@@ -74,7 +74,7 @@ class Weighing(NotebookSummary):
     @cached_property
     def prior(self) -> np.ndarray:
         """Weights before, shape (b,)."""
-        weight = np.array([one.weight for one in self.asked.branches], dtype=float)
+        weight = np.array([branch.weight for branch in self.asked.branches], dtype=float)
         return weight / weight.sum()
 
     def posterior(self, likelihood: np.ndarray) -> np.ndarray:
@@ -91,15 +91,15 @@ class Weighing(NotebookSummary):
     def weight_error(self) -> np.ndarray:
         """Standard errors of the weights by the number of draws, shape (b,)."""
         pieces = np.array_split(self.likelihood[WAYS[0]], 8, axis=1)
-        return np.std([self.posterior(one) for one in pieces], axis=0, ddof=1) / np.sqrt(len(pieces))
+        return np.std([self.posterior(piece) for piece in pieces], axis=0, ddof=1) / np.sqrt(len(pieces))
 
     @cached_property
     def information(self) -> list[dict[str, Any]]:
         """Bits that each monument tells of the branches: by itself, and beside all others."""
-        names = dict.fromkeys(one.name for one in self.asked.monuments)
+        names = dict.fromkeys(monument.name for monument in self.asked.monuments)
         rows = []
         for name in names:
-            seen = "; ".join(one.words for one in self.asked.monuments if one.name == name)
+            seen = "; ".join(monument.words for monument in self.asked.monuments if monument.name == name)
             alone, others = self.posterior(self.alone[name]), self.posterior(self.without[name])
             rows.append(
                 {
@@ -127,7 +127,7 @@ class Weighing(NotebookSummary):
         ordered = np.take_along_axis(self.curves[site], order, axis=0)
         below = np.cumsum(weight[order], axis=0)
         at = [(below < share - 1e-12).sum(axis=0).clip(max=len(weight) - 1) for share in FRACTILES]
-        return np.array([ordered[one, np.arange(ordered.shape[1])] for one in at])
+        return np.array([ordered[index, np.arange(ordered.shape[1])] for index in at])
 
     def once_in(self, site: str, weight: np.ndarray, period: float = 475.0) -> float | None:
         """Intensity that the mean curve exceeds once in a period of years; None where it is beyond its ends."""
@@ -147,7 +147,7 @@ class Weighing(NotebookSummary):
             return f"By {only.name} what is seen of {who} has a probability of {chance:.2g}."
         if self.bits < SILENT:
             return f"What is seen of {who} does not tell the branches apart."
-        names = [one.name for one in self.asked.branches]
+        names = [branch.name for branch in self.asked.branches]
         up, down = int(np.argmax(self.weight - self.prior)), int(np.argmin(self.weight - self.prior))
         text = (
             f"What is seen of {who} speaks for {names[up]} (weight {percent(self.prior[up])} before, "
@@ -155,7 +155,7 @@ class Weighing(NotebookSummary):
             f"{percent(self.weight[down])})"
         )
         if number > 1:
-            most = max(self.information, key=lambda one: one["bits_beside_others"])
+            most = max(self.information, key=lambda row: row["bits_beside_others"])
             text += f"; {most['monument']} tells most beside the others"
         if not self.asked.branches[0].sources and number > 1:
             shared = self.posterior(self.likelihood[WAYS[2]])[up]
@@ -167,11 +167,11 @@ class Weighing(NotebookSummary):
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate survival`` of several sites."""
-        told, low, high = (
+        mean, low, high = (
             np.mean(self.likelihood[WAYS[0]], axis=1),
             *np.quantile(self.likelihood[WAYS[0]], [0.025, 0.975], axis=1),
         )
-        own, shared = (self.posterior(self.likelihood[one]) for one in WAYS[1:])
+        own, shared = (self.posterior(self.likelihood[way]) for way in WAYS[1:])
         error = self.weight_error
         return {
             "sentence": self.sentence,
@@ -179,13 +179,13 @@ class Weighing(NotebookSummary):
             "earthquakes": "from sources, shared" if self.asked.branches[0].sources else "each site its own",
             "hazards": [
                 {
-                    "hazard": one.name,
+                    "hazard": branch.name,
                     "prior_weight": float(self.prior[k]),
                     "weight": float(self.weight[k]),
                     "weight_error": float(error[k]),
                     "weight_if_own": float(own[k]),
                     "weight_if_shared": float(shared[k]),
-                    "probability": float(told[k]),
+                    "probability": float(mean[k]),
                     "probability_low": float(low[k]),
                     "probability_high": float(high[k]),
                     "annual_rates": {
@@ -193,7 +193,7 @@ class Weighing(NotebookSummary):
                         for state, rate in zip(self.asked.monuments, self.annual_rate[:, k], strict=True)
                     },
                 }
-                for k, one in enumerate(self.asked.branches)
+                for k, branch in enumerate(self.asked.branches)
             ],
             "monuments": self.information,
             "im": self.asked.monuments[0].capacity.measure,
@@ -216,16 +216,16 @@ class Weighing(NotebookSummary):
             columns: dict[str, np.ndarray] = {"im": im}
             for when, weight in (("before", self.prior), ("after", self.weight)):
                 columns[f"mean_{when}"] = self.mean(site, weight)
-                for share, one in zip(FRACTILES, self.fractiles(site, weight), strict=True):
-                    columns[f"fractile_{100.0 * share:.0f}_{when}"] = one
+                for share, fractile in zip(FRACTILES, self.fractiles(site, weight), strict=True):
+                    columns[f"fractile_{100.0 * share:.0f}_{when}"] = fractile
             rows += [{"site": site, **dict(zip(columns, map(float, row)))} for row in zip(*columns.values())]
         return rows
 
 
 def bits(after: np.ndarray, before: np.ndarray) -> float:
     """Information that turns weights into others, Σ p log₂(p/q)."""
-    some = (after > 0.0) & (before > 0.0)
-    return max(float((after[some] * np.log2(after[some] / before[some])).sum()), 0.0)
+    positive = (after > 0.0) & (before > 0.0)
+    return max(float((after[positive] * np.log2(after[positive] / before[positive])).sum()), 0.0)
 
 
 def weigh(sites: Sites) -> Weighing:
@@ -239,43 +239,45 @@ def weigh(sites: Sites) -> Weighing:
     """
     check_kind("sites", sites, Sites)
     states, branches = sites.monuments, sites.branches
-    names = list(dict.fromkeys(one.name for one in states))
-    used = [one for one in sites.sites if any(state.site == one.name for state in states)]
-    structures = np.array([names.index(one.name) for one in states])
-    place = np.array([[one.name for one in used].index(one.site) for one in states])
+    names = list(dict.fromkeys(state.name for state in states))
+    used = [site for site in sites.sites if any(state.site == site.name for state in states)]
+    structures = np.array([names.index(state.name) for state in states])
+    place = np.array([[site.name for site in used].index(state.site) for state in states])
     rng = np.random.default_rng(sites.seed)
-    felt = [_events(sites, one, used) for one in branches]
+    felt = [_events(sites, branch, used) for branch in branches]
     many = DRAWS if felt[0] is None else DRAWS_OF_EVENTS
     ages = _evenly(rng, many[0], 2 * len(names)).reshape(many[0], len(names), 2)
     theta, beta = _capacities(sites, rng, structures, many[0] * many[1])
     each, annual, warnings = _each(sites, felt, place, theta, beta)
-    reached = np.array([one.seen == "reached" for one in states])
+    reached = np.array([state.seen == "reached" for state in states])
     everything = np.ones(len(states), bool)
     variants = [
         everything,
         *(structures != k for k in range(len(names))),
         *(structures == k for k in range(len(names))),
     ]
-    found = np.empty((len(variants) + 2, len(branches), theta.shape[1]))
+    probabilities = np.empty((len(variants) + 2, len(branches), theta.shape[1]))
     for number, share in enumerate(ages):
         now = slice(number * many[1], (number + 1) * many[1])
         begin, end = sites.windows(share[structures])
-        patterns = [_restricted(one, reached, begin, end) for one in variants]
-        sets, back = np.unique(np.concatenate([one.sets for one in patterns]), axis=0, return_inverse=True)
-        places = np.split(back.ravel(), np.cumsum([len(one.sets) for one in patterns])[:-1])
+        patterns = [_restricted(variant, reached, begin, end) for variant in variants]
+        sets, back = np.unique(np.concatenate([pattern.sets for pattern in patterns]), axis=0, return_inverse=True)
+        places = np.split(back.ravel(), np.cumsum([len(pattern.sets) for pattern in patterns])[:-1])
         own, shared = (together(each[..., now], sets, structures, how) for how in (False, True))
         rate = own if felt[0] is None else _drawn(felt, sets, structures, place, theta, beta, each, now, rng, len(used))
-        for k, (one, at) in enumerate(zip(patterns, places, strict=True)):
-            found[k, :, now] = one.probability(rate[at])
-        found[-2, :, now], found[-1, :, now] = (patterns[0].probability(one[places[0]]) for one in (own, shared))
-    if found[0].mean(axis=1).max() < LEAST:
+        for k, (pattern, at) in enumerate(zip(patterns, places, strict=True)):
+            probabilities[k, :, now] = pattern.probability(rate[at])
+        probabilities[-2, :, now], probabilities[-1, :, now] = (
+            patterns[0].probability(bound[places[0]]) for bound in (own, shared)
+        )
+    if probabilities[0].mean(axis=1).max() < LEAST:
         raise InputError(
             f"no branch gives what is seen a probability above {LEAST:g}: ages, fragilities and hazards do not go together; "
             "check their units and years."
         )
-    without, alone = (dict(zip(names, found[begin : begin + len(names)])) for begin in (1, 1 + len(names)))
-    im, curves = _curves(sites, felt, [one.name for one in used])
-    likelihood: dict[str, np.ndarray] = dict(zip(WAYS, (found[0], found[-2], found[-1])))
+    without, alone = (dict(zip(names, probabilities[begin : begin + len(names)])) for begin in (1, 1 + len(names)))
+    im, curves = _curves(sites, felt, [site.name for site in used])
+    likelihood: dict[str, np.ndarray] = dict(zip(WAYS, (probabilities[0], probabilities[-2], probabilities[-1])))
     return Weighing(sites, likelihood, without, alone, annual, im, curves, tuple(dict.fromkeys(warnings)))
 
 
@@ -291,8 +293,8 @@ def _events(sites: Sites, branch: Branch, used: list[Any]) -> SharedEvents | Non
             "im",
         )
     with within(f"branch {branch.name!r}"):
-        places = [one.at or (0.0, 0.0) for one in used]
-        names, soils = [one.name for one in used], [one.vs30 for one in used]
+        places = [site.at or (0.0, 0.0) for site in used]
+        names, soils = [site.name for site in used], [site.vs30 for site in used]
         return SharedEvents.of(branch.sources, branch.model, measure, places, soils, names)
 
 
@@ -307,42 +309,47 @@ def _capacities(
 ) -> tuple[np.ndarray, np.ndarray]:
     """ln θ and β of each state, shape (n, k): states of one monument are weak together."""
     normal = ndtri(_evenly(rng, many, 2 * (structures.max() + 1))).reshape(many, -1, 2)
-    drawn = [state.capacity.draw(normal[:, one]) for state, one in zip(sites.monuments, structures, strict=True)]
-    return np.array([one for one, _ in drawn]), np.array([one for _, one in drawn])
+    drawn = [
+        state.capacity.draw(normal[:, structure]) for state, structure in zip(sites.monuments, structures, strict=True)
+    ]
+    return np.array([theta for theta, _ in drawn]), np.array([beta for _, beta in drawn])
 
 
 def _restricted(chosen: np.ndarray, reached: np.ndarray, begin: np.ndarray, end: np.ndarray) -> Pattern:
     """Pattern of some of the states alone, its sets of all of them; of none of them it is certain."""
     if not chosen.any():
         return Pattern(np.zeros((1, len(chosen)), bool), np.zeros((1, 1)), np.ones(1))
-    found = Pattern.of(reached[chosen], begin[chosen], end[chosen])
-    sets = np.zeros((len(found.sets), len(chosen)), bool)
-    sets[:, chosen] = found.sets
-    return Pattern(sets, found.years, found.signs)
+    pattern = Pattern.of(reached[chosen], begin[chosen], end[chosen])
+    sets = np.zeros((len(pattern.sets), len(chosen)), bool)
+    sets[:, chosen] = pattern.sets
+    return Pattern(sets, pattern.years, pattern.signs)
 
 
 def _each(
     sites: Sites, felt: list[SharedEvents | None], place: np.ndarray, theta: np.ndarray, beta: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Rate of each state under each branch and draw, shape (n, b, k); by the best fragility, shape (n, b); and doubts."""
-    states, warnings = sites.monuments, [doubt for one in sites.monuments for doubt in one.capacity.doubts]
-    best = np.array([[one.capacity.log_median] for one in states]), np.exp([[one.capacity.log_beta] for one in states])
+    states, warnings = sites.monuments, [doubt for state in sites.monuments for doubt in state.capacity.doubts]
+    best = (
+        np.array([[state.capacity.log_median] for state in states]),
+        np.exp([[state.capacity.log_beta] for state in states]),
+    )
     every = np.concatenate((best[0], theta), axis=1), np.concatenate((best[1], beta), axis=1)
-    found = np.empty((len(states), len(felt), every[0].shape[1]))
+    state_rates = np.empty((len(states), len(felt), every[0].shape[1]))
     for b, (branch, events) in enumerate(zip(sites.branches, felt, strict=True)):
         if events is not None:
-            found[:, b] = events.each(place, *every)
+            state_rates[:, b] = events.each(place, *every)
             continue
         for n, state in enumerate(states):
             hazard, capacity = branch.curves[state.site], state.capacity
             with within(f"branch {branch.name!r}, {state.called}"):
-                found[n, b] = rates(hazard, every[0][n], every[1][n])
-                middle, rate = (float(best[0][n, 0]), float(best[1][n, 0])), float(found[n, b, 0])
+                state_rates[n, b] = rates(hazard, every[0][n], every[1][n])
+                middle, rate = (float(best[0][n, 0]), float(best[1][n, 0])), float(state_rates[n, b, 0])
                 warnings += doubts(hazard, capacity.measure, capacity.unit, *middle, rate, capacity.state)
     warnings += [
-        f"the fragility of {one.called} is taken as exactly known; give median_95 and beta_95."
-        for one in states
-        if not any(one.capacity.median_sides)
+        f"the fragility of {state.called} is taken as exactly known; give median_95 and beta_95."
+        for state in states
+        if not any(state.capacity.median_sides)
     ]
     if felt[0] is not None and "@" not in states[0].capacity.measure:
         measure = states[0].capacity.measure
@@ -350,7 +357,7 @@ def _each(
             f"ground-motion models tell the geometric mean of both horizontal components; the {measure} of the fragilities "
             f"is taken for that: fit them over {measure}@geomean."
         )
-    return found[..., 1:], found[..., 0], warnings
+    return state_rates[..., 1:], state_rates[..., 0], warnings
 
 
 def _drawn(
@@ -358,33 +365,33 @@ def _drawn(
     beta: np.ndarray, each: np.ndarray, now: slice, rng: np.random.Generator, number: int,
 ) -> np.ndarray:  # fmt: skip
     """Rates of sets with events drawn, shape (m, b, k); residuals are those of all branches."""
-    found = np.empty((len(sets), len(felt), now.stop - now.start))
+    set_rates = np.empty((len(sets), len(felt), now.stop - now.start))
     for k in range(now.start, now.stop):
         normal = ndtri(_evenly(rng, RESIDUALS, number))
         for b, events in enumerate(felt):
             assert events is not None
-            found[:, b, k - now.start] = events.together(
+            set_rates[:, b, k - now.start] = events.together(
                 sets, structures, place, theta[:, k], beta[:, k], each[:, b, k], normal
             )
-    return found
+    return set_rates
 
 
 def _curves(
     sites: Sites, felt: list[SharedEvents | None], used: list[str]
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Intensities, and rates of all branches there, by site: as far as all curves of the site reach."""
-    ims, found = {}, {}
+    ims, rates_by_site = {}, {}
     for number, site in enumerate(used):
         if felt[0] is not None:
             middle = sites.monuments[0].capacity.log_median
             ims[site] = np.exp(middle + np.linspace(-3.5, 1.5, INTENSITIES))
-            found[site] = np.array([one.curve(ims[site])[number] for one in felt if one is not None])
+            rates_by_site[site] = np.array([events.curve(ims[site])[number] for events in felt if events is not None])
             continue
         curves: list[Hazard] = [branch.curves[site] for branch in sites.branches]
-        low, high = max(one.im[0] for one in curves), min(one.im[-1] for one in curves)
+        low, high = max(curve.im[0] for curve in curves), min(curve.im[-1] for curve in curves)
         if low >= high:
             raise InputError(f"the hazard curves of {site!r} have no intensity in common; give curves that overlap.")
         ims[site] = np.geomspace(low, high, INTENSITIES)
         ims[site][[0, -1]] = low, high
-        found[site] = np.array([[one.at(x) for x in ims[site]] for one in curves])
-    return ims, found
+        rates_by_site[site] = np.array([[curve.at(x) for x in ims[site]] for curve in curves])
+    return ims, rates_by_site

@@ -31,8 +31,8 @@ def rock(slip=0.0) -> Simulations:
     unknown = {"law": np.zeros(DRAWS), "stiffness_damping_s": np.full(DRAWS, 1e-4)}
     verdict = np.where(pgv > FELLS, FELL, STANDS).astype(np.int8)
     moved = np.stack((slip * pgv, 0.0 * pgv), axis=-1)[:, None, :]
-    left = FinalState("rock", verdict, np.full(DRAWS, np.nan), moved, np.zeros((DRAWS, 1)), *NO_BODIES)
-    return Simulations(PRIOR, {"pgv_m_s": pgv, **rest, **unknown}, (left,))
+    state = FinalState("rock", verdict, np.full(DRAWS, np.nan), moved, np.zeros((DRAWS, 1)), *NO_BODIES)
+    return Simulations(PRIOR, {"pgv_m_s": pgv, **rest, **unknown}, (state,))
 
 
 def since(tmp_path, **dates) -> st.Outlasted:
@@ -42,9 +42,9 @@ def since(tmp_path, **dates) -> st.Outlasted:
 def test_rock_of_known_age(tmp_path):
     # Anderson and Brune (1999): it stands with exp(−λ(0.5 m/s) t). Classes of 141 draws are 2.6 % wide in the PGV, of which
     # the threshold cuts one: 2 × 2.6 % of λ t = 0.3 at most.
-    found = outlasting(rock(), [STANDING], since(tmp_path, since=500.0), HAZARD, 1)
-    assert found.chance == pytest.approx(np.exp(-AGE * HAZARD.at(FELLS)), rel=0.016)
-    assert not found.odd
+    result = outlasting(rock(), [STANDING], since(tmp_path, since=500.0), HAZARD, 1)
+    assert result.chance == pytest.approx(np.exp(-AGE * HAZARD.at(FELLS)), rel=0.016)
+    assert not result.odd
     old = outlasting(rock(), [STANDING], since(tmp_path, since=-9000.0, until=3000.0), HAZARD, 1)
     assert old.chance == pytest.approx(np.exp(-12_000.0 * HAZARD.at(FELLS)), rel=0.13)  # 5.2 % of 2.4
     assert not old.odd  # 0.09
@@ -67,28 +67,28 @@ def test_earthquake_is_one_of_the_hazard(tmp_path):
     # Of a rock that has fallen, nothing is asked afterwards: density of the PGV ∝ −dλ, whose median above 0.5 m/s is
     # 0.5 √2 m/s where λ ∝ PGV⁻²; what is beyond 2 m/s (1/16) counts with the strongest draws, below the median not.
     table, fallen = rock(), Fact(0, "state", "rock fell", (1.0,))
-    found = outlasting(table, [fallen], since(tmp_path, earthquake=1800.0), HAZARD, 1)
-    assert found.chance == 1.0
-    answers = Answers(table, [fallen], 1, found.weights)
-    told = answers.posterior(answers.to([fallen]))["pgv_m_s"]
-    assert told.median == pytest.approx(FELLS * 2.0**0.5, rel=0.03)  # a class
-    assert told.low == pytest.approx(FELLS / 0.95**0.5, rel=0.03)
-    assert found.rates[answers.matching([fallen])].sum() == pytest.approx(HAZARD.at(FELLS), rel=0.06)
+    result = outlasting(table, [fallen], since(tmp_path, earthquake=1800.0), HAZARD, 1)
+    assert result.chance == 1.0
+    answers = Answers(table, [fallen], 1, result.weights)
+    pgv = answers.posterior(answers.to([fallen]))["pgv_m_s"]
+    assert pgv.median == pytest.approx(FELLS * 2.0**0.5, rel=0.03)  # a class
+    assert pgv.low == pytest.approx(FELLS / 0.95**0.5, rel=0.03)
+    assert result.rates[answers.matching([fallen])].sum() == pytest.approx(HAZARD.at(FELLS), rel=0.06)
 
 
 def test_what_stands_has_not_been_moved_farther_since(tmp_path):
     # 20 mm per m/s, 4 mm seen with 1 mm: all above 0.3 m/s (6 mm) would show.
     facts = [STANDING, Fact(0, "offset", "joint 1", (0.004, 0.0), 0.001)]
-    found = outlasting(rock(0.02), facts, since(tmp_path, since=500.0), HAZARD, 1)
-    assert found.chance == pytest.approx(np.exp(-AGE * HAZARD.at(0.3)), rel=0.052 * AGE * HAZARD.at(0.3))
+    result = outlasting(rock(0.02), facts, since(tmp_path, since=500.0), HAZARD, 1)
+    assert result.chance == pytest.approx(np.exp(-AGE * HAZARD.at(0.3)), rel=0.052 * AGE * HAZARD.at(0.3))
 
 
 def test_the_largest_slip_bounds_what_came_since_and_tells_the_shaking(tmp_path):
     # The same bound of a joint that nobody names; and at 20 mm per m/s 8 ± 0.2 mm are 0.4 m/s, ± 2.5 %, of which two pass.
     table = rock(0.02)
     bound = [STANDING, Fact(0, "largest", "largest offset", (0.004,), 0.001)]
-    found = outlasting(table, bound, since(tmp_path, since=500.0), HAZARD, 1)
-    assert found.chance == pytest.approx(np.exp(-AGE * HAZARD.at(0.3)), rel=0.052 * AGE * HAZARD.at(0.3))
+    result = outlasting(table, bound, since(tmp_path, since=500.0), HAZARD, 1)
+    assert result.chance == pytest.approx(np.exp(-AGE * HAZARD.at(0.3)), rel=0.052 * AGE * HAZARD.at(0.3))
     seen = [STANDING, Fact(0, "largest", "largest offset", (0.008,), 0.0002)]
     answers = Answers(table, seen, 1)
     assert answers.posterior(answers.to(seen))["pgv_m_s"].median == pytest.approx(0.4, rel=0.05)
@@ -99,12 +99,12 @@ def test_date_of_the_earthquake_is_integrated_over(tmp_path):
     # Its median t½ has 1 − exp(−λ t½) = (1 − exp(−2000 λ))/2; 4000 dates: four standard errors are 0.03 of the range.
     fallen = Fact(0, "state", "rock fell", (1.0,))
     often = worse(5.0)
-    found = outlasting(rock(), [fallen], since(tmp_path, since=0.0), often, 1)
+    result = outlasting(rock(), [fallen], since(tmp_path, since=0.0), often, 1)
     rate = often.at(FELLS)
     half = -np.log1p(-0.5 * (1.0 - np.exp(-2000.0 * rate))) / rate
-    assert found.year[1] == pytest.approx(half, abs=60.0)
+    assert result.year[1] == pytest.approx(half, abs=60.0)
     mean = (1.0 - np.exp(-2000.0 * rate)) / (2000.0 * rate)
-    assert found.chance == pytest.approx(mean, rel=0.06)
+    assert result.chance == pytest.approx(mean, rel=0.06)
 
 
 def test_law_under_which_it_would_have_fallen_is_doubted(tmp_path):
@@ -113,13 +113,13 @@ def test_law_under_which_it_would_have_fallen_is_doubted(tmp_path):
     law = np.random.default_rng(2).integers(0, 2, DRAWS).astype(float)
     table.parameters["law"] = law
     table.left[0].verdict[law == 1.0] = STANDS
-    found = outlasting(table, [STANDING], since(tmp_path, since=-7000.0), HAZARD, 1)
-    odds = found.weights[law == 0.0].sum() / found.weights[law == 1.0].sum()
+    result = outlasting(table, [STANDING], since(tmp_path, since=-7000.0), HAZARD, 1)
+    odds = result.weights[law == 0.0].sum() / result.weights[law == 1.0].sum()
     assert odds == pytest.approx(np.exp(-9000.0 * HAZARD.at(FELLS)), rel=0.15)  # classes and shares of 10,000 draws
 
 
 @pytest.mark.parametrize(
-    ("fields", "said"),
+    ("fields", "message"),
     [
         ({}, "neither since nor earthquake"),
         ({"since": 1900.0, "earthquake": 1800.0}, "contradict one another"),
@@ -129,8 +129,8 @@ def test_law_under_which_it_would_have_fallen_is_doubted(tmp_path):
         ({"since": 1e6}, "a year of `since`"),
     ],
 )
-def test_dates_that_are_none_are_refused(tmp_path, fields, said):
-    with pytest.raises(st.InputError, match=said):
+def test_dates_that_are_none_are_refused(tmp_path, fields, message):
+    with pytest.raises(st.InputError, match=message):
         since(tmp_path, **fields)
 
 

@@ -33,20 +33,22 @@ def made(count: int = 2000) -> Simulations:
     moved = np.zeros((count, 2, 2))
     moved[:, 1, 0] = 0.1 * np.maximum(pgv - 0.2, 0.0)
     verdict = np.where(fallen.any(axis=1), FELL, STANDS).astype(np.int8)
-    left = FinalState("pair", verdict, np.where(fallen[:, 0], 90.0, np.nan), moved, np.zeros((count, 2)), fallen, moved)
-    return Simulations(PRIOR, parameters, (left,))
+    state = FinalState(
+        "pair", verdict, np.where(fallen[:, 0], 90.0, np.nan), moved, np.zeros((count, 2)), fallen, moved
+    )
+    return Simulations(PRIOR, parameters, (state,))
 
 
 @pytest.mark.slow
 def test_bodies_of_runs_are_told_one_by_one():
     prior = st.Prior(pgv=(1.4, 1.5), period=(1.0, 1.1), stiffness_damping=(3e-4,))
-    (left,) = simulations_of([PAIR], prior, st.DistinctElement3D(), 1, 1, campaign=Campaign(tail=2.0)).left
-    assert left.fallen.tolist() == [[True, False]]  # a pillar six times as high as wide; a block slides: 0.5 < 1.2/0.6
-    assert left.verdict.tolist() == [FELL]
-    assert left.moved.shape == left.slip.shape == (1, 2, 2)
-    assert np.hypot(*left.moved[0, 1]) > 0.01
+    (state,) = simulations_of([PAIR], prior, st.DistinctElement3D(), 1, 1, campaign=Campaign(tail=2.0)).left
+    assert state.fallen.tolist() == [[True, False]]  # a pillar six times as high as wide; a block slides: 0.5 < 1.2/0.6
+    assert state.verdict.tolist() == [FELL]
+    assert state.moved.shape == state.slip.shape == (1, 2, 2)
+    assert np.hypot(*state.moved[0, 1]) > 0.01
     # the block turns little: its centroid moves as its joint slips
-    assert np.allclose(left.moved[:, 1], left.slip[:, 1], atol=5e-3)
+    assert np.allclose(state.moved[:, 1], state.slip[:, 1], atol=5e-3)
 
 
 def test_facts_of_bodies_match_draws():
@@ -60,7 +62,7 @@ def test_facts_of_bodies_match_draws():
     moved = facts[-1]
     off = answers.values[moved] - table.left[0].moved[:, 1]
     assert off.std() == pytest.approx(0.01, rel=0.2)  # measured as badly as the ruin was; many standard errors
-    assert [one.kind for one in answers.alone(moved)] == ["state", "body", "moved"]
+    assert [fact.kind for fact in answers.alone(moved)] == ["state", "body", "moved"]
     assert moved not in answers.without(facts[2])
     standing = seen(stand=["base"])
     assert [fact.kind for fact in standing.facts] == ["body"]  # of the pillar nothing is seen
@@ -79,7 +81,7 @@ def test_slips_of_bodies_that_stand_tell_the_shaking():
 
 
 @pytest.mark.parametrize(
-    ("fields", "said"),
+    ("fields", "message"),
     [
         ({"fell": ["column"]}, "'column' is no body of 'pair' that can move; .*known are pillar, base"),
         ({"fell": ["base"], "stand": ["base"]}, "one of the two is wrong"),
@@ -91,8 +93,8 @@ def test_slips_of_bodies_that_stand_tell_the_shaking():
         ({"moved": [["base", 0.1, 0.0, 0.0]]}, "allowed is \\(0"),
     ],
 )
-def test_bodies_that_contradict_are_refused(fields, said):
-    with pytest.raises(st.InputError, match=said):
+def test_bodies_that_contradict_are_refused(fields, message):
+    with pytest.raises(st.InputError, match=message):
         seen(**fields)
 
 

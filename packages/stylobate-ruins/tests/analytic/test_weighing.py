@@ -40,8 +40,8 @@ def faults(rate):
 
 
 def probability(reached, begin, end, rates, structures, shared):
-    found = Pattern.of(np.array(reached), np.array(begin, float), np.array(end, float))
-    return float(found.probability(together(np.array(rates), found.sets, np.array(structures), shared)))
+    pattern = Pattern.of(np.array(reached), np.array(begin, float), np.array(end, float))
+    return float(pattern.probability(together(np.array(rates), pattern.sets, np.array(structures), shared)))
 
 
 def test_states_of_single_structures():
@@ -52,8 +52,8 @@ def test_states_of_single_structures():
     assert probability([True], [1.0], [0.0], [1e-12], [0], False) == pytest.approx(1e-12, rel=1e-12)
     # damaged and not collapsed: whatever brings the collapse brings the damage, exp(−λ_c t) − exp(−λ_d t)
     damage, collapse = 1e-3, 2e-4
-    found = probability([True, False], [age, age], [0.0, 0.0], [damage, collapse], [0, 0], False)
-    assert found == pytest.approx(math.exp(-collapse * age) - math.exp(-damage * age), rel=1e-13)
+    chance = probability([True, False], [age, age], [0.0, 0.0], [damage, collapse], [0, 0], False)
+    assert chance == pytest.approx(math.exp(-collapse * age) - math.exp(-damage * age), rel=1e-13)
 
 
 @pytest.mark.parametrize("reached", list(itertools.product([False, True], repeat=3)))
@@ -75,16 +75,16 @@ def test_earthquakes_that_shake_all_make_the_weakest_alone_tell():
     fell = probability([True, True, True], age, [0.0] * 3, rates, [0, 1, 2], True)
     assert fell == pytest.approx(-math.expm1(-1e-4 * 2000.0), rel=1e-12)
     # an older one is alone at risk before the others stood: 400 years at 1e-4, then 2000 at the largest
-    found = probability([False] * 3, [2000.0, 2400.0, 2000.0], [0.0] * 3, rates, [0, 1, 2], True)
-    assert found == pytest.approx(math.exp(-1e-4 * 400.0 - 8e-4 * 2000.0), rel=1e-12)
+    chance = probability([False] * 3, [2000.0, 2400.0, 2000.0], [0.0] * 3, rates, [0, 1, 2], True)
+    assert chance == pytest.approx(math.exp(-1e-4 * 400.0 - 8e-4 * 2000.0), rel=1e-12)
 
 
 # -- events ------------------------------------------------------------------------------------------------------------
 
 
 def shaken(rate=0.01, sites=SITES):
-    places, soils = [one.at for one in sites], [one.vs30 for one in sites]
-    return SharedEvents.of(faults(rate), MODEL, "pgv", places, soils, [one.name for one in sites])
+    places, soils = [site.at for site in sites], [site.vs30 for site in sites]
+    return SharedEvents.of(faults(rate), MODEL, "pgv", places, soils, [site.name for site in sites])
 
 
 def test_rates_of_what_events_reach_are_those_of_the_hazard_curve():
@@ -95,28 +95,28 @@ def test_rates_of_what_events_reach_are_those_of_the_hazard_curve():
     events, place = shaken(), np.arange(3)
     theta, beta = np.log(np.array([[0.3], [0.5], [0.2]])), np.full((3, 1), 0.4)
     im = np.geomspace(1e-4, 50.0, 200)
-    curves = [rates(Hazard(im, one, "m/s", "c"), theta[k], beta[k]) for k, one in enumerate(events.curve(im))]
+    curves = [rates(Hazard(im, rate, "m/s", "c"), theta[k], beta[k]) for k, rate in enumerate(events.curve(im))]
     assert events.each(place, theta, beta) == pytest.approx(np.array(curves), rel=1e-3)
 
 
 def test_together_is_the_normal_integral_and_stays_between_its_bounds():
     # one event at three places: P(nothing is reached) is that of a normal vector below thresholds (Genz's integral, 1e-4)
     events = shaken()
-    one = SharedEvents(np.array([1.0]), np.log([[0.25, 0.3, 0.1]]), events.between, events.within, events.root)
+    single = SharedEvents(np.array([1.0]), np.log([[0.25, 0.3, 0.1]]), events.between, events.within, events.root)
     place, structures = np.arange(3), np.arange(3)
     theta, beta = np.log(np.array([0.3, 0.35, 0.2])), np.array([0.4, 0.5, 0.3])
-    each = one.each(place, theta[:, None], beta[:, None])[:, 0]
+    each = single.each(place, theta[:, None], beta[:, None])[:, 0]
     sets = np.array(list(itertools.product([False, True], repeat=3)))
     rng = np.random.default_rng(0)
-    found = one.together(sets, structures, place, theta, beta, each, rng.standard_normal((40_000, 3)))
+    rates = single.together(sets, structures, place, theta, beta, each, rng.standard_normal((40_000, 3)))
     cover = events.root @ events.root.T + np.diag(beta**2)
-    for chosen, rate in zip(sets, found, strict=True):
+    for chosen, rate in zip(sets, rates, strict=True):
         if not chosen.any():
             assert rate == 0.0
             continue
         below = multivariate_normal(np.zeros(chosen.sum()), cover[np.ix_(chosen, chosen)])
         # 40,000 draws: a standard error of at most 0.5/200 = 0.0025
-        assert rate == pytest.approx(1.0 - below.cdf((theta - one.log_median[0])[chosen]), abs=0.01)
+        assert rate == pytest.approx(1.0 - below.cdf((theta - single.log_median[0])[chosen]), abs=0.01)
     rare = events.each(place, theta[:, None], beta[:, None])[:, 0]
     many = events.together(sets, structures, place, theta, beta, rare, rng.standard_normal((16, 3)))
     own, all_ = (together(rare, sets, structures, how) for how in (False, True))
@@ -128,9 +128,9 @@ def test_together_is_the_normal_integral_and_stays_between_its_bounds():
 def test_monuments_that_share_earthquakes_say_less_than_those_that_do_not():
     monuments = tuple(Monument(f"m{k}", "a", known(0.35), "stands", (2400.0, 2400.0)) for k in range(3))
     branches = tuple(Branch(f"{r:g}", 0.5, {}, faults(r), MODEL) for r in (0.002, 0.006))
-    found = weigh(Sites(SITES, monuments, branches))
-    own, shared = (found.posterior(found.likelihood[one]) for one in WAYS[1:])
-    assert shared[0] + 0.02 < found.weight[0] < own[0] - 0.02
+    weighing = weigh(Sites(SITES, monuments, branches))
+    own, shared = (weighing.posterior(weighing.likelihood[way]) for way in WAYS[1:])
+    assert shared[0] + 0.02 < weighing.weight[0] < own[0] - 0.02
 
 
 def test_simulated_catalogues_show_what_is_seen_as_often_as_it_is_probable():
@@ -150,22 +150,29 @@ def test_simulated_catalogues_show_what_is_seen_as_often_as_it_is_probable():
     rng, worlds = np.random.default_rng(7), 4000
     truth = rng.choice(3, worlds, p=prior)
     felt = [shaken(rate) for rate in rates]
-    codes = np.array([_catalogue(rng, monuments, felt[one]) for one in truth]) @ [1, 2, 4]
+    codes = np.array([_catalogue(rng, monuments, felt[branch]) for branch in truth]) @ [1, 2, 4]
     weight, likelihood = np.empty((8, 3)), np.empty((8, 3))
     for code in range(8):
         seen = [
-            Monument(one.name, one.site, one.capacity, "reached" if code >> k & 1 else "stands", one.age, one.until)
-            for k, one in enumerate(monuments)
+            Monument(
+                monument.name,
+                monument.site,
+                monument.capacity,
+                "reached" if code >> k & 1 else "stands",
+                monument.age,
+                monument.until,
+            )
+            for k, monument in enumerate(monuments)
         ]
-        found = weigh(Sites(SITES, tuple(seen), branches))
-        weight[code], likelihood[code] = found.weight, found.likelihood[WAYS[0]].mean(axis=1)
+        weighing = weigh(Sites(SITES, tuple(seen), branches))
+        weight[code], likelihood[code] = weighing.weight, weighing.likelihood[WAYS[0]].mean(axis=1)
     # something is seen; residuals are drawn, and what comes out below 0 for what is hardly ever seen counts as 0
     assert likelihood.sum(axis=0) == pytest.approx(np.ones(3), abs=1e-3)
     for branch in range(3):  # each pattern as often as it is probable: chi-square of 7, p > 0.001
         counted = np.bincount(codes[truth == branch], minlength=8)
         expected = counted.sum() * likelihood[:, branch]
-        some = expected > 5.0
-        assert (((counted - expected) ** 2 / expected)[some]).sum() < 24.3
+        frequent = expected > 5.0
+        assert (((counted - expected) ** 2 / expected)[frequent]).sum() < 24.3
     mine = weight[codes]
     of_truth = mine[np.arange(worlds), truth]
     assert abs(of_truth.mean() - (mine**2).sum(axis=1).mean()) < 4.0 * of_truth.std() / math.sqrt(worlds)
@@ -173,18 +180,20 @@ def test_simulated_catalogues_show_what_is_seen_as_often_as_it_is_probable():
     hit = np.equal.outer(truth, np.arange(3)).ravel().astype(float)
     classes = np.digitize(mine.ravel(), [0.1, 0.25, 0.4, 0.6])
     score = 0.0
-    for one in range(5):
-        inside = classes == one
-        told = mine.ravel()[inside]
-        score += (hit[inside].sum() - told.sum()) ** 2 / max((told * (1.0 - told)).sum(), 1e-9)
+    for class_number in range(5):
+        inside = classes == class_number
+        chances = mine.ravel()[inside]
+        score += (hit[inside].sum() - chances.sum()) ** 2 / max((chances * (1.0 - chances)).sum(), 1e-9)
     assert score < 20.5  # p = 0.001
 
 
 def _catalogue(rng, monuments, events):
     """What one world shows of each monument."""
     result = []
-    middle = [one.capacity.draw(rng.standard_normal((1, 2))) for one in monuments]
-    begin, end = (np.array([rng.uniform(*getattr(one, name)) for one in monuments]) for name in ("age", "until"))
+    middle = [monument.capacity.draw(rng.standard_normal((1, 2))) for monument in monuments]
+    begin, end = (
+        np.array([rng.uniform(*getattr(monument, name)) for monument in monuments]) for name in ("age", "until")
+    )
     number = rng.poisson(events.rate.sum() * begin.max())
     which = rng.choice(len(events.rate), number, p=events.rate / events.rate.sum())
     when = rng.uniform(0.0, begin.max(), number)
@@ -204,13 +213,13 @@ def test_one_rock_of_known_age_is_the_rule_of_precarious_rocks():
     # A dispersion of 0.01 is a step: λ of k = 2 grows by exp(k²β²/2) = 1.0002
     hazards = {name: power_law(k0, name) for name, k0 in (("low", 1e-5), ("mid", 1e-4), ("high", 1e-3))}
     rock = Monument("rock", "a", known(0.5, 0.01), "stands", (8000.0, 8000.0))
-    branches = tuple(Branch(name, 0.333, {"a": one}) for name, one in hazards.items())
-    found = weigh(Sites((Site("a"),), (rock,), branches))
-    passes = np.exp([-8000.0 * one.at(0.5) for one in hazards.values()])
-    assert found.likelihood[WAYS[0]].mean(axis=1) == pytest.approx(passes, rel=8000.0 * 4e-3 * 3e-4, abs=1e-13)
-    assert found.weight == pytest.approx(passes / passes.sum(), rel=1e-2, abs=1e-10)
-    assert found.weight[2] < 1e-10
-    assert "against high" in found.sentence
+    branches = tuple(Branch(name, 0.333, {"a": hazard}) for name, hazard in hazards.items())
+    weighing = weigh(Sites((Site("a"),), (rock,), branches))
+    passes = np.exp([-8000.0 * hazard.at(0.5) for hazard in hazards.values()])
+    assert weighing.likelihood[WAYS[0]].mean(axis=1) == pytest.approx(passes, rel=8000.0 * 4e-3 * 3e-4, abs=1e-13)
+    assert weighing.weight == pytest.approx(passes / passes.sum(), rel=1e-2, abs=1e-10)
+    assert weighing.weight[2] < 1e-10
+    assert "against high" in weighing.sentence
 
 
 def test_what_is_not_known_of_age_and_fragility_is_averaged_before_branches_are_compared():
@@ -223,8 +232,8 @@ def test_what_is_not_known_of_age_and_fragility_is_averaged_before_branches_are_
     # an uncertain median tells branches less apart than one that is exact
     branches = tuple(Branch(f"{k0:g}", 0.5, {"a": power_law(k0)}) for k0 in (1e-5, 1e-3))
     sharp, blunt = (
-        weigh(Sites((Site("a"),), (Monument("m", "a", known(0.5, sides=one), "stands", (2000.0, 2000.0)),), branches))
-        for one in ((0.0, 0.0), (0.8, 0.8))
+        weigh(Sites((Site("a"),), (Monument("m", "a", known(0.5, sides=sides), "stands", (2000.0, 2000.0)),), branches))
+        for sides in ((0.0, 0.0), (0.8, 0.8))
     )
     assert blunt.weight[1] > 3.0 * sharp.weight[1]
     assert sharp.weight_error.max() < 1e-12  # nothing is drawn
@@ -249,13 +258,13 @@ def test_weights_that_do_not_sum_to_one_are_refused():
 def test_fractiles_and_means_are_over_branches():
     branches = tuple(Branch(str(k), w, {"a": power_law(k * 1e-5)}) for k, w in ((1, 0.2), (2, 0.5), (5, 0.3)))
     monument = Monument("m", "a", known(0.5), "stands", (2000.0, 2000.0))
-    found = weigh(Sites((Site("a"),), (monument,), branches))
-    at = found.curves["a"][:, 7]
-    low, middle, high = found.fractiles("a", found.prior)[:, 7]
+    weighing = weigh(Sites((Site("a"),), (monument,), branches))
+    at = weighing.curves["a"][:, 7]
+    low, middle, high = weighing.fractiles("a", weighing.prior)[:, 7]
     assert (low, middle, high) == (at[0], at[1], at[2])
-    assert found.mean("a", found.prior)[7] == pytest.approx(0.2 * at[0] + 0.5 * at[1] + 0.3 * at[2])
-    assert found.mean("a", found.weight)[7] < found.mean("a", found.prior)[7]
-    assert found.information[0]["bits_alone"] == pytest.approx(found.bits)
+    assert weighing.mean("a", weighing.prior)[7] == pytest.approx(0.2 * at[0] + 0.5 * at[1] + 0.3 * at[2])
+    assert weighing.mean("a", weighing.weight)[7] < weighing.mean("a", weighing.prior)[7]
+    assert weighing.information[0]["bits_alone"] == pytest.approx(weighing.bits)
 
 
 # -- ground motion and sources -----------------------------------------------------------------------------------------
@@ -311,7 +320,7 @@ def test_soil_and_style_as_in_the_tables():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (("pgv", 4.5, 10.0, 800.0, "normal"), "magnitude 4.5 is beyond the model of Akkar and Bommer"),
         (("pgv", 7.7, 10.0, 800.0, "normal"), "holds from 5 to 7.6"),
@@ -321,8 +330,8 @@ def test_soil_and_style_as_in_the_tables():
         (("pgv", 6.0, 10.0, 800.0, "oblique"), "mechanism"),
     ],
 )
-def test_beyond_a_model_nothing_is_told(arguments, said):
-    with pytest.raises(InputError, match=said):
+def test_beyond_a_model_nothing_is_told(arguments, message):
+    with pytest.raises(InputError, match=message):
         MODEL.log_median(*arguments)
 
 
@@ -344,8 +353,8 @@ def test_sources():
     assert above[1] / above[0] == pytest.approx((0.1 - 0.01) / (1.0 - 0.01))
     # Wells and Coppersmith (1994): log10 of the length = −2.44 + 0.59 M, 49 km at magnitude 7
     assert rupture_length(7.0) == pytest.approx(10.0**1.69)
-    one = Source("p", ((21.0, 38.0),), (7.0, 7.0), 0.01, strike=0.0)
-    events = events_of(one, (21.0, 38.0))
+    point_source = Source("p", ((21.0, 38.0),), (7.0, 7.0), 0.01, strike=0.0)
+    events = events_of(point_source, (21.0, 38.0))
     half = 0.5 * rupture_length(7.0)
     for place, far in (((0.0, 0.0), 0.0), ((10.0, 0.0), 10.0), ((0.0, half + 30.0), 30.0), ((3.0, half + 4.0), 5.0)):
         assert events.distance(np.array(place)) == pytest.approx([far], abs=1e-9)

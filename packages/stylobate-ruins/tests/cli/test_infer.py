@@ -59,15 +59,15 @@ def ruin(tmp_path):
 def test_answer_and_its_files(ruin, tmp_path, capsys):
     out = tmp_path / "out"
     assert call(["infer", str(ruin(low="offsets = [[1, 0.002, 0.001, 0.003]]")), "--out", str(out), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert set(told["posterior"]) == {"pgv_m_s", "pga_g", "period_s", "azimuth_deg"}
-    for one in told["posterior"].values():
-        assert one["low"] <= one["median"] <= one["high"]
-    assert told["simulations"] + told["failed"] == 300
-    assert 100 <= told["accepted"] <= told["matching"]
-    assert told["informative"] is True
+    answer = json.loads(capsys.readouterr().out)
+    assert set(answer["posterior"]) == {"pgv_m_s", "pga_g", "period_s", "azimuth_deg"}
+    for posterior in answer["posterior"].values():
+        assert posterior["low"] <= posterior["median"] <= posterior["high"]
+    assert answer["simulations"] + answer["failed"] == 300
+    assert 100 <= answer["accepted"] <= answer["matching"]
+    assert answer["informative"] is True
     assert (
-        told["posterior"]["pgv_m_s"]["high"] < 1.9
+        answer["posterior"]["pgv_m_s"]["high"] < 1.9
     )  # what stands with 2 mm was not shaken by the largest of the prior
     for name in (
         "infer.json",
@@ -95,24 +95,24 @@ def test_survival_is_one_more_observation(ruin, tmp_path, capsys):
     for more in ("", '[survival]\nhazard = "hazard.csv"\nsince = -300\nearthquake = [200, 700]\nuntil = 2020\n'):
         file.write_text(file.read_text() + more)
         assert call(["infer", str(file), "--out", str(out), "--json"]) == 0
-        told = json.loads(capsys.readouterr().out)
-        medians.append(told["posterior"]["pgv_m_s"]["median"])
+        answer = json.loads(capsys.readouterr().out)
+        medians.append(answer["posterior"]["pgv_m_s"]["median"])
     assert medians[1] < medians[0]
-    survival = told["survival"]
+    survival = answer["survival"]
     assert 200 <= survival["earthquake"]["low"] <= survival["earthquake"]["high"] <= 700
     assert 0.0 < survival["chance"] < 1.0
-    assert told["observations"][-1]["observation"] == told["checks"][-1]["observation"] == "survival since -300"
-    assert "outlasts all other shaking from -300 to 2020" in told["sentence"]
+    assert answer["observations"][-1]["observation"] == answer["checks"][-1]["observation"] == "survival since -300"
+    assert "outlasts all other shaking from -300 to 2020" in answer["sentence"]
     assert call(["report", str(out), "--out", str(tmp_path / "report.html")]) == 0
     assert "Year of the earthquake" in (tmp_path / "report.html").read_text()
 
 
 def test_joints_in_their_places_are_not_odd(ruin, capsys):
     # 0 ± 3 mm of each joint: less than errors alone would mostly make of it, and what a survey writes that saw nothing move.
-    said = "offsets = [[1, 0.0, 0.0, 0.003], [2, 0.0, 0.0, 0.003]]"
-    assert call(["infer", str(ruin(low=said, pgv="[0.05, 1.0]")), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["consistent"], told["checks"]
+    offsets = "offsets = [[1, 0.0, 0.0, 0.003], [2, 0.0, 0.0, 0.003]]"
+    assert call(["infer", str(ruin(low=offsets, pgv="[0.05, 1.0]")), "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["consistent"], answer["checks"]
 
 
 @pytest.mark.parametrize(
@@ -139,14 +139,14 @@ def test_nothing_seen_leaves_the_prior(ruin, capsys):
     file = ruin(high="unknown")
     file.write_text(file.read_text().replace('state = "stands"', 'state = "fell before"'))
     assert call(["infer", str(file), "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["informative"] is False
-    assert told["accepted"] == told["simulations"] == 300
-    assert "do not tell PGV" in told["sentence"]
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["informative"] is False
+    assert answer["accepted"] == answer["simulations"] == 300
+    assert "do not tell PGV" in answer["sentence"]
 
 
 @pytest.mark.parametrize(
-    ("fields", "said"),
+    ("fields", "message"),
     [
         ({"high": "fell", "fell": "offsets = [[1, 0.01, 0.0, 0.002]]"}, "what fell has none"),
         ({"fell": "fell_towards = 30"}, "leave it out, or give state"),
@@ -183,11 +183,11 @@ def test_nothing_seen_leaves_the_prior(ruin, capsys):
         ({"low": "no_slip_above = 0.000001", "pgv": "[0.3, 2.0]"}, "and 100 are needed; raise simulations to about"),
     ],
 )
-def test_what_is_no_ruin_is_refused(ruin, tmp_path, capsys, fields, said):
+def test_what_is_no_ruin_is_refused(ruin, tmp_path, capsys, fields, message):
     import re
 
     out = tmp_path / "out"
     assert call(["infer", str(ruin(**fields)), "--out", str(out)]) == 2
-    told = capsys.readouterr().err
-    assert re.search(said, told), told
+    stderr = capsys.readouterr().err
+    assert re.search(message, stderr), stderr
     assert not (out / "infer.json").exists()

@@ -65,46 +65,46 @@ def place(tmp_path):
     return tmp_path
 
 
-def said(capsys, *arguments, code=0):
-    assert call([str(one) for one in arguments]) == code
+def output_of(capsys, *arguments, code=0):
+    assert call([str(argument) for argument in arguments]) == code
     got = capsys.readouterr()
     return json.loads(got.out) if code == 0 and "--json" in arguments else got
 
 
 def test_sites_with_hazard_curves(place, capsys):
-    found = said(capsys, "survival", place / "sites.toml", "--out", place / "out", "--json")
-    low, high = found["hazards"]
+    answer = output_of(capsys, "survival", place / "sites.toml", "--out", place / "out", "--json")
+    low, high = answer["hazards"]
     assert (low["prior_weight"], high["prior_weight"]) == pytest.approx((0.67, 0.33))
     assert low["weight"] + high["weight"] == pytest.approx(1.0)
     assert low["weight_if_own"] == low["weight"] != low["weight_if_shared"]
     assert low["probability_low"] < low["probability"] < low["probability_high"]
-    assert found["earthquakes"] == "each site its own"
-    assert "did all shake every site" in found["sentence"]
-    assert [one["monument"] for one in found["monuments"]] == ["column", "temple"]
-    assert {file.rpartition("/")[2] for file in found["files"]} == {
+    assert answer["earthquakes"] == "each site its own"
+    assert "did all shake every site" in answer["sentence"]
+    assert [row["monument"] for row in answer["monuments"]] == ["column", "temple"]
+    assert {file.rpartition("/")[2] for file in answer["files"]} == {
         "survival.csv", "hazard.csv", "survival.png", "survival.svg", "survival.json", "asked-survival.json"}  # fmt: skip
-    (told,) = read_results([place / "out"])
-    assert {"mean_before", "fractile_95_after"} <= set(told.tables["hazard"].columns)
-    said(capsys, "report", place / "out", "--out", place / "page.html")
+    (result,) = read_results([place / "out"])
+    assert {"mean_before", "fractile_95_after"} <= set(result.tables["hazard"].columns)
+    output_of(capsys, "report", place / "out", "--out", place / "page.html")
     page = (place / "page.html").read_text()
     assert "temple has come to collapse" in page
     assert "bits" in page
-    text = said(capsys, "survival", place / "sites.toml").out
+    text = output_of(capsys, "survival", place / "sites.toml").out
     assert "once in 475 years before" in text
 
 
 def test_sites_that_share_earthquakes(place, capsys):
     (place / "sites.toml").write_text(SITES.replace("tree.csv", "shared.csv"))
-    found = said(capsys, "survival", place / "sites.toml", "--json")
-    assert found["earthquakes"] == "from sources, shared"
-    assert any("geometric mean" in one for one in found["warnings"])
-    assert all(one["weight_error"] < 0.05 for one in found["hazards"])
+    answer = output_of(capsys, "survival", place / "sites.toml", "--json")
+    assert answer["earthquakes"] == "from sources, shared"
+    assert any("geometric mean" in warning for warning in answer["warnings"])
+    assert all(row["weight_error"] < 0.05 for row in answer["hazards"])
     again = st.weigh(st.read_sites(place / "sites.toml"))  # the same numbers, whoever asks
-    assert again.weight == pytest.approx([one["weight"] for one in found["hazards"]], rel=1e-12)
+    assert again.weight == pytest.approx([row["weight"] for row in answer["hazards"]], rel=1e-12)
 
 
 def test_a_kept_fragility_is_the_one_that_its_runs_make(place, capsys):
-    said(capsys, "fragility", place / "runs.csv", "--im", "pgv", "--out", place / "kept")
+    output_of(capsys, "fragility", place / "runs.csv", "--im", "pgv", "--out", place / "kept")
     direct = st.weigh(st.read_sites(place / "sites.toml"))
     (place / "sites.toml").write_text(SITES.replace("runs.csv", "kept"))
     assert st.weigh(st.read_sites(place / "sites.toml")).weight == pytest.approx(direct.weight, rel=1e-12)
@@ -123,10 +123,10 @@ NRML = """<?xml version="1.0" encoding="UTF-8"?>
 def test_hazard_curves_in_nrml(tmp_path):
     path = tmp_path / "curve.xml"
     path.write_text(NRML)
-    found = read_hazard(path, (22.0, 37.4))
-    assert (found.unit, found.imt) == ("m/s", "PGV")
-    assert found.im == pytest.approx([0.1, 0.2, 0.4])  # cm/s
-    assert found.rate == pytest.approx(-np.log1p(-np.array([0.4, 0.2, 0.05])) / 50.0)
+    hazard = read_hazard(path, (22.0, 37.4))
+    assert (hazard.unit, hazard.imt) == ("m/s", "PGV")
+    assert hazard.im == pytest.approx([0.1, 0.2, 0.4])  # cm/s
+    assert hazard.rate == pytest.approx(-np.log1p(-np.array([0.4, 0.2, 0.05])) / 50.0)
     for old, new, why in (
         ("</nrml>", "", "no XML"),
         ('investigationTime="50.0" ', "", "investigationTime"),
@@ -163,7 +163,7 @@ def test_hazard_curves_in_nrml(tmp_path):
 )  # fmt: skip
 def test_bad_files_are_one_sentence(place, capsys, old, new, why):
     (place / "sites.toml").write_text(SITES.replace(old, new))
-    got = said(capsys, "survival", place / "sites.toml", "--out", place / "out", code=2)
+    got = output_of(capsys, "survival", place / "sites.toml", "--out", place / "out", code=2)
     assert why.replace("`", "") in got.err.replace("`", "")
     assert got.err.count("\n") == 1
     assert not (place / "out").exists() or not any((place / "out").iterdir())
@@ -181,15 +181,15 @@ def test_bad_branches_and_options_are_one_sentence(place, capsys):
         ("branch,weight,sources,model\nlow,1,A-sources.csv,\n", "ground-motion model"),
     ):
         tree.write_text(text)
-        got = said(capsys, "survival", place / "sites.toml", code=2)
+        got = output_of(capsys, "survival", place / "sites.toml", code=2)
         assert why in got.err
         assert got.err.count("\n") == 1
     (place / "A-sources.csv").write_text(SOURCES.format(rate=0.01).replace("21.8,37.5", "24.8,37.5"))
     (place / "sites.toml").write_text(SITES.replace("tree.csv", shared.name))
-    got = said(capsys, "survival", place / "sites.toml", code=2)
+    got = output_of(capsys, "survival", place / "sites.toml", code=2)
     assert "distance" in got.err
     assert "which holds from 0 to 100 km" in got.err
-    got = said(capsys, "survival", place / "sites.toml", "--age", "9y", code=2)
+    got = output_of(capsys, "survival", place / "sites.toml", "--age", "9y", code=2)
     assert "leave out --age" in got.err
-    got = said(capsys, "survival", place / "runs.csv", "--age", "9y", code=2)
+    got = output_of(capsys, "survival", place / "runs.csv", "--age", "9y", code=2)
     assert "--hazard" in got.err

@@ -28,10 +28,10 @@ def test_motions_are_what_their_numbers_say():
 
 
 def test_pulse_turned_by_half_a_turn_is_that_of_the_other_phase():
-    one = elliptical_pulse(0.8, 0.5, azimuth=30.0, ellipticity=0.3, cycles=2.5, phase=40.0)
+    pulse = elliptical_pulse(0.8, 0.5, azimuth=30.0, ellipticity=0.3, cycles=2.5, phase=40.0)
     other = elliptical_pulse(0.8, 0.5, azimuth=210.0, ellipticity=0.3, cycles=2.5, phase=220.0)
-    assert other.acceleration == pytest.approx(one.acceleration, abs=1e-9 * np.abs(one.acceleration).max())
-    assert other.lateral == pytest.approx(one.lateral, abs=1e-9 * np.abs(one.acceleration).max())
+    assert other.acceleration == pytest.approx(pulse.acceleration, abs=1e-9 * np.abs(pulse.acceleration).max())
+    assert other.lateral == pytest.approx(pulse.lateral, abs=1e-9 * np.abs(pulse.acceleration).max())
 
 
 def test_pulse_ends_at_rest_along_its_axis():
@@ -52,7 +52,7 @@ def test_records_are_turned_and_scaled():
 
 
 @pytest.mark.parametrize(
-    ("fields", "said"),
+    ("fields", "message"),
     [
         ({}, "needs pgv"),
         ({"pgv": (0.1, 1.0)}, "needs pgv"),
@@ -64,8 +64,8 @@ def test_records_are_turned_and_scaled():
         ({"pgv": (0.1, 1.0), "period": (0.3, 1.0), "law": ("glue",)}, "rim, bed"),
     ],
 )
-def test_what_is_no_prior_is_refused(fields, said):
-    with pytest.raises(st.InputError, match=said):
+def test_what_is_no_prior_is_refused(fields, message):
+    with pytest.raises(st.InputError, match=message):
         st.Prior(**fields)
 
 

@@ -30,17 +30,17 @@ def made(seed: int = 1) -> Simulations:
     stream = np.random.default_rng(seed)
     pgv, period = 0.1 * 15.0 ** stream.random(DRAWS), 0.3 * (1.6 / 0.3) ** stream.random(DRAWS)
     rest = {"pga_g": 0.64 * pgv / period, "azimuth_deg": 180.0 * stream.random(DRAWS), "law": np.zeros(DRAWS)}
-    left = []
+    states = []
     for name, fells in (("A", 1.2), ("B", 0.7)):
         size = pgv / fells * np.exp(0.2 * stream.standard_normal(DRAWS))
         slip, twist = 0.02 * stream.standard_normal((DRAWS, 4, 2)), 3.0 * stream.standard_normal((DRAWS, 4))
         slip[:, 0] = (0.05 * size**3)[:, None] * stream.standard_normal((DRAWS, 2))
         verdict = np.where(size > 1.0, FELL, STANDS).astype(np.int8)
         towards = np.where(size > 1.0, 360.0 * stream.random(DRAWS), np.nan)
-        left.append(
+        states.append(
             FinalState(name, verdict, towards, slip, twist, np.zeros((DRAWS, 0), bool), np.zeros((DRAWS, 0, 2)))
         )
-    return Simulations(PRIOR, {"pgv_m_s": pgv, "period_s": period, **rest}, tuple(left))
+    return Simulations(PRIOR, {"pgv_m_s": pgv, "period_s": period, **rest}, tuple(states))
 
 
 TABLE = made()
@@ -66,12 +66,12 @@ OTHER = {
 def ruin_of(*seen: dict, order: int = 1) -> st.Ruin:
     """A ruin of which several things are seen; ``order`` -1 turns everything in its file around."""
     fields: dict = {"A": {}, "B": {}}
-    for one in seen:
-        for column, given in one.items():
+    for observation in seen:
+        for column, given in observation.items():
             for name, value in given.items():
                 fields[column][name] = [*fields[column].get(name, ()), *value] if isinstance(value, list) else value
-    rows = {c: {n: v[::order] if isinstance(v, list) else v for n, v in one.items()} for c, one in fields.items()}
-    return st.Ruin(COLUMNS, [st.Observed(column, **one) for column, one in [*rows.items()][::order]], PRIOR)
+    rows = {c: {n: v[::order] if isinstance(v, list) else v for n, v in values.items()} for c, values in fields.items()}
+    return st.Ruin(COLUMNS, [st.Observed(column, **values) for column, values in [*rows.items()][::order]], PRIOR)
 
 
 def answers_to(ruin: st.Ruin, weights: np.ndarray | None = None, table: Simulations = TABLE) -> Answers:
@@ -88,7 +88,7 @@ def interval(answers: Answers) -> np.ndarray:
 @pytest.mark.parametrize("nothing", UNKNOWN)
 def test_what_is_hardly_known_changes_nothing(known, nothing):
     before, after = (answers_to(ruin_of(*seen)) for seen in ((known,), (known, UNKNOWN[nothing])))
-    first, second = (one.posterior(one.to(one.facts)) for one in (before, after))
+    first, second = (answers.posterior(answers.to(answers.facts)) for answers in (before, after))
     assert first == second
 
 
@@ -116,14 +116,14 @@ def test_the_bayes_factor_takes_no_part_in_what_says_nothing():
 def test_the_bayes_factor_is_that_of_likelihoods():
     # A state by itself: shares of draws over chances without an earthquake. A slip of 22 mm known to 3 mm cannot be none,
     # and one known to 10 mm is exp(-2.5) times as likely so.
-    both = np.array([one.verdict for one in TABLE.left])
+    both = np.array([state.verdict for state in TABLE.left])
     share = np.mean((both[0] == STANDS) & (both[1] == FELL))
     factor, at_least = answers_to(ruin_of(STATES)).bayes_factor()
     assert factor == pytest.approx(share / (0.99 * 0.01), rel=1e-9)
     assert not at_least
     known = {"A": {"state": "stands", "offsets": [(1, 0.01, -0.02, 0.01)]}, "B": {"state": "fell"}}
-    some = (both[0] == STANDS) & (both[1] == FELL)
-    off = TABLE.left[0].slip[some, 0] - np.array([0.01, -0.02])
+    matching = (both[0] == STANDS) & (both[1] == FELL)
+    off = TABLE.left[0].slip[matching, 0] - np.array([0.01, -0.02])
     likely = np.exp(-0.5 * (off**2).sum(axis=1) / 1e-4).sum() / DRAWS
     assert answers_to(ruin_of(known)).bayes_factor()[0] == pytest.approx(
         likely / (0.99 * 0.01 * np.exp(-2.5)), rel=1e-9
@@ -133,20 +133,23 @@ def test_the_bayes_factor_is_that_of_likelihoods():
 def test_order_changes_nothing():
     seen = (SLIP, OTHER["offsets"], OTHER["twists"])
     there, back = (answers_to(ruin_of(*seen, order=order)) for order in (1, -1))
-    first, second = (one.posterior(one.to(one.facts)) for one in (there, back))
-    for name, one in first.items():  # sums of the same numbers in another order, through some hundred products
-        assert dataclasses.astuple(one) == pytest.approx(dataclasses.astuple(second[name]), rel=1e-6, abs=1e-6)
-    assert [one.name for one in ruin_of(SLIP, order=-1).simulated] == ["A", "B"]  # the same table, and no run anew
+    first, second = (answers.posterior(answers.to(answers.facts)) for answers in (there, back))
+    for name, posterior in first.items():  # sums of the same numbers in another order, through some hundred products
+        assert dataclasses.astuple(posterior) == pytest.approx(dataclasses.astuple(second[name]), rel=1e-6, abs=1e-6)
+    assert [structure.name for structure in ruin_of(SLIP, order=-1).simulated] == [
+        "A",
+        "B",
+    ]  # the same table, and no run anew
 
 
 def test_few_draws_that_carry_all_are_told():
     ruin, weights = ruin_of(STATES), np.ones(DRAWS)
     assert "count as" not in Inference(ruin, answers_to(ruin, weights)).sentence
-    some = answers_to(ruin).matching(ruin.facts)
-    weights[some[:20]] = 1e6
+    matching = answers_to(ruin).matching(ruin.facts)
+    weights[matching[:20]] = 1e6
     few = Inference(ruin, answers_to(ruin, weights))
     assert "Draws that count as 20 carry all of this" in few.sentence
-    pgv = TABLE.parameters["pgv_m_s"][some[:20]]
+    pgv = TABLE.parameters["pgv_m_s"][matching[:20]]
     assert few.posterior["pgv_m_s"].low == pytest.approx(pgv.min(), rel=0.02)  # 1 of 20 beyond the ends of 20 draws
     assert few.posterior["pgv_m_s"].high == pytest.approx(pgv.max(), rel=0.02)
 

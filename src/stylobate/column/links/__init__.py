@@ -11,10 +11,10 @@ from .kinds import Bar, Clamp, Core, Dowel, Layer, Line, Pad, Tie
 from .link import Link, Numbers, point
 
 #: Kinds of links by their name in files.
-KINDS: dict[str, type[Link]] = {one.kind: one for one in (Dowel, Bar, Tie, Core, Layer, Pad, Clamp)}
+KINDS: dict[str, type[Link]] = {kind.kind: kind for kind in (Dowel, Bar, Tie, Core, Layer, Pad, Clamp)}
 
 #: Those of them that a column may have.
-COLUMN_KINDS = {name: one for name, one in KINDS.items() if one.lies != "side"}
+COLUMN_KINDS = {name: kind for name, kind in KINDS.items() if kind.lies != "side"}
 
 __all__ = [
     "COLUMN_KINDS", "KINDS", "Bar", "Clamp", "Core", "Dowel", "Layer", "Line", "Link", "Numbers", "Pad", "Tie", "block_link",
@@ -77,7 +77,7 @@ def block_link(
     _refuse_unknown(kind, what, made.known())
     if to is not None and made.lies == "joint":
         raise InputError(f"a {kind} has one place, at; leave to out, or make it a clamp or a tie.", "to")
-    values = {one: tuple(value) if isinstance(value, list) else value for one, value in what.items()}
+    values = {key: tuple(value) if isinstance(value, list) else value for key, value in what.items()}
     place: dict[str, Any] = {"between": between, "at": at, "name": name} | ({} if to is None else {"to": to})
     return made(**place, **values).in_numbers()
 

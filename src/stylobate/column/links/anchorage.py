@@ -148,19 +148,19 @@ def in_stone(alone: Numbers) -> tuple[Numbers, StoneAround | None]:
     """
     if not (alone.diameter and alone.stone_strength and math.isfinite(alone.lift) and math.isfinite(alone.edge)):
         return alone, None
-    found = stone_at_anchor(  # the bearing, which alone needs the yield strength, is in the capacity of the link already
+    forces = stone_at_anchor(  # the bearing, which alone needs the yield strength, is in the capacity of the link already
         diameter=alone.diameter, embedment=alone.lift, edge=alone.edge, stone_strength=alone.stone_strength,
         yield_strength=RANGES["yield_strength"][1],
     )  # fmt: skip
-    edge, cone = found["edge"], found["cone"] if alone.axial_stiffness else math.inf
+    edge, cone = forces["edge"], forces["cone"] if alone.axial_stiffness else math.inf
     stone = StoneAround(edge, cone, alone.edge, alone.stone_strength)
-    held: dict[str, Any] = {}
+    changes: dict[str, Any] = {}
     governs = alone.governs.split("; ")
     if edge < alone.shear_capacity and "shear_capacity" not in alone.stated:
-        held |= {"shear_capacity": edge, "failure": "brittle"}
+        changes |= {"shear_capacity": edge, "failure": "brittle"}
         governs[0] = GOVERNS[0]
     if cone < alone.axial_capacity and "axial_capacity" not in alone.stated:
         lost = (cone - alone.pretension) / alone.axial_stiffness
-        held |= {"axial_capacity": cone, "ultimate_elongation": min(alone.ultimate_elongation, max(lost, 0.0))}
+        changes |= {"axial_capacity": cone, "ultimate_elongation": min(alone.ultimate_elongation, max(lost, 0.0))}
         governs[-1] = GOVERNS[1]
-    return replace(alone, **held, governs="; ".join(governs)) if held else alone, stone
+    return replace(alone, **changes, governs="; ".join(governs)) if changes else alone, stone

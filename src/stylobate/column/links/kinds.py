@@ -100,7 +100,7 @@ class Pin(Link):
 
     def stone(self) -> dict[str, Any]:
         """Stone that it stands in, and capacities that are given, as fields of :class:`Numbers`."""
-        stated = tuple(one for one in ("shear_capacity", "axial_capacity") if getattr(self, one, None) is not None)
+        stated = tuple(name for name in ("shear_capacity", "axial_capacity") if getattr(self, name, None) is not None)
         return {"stone_strength": self.stone_strength, "stated": stated}
 
     def _shear(self, embedment: float | None) -> tuple[float, float, str, str]:

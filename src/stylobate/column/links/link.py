@@ -310,7 +310,9 @@ class Link:
             raise InputError(
                 f"{name} of a {self.kind} is {as_typed(value)}; it must be a place in plan, [x, y] in m.", name
             )
-        place = tuple(check_range(name, one, -LONGEST, LONGEST, unit="m", of=f"a {self.kind}") for one in value)
+        place = tuple(
+            check_range(name, coordinate, -LONGEST, LONGEST, unit="m", of=f"a {self.kind}") for coordinate in value
+        )
         object.__setattr__(self, name, place)
 
     def _number(self, name: str, least: int = 1) -> None:
@@ -347,12 +349,12 @@ class Link:
             raise InputError(f"a {self.kind} of {material} has no diameter; give it one [m].", "diameter")
 
 
-def _given_fields(one: Link | Numbers) -> dict[str, Any]:
+def _given_fields(link: Link | Numbers) -> dict[str, Any]:
     """Fields that differ from what is left out, as plain values."""
-    default = {field.name: field.default for field in dataclasses.fields(one)}
-    if isinstance(one, Link) and one.between is None:
+    default = {field.name: field.default for field in dataclasses.fields(link)}
+    if isinstance(link, Link) and link.between is None:
         default["at"] = (0.0, 0.0)
-    values = {name: getattr(one, name) for name in default}
+    values = {name: getattr(link, name) for name in default}
     return {
         name: list(value) if isinstance(value, tuple) else value
         for name, value in values.items()
@@ -385,9 +387,11 @@ def point(place: tuple[float, ...]) -> str:
 
 
 def _place(kind: str, name: str, place: Any) -> tuple[float, ...]:
-    if len(place) not in (2, 3) or not all(math.isfinite(one) and abs(one) <= 10.0 * LONGEST for one in place):
+    if len(place) not in (2, 3) or not all(
+        math.isfinite(coordinate) and abs(coordinate) <= 10.0 * LONGEST for coordinate in place
+    ):
         raise InputError(
             f"{name} of a {kind} is {list(place)}; it must be a place, [x, z] or [x, y, z] within {10 * LONGEST:g} m.",
             name,
         )
-    return tuple(float(one) for one in place)
+    return tuple(float(coordinate) for coordinate in place)

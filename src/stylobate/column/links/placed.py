@@ -149,13 +149,13 @@ class PlacedLink(Numbers):
 
 def placed(alone: Numbers, **where: Any) -> PlacedLink:
     """A link that holds so much by itself, in its stone; ``where`` has the fields of its place."""
-    held, stone = in_stone(alone)
-    return PlacedLink(**vars(held), alone=alone, stone=stone, **where)
+    numbers, stone = in_stone(alone)
+    return PlacedLink(**vars(numbers), alone=alone, stone=stone, **where)
 
 
 def stands_at(place: tuple[float, float], angle: float, arm: Sequence[float] | np.ndarray) -> Point:
     """Where a point is that is so far from the place of a body, in axes that are inclined by an angle [m], [rad]."""
-    (x, y, z), c, s = (float(one) for one in arm), math.cos(angle), math.sin(angle)
+    (x, y, z), c, s = (float(coordinate) for coordinate in arm), math.cos(angle), math.sin(angle)
     return place[0] + (c * x - s * z), y, place[1] + (s * x + c * z)
 
 
@@ -169,7 +169,7 @@ class Stroke(NamedTuple):
 
 def strokes(links: Sequence[PlacedLink]) -> list[Stroke]:
     """Every link as it is drawn: short through its joint, or from end to end; sheets in joints have no stroke."""
-    found = []
+    drawn_links = []
     for link in links:
         if link.mark == "sheet":
             continue
@@ -179,8 +179,8 @@ def strokes(links: Sequence[PlacedLink]) -> list[Stroke]:
             low, high = low - up, low + up
         bodies = link.lower, link.upper
         ends = [(bodies[end], link.on_body(end, place), place) for end, place in ((0, low), (upper, high))]
-        found.append(Stroke(link, ends[0], ends[1]))
-    return found
+        drawn_links.append(Stroke(link, ends[0], ends[1]))
+    return drawn_links
 
 
 def for_each(links: Sequence[Any], owner: str, do: Callable[[Link], Result]) -> list[Result]:
@@ -193,32 +193,32 @@ def for_each(links: Sequence[Any], owner: str, do: Callable[[Link], Result]) -> 
     """
     if len(links) > MAX_LINKS:
         raise InputError(f"{owner!r} has {len(links)} links; allowed are up to {MAX_LINKS}.")
-    found = []
+    facts = []
     for number, link in enumerate(links, 1):
         if not isinstance(link, Link):
             *others, last = (kind.__name__ for kind in COLUMN_KINDS.values())
             raise InputError(f"link {number} of {owner!r} is {link!r}; give a {', '.join(others)} or {last}.")
         with within(f"link {number} of {owner!r}", "link", number):
-            found.append(do(link))
-    return found
+            facts.append(do(link))
+    return facts
 
 
 def place_all(links: Sequence[Link], owner: str, place: Callable[[Link], PlacedLink]) -> tuple[PlacedLink, ...]:
     """All links where they are, in their order, each under a name of its own; errors as of :func:`for_each`."""
-    found: list[PlacedLink] = []
+    placed_links: list[PlacedLink] = []
 
     def checked(link: Link) -> None:
-        one = place(link)
-        _check(one, found)
-        found.append(one)
+        placed_link = place(link)
+        _check(placed_link, placed_links)
+        placed_links.append(placed_link)
 
     for_each(links, owner, checked)
-    names = [one.name for one in found]
+    names = [link.name for link in placed_links]
     return tuple(
-        one
-        if names.count(one.name) == 1
-        else dataclasses.replace(one, name=f"{one.name}, {names[: i + 1].count(one.name)}")
-        for i, one in enumerate(found)
+        link
+        if names.count(link.name) == 1
+        else dataclasses.replace(link, name=f"{link.name}, {names[: i + 1].count(link.name)}")
+        for i, link in enumerate(placed_links)
     )
 
 
@@ -321,32 +321,32 @@ def stone_words(links: Sequence[PlacedLink]) -> str:
         )
         if bears < holds
     ]
-    told = []
+    sentences = []
     for given, words in ((False, BREAKS), (True, CAPACITY_STATED)):
         weak = [way for way in ways if way[-1] == given]
         if weak:
             _, link, how, bears, holds, stone, _ = min(weak, key=lambda way: way[0])
             bar = say("the bar holds {force:.4g} kN", force=1e-3 * holds)
             bar = bar if math.isfinite(holds) else say("the bar is without a limit")
-            said = say(
+            sentence = say(
                 "The stone gives way before {number} of {all} links do, first around {link}: at {force:.4g} "
                 "kN in {how}, where {bar} ({source}).",
-                number=len({one.name for _, one, *_ in weak}), all=len(anchors), link=link.name, force=1e-3 * bears,
+                number=len({anchor.name for _, anchor, *_ in weak}), all=len(anchors), link=link.name, force=1e-3 * bears,
                 how=say(how), bar=bar, source=stone.source,
             )  # fmt: skip
-            told += [said, words]
-    if known and not told:
+            sentences += [sentence, words]
+    if known and not sentences:
         more = say(
             "The stone around {number} of {all} links bears more than they hold, by EN 1992-4 carried over from concrete."
         )
-        told.append(more.of(number=len(known), all=len(anchors)))
+        sentences.append(more.of(number=len(known), all=len(anchors)))
     if len(known) < len(anchors):
         unknown = say(
             "The stone around {number} of {all} links was not checked, for want of an edge, a diameter or an embedment: "
             "stone_at_anchor tells what it bears."
         )
-        told.append(unknown.of(number=len(anchors) - len(known), all=len(anchors)))
-    return joined(" ", told)
+        sentences.append(unknown.of(number=len(anchors) - len(known), all=len(anchors)))
+    return joined(" ", sentences)
 
 
 def stone_at_limit(links: Sequence[PlacedLink]) -> str:
@@ -361,8 +361,8 @@ def stone_that_breaks(links: Sequence[PlacedLink]) -> str:
     weak = [link for link in anchors if link.breaks_stone]
     if not weak:
         return ""
-    said = say("The stone gives way before {number} of {all} links do: their capacity here is that of the stone.")
-    return said.of(number=len(weak), all=len(anchors))
+    sentence = say("The stone gives way before {number} of {all} links do: their capacity here is that of the stone.")
+    return sentence.of(number=len(weak), all=len(anchors))
 
 
 # Links of a column at their places, and whether they can be there: joints, sections, lengths of drums, clear ways.
@@ -533,7 +533,7 @@ def _within(drum: Drum, width: float, depth: float, place: tuple[float, ...]) ->
 
 
 def _place(place: tuple[float, ...]) -> str:
-    return f"[{', '.join(f'{one:g}' for one in place)}] m"
+    return f"[{', '.join(f'{coordinate:g}' for coordinate in place)}] m"
 
 
 def ends_on_bodies(
@@ -607,8 +607,8 @@ class Scene:
         frame: Frame = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
         edge = math.inf
         if link.lies == "joint":
-            found = self._in_joint(link, lower, upper)
-            lower, upper, low, frame, edge = found.lower, found.upper, found.place, found.frame, found.edge
+            place = self._in_joint(link, lower, upper)
+            lower, upper, low, frame, edge = place.lower, place.upper, place.place, place.frame, place.edge
             high = low
         else:
             low, high = self._ends(link, lower, upper)
@@ -656,30 +656,30 @@ class Scene:
                     f"{self.shown(points[worst])}; {remedy}."
                 )
 
-    def _in_joint(self, link: Any, one: int, other: int) -> JointPlace:
+    def _in_joint(self, link: Any, first: int, other: int) -> JointPlace:
         """Place of a dowel, bar, layer or pad, with the edge that it brings along or has there."""
-        found, numbers = self.joint_place(link, one, other), link.numbers
-        where = f"a {link.kind} at {self.shown(found.place)}"
-        if found.deep < 0.0:
-            raise InputError(f"{where} is outside the section, by {-found.deep:.3g} m; move it inward.", "at")
-        left = found.edge - 0.5 * numbers.diameter
+        place, numbers = self.joint_place(link, first, other), link.numbers
+        where = f"a {link.kind} at {self.shown(place.place)}"
+        if place.deep < 0.0:
+            raise InputError(f"{where} is outside the section, by {-place.deep:.3g} m; move it inward.", "at")
+        rest = place.edge - 0.5 * numbers.diameter
         looked_at = numbers.edge < math.inf  # in the column that brings it along
         if numbers.diameter and not looked_at:
-            if left < RIM:
+            if rest < RIM:
                 raise InputError(
-                    f"{where} leaves {1000.0 * left:.3g} mm of stone to the rim; at least {1000.0 * RIM:g} mm must be left: "
+                    f"{where} leaves {1000.0 * rest:.3g} mm of stone to the rim; at least {1000.0 * RIM:g} mm must be left: "
                     "move it inward or make it thinner.",
                     "at",
                 )
-            for body, tall in zip((found.lower, found.upper), found.tall, strict=True):
+            for body, tall in zip((place.lower, place.upper), place.tall, strict=True):
                 if not self.bodies[body].fixed and tall < numbers.lift < math.inf:
                     raise InputError(
                         f"a {link.kind} is embedded by {numbers.lift:g} m, and block {self.bodies[body].name!r} is "
                         f"{tall:.4g} m high there; make it shorter.",
                         "embedment",
                     )
-        link.check_joint(found.law)
-        return found._replace(edge=numbers.edge) if looked_at else found
+        link.check_joint(place.law)
+        return place._replace(edge=numbers.edge) if looked_at else place
 
     def _check_legs(self, link: Any, *ends: tuple[int, Point]) -> None:
         """Refuse legs that are longer than the stone that they are in is thick."""
@@ -704,16 +704,16 @@ class Scene:
     def depth(self, body: int, points: np.ndarray, *, whole: bool) -> np.ndarray:
         """Depth of points in a body, in the plane alone unless ``whole`` [m], shape (m, 3) to (m,); negative outside."""
         block = self.bodies[body]
-        found = np.array([_depth(block, (x, z)) for x, _, z in points.tolist()])
-        return np.minimum(found, 0.5 * block.depth - np.abs(points[:, 1])) if whole and not block.fixed else found
+        depths = np.array([_depth(block, (x, z)) for x, _, z in points.tolist()])
+        return np.minimum(depths, 0.5 * block.depth - np.abs(points[:, 1])) if whole and not block.fixed else depths
 
     def near(self, body: int, low: np.ndarray, high: np.ndarray) -> bool:
         """Whether a body may reach into a box [m]."""
         return True
 
-    def joint_place(self, link: Any, one: int, other: int) -> JointPlace:
+    def joint_place(self, link: Any, first: int, other: int) -> JointPlace:
         """Where in the joint of two bodies a link is: in its middle where no place is given."""
-        joint = next((j for j in self.joints if {j.lower, j.upper} == {one, other}), None)
+        joint = next((j for j in self.joints if {j.lower, j.upper} == {first, other}), None)
         if joint is None:
             raise no_joint(link)
         faces, sides = [], (joint.lower, joint.upper)
@@ -734,7 +734,7 @@ class Scene:
         deep = min(s - low, high - s)
         aside = min(0.5 * self.bodies[body].depth - abs(y) for body in sides if not self.bodies[body].fixed)
         tall = [float(np.ptp(self.bodies[body].corners @ np.array([-t[1], t[0]]))) for body in sides]
-        x, z = (float(one) for one in left + s * t)
+        x, z = (float(coordinate) for coordinate in left + s * t)
         frame = _frame(float(t[0]), float(t[1]))
         return JointPlace(*sides, (x, y, z), frame, deep, min(deep, aside), (tall[0], tall[1]), joint.law)
 
@@ -811,20 +811,20 @@ def bodies_named(link: Link, bodies: Sequence[Any]) -> tuple[int, int]:
     """
     assert link.between is not None
     names = [body.name for body in bodies]
-    missing = next((one for one in link.between if one not in names), None)
+    missing = next((name for name in link.between if name not in names), None)
     if missing is not None:
         raise InputError(
             f"a {link.kind} names block {missing!r}, which does not exist; {suggest(missing, names)}correct its name.",
             "between",
         )
-    one, other = (names.index(name) for name in link.between)
-    if one == other:
+    first, other = (names.index(name) for name in link.between)
+    if first == other:
         raise InputError(f"a {link.kind} is between {link.between[0]!r} and itself; name two blocks.", "between")
-    if bodies[one].fixed and bodies[other].fixed:
+    if bodies[first].fixed and bodies[other].fixed:
         raise InputError(
             f"a {link.kind} is between two bodies that both move with the ground; name one that can move.", "between"
         )
-    return one, other
+    return first, other
 
 
 def _placed_between(

@@ -61,7 +61,7 @@ def links_of(tables: Sequence[LinkTable], joints: int) -> tuple[Link, ...]:
     InputError
         The message names the table by its number.
     """
-    found: list[Link] = []
+    links: list[Link] = []
     for number, table in enumerate(tables, 1):
         fields = table.model_dump(exclude={"joints"}, exclude_none=True)
         with within(f"[[link]] number {number}", "link", number):
@@ -72,19 +72,19 @@ def links_of(tables: Sequence[LinkTable], joints: int) -> tuple[Link, ...]:
                     "joint",
                 )
             if table.joints is None:
-                found.append(link_from_dict(fields))
+                links.append(link_from_dict(fields))
             else:
-                found += [link_from_dict(fields | {"joint": joint}) for joint in _joints(table, joints)]
-    return tuple(found)
+                links += [link_from_dict(fields | {"joint": joint}) for joint in _joints(table, joints)]
+    return tuple(links)
 
 
 def links_between(tables: Sequence[BlockLinkTable]) -> list[Link]:
     """Links of an assembly; errors as of :func:`links_of`."""
-    found = []
+    links = []
     for number, table in enumerate(tables, 1):
         with within(f"[[link]] number {number}", "link", number):
-            found.append(block_link(**table.model_dump(exclude_none=True)))
-    return found
+            links.append(block_link(**table.model_dump(exclude_none=True)))
+    return links
 
 
 def _joints(table: LinkTable, joints: int) -> Sequence[int]:

@@ -130,7 +130,7 @@ class SpatialAssembly(Structure):
         return cls(tuple(stones), column.joints[0], column.name, **own)
 
     def _refuse_moving(self) -> None:
-        moving = next((one for one in self.stones if any(one.velocity) or any(one.angular_velocity)), None)
+        moving = next((stone for stone in self.stones if any(stone.velocity) or any(stone.angular_velocity)), None)
         if moving is not None:
             raise InputError(
                 f"block {moving.name!r} of {self.name!r} moves at the start, and what settles is at rest; give "
@@ -140,15 +140,15 @@ class SpatialAssembly(Structure):
 
     def _check_overrides(self) -> None:
         known, pairs = {body.name for body in self.bodies}, []
-        for one, other, _ in self.overrides:
-            missing = next((name for name in (one, other) if name not in known), None)
+        for first, other, _ in self.overrides:
+            missing = next((name for name in (first, other) if name not in known), None)
             if missing is not None:
                 raise InputError(f"a joint_override names block {missing!r}, which does not exist; correct its name.")
-            if one == other or {one, other} in pairs:
+            if first == other or {first, other} in pairs:
                 raise InputError(
-                    f"a joint_override names {one!r} and {other!r} twice; name two blocks, each pair once."
+                    f"a joint_override names {first!r} and {other!r} twice; name two blocks, each pair once."
                 )
-            pairs.append({one, other})
+            pairs.append({first, other})
 
     # -- what it consists of -------------------------------------------------------------------------------------------
 
@@ -170,13 +170,13 @@ class SpatialAssembly(Structure):
     @property
     def beds(self) -> tuple[Bed, ...]:
         """The joints as where and how they carry."""
-        found = []
+        beds = []
         for joint in self.space_joints:
             corners = joint.origin + joint.corners @ joint.frame[:, :2].T
             level, rise = float(joint.origin[2]), float(joint.frame[2, 2])
             whole = joint.round and not len(joint.edges.sides) and len(joint.edges.discs) == 1
-            found.append(Bed(joint.lower, joint.upper, rise, corners[:, :2], level, joint.area, joint.law, whole))
-        return tuple(found)
+            beds.append(Bed(joint.lower, joint.upper, rise, corners[:, :2], level, joint.area, joint.law, whole))
+        return tuple(beds)
 
     @property
     def touching(self) -> tuple[tuple[int, int], ...]:
@@ -192,19 +192,19 @@ class SpatialAssembly(Structure):
     def laws_of_pairs(self) -> tuple[tuple[int, int, Joint], ...]:
         """Overrides, and of what is linked what the links make of it, by the numbers of their bodies."""
         numbers = {body.name: i for i, body in enumerate(self.bodies)}
-        told = {tuple(sorted((numbers[one], numbers[other]))) for one, other, _ in self.overrides}
+        pairs = {tuple(sorted((numbers[first], numbers[other]))) for first, other, _ in self.overrides}
         linked = {(min(link.lower, link.upper), max(link.lower, link.upper)) for link in self.placed_links}
-        return tuple((i, k, self.law_between(i, k)) for i, k in sorted(told | linked))
+        return tuple((i, k, self.law_between(i, k)) for i, k in sorted(pairs | linked))
 
     def law_between(self, lower: int, upper: int) -> Joint:
         """Law of the contacts of two bodies by number, the second of which comes later; with what lies between them."""
-        one, other = (self.bodies[i].name for i in (lower, upper))
-        law = self._overridden.get(frozenset((one, other))) or self.surfaces[upper]
-        return self.with_links_between(one, other, law)
+        first, other = (self.bodies[i].name for i in (lower, upper))
+        law = self._overridden.get(frozenset((first, other))) or self.surfaces[upper]
+        return self.with_links_between(first, other, law)
 
     @cached_property
     def _overridden(self) -> dict[frozenset[str], Joint]:
-        return {frozenset((one, other)): law for one, other, law in self.overrides}
+        return {frozenset((first, other)): law for first, other, law in self.overrides}
 
     @cached_property
     def placed_links(self) -> tuple[PlacedLink, ...]:
@@ -221,10 +221,10 @@ class SpatialAssembly(Structure):
     @property
     def extent(self) -> tuple[np.ndarray, np.ndarray]:
         """Lowest and highest corner of the box around everything that can move [m], shape (3,) each."""
-        some = [
+        moving_parts = [
             part for stone, parts in zip(self.stones, self.solids, strict=True) if not stone.fixed for part in parts
         ]
-        return np.min([one.low for one in some], axis=0), np.max([one.high for one in some], axis=0)
+        return np.min([part.low for part in moving_parts], axis=0), np.max([part.high for part in moving_parts], axis=0)
 
     @cached_property
     def _contacts(self) -> tuple[tuple[SpaceJoint, ...], tuple[tuple[int, int], ...]]:
@@ -252,17 +252,17 @@ class SpatialAssembly(Structure):
     def _between(self, i: int, k: int, near: float, joints: list[SpaceJoint], first: int) -> bool:
         """Whether two stones touch; with their joints."""
         met = False
-        for a, one in enumerate(self.solids[i]):
+        for a, solid in enumerate(self.solids[i]):
             for b, other in enumerate(self.solids[k]):
-                gap, _ = separation(one, other, near)
-                if gap < -OVERLAPPING * min(one.size, other.size):
+                gap, _ = separation(solid, other, near)
+                if gap < -OVERLAPPING * min(solid.size, other.size):
                     names = f"block {self.stones[k].name!r} and block {self.stones[i].name!r}"
                     raise InputError(f"{names} overlap by {length_of(-gap)}; move one of them or correct its sizes.")
                 if gap > near:
                     continue
                 met = True
                 law = self.law_between(first + i, first + k)
-                for below, above, over in overlaps(one, other, near):
+                for below, above, over in overlaps(solid, other, near):
                     joints.append(SpaceJoint(first + i, first + k, a, b, law, below, above, *over))
         return met
 
@@ -294,29 +294,29 @@ class SpatialAssembly(Structure):
 
     def _refuse_hanging(self) -> None:
         """Refuse bodies that nothing carries down to the ground or to a fixed body."""
-        held = {i for i, body in enumerate(self.bodies) if body.fixed}
+        supported = {i for i, body in enumerate(self.bodies) if body.fixed}
         pairs, more = self._contacts[1], True
         while more:
-            reached = {b for pair in pairs for b in pair if held & set(pair)} - held
-            held, more = held | reached, bool(reached)
+            reached = {b for pair in pairs for b in pair if supported & set(pair)} - supported
+            supported, more = supported | reached, bool(reached)
         first = len(self.bodies) - len(self.stones)
-        hanging = [i for i in range(len(self.stones)) if first + i not in held]
+        hanging = [i for i in range(len(self.stones)) if first + i not in supported]
         if not hanging:
             return
         lowest = min(hanging, key=lambda i: min(float(part.low[2]) for part in self.solids[i]))
-        over = self._height_over(lowest, [i for i in range(len(self.stones)) if first + i in held])
+        over = self._height_over(lowest, [i for i in range(len(self.stones)) if first + i in supported])
         others = f", and {len(hanging) - 1} more with it" if len(hanging) > 1 else ""
         raise InputError(
             f"block {self.stones[lowest].name!r} hangs in the air{over}{others}; put it down, or let it fall with "
             "settle = false."
         )
 
-    def _height_over(self, i: int, held: list[int]) -> str:
+    def _height_over(self, i: int, supported: list[int]) -> str:
         """How far a body hangs over what is nearest under it, in words."""
         best = (
             [] if self.ground is None else [(float(min(p.low[2] for p in self.solids[i])) - self.ground, "the ground")]
         )
-        for k in held:
+        for k in supported:
             gaps = [separation(a, b, np.inf)[0] for a in self.solids[i] for b in self.solids[k]]
             best.append((max(min(gaps), 0.0), f"block {self.stones[k].name!r}"))
         if not best:
@@ -335,7 +335,7 @@ class SpatialAssembly(Structure):
             "name": self.name,
             "gravity": self.gravity,
             "ground": self.ground,
-            "overrides": [[one, other, stated_fields(law)] for one, other, law in self.overrides],
+            "overrides": [[first, other, stated_fields(law)] for first, other, law in self.overrides],
             "settle": self.settle,
         } | {key: value for key, value in more.items() if value is not None}
 
@@ -346,7 +346,7 @@ class SpatialAssembly(Structure):
             "links": tuple(link_from_dict(fields) for fields in data.get("links", ())),
             "stones": tuple(Stone.from_dict(stone) for stone in data["stones"]),
             "joint": Joint(**data["joint"]),
-            "overrides": tuple((one, other, Joint(**law)) for one, other, law in data["overrides"]),
+            "overrides": tuple((first, other, Joint(**law)) for first, other, law in data["overrides"]),
         }
         return cls(**(dict(data) | special))
 

@@ -52,28 +52,30 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
         return None if given is None else law(given, f"the surface of {who}")
 
     blocks = []
-    for i, one in enumerate(table.block or []):
-        name = one.name if one.name is not None else f"block {i + 1}"
-        density = density_of(f"block {name!r}", one.density, common, 0.0 if one.fixed else None)
-        blocks.append(block_of(one, name, density, folder, surface(one.surface, f"block {name!r}")))
+    for i, entry in enumerate(table.block or []):
+        name = entry.name if entry.name is not None else f"block {i + 1}"
+        density = density_of(f"block {name!r}", entry.density, common, 0.0 if entry.fixed else None)
+        blocks.append(block_of(entry, name, density, folder, surface(entry.surface, f"block {name!r}")))
     beams = []
-    for i, one in enumerate(table.beam or []):
-        name = one.name or ("architrave" if len(table.beam or []) == 1 else f"architrave {i + 1}")
+    for i, entry in enumerate(table.beam or []):
+        name = entry.name or ("architrave" if len(table.beam or []) == 1 else f"architrave {i + 1}")
         last = standing[-1].density if standing else None
-        density = density_of(f"beam {name!r}", one.density, common, last)
-        beams.append(lay_beam(one, name, density, axes, surface(one.surface, f"beam {name!r}")))
+        density = density_of(f"beam {name!r}", entry.density, common, last)
+        beams.append(lay_beam(entry, name, density, axes, surface(entry.surface, f"beam {name!r}")))
     refuse_crossing(beams)
     overrides = []
-    for one in table.joint_override or []:
-        if len(one.between) != 2:
-            raise InputError(f"a joint_override is between {len(one.between)} blocks; name two, e.g. ['a', 'b'].")
-        where = f"the [[joint_override]] between {one.between[0]!r} and {one.between[1]!r}"
-        overrides.append((*one.between, law(one, where)))
+    for entry in table.joint_override or []:
+        if len(entry.between) != 2:
+            raise InputError(f"a joint_override is between {len(entry.between)} blocks; name two, e.g. ['a', 'b'].")
+        where = f"the [[joint_override]] between {entry.between[0]!r} and {entry.between[1]!r}"
+        overrides.append((*entry.between, law(entry, where)))
     # without [joint], as between the drums of the columns
     joint = axes[0].law if table.joint is None and stone is None else law(table.joint, "[joint]")
     alone = [*blocks, *beams]
-    laws = [joint, *(one.surface for one in alone if one.surface), *(each for *_, each in overrides)]
-    pieces = [Piece(one.name, one.sides, one.density, one.surface or joint) for one in alone if not one.fixed]
+    laws = [joint, *(block.surface for block in alone if block.surface), *(each for *_, each in overrides)]
+    pieces = [
+        Piece(block.name, block.sides, block.density, block.surface or joint) for block in alone if not block.fixed
+    ]
     for doubt in piece_doubts(pieces, laws, table.gravity):
         warn(doubt)
     stones = (*standing, *beams, *blocks)

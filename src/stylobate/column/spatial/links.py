@@ -48,7 +48,7 @@ class SpaceScene(Scene):
 
     def shown(self, place: Any) -> str:
         """x, y and z."""
-        return f"[{', '.join(f'{one:.4g}' for one in place)}] m"
+        return f"[{', '.join(f'{coordinate:.4g}' for coordinate in place)}] m"
 
     def depth(self, body: int, points: np.ndarray, *, whole: bool) -> np.ndarray:
         """In the part in which the points are deepest."""
@@ -60,12 +60,12 @@ class SpaceScene(Scene):
     def near(self, body: int, low: np.ndarray, high: np.ndarray) -> bool:
         """By the boxes around its parts."""
         parts = self.solids[body]
-        return not parts or any((one.low < high).all() and (one.high > low).all() for one in parts)
+        return not parts or any((part.low < high).all() and (part.high > low).all() for part in parts)
 
-    def joint_place(self, link: Any, one: int, other: int) -> JointPlace:
+    def joint_place(self, link: Any, first: int, other: int) -> JointPlace:
         """In the pair of faces in which the given place is deepest; in the middle of the only one where none is given."""
         every: Sequence[SpaceJoint] = self.joints  # pyright: ignore[reportAssignmentType]
-        shared = [joint for joint in every if {joint.lower, joint.upper} == {one, other}]
+        shared = [joint for joint in every if {joint.lower, joint.upper} == {first, other}]
         if not shared:
             raise no_joint(link)
         joint = shared[0]
@@ -104,12 +104,14 @@ class SpaceScene(Scene):
 
     def thickness(self, body: int, place: Point) -> float:
         """Of the part in which the place is deepest."""
-        return max(self.solids[body], key=lambda one: float(one.depth(np.array([place]))[0])).thickness
+        return max(self.solids[body], key=lambda part: float(part.depth(np.array([place]))[0])).thickness
 
     def pose(self, body: int) -> tuple[Point, Quaternion]:
         """As it stands."""
-        one: Any = self.bodies[body]
-        return getattr(one, "position", (0.0, 0.0, self.ground or 0.0)), getattr(one, "orientation", UPRIGHT)
+        placed_body: Any = self.bodies[body]
+        return getattr(placed_body, "position", (0.0, 0.0, self.ground or 0.0)), getattr(
+            placed_body, "orientation", UPRIGHT
+        )
 
     def reach(self, body: int, way: Point) -> float:
         """From end to end of its parts; 0 of a ground without ends."""
@@ -120,5 +122,5 @@ class SpaceScene(Scene):
 
 
 def _three(place: Any) -> Point:
-    x, y, z = (float(one) for one in place)
+    x, y, z = (float(coordinate) for coordinate in place)
     return x, y, z

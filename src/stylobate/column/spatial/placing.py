@@ -90,7 +90,7 @@ def drums_in_space(
         Rings or tilts, which stones in space do not have.
     """
     column.must_carry_on_whole_faces("an assembly in space")
-    tilted = next((one.drum for one in column.as_found.drums if one.tilt), None)
+    tilted = next((found_drum.drum for found_drum in column.as_found.drums if found_drum.tilt), None)
     if tilted is not None:
         raise InputError(
             f"drum {tilted} of {column.name!r} is found tilted; an assembly in space takes offsets, turns and chips as "
@@ -100,7 +100,7 @@ def drums_in_space(
     c, s = math.cos(angle), math.sin(angle)
     stones = []
     for i, (drum, body, law) in enumerate(zip(column.drums, column.bodies[1:], column.joints, strict=True)):
-        u, v, w = (float(one) for one in at.centroid[i])
+        u, v, w = (float(coordinate) for coordinate in at.centroid[i])
         place = (foot[0] + c * u - s * v, foot[1] + s * u + c * v, foot[2] + w)
         turned = product(turn, quaternion_of(at.axes[i]))
         parts = (Placed(body.shape),)  # pyright: ignore[reportArgumentType]
@@ -116,12 +116,12 @@ def _ends_of(column: Column, at: SpaceGeometry, foot: np.ndarray, turned: np.nda
     if not link.straight:  # it is fixed in the lower face of its upper drum
         below = (0.0, 0.0, -column.drums[link.upper - 1].centroid_height)
         arms[1] = below + at.bed[link.upper - 1] @ (*link.high[:2], 0.0)
-    found = []
+    ends = []
     for body, arm in zip((link.lower, link.upper), arms, strict=True):
         end = at.centroid[body - 1] + at.axes[body - 1] @ arm if body else arm
-        x, y, z = (float(one) for one in foot + turned @ end)
-        found.append((x, y, z))
-    return found
+        x, y, z = (float(coordinate) for coordinate in foot + turned @ end)
+        ends.append((x, y, z))
+    return ends
 
 
 def _places(table: SpaceColumnsTable) -> list[tuple[float, float]]:
@@ -130,7 +130,7 @@ def _places(table: SpaceColumnsTable) -> list[tuple[float, float]]:
             f"[[column]] of {table.file!r} needs at = [[x, y], …], or number and spacing; give one of the two."
         )
     if table.at is not None:
-        wrong = next((one for one in table.at if len(one) != 2), None)
+        wrong = next((place for place in table.at if len(place) != 2), None)
         if not table.at or wrong is not None:
             what = "no place in at" if wrong is None else f"a place {as_typed(wrong)} in at"
             raise InputError(f"[[column]] of {table.file!r} has {what}; give x and y of each axis [m].")
@@ -156,23 +156,23 @@ def lay_beam(table: SpaceBeamTable, name: str, density: float, axes: Sequence[Ax
         Columns that are not there, tops of two levels, or a beam that ends in the air.
     """
     named = {axis.name: axis for axis in axes}
-    for one in table.between:
-        if one not in named:
+    for support in table.between:
+        if support not in named:
             known = f"the columns are {', '.join(named) or 'none'}"
-            raise InputError(f"beam {name!r} lies between {one!r}; {suggest(one, named)}{known}.")
+            raise InputError(f"beam {name!r} lies between {support!r}; {suggest(support, named)}{known}.")
     if len(table.between) != 2 or len(set(table.between)) != 2:
         raise InputError(f"between of beam {name!r} is {as_typed(table.between)}; name two different columns.")
     if len(table.section) != 2:
         raise InputError(f"section of beam {name!r} is {as_typed(table.section)}; give [across, height] in m.")
-    one, other = (named[each] for each in table.between)
-    if abs(one.level - other.level) > 1e-9 * max(1.0, abs(one.level)):
+    support, other = (named[each] for each in table.between)
+    if abs(support.level - other.level) > 1e-9 * max(1.0, abs(support.level)):
         raise InputError(
-            f"beam {name!r} lies on tops at {one.level:g} and {other.level:g} m; give columns of one height."
+            f"beam {name!r} lies on tops at {support.level:g} and {other.level:g} m; give columns of one height."
         )
     across, height = (
         check_range(f"a side of the section of beam {name!r}", e, *LENGTHS, unit="m") for e in table.section
     )
-    way = np.array(other.place) - np.array(one.place)
+    way = np.array(other.place) - np.array(support.place)
     span = float(np.hypot(*way))
     if span <= 0.0:
         raise InputError(f"beam {name!r} lies between two columns on one axis; place them apart.")
@@ -183,13 +183,13 @@ def lay_beam(table: SpaceBeamTable, name: str, density: float, axes: Sequence[Ax
     length = span + first + last
     if length < LENGTHS[0]:
         raise InputError(f"beam {name!r} is {length:g} m long with its overhangs; make it reach from column to column.")
-    middle = np.array(one.place) + way / span * (0.5 * (length) - first)
+    middle = np.array(support.place) + way / span * (0.5 * (length) - first)
     turn = about(UP, math.atan2(way[1], way[0]))
     beam = Stone.box(
-        (length, across, height), (*middle, one.level), density, name=name, orientation=turn, surface=surface
+        (length, across, height), (*middle, support.level), density, name=name, orientation=turn, surface=surface
     )  # fmt: skip
     solid = Solid(beam.placed[0])
-    for end in (one, other):
+    for end in (support, other):
         gap, _ = separation(solid, Solid(end.top.placed[0]), math.inf)
         if gap > TOUCHING * solid.size:
             raise InputError(
@@ -245,7 +245,7 @@ def block_of(table: SpaceBlockTable, name: str, density: float, folder: Path, su
     velocities = {
         key: getattr(table, key) for key in ("velocity", "angular_velocity") if getattr(table, key) is not None
     }
-    x, y, z = (float(one) for one in where)
+    x, y, z = (float(coordinate) for coordinate in where)
     turned = _orientation(table, who)
     return Stone(parts, (x, y, z), density, name, turned, fixed=table.fixed, surface=surface, **velocities)
 
@@ -265,8 +265,8 @@ def _part(table: PartTable, folder: Path, who: str) -> tuple[Placed, np.ndarray 
     if table.box is not None:
         return Placed(box_shape(table.box, who)), None
     if table.drum is not None:
-        one = table.drum
-        return Placed(drum_shape(one.bottom_diameter, one.top_diameter, one.height, who)), None
+        drum = table.drum
+        return Placed(drum_shape(drum.bottom_diameter, drum.top_diameter, drum.height, who)), None
     if table.mesh is not None:
         shape, middle = hull_shape(read_mesh(folder / table.mesh, table.unit or "m"), who)
     else:
@@ -276,7 +276,7 @@ def _part(table: PartTable, folder: Path, who: str) -> tuple[Placed, np.ndarray 
 
 def _glued(tables: Sequence[PartTable], folder: Path, who: str) -> tuple[Placed, ...]:
     """Parts of one body from the middle of the lowest face; one without a place stands on the one before it."""
-    found: list[Placed] = []
+    placed_parts: list[Placed] = []
     level = 0.0
     for number, table in enumerate(tables, 1):
         part, origin = _part(table, folder, f"part {number} of {who}")
@@ -287,12 +287,14 @@ def _glued(tables: Sequence[PartTable], folder: Path, who: str) -> tuple[Placed,
             )
             z -= low
         else:
-            x, y, z = (float(one) for one in origin + (np.zeros(3) if table.at is None else np.array(table.at)))
-        found.append(Placed(part.shape, (x, y, z)))
-        level = float(found[-1].mesh(48).vertices[:, 2].max())
-    if not found:
+            x, y, z = (
+                float(coordinate) for coordinate in origin + (np.zeros(3) if table.at is None else np.array(table.at))
+            )
+        placed_parts.append(Placed(part.shape, (x, y, z)))
+        level = float(placed_parts[-1].mesh(48).vertices[:, 2].max())
+    if not placed_parts:
         raise InputError(f"{who} has no parts; give one at least.")
-    return tuple(found)
+    return tuple(placed_parts)
 
 
 def _orientation(table: SpaceBlockTable, who: str) -> Quaternion:

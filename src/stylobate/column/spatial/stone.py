@@ -242,11 +242,11 @@ class Stone(Outlined):
     @cached_property
     def moments(self) -> Moments:
         """Mass, centroid and inertia in the axes of its parts; of a fixed body without density those of volume."""
-        found = []
+        moments = []
         for part in self.parts:
             own, axes = moments_of(part.shape, self.density or 1.0), matrix_of(part.orientation)
-            found.append(Moments(own.mass, np.array(part.place), axes @ own.tensor @ axes.T))
-        return found[0] if len(found) == 1 else together(found)
+            moments.append(Moments(own.mass, np.array(part.place), axes @ own.tensor @ axes.T))
+        return moments[0] if len(moments) == 1 else together(moments)
 
     @property
     def mass(self) -> float:
@@ -276,25 +276,25 @@ class Stone(Outlined):
     @property
     def placed(self) -> tuple[Placed, ...]:
         """Its parts where they stand, in the axes of space."""
-        found = []
+        parts = []
         for piece in self.pieces:
             place = np.array(self.position) + self.axes @ piece.place
-            found.append(Placed(piece.shape, _triple(place), product(self.orientation, piece.orientation)))
-        return tuple(found)
+            parts.append(Placed(piece.shape, _triple(place), product(self.orientation, piece.orientation)))
+        return tuple(parts)
 
     @cached_property
     def vertices(self) -> np.ndarray:
         """Corners of its parts where they stand, of circles 48 [m], shape (m, 3)."""
-        return np.concatenate([one.mesh(48).vertices for one in self.placed])
+        return np.concatenate([part.mesh(48).vertices for part in self.placed])
 
     # -- as a body of a structure --------------------------------------------------------------------------------------
 
     @property
     def shape(self) -> Shape:
         """Its shape in its own axes, from its centroid."""
-        one = self.pieces[0]
-        if len(self.pieces) == 1 and one.orientation == UPRIGHT and not any(one.place):
-            return one.shape
+        piece = self.pieces[0]
+        if len(self.pieces) == 1 and piece.orientation == UPRIGHT and not any(piece.place):
+            return piece.shape
         return Glued(self.pieces)
 
     @property
@@ -387,35 +387,37 @@ def hull_shape(vertices: Any, who: str) -> tuple[ConvexSolid, np.ndarray]:
     from scipy.spatial import ConvexHull, QhullError
 
     given = check_kind(f"vertices of {who}", vertices, (list, tuple, np.ndarray), allowed="a list of points")
-    points = np.array([triple(f"vertex {number} of {who}", one, FARTHEST, "m") for number, one in enumerate(given, 1)])
+    points = np.array(
+        [triple(f"vertex {number} of {who}", point, FARTHEST, "m") for number, point in enumerate(given, 1)]
+    )
     if len(points) < 4:
         raise InputError(f"{who} has {len(points)} vertices; give four or more, those of a solid.")
     middle, size = points.mean(axis=0), float(np.ptp(points, axis=0).max())
     if not LENGTHS[0] <= size <= LENGTHS[1]:
         raise InputError(f"{who} is {size:.4g} m large; allowed is {LENGTHS[0]:g} to {LENGTHS[1]:g} m: use SI units.")
     try:
-        found: Any = ConvexHull(points - middle)
+        hull: Any = ConvexHull(points - middle)
     except QhullError:
         raise InputError(
             f"the vertices of {who} lie in one plane, and it has no thickness; give those of a solid."
         ) from None
-    levels = (points - middle) @ found.equations[:, :3].T + found.equations[:, 3]  # at most 0, within a facet
+    levels = (points - middle) @ hull.equations[:, :3].T + hull.equations[:, 3]  # at most 0, within a facet
     thin = float(-levels.min(axis=0).max())
     if thin < LENGTHS[0]:
         raise InputError(
             f"{who} has a thickness of {thin:.3g} m; allowed is {LENGTHS[0]:g} m or more: give it a thickness."
         )
-    if len(found.vertices) > MOST_CORNERS:
-        raise InputError(f"{who} has {len(found.vertices)} corners; allowed is up to {MOST_CORNERS}: thin them out.")
-    corners = points[np.sort(found.vertices)] - middle
+    if len(hull.vertices) > MOST_CORNERS:
+        raise InputError(f"{who} has {len(hull.vertices)} corners; allowed is up to {MOST_CORNERS}: thin them out.")
+    corners = points[np.sort(hull.vertices)] - middle
     shift = mesh_moments(ConvexSolid(corners).mesh(), 1.0).centroid
     return ConvexSolid(corners - shift), middle + shift
 
 
 def centre_of(parts: Sequence[Placed]) -> np.ndarray:
     """Common centroid of parts, in the axes in which they are told [m], shape (3,)."""
-    found = [Moments(moments_of(part.shape, 1.0).mass, np.array(part.place), np.zeros((3, 3))) for part in parts]
-    return together(found).centroid
+    moments = [Moments(moments_of(part.shape, 1.0).mass, np.array(part.place), np.zeros((3, 3))) for part in parts]
+    return together(moments).centroid
 
 
 def triple(name: str, values: Any, most: float, unit: str) -> Triple:
@@ -429,8 +431,11 @@ def triple(name: str, values: Any, most: float, unit: str) -> Triple:
         x, y, z = values
     except (TypeError, ValueError):
         raise InputError(f"{name} is {as_typed(values)}; give three numbers, x, y and z [{unit}].") from None
-    found = [check_range(f"{axis} of {name}", one, -most, most, unit=unit) for axis, one in zip("xyz", (x, y, z))]
-    return found[0], found[1], found[2]
+    coordinates = [
+        check_range(f"{axis} of {name}", coordinate, -most, most, unit=unit)
+        for axis, coordinate in zip("xyz", (x, y, z))
+    ]
+    return coordinates[0], coordinates[1], coordinates[2]
 
 
 def unit_quaternion(name: str, values: Any) -> Quaternion:
@@ -441,14 +446,14 @@ def unit_quaternion(name: str, values: Any) -> Quaternion:
     InputError
     """
     try:
-        found = [float(value) for value in values]
+        components = [float(value) for value in values]
     except (TypeError, ValueError):
-        found = []
-    length = math.sqrt(sum(one * one for one in found))
-    if len(found) != 4 or not abs(length - 1.0) <= UNIT:
+        components = []
+    length = math.sqrt(sum(component * component for component in components))
+    if len(components) != 4 or not abs(length - 1.0) <= UNIT:
         raise InputError(f"{name} is {as_typed(values)}; give a unit quaternion [w, x, y, z], such as [1, 0, 0, 0].")
     share = 1.0 if abs(length - 1.0) < 1e-12 else 1.0 / length
-    w, x, y, z = (share * one for one in found)
+    w, x, y, z = (share * component for component in components)
     return w, x, y, z
 
 
@@ -460,7 +465,8 @@ def _lengths(what: str, values: Sequence[float], count: int, who: str) -> list[f
     if len(given) != count:
         raise InputError(f"{what} of {who} is {as_typed(values)}; give {count} lengths [m].")
     return [
-        check_range(f"a length of the {what} of {who}", one, *LENGTHS, unit="m", remedy="use SI units") for one in given
+        check_range(f"a length of the {what} of {who}", size, *LENGTHS, unit="m", remedy="use SI units")
+        for size in given
     ]
 
 
@@ -537,10 +543,10 @@ def parsed_parts(path: Path) -> list[MeshPart]:
     if suffix not in MESHES:
         raise InputError(f"{name} ends in {suffix!r}; meshes are files that end in {', '.join(MESHES)}.")
     data = read_bytes(path, LARGEST, "thin the mesh out")
-    found = _obj(data, name, path.stem) if suffix == OBJ else _by_trimesh(data, suffix, path, name)
-    if not all(np.isfinite(part.points[part.used]).all() for part in found):
+    parts = _obj(data, name, path.stem) if suffix == OBJ else _by_trimesh(data, suffix, path, name)
+    if not all(np.isfinite(part.points[part.used]).all() for part in parts):
         raise InputError(f"{name} has a vertex that is not finite; mend the mesh.")
-    return found
+    return parts
 
 
 def pieces_of(part: MeshPart) -> list[MeshPart]:
@@ -568,20 +574,22 @@ def _pieces(part: MeshPart) -> list[MeshPart]:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    one, other = np.array([(face[0], corner) for face in part.faces for corner in face[1:]]).T
+    first, other = np.array([(face[0], corner) for face in part.faces for corner in face[1:]]).T
     size = len(part.points)
-    _, group = connected_components(coo_array((np.ones(len(one)), (one, other)), shape=(size, size)), directed=False)
+    _, group = connected_components(
+        coo_array((np.ones(len(first)), (first, other)), shape=(size, size)), directed=False
+    )
     of_face = group[[face[0] for face in part.faces]]
     kinds = dict.fromkeys(of_face.tolist())
     if len(kinds) == 1:
         return [part]
-    found = []
+    pieces = []
     for number, kind in enumerate(kinds, 1):
         own = np.flatnonzero(of_face == kind).tolist()
         lines = tuple(part.lines[i] for i in own) if part.lines else ()
         faces = tuple(part.faces[i] for i in own)
-        found.append(replace(part, name=f"{part.name} {number}", faces=faces, lines=lines))
-    return found
+        pieces.append(replace(part, name=f"{part.name} {number}", faces=faces, lines=lines))
+    return pieces
 
 
 def _merged(part: MeshPart) -> MeshPart:
@@ -604,10 +612,10 @@ def _obj(data: bytes, name: str, stem: str) -> list[MeshPart]:
         word, *rest = line.split() or [""]
         try:
             if word == "v":
-                x, y, z = (float(one) for one in rest[:3])
+                x, y, z = (float(token) for token in rest[:3])
                 points.append([x, y, z])
             elif word == "f":
-                corners = [int(one.split("/")[0]) for one in rest]
+                corners = [int(token.split("/")[0]) for token in rest]
                 corners = [corner - 1 if corner > 0 else len(points) + corner for corner in corners]
                 if len(corners) < 3 or not all(0 <= corner < len(points) for corner in corners):
                     raise ValueError
@@ -621,10 +629,10 @@ def _obj(data: bytes, name: str, stem: str) -> list[MeshPart]:
     faces = sum(map(len, objects.values()))
     if len(points) < 4 or faces < 4:
         raise InputError(f"{name} holds {len(points)} vertices and {faces} faces; a solid has four of each at least.")
-    found = np.array(points)
+    vertices = np.array(points)
     return [
-        MeshPart(one, found, tuple(face for _, face in some), tuple(line for line, _ in some))
-        for one, some in objects.items()
+        MeshPart(label, vertices, tuple(face for _, face in numbered_faces), tuple(line for line, _ in numbered_faces))
+        for label, numbered_faces in objects.items()
     ]
 
 
@@ -648,7 +656,7 @@ def _by_trimesh(data: bytes, suffix: str, path: Path, name: str) -> list[MeshPar
     except Exception as error:  # whatever a damaged file makes of the reader
         why = " ".join(str(error).split())[:120] or type(error).__name__
         raise InputError(f"{name} is no {suffix[1:].upper()} file that can be read ({why}); write it again.") from None
-    found = []
+    parts = []
     for node, turn, vertices, faces in surfaces:
         points = np.asarray(vertices, dtype=float) @ turn[:3, :3].T + turn[:3, 3]
         if len(faces):
@@ -657,11 +665,11 @@ def _by_trimesh(data: bytes, suffix: str, path: Path, name: str) -> list[MeshPar
             single = points.astype("f4")
             rounding = 0.5 * float(np.spacing(np.abs(single).max())) if np.array_equal(single, points) else 0.0
             every = tuple(tuple(face[::order].tolist()) for face in np.asarray(faces))
-            found.append(MeshPart(called, points, every, rounding=rounding))
-    vertices, faces = (sum(len(getattr(one, key)) for one in found) for key in ("points", "faces"))
+            parts.append(MeshPart(called, points, every, rounding=rounding))
+    vertices, faces = (sum(len(getattr(part, key)) for part in parts) for key in ("points", "faces"))
     if vertices < 4 or faces < 4:
         raise InputError(f"{name} holds {vertices} vertices and {faces} faces; a solid has four of each at least.")
-    return found
+    return parts
 
 
 # -- Meshes of stones -------------------------------------------------------------------------------------------------
@@ -686,11 +694,11 @@ def read_mesh(path: Path, unit: str = "m") -> np.ndarray:
     objects = parsed_parts(path)
     parts = objects if len(objects) > 1 else pieces_of(objects[0])
     if len(parts) > 1:
-        some = ", ".join(part.name for part in parts[:3])
+        first_names = ", ".join(part.name for part in parts[:3])
         more = ", …" if len(parts) > 3 else ""
-        raise InputError(f"{name} holds {len(parts)} parts ({some}{more}); give each in a file of its own.")
+        raise InputError(f"{name} holds {len(parts)} parts ({first_names}{more}); give each in a file of its own.")
     (part,) = parts
-    _check_sizes([part], factor, name, "unit = " + ", ".join(f'"{one}"' for one in UNITS))
+    _check_sizes([part], factor, name, "unit = " + ", ".join(f'"{known_unit}"' for known_unit in UNITS))
     check_closed(part, name)
     _check_convex(part, name)
     return part.in_metres(factor, upward(path)).points[part.used]
@@ -713,12 +721,12 @@ def read_stones(path: Path, unit: str = "m", up: str | None = None) -> list[Mesh
     parts = [piece for part in parsed_parts(path) for piece in pieces_of(part)]
     _check_sizes(parts, factor, name, "`unit` " + ", ".join(UNITS))
     names = [part.name for part in parts]
-    found = []
+    stones = []
     for number, part in enumerate(parts):
         own = part.name if names.count(part.name) == 1 else f"{part.name}, {names[: number + 1].count(part.name)}"
         check_closed(part, f"part {own!r} of {name}")
-        found.append(replace(part.in_metres(factor, up or upward(path)), name=own))
-    return found
+        stones.append(replace(part.in_metres(factor, up or upward(path)), name=own))
+    return stones
 
 
 def unit_of(unit: str, name: str) -> float:

@@ -100,7 +100,7 @@ class SpatialTable(Table):
 
 def describes_space(data: dict[str, Any]) -> bool:
     """Whether the content of a TOML file is that of an assembly in space: any of its entries is in space."""
-    return "settle" in data or any(_in_space(one, kind) for kind, one in _entries(data))
+    return "settle" in data or any(_in_space(entry, kind) for kind, entry in _entries(data))
 
 
 def refuse_mixed(data: dict[str, Any]) -> None:
@@ -114,20 +114,20 @@ def refuse_mixed(data: dict[str, Any]) -> None:
         raise InputError(
             "depth is of assemblies in the plane, and this one is in space; leave it out, a box has three sides."
         )
-    for kind, one in _entries(data):
-        name = repr(one["name"]) if isinstance(one.get("name"), str) else "without a name"
-        if kind == "block" and "depth" in one:
+    for kind, entry in _entries(data):
+        name = repr(entry["name"]) if isinstance(entry.get("name"), str) else "without a name"
+        if kind == "block" and "depth" in entry:
             raise InputError(f"block {name} has a depth, as in the plane, among bodies in space; give it as a box.")
-        if kind == "block" and 2 in _sizes(one.get("vertices")):
+        if kind == "block" and 2 in _sizes(entry.get("vertices")):
             raise InputError(
                 f"block {name} has vertices of two numbers, a polygon in the plane, among bodies in space; give x, y and z, "
                 "or a box."
             )
-        if kind == "column" and isinstance(one.get("at"), list) and not all(isinstance(p, list) for p in one["at"]):
+        if kind == "column" and isinstance(entry.get("at"), list) and not all(isinstance(p, list) for p in entry["at"]):
             raise InputError(
                 "at of a [[column]] holds numbers, as in the plane, among bodies in space; give pairs, at = [[x, y], …]."
             )
-        if kind == "beam" and "section" not in one:
+        if kind == "beam" and "section" not in entry:
             raise InputError(
                 f"beam {name} has no section, as in the plane, among bodies in space; give section = [across, height] and "
                 "between."
@@ -136,23 +136,23 @@ def refuse_mixed(data: dict[str, Any]) -> None:
 
 def _entries(data: dict[str, Any]) -> list[tuple[str, dict[str, Any]]]:
     return [
-        (kind, one)
+        (kind, entry)
         for kind in ("block", "column", "beam")
-        for one in (data[kind] if isinstance(data.get(kind), list) else [])
-        if isinstance(one, dict)
+        for entry in (data[kind] if isinstance(data.get(kind), list) else [])
+        if isinstance(entry, dict)
     ]
 
 
-def _in_space(one: dict[str, Any], kind: str) -> bool:
+def _in_space(entry: dict[str, Any], kind: str) -> bool:
     if kind == "block":
-        return any(key in one for key in IN_SPACE) or _sizes(one.get("vertices")) == {3}
+        return any(key in entry for key in IN_SPACE) or _sizes(entry.get("vertices")) == {3}
     if kind == "column":
-        places = one.get("at")
-        return "turn" in one or (isinstance(places, list) and any(isinstance(place, list) for place in places))
-    return "section" in one
+        places = entry.get("at")
+        return "turn" in entry or (isinstance(places, list) and any(isinstance(place, list) for place in places))
+    return "section" in entry
 
 
 def _sizes(vertices: Any) -> set[int]:
     """How many numbers the corners of a block have."""
-    some = vertices if isinstance(vertices, list) else []
-    return {len(point) if isinstance(point, list) else 0 for point in some}
+    points = vertices if isinstance(vertices, list) else []
+    return {len(point) if isinstance(point, list) else 0 for point in points}

@@ -160,8 +160,8 @@ class Solid:
             corners = self.vertices[list(loop)]
             normal = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
             normals.append(normal / np.linalg.norm(normal))
-        found = np.array(normals)
-        return found, (self.vertices @ found.T).max(axis=0)
+        unit_normals = np.array(normals)
+        return unit_normals, (self.vertices @ unit_normals.T).max(axis=0)
 
     @property
     def thickness(self) -> float:
@@ -205,14 +205,14 @@ class Solid:
         """Directions of its straight edges, each once, and of a round drum's axis [-], shape (k, 3)."""
         if self.round:
             return self.axes[:, 2][None]
-        found: list[np.ndarray] = []
+        ways: list[np.ndarray] = []
         for loop in self.loops:
             for i, k in zip(loop, (*loop[1:], loop[0]), strict=True):
                 way = self.vertices[k] - self.vertices[i]
                 way = way / np.linalg.norm(way)
-                if all(abs(abs(float(way @ one)) - 1.0) > 1e-12 for one in found):
-                    found.append(way)
-        return np.array(found)
+                if all(abs(abs(float(way @ known_way)) - 1.0) > 1e-12 for known_way in ways):
+                    ways.append(way)
+        return np.array(ways)
 
 
 def _sides(corners: np.ndarray) -> tuple[tuple[np.ndarray, float], ...]:
@@ -221,38 +221,38 @@ def _sides(corners: np.ndarray) -> tuple[tuple[np.ndarray, float], ...]:
     length = np.hypot(*side.T)
     kept = length > 1e-12 * length.max()
     normal = np.stack((side[kept, 1], -side[kept, 0]), axis=1) / length[kept, None]
-    return tuple((one, float(one @ corner)) for one, corner in zip(normal, corners[kept], strict=True))
+    return tuple((outward, float(outward @ corner)) for outward, corner in zip(normal, corners[kept], strict=True))
 
 
-def separation(one: Solid, other: Solid, near: float) -> tuple[float, np.ndarray]:
+def separation(first: Solid, other: Solid, near: float) -> tuple[float, np.ndarray]:
     """Distance of two solids [m], negative where they overlap by that depth, and the direction from the first to the second.
 
     Beyond ``near`` [m] it is only known that they are farther apart than that.
     """
-    ways = _candidates(one, other)
-    gaps = -one.extent(ways) - other.extent(-ways)
+    ways = _candidates(first, other)
+    gaps = -first.extent(ways) - other.extent(-ways)
     best = int(gaps.argmax())
-    if gaps[best] > near or not (one.round or other.round):
+    if gaps[best] > near or not (first.round or other.round):
         return float(gaps[best]), ways[best]
-    found = [_farther(one, other, ways[i], float(gaps[i])) for i in np.argsort(-gaps)[:STARTS]]
-    return max(found, key=lambda item: item[0])
+    separations = [_farther(first, other, ways[i], float(gaps[i])) for i in np.argsort(-gaps)[:STARTS]]
+    return max(separations, key=lambda item: item[0])
 
 
-def _candidates(one: Solid, other: Solid) -> np.ndarray:
+def _candidates(first: Solid, other: Solid) -> np.ndarray:
     """Directions in which two solids may be farthest apart: normals of faces, across two edges, from axis to axis."""
-    ways = [face.frame[:, 2] for face in one.faces] + [-face.frame[:, 2] for face in other.faces]
-    across = np.cross(one.edge_ways[:, None], other.edge_ways[None]).reshape(-1, 3)
-    between = other.place - one.place
+    ways = [face.frame[:, 2] for face in first.faces] + [-face.frame[:, 2] for face in other.faces]
+    across = np.cross(first.edge_ways[:, None], other.edge_ways[None]).reshape(-1, 3)
+    between = other.place - first.place
     ways += [*across, *(-across), between]
-    for solid, sign in ((one, 1.0), (other, -1.0)):
+    for solid, sign in ((first, 1.0), (other, -1.0)):
         if solid.round:
-            axis, beside = solid.axes[:, 2], other if sign > 0.0 else one
+            axis, beside = solid.axes[:, 2], other if sign > 0.0 else first
             for point in (beside.place, *beside.vertices[:: max(1, len(beside.vertices) // 16)]):
                 away = point - solid.place
                 ways.append(sign * (away - (away @ axis) * axis))
-    found = np.array(ways)
-    length = np.linalg.norm(found, axis=1)
-    return found[length > 1e-9] / length[length > 1e-9, None]
+    directions = np.array(ways)
+    length = np.linalg.norm(directions, axis=1)
+    return directions[length > 1e-9] / length[length > 1e-9, None]
 
 
 def _farther(solid: Solid, other: Solid, way: np.ndarray, gap: float) -> tuple[float, np.ndarray]:
@@ -274,10 +274,10 @@ def _farther(solid: Solid, other: Solid, way: np.ndarray, gap: float) -> tuple[f
     return gap, way
 
 
-def overlaps(one: Solid, other: Solid, near: float) -> list[tuple[FlatFace, FlatFace, Overlap]]:
+def overlaps(first: Solid, other: Solid, near: float) -> list[tuple[FlatFace, FlatFace, Overlap]]:
     """Pairs of faces of two solids that lie on one another, to a distance [m]."""
-    found = []
-    for below in one.faces:
+    pairs = []
+    for below in first.faces:
         for above in other.faces:
             if below.frame[:, 2] @ above.frame[:, 2] > -math.cos(PARALLEL):
                 continue
@@ -285,8 +285,8 @@ def overlaps(one: Solid, other: Solid, near: float) -> list[tuple[FlatFace, Flat
                 continue
             over = overlap_of(below, above, near)
             if over is not None:
-                found.append((below, above, over))
-    return found
+                pairs.append((below, above, over))
+    return pairs
 
 
 def overlap_of(below: FlatFace | None, above: FlatFace, near: float) -> Overlap | None:

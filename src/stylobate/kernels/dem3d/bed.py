@@ -36,17 +36,17 @@ def support(along, cos_g, sin_g, ra, rl, q_u, cos_l, sin_l):
 
 
 @law
-def strip(sums, one, middle, half, d, g, along, across, ra, rl):
+def strip(sums, node, middle, half, d, g, along, across, ra, rl):
     """Adds a strip: area, depth, its moments along and across, of second order, and its square, each times the area; and
     moments of the area along and across, and of second order."""
-    x = middle + half * one[0]
+    x = middle + half * node[0]
     depth = max(d + g * x, 0.0)
     upper = math.sqrt(max(ra * ra - (x - along) * (x - along), 0.0))
     lower = math.sqrt(max(rl * rl - x * x, 0.0))
     top, bottom = min(across + upper, lower), max(across - upper, -lower)
     chord = max(top - bottom, 0.0)
     y = 0.5 * (top + bottom)
-    area = half * one[1] * chord
+    area = half * node[1] * chord
     n = area * depth
     square = x * x + y * y + chord * chord * (1.0 / 12.0)
     return (
@@ -124,17 +124,17 @@ def settle_ring(d, gx, gy, along, across, ra, rl, ia, il):
     _, cos_u, _, _, cos_l, sin_l, _, _ = overlap(ia, il, s)
     e = settle_askew(d, gx, gy, along, across, ia, il, -cos_u, cos_l, sin_l)
     n = a[1] - b[1] - c[1] + e[1]
-    some = 1.0 if n > 0.0 else 0.0
+    contact = 1.0 if n > 0.0 else 0.0
     return (
-        max(a[0] - b[0] - c[0] + e[0], 0.0) * some,
-        n * some,
-        (a[2] - b[2] - c[2] + e[2]) * some,
-        (a[3] - b[3] - c[3] + e[3]) * some,
-        max(a[4] - b[4] - c[4] + e[4], 0.0) * some,
-        max(a[5] - b[5] - c[5] + e[5], 0.0) * some,
-        (a[6] - b[6] - c[6] + e[6]) * some,
-        (a[7] - b[7] - c[7] + e[7]) * some,
-        max(a[8] - b[8] - c[8] + e[8], 0.0) * some,
+        max(a[0] - b[0] - c[0] + e[0], 0.0) * contact,
+        n * contact,
+        (a[2] - b[2] - c[2] + e[2]) * contact,
+        (a[3] - b[3] - c[3] + e[3]) * contact,
+        max(a[4] - b[4] - c[4] + e[4], 0.0) * contact,
+        max(a[5] - b[5] - c[5] + e[5], 0.0) * contact,
+        (a[6] - b[6] - c[6] + e[6]) * contact,
+        (a[7] - b[7] - c[7] + e[7]) * contact,
+        max(a[8] - b[8] - c[8] + e[8], 0.0) * contact,
     )
 
 

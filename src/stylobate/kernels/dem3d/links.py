@@ -7,7 +7,7 @@ import math
 
 from ..jit import apart, kernel, law, long_law
 from ..run_codes import CHUNK
-from ..shared.links import held, look_at_hold, look_at_links, note_slack, note_slip, pulled, some_leaves
+from ..shared.links import link_force, look_at_hold, look_at_links, note_slack, note_slip, pulled, some_leaves
 from .pose import cross, in_body, in_space
 
 
@@ -69,7 +69,7 @@ def across(k, b, f, u, v, l):
     px, py = px * each, py * each
     far = length_of(along - k.sx[l], aside - k.sy[l])
     old = k.fx[l] * k.fx[l] + k.fy[l] * k.fy[l]
-    force, on, wider, heat, whole, out, most = held(
+    force, on, wider, heat, whole, out, most = link_force(
         size, k.gap[l], b.y, b.ks, lift - k.h[l], b.deep, b.reach, k.on[l], k.out[l], b.br, b.cr, far, b.us, old
     )
     k.px[l] += px * on
@@ -130,7 +130,7 @@ def slack_left(k, b, f, u, v, l):
 
 
 @long_law
-def in_all_lanes(one, body, load, link, bond, pair, n, m):
+def in_all_lanes(lane_law, body, load, link, bond, pair, n, m):
     """A law of link m, which is contact n, in all lanes."""
     k = link[m]
     b = bond[m]
@@ -138,7 +138,7 @@ def in_all_lanes(one, body, load, link, bond, pair, n, m):
     u = body[pair[n].upper]
     v = body[pair[n].lower]
     for l in range(k.on.shape[0]):
-        one(k, b, f, u, v, l)
+        lane_law(k, b, f, u, v, l)
 
 
 @apart

@@ -302,8 +302,8 @@ def leaving(u, v, e, o, w, l, a, b, margin, moment):
     about = math.sqrt(u.wx[l] * u.wx[l] + u.wy[l] * u.wy[l] + u.wz[l] * u.wz[l])
     tilt = math.sqrt(max(1.0 - u.kz[l] * u.kz[l], 0.0))
     gyro = (ru * up + ru * ru) * axial * about / max(tilt, UPRIGHT)
-    held = moment * each
-    going, lost = going_and_lost(out, outward, out * down, against * up + gyro + held)
+    link_moment = moment * each
+    going, lost = going_and_lost(out, outward, out * down, against * up + gyro + link_moment)
     return parted, going, lost, dx, dy
 
 

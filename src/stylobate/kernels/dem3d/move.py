@@ -272,15 +272,15 @@ def kinetic_and_gravitational(body, lane, ground, k, dt, l):
 def stored_in_faces(joint, lane, l):
     """Energy that joints between faces hold in one lane by pressure, and by friction [J]."""
     elastic = 0.0
-    held = 0.0
+    shear_energy = 0.0
     for q in range(joint.shape[0]):
         e = joint[q]
         elastic += e.en[l]
         if e.s.shape[0] == 3:
             core = (e.s[0, l], e.s[1, l], e.s[2, l]), e.t[l], e.kc[l], e.jc[l]
             shear, torsion = stored(core, ((e.fs[0, l], e.fs[1, l], e.fs[2, l]), e.ft[l], e.kf[l], e.jf[l]))
-            held += shear + lane[0].pivot[l] * torsion
+            shear_energy += shear + lane[0].pivot[l] * torsion
         elif e.kc[l] > 0.0:
             for c in range(e.s.shape[0]):
-                held += 0.5 * e.s[c, l] ** 2 / e.kc[l]
-    return elastic, held
+                shear_energy += 0.5 * e.s[c, l] ** 2 / e.kc[l]
+    return elastic, shear_energy

@@ -117,30 +117,34 @@ def types(
     corners = CORNERS if face in ("corner", "vertex") else 1
     axes = " ".join(f"{axis}{c}" for axis in "ijk" for c in "xyz")
     link, hold = link_types(lanes)
-    some = partial(fields, lanes=lanes)
+    lane_fields = partial(fields, lanes=lanes)
     return {
         "body": np.dtype(
-            some(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ax ay az ht rb rt tx ty")
-            + some("px py pz", corners)
-            + some("f mo", 3)
+            lane_fields(
+                f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ax ay az ht rb rt tx ty"
+            )
+            + lane_fields("px py pz", corners)
+            + lane_fields("f mo", 3)
         ),
-        "joint": vertex_type(some) if face == "vertex" else joint_type(face, damped, some),
-        "load": np.dtype(some("f up lo", 3)),
+        "joint": vertex_type(lane_fields) if face == "vertex" else joint_type(face, damped, lane_fields),
+        "load": np.dtype(lane_fields("f up lo", 3)),
         "link": link if linked else NO_LINK,
         "bond": BOND_TYPE,
         "lane": np.dtype(
-            some("dt pivot free work shear visc")
-            + some("g p", 3)
-            + some("damp", 3 if damped else 1)
-            + some("roll", 2 if rolling else 1)
-            + (vertex_fields(some) if face == "vertex" else [])
+            lane_fields("dt pivot free work shear visc")
+            + lane_fields("g p", 3)
+            + lane_fields("damp", 3 if damped else 1)
+            + lane_fields("roll", 2 if rolling else 1)
+            + (vertex_fields(lane_fields) if face == "vertex" else [])
         ),
-        "ground": np.dtype(some("a", 3)),
-        "feed": np.dtype(some("x y z last step end", kind=np.int64) + some("ratio factor") + some("r", 9)),
+        "ground": np.dtype(lane_fields("a", 3)),
+        "feed": np.dtype(
+            lane_fields("x y z last step end", kind=np.int64) + lane_fields("ratio factor") + lane_fields("r", 9)
+        ),
         "watch": np.dtype(
-            some("status follow when which parted about", kind=np.int64)
-            + some("amax vmax sx sy wmax wide ex ey tw going m x y z px py")
-            + some(" ".join(PEAKS) + " k" + " k".join(PEAKS))
+            lane_fields("status follow when which parted about", kind=np.int64)
+            + lane_fields("amax vmax sx sy wmax wide ex ey tw going m x y z px py")
+            + lane_fields(" ".join(PEAKS) + " k" + " k".join(PEAKS))
         ),
         "hold": hold,
         "pair": PAIR_TYPE,
@@ -149,33 +153,33 @@ def types(
     }
 
 
-def joint_type(face: str, damped: bool, some: Fields) -> np.dtype:
-    """Record type of a joint between faces; ``some`` as :func:`fields`, for a number of lanes."""
+def joint_type(face: str, damped: bool, lane_fields: Fields) -> np.dtype:
+    """Record type of a joint between faces; ``lane_fields`` as :func:`fields`, for a number of lanes."""
     cornered = face == "corner"
     dashpots = (3 * CORNERS if cornered else 6) if damped else 1
     own = {
-        "chip": some("chip", CHIPS),
-        "bed": some("chip ring", 1),
-        "ring": some("chip", 1) + some("ring", RINGS),
-        "corner": some("chip", 1) + some("w", SHARED),
+        "chip": lane_fields("chip", CHIPS),
+        "bed": lane_fields("chip ring", 1),
+        "ring": lane_fields("chip", 1) + lane_fields("ring", RINGS),
+        "corner": lane_fields("chip", 1) + lane_fields("w", SHARED),
     }
     return np.dtype(
-        some("kn ks co mu t kc jc en ox oy ot tw ft kf jf")
-        + some("s", 3 * CORNERS if cornered else 3)
-        + some("fs at tm", 1 if cornered else 3)
-        + some("d", dashpots)
-        + own.get(face, some("chip", 1))
+        lane_fields("kn ks co mu t kc jc en ox oy ot tw ft kf jf")
+        + lane_fields("s", 3 * CORNERS if cornered else 3)
+        + lane_fields("fs at tm", 1 if cornered else 3)
+        + lane_fields("d", dashpots)
+        + own.get(face, lane_fields("chip", 1))
     )
 
 
-def vertex_type(some: Fields) -> np.dtype:
+def vertex_type(lane_fields: Fields) -> np.dtype:
     """Record type of a vertex of a specimen, see ``vertices.py``."""
-    return np.dtype(some("x y z kn ks rest") + some("s d", 3))
+    return np.dtype(lane_fields("x y z kn ks rest") + lane_fields("s d", 3))
 
 
-def vertex_fields(some: Fields) -> list[tuple]:
+def vertex_fields(lane_fields: Fields) -> list[tuple]:
     """Fields that a lane has besides, of a specimen, see ``vertices.py``."""
-    return some("mu lost reach above en st count") + some("near", MOST_ROWS // LANES)
+    return lane_fields("mu lost reach above en st count") + lane_fields("near", MOST_ROWS // LANES)
 
 
 #: Most rows of vertices that a body may have.

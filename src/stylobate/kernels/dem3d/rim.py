@@ -116,19 +116,19 @@ def press(d, g, gamma, cos_gamma, sin_gamma, psi, cos_psi, sin_psi):
     q = end if last else phi
     cos_q = cos_end if last else cos_phi
     sin_q = sin_end if last else sin_phi
-    one = 1.0 if q > p else 0.0
+    main = 1.0 if q > p else 0.0
     # what of the arc reaches beyond π comes back at −π
     again = end - 2.0 * math.pi
-    two = 1.0 if again > -phi else 0.0
+    wrapped = 1.0 if again > -phi else 0.0
     within = again < phi
     r = again if within else phi
     cos_r = cos_end if within else cos_phi
     sin_r = sin_end if within else sin_phi
-    length = one * (q - p) + two * (r + phi)
-    sines = one * (sin_q - sin_p) + two * (sin_r + sin_phi)
-    cosines = one * (cos_p - cos_q) + two * (cos_phi - cos_r)
-    double = one * (sin_q * cos_q - sin_p * cos_p) + two * (sin_r * cos_r + sin_phi * cos_phi)
-    squares = one * (sin_q * sin_q - sin_p * sin_p) + two * (sin_r * sin_r - sin_phi * sin_phi)
+    length = main * (q - p) + wrapped * (r + phi)
+    sines = main * (sin_q - sin_p) + wrapped * (sin_r + sin_phi)
+    cosines = main * (cos_p - cos_q) + wrapped * (cos_phi - cos_r)
+    double = main * (sin_q * cos_q - sin_p * cos_p) + wrapped * (sin_r * cos_r + sin_phi * cos_phi)
+    squares = main * (sin_q * sin_q - sin_p * sin_p) + wrapped * (sin_r * sin_r - sin_phi * sin_phi)
     n = max(d * length + g * sines, 0.0)
     c = d * sines + 0.5 * g * (length + double)
     s = d * cosines + 0.5 * g * squares
@@ -314,9 +314,9 @@ def whole_remains(e, u, l, steepest, tangent, way, ru, rl, cosine):
 
 
 @law
-def whole_upper_still(kn, d, along, across, r, left):
+def whole_upper_still(kn, d, along, across, r, arcs):
     """Pressure of the upper drum's arc where depth does not vary across the lean."""
-    cos_g, sin_g, side, psi, cos_psi, sin_psi, _, _, _ = left
+    cos_g, sin_g, side, psi, cos_psi, sin_psi, _, _, _ = arcs
     k = kn * r
     length, n, c, s, x, y = press(d, along, math.pi - angle_to(cos_g, sin_g), -cos_g, sin_g, psi, cos_psi, sin_psi)
     twice = k * (d * n + along * c)
@@ -325,9 +325,9 @@ def whole_upper_still(kn, d, along, across, r, left):
 
 
 @law
-def whole_upper(kn, d, along, across, r, left):
+def whole_upper(kn, d, along, across, r, arcs):
     """Pressure of the upper drum's arc."""
-    cos_g, sin_g, side, psi, cos_psi, sin_psi, _, _, _ = left
+    cos_g, sin_g, side, psi, cos_psi, sin_psi, _, _, _ = arcs
     k = kn * r
     _, n, c, s, _, _ = press_askew(d, along, across, -cos_g, -side * sin_g, psi, cos_psi, sin_psi)
     p = k * n
@@ -335,17 +335,17 @@ def whole_upper(kn, d, along, across, r, left):
 
 
 @law
-def whole_lower_still(d, along, across, left):
+def whole_lower_still(d, along, across, arcs):
     """Pressure of the lower drum's arc where depth does not vary across the lean."""
-    cos_g, sin_g, side, _, _, _, psi, cos_psi, sin_psi = left
+    cos_g, sin_g, side, _, _, _, psi, cos_psi, sin_psi = arcs
     length, n, c, s, x, y = press(d, along, angle_to(cos_g, sin_g), cos_g, sin_g, psi, cos_psi, sin_psi)
     return length, n, c, s * side, x, y * side
 
 
 @law
-def whole_lower(d, along, across, left):
+def whole_lower(d, along, across, arcs):
     """Pressure of the lower drum's arc."""
-    cos_g, sin_g, side, _, _, _, psi, cos_psi, sin_psi = left
+    cos_g, sin_g, side, _, _, _, psi, cos_psi, sin_psi = arcs
     return press_askew(d, along, across, cos_g, side * sin_g, psi, cos_psi, sin_psi)
 
 
@@ -377,9 +377,9 @@ def chipped_remains(e, u, l, steepest, tangent, way, ru, rl, cosine):
 
 
 @law
-def chipped_upper(kn, d, along, across, r, left):
+def chipped_upper(kn, d, along, across, r, arcs):
     """Pressure of what is left of the upper drum's arc, and of the chord."""
-    cos_g, sin_g, kept, side, _, _, ex, ey, cosine, low, high = left
+    cos_g, sin_g, kept, side, _, _, ex, ey, cosine, low, high = arcs
     p, c, s, q, twice, reach, x, y, square = press_upper(
         d, along, across, r, -cos_g, -sin_g, kept, side, ex, ey, cosine, low, high
     )
@@ -387,19 +387,19 @@ def chipped_upper(kn, d, along, across, r, left):
 
 
 @law
-def chipped_lower(d, along, across, left):
+def chipped_lower(d, along, across, arcs):
     """Pressure of what is left of the lower drum's arc."""
-    cos_g, sin_g, _, _, kept, side, _, _, _, _, _ = left
+    cos_g, sin_g, _, _, kept, side, _, _, _, _, _ = arcs
     return press_left(d, along, across, cos_g, sin_g, kept, side)
 
 
 @law
-def first_moment(p, middle, a, one, b, other):
+def first_moment(p, middle, a, axis, b, other):
     """p c + a e + b f: the first moment of a rim's pressure, from its middle c and its axes e and f."""
     return (
-        p * middle[0] + a * one[0] + b * other[0],
-        p * middle[1] + a * one[1] + b * other[1],
-        p * middle[2] + a * one[2] + b * other[2],
+        p * middle[0] + a * axis[0] + b * other[0],
+        p * middle[1] + a * axis[1] + b * other[1],
+        p * middle[2] + a * axis[2] + b * other[2],
     )
 
 
@@ -424,13 +424,13 @@ def on_rims(remains, upper_still, lower_still, upper, lower, e, o, u, v, l, lean
     dx, dy, dz = cosine * hx - sine * zx, cosine * hy - sine * zy, cosine * hz - sine * zz
     z, n, h, t, d = (zx, zy, zz), (nx, ny, nz), (hx, hy, hz), (tx, ty, tz), (dx, dy, dz)
     ru, rl = u.rb[l], v.rt[l]
-    left, rho = remains(e, u, l, d, t, way, ru, rl, cosine)
+    arcs, rho = remains(e, u, l, d, t, way, ru, rl, cosine)
     kn = e.kn[l] * rho
     kl = kn * rl
     # depths along the rims and their pressure  # Eq. (E4)
     du, dl = -(cx * zx + cy * zy + cz * zz), -(cx * nx + cy * ny + cz * nz)
-    pu, cu, su, qu, twice, lu, xu, yu, squares = upper_still(kn, du, ru * sine, 0.0, ru, left)
-    ll, nl, cl, sl, xl, yl = lower_still(dl, rl * sine, 0.0, left)
+    pu, cu, su, qu, twice, lu, xu, yu, squares = upper_still(kn, du, ru * sine, 0.0, ru, arcs)
+    ll, nl, cl, sl, xl, yl = lower_still(dl, rl * sine, 0.0, arcs)
     # area of what touches, its centroid, and its second moment about that
     lu, xu, yu, squares = cosine * lu, cosine * xu, cosine * yu, cosine * squares
     ll, xl, yl = rl * ll, rl * rl * xl, rl * rl * yl
@@ -455,13 +455,13 @@ def on_rims(remains, upper_still, lower_still, upper, lower, e, o, u, v, l, lean
         along = ru * (sine + beta * (ax * dx + ay * dy + az * dz))
         across = ru * beta * (ax * tx + ay * ty + az * tz)
         du -= beta * (vx * zx + vy * zy + vz * zz)
-        pu, cu, su, qu, _, _, _, _, _ = upper(kn, du, along, across, ru, left)
+        pu, cu, su, qu, _, _, _, _, _ = upper(kn, du, along, across, ru, arcs)
         ax, ay, az = cross(ox, oy, oz, nx, ny, nz)
         along = rl * (sine + beta * (ax * hx + ay * hy + az * hz))
         across = rl * beta * (ax * tx + ay * ty + az * tz)
         ax, ay, az = cross(ox, oy, oz, cx, cy, cz)
         dl -= beta * ((vx - ax) * nx + (vy - ay) * ny + (vz - az) * nz)
-        _, nl, cl, sl, _, _ = lower(dl, along, across, left)
+        _, nl, cl, sl, _, _ = lower(dl, along, across, arcs)
         pl, cl, sl = kl * nl, kl * rl * cl, kl * rl * sl
         first, second, pressure = resultant(pu, cu, su, pl, cl, sl, c, d, h, t, z, n)
     # normal resultant, its middle P and its spread about P

@@ -240,15 +240,15 @@ def put_leaning(into, axes, lean, c, s):
 
 
 @kernel
-def put_down_found(found, slip, turns, frame, origin, centroid, offset):
+def put_down_found(found_drums, slip, turns, frame, origin, centroid, offset):
     """Puts the drums down flat, with these slips of their joints in the axes of the drums below [m].
 
     A drum that has turned since it was found takes its slope with it, and what stands on it. Writes the frames and origins
     of all joints, shapes (n + 1, 3, 3) and (n + 1, 3), of which the first are those of the base, centroids, shape (n, 3),
     and offsets in the joints, shape (n, 2).
     """
-    for j in range(found.shape[0]):
-        d = found[j]
+    for j in range(found_drums.shape[0]):
+        d = found_drums[j]
         x, y = turned_by(d.x + slip[j, 0], d.y + slip[j, 1], math.cos(turns[j]), math.sin(turns[j]))
         offset[j, 0], offset[j, 1] = x, y
         put_leaning(frame[j + 1], frame[j], d.lean, math.cos(turns[j + 1]), math.sin(turns[j + 1]))
@@ -265,23 +265,23 @@ def inside_chipped(d, x, y, turn):
 
 
 @strict_of_arrays
-def lowest_found(found, stand, slip, turns, up, cornered, gravity, walks):
+def lowest_found(found_drums, stand, slip, turns, up, cornered, gravity, walks):
     """As ``standing.lowest_barrier`` of a column as found, a lower bound [J]; and mass times height of its drums [kg m].
 
     On a joint that slopes by γ the nearest edge is b cos γ away across gravity, and may lie b sin γ lower; friction is what
     the slope leaves of it. What pretensioned links press is left out: they may break, and all that an elastic one gives
     back then is counted with the energy that is left.
     """
-    n = found.shape[0]
+    n = found_drums.shape[0]
     frame, origin = np.zeros((n + 1, 3, 3)), np.zeros((n + 1, 3))
     centroid, offset, corners = np.empty((n, 3)), np.empty((n, 2)), np.empty((4, 2))
     for c in range(3):
         frame[0, c, c] = 1.0
-    put_down_found(found, slip, turns, frame, origin, centroid, offset)
+    put_down_found(found_drums, slip, turns, frame, origin, centroid, offset)
     lowest = loose = np.inf
     mass = mx = my = mz = 0.0
     for j in range(n - 1, -1, -1):
-        d, face = found[j], stand[j]
+        d, face = found_drums[j], stand[j]
         mass += face.m
         mx += face.m * centroid[j, 0]
         my += face.m * centroid[j, 1]
@@ -310,7 +310,7 @@ def lowest_found(found, stand, slip, turns, up, cornered, gravity, walks):
 
 
 @strict_of_arrays
-def stands_as_found(found, stand, slip, energy, high, up, gravity, walks, body, joint, lane, l):
+def stands_as_found(found_drums, stand, slip, energy, high, up, gravity, walks, body, joint, lane, l):
     """Whether a column as found, with these slips and this energy [J], stands for good; see ``models/dem3d/packing.py``.
 
     ``high`` is mass times height of its drums as they were found [kg m]: what sliding down a slope has set free is not there
@@ -319,5 +319,5 @@ def stands_as_found(found, stand, slip, energy, high, up, gravity, walks, body, 
     if not centroids_inside(body, joint, lane, l):
         return False
     turns, cornered = turns_of(body, l), body[1].px.shape[0] > 1
-    lowest, low = lowest_found(found, stand, slip, turns - turns[0], up, cornered, gravity, walks)
+    lowest, low = lowest_found(found_drums, stand, slip, turns - turns[0], up, cornered, gravity, walks)
     return 0.0 < lowest and energy + max((high - low) * gravity, 0.0) < lowest

@@ -196,12 +196,12 @@ def ledgers(state, dt, lanes, out):
     for k in range(lanes.shape[0]):
         l = lanes[k]
         kinetic, height = kinetic_and_gravitational(state[BODY], state[LANE], state[GROUND], 0, dt[k], l)
-        elastic, held = stored(state[JOINT], state[LANE], l)
+        elastic, shear_energy = stored(state[JOINT], state[LANE], l)
         out[k, 0] = o.work[l]
         out[k, 1] = kinetic
         out[k, 2] = height
-        out[k, 3] = elastic + held
-        out[k, 4] = o.shear[l] - held
+        out[k, 3] = elastic + shear_energy
+        out[k, 4] = o.shear[l] - shear_energy
         out[k, 5] = o.visc[l]
         add_to_ledger(state[LINK], state[BOND], l, out[k])
 

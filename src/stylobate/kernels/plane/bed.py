@@ -91,7 +91,7 @@ def bed_forces(body, load, lane, pair, start, beta, now, hand, shape, corner, jo
 def stored_by_bed(body, pair, start, now, hand, shape, corner, joined, law, memory, real, whole):
     """Energy that the bed holds by pressure and by shear [J]."""
     elastic = 0.0
-    held = 0.0
+    shear_energy = 0.0
     xa, za, xb, zb, px, pz, qx, qz = real
     from_b, q_from = whole
     for k in range(now[0].pairs):
@@ -110,5 +110,5 @@ def stored_by_bed(body, pair, start, now, hand, shape, corner, joined, law, memo
         if chord > 0.0:
             depth = min(shape[i].depth, shape[h].depth)
             elastic += 0.5 * share * law[i, h, 0] * depth * near.depth_square(px, pz, n, gx / chord, gz / chord)
-            held += 0.5 * memory[i, h, 0] ** 2 / (share * law[i, h, 1] * depth * chord)
-    return elastic, held
+            shear_energy += 0.5 * memory[i, h, 0] ** 2 / (share * law[i, h, 1] * depth * chord)
+    return elastic, shear_energy

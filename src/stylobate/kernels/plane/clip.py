@@ -124,9 +124,9 @@ def depth_square(px, pz, n, tx, tz):
         h = order[j + 1] - order[j]
         if h > 0.0:
             # the depth is linear between neighbouring abscissae: two of its values fix the integral
-            one = _extent(s, q, n, order[j] + 0.25 * h)
-            two = _extent(s, q, n, order[j] + 0.75 * h)
-            left, right = 1.5 * one - 0.5 * two, 1.5 * two - 0.5 * one
+            first = _extent(s, q, n, order[j] + 0.25 * h)
+            second = _extent(s, q, n, order[j] + 0.75 * h)
+            left, right = 1.5 * first - 0.5 * second, 1.5 * second - 0.5 * first
             total += h * (left * left + left * right + right * right) / 3.0
     return total
 

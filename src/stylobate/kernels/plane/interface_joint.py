@@ -113,12 +113,12 @@ def joint_forces(body, joint, load, pair, lane):
 
 
 @law
-def stored(e, o, l, weight, elastic, held):
+def stored(e, o, l, weight, elastic, shear_energy):
     """Adds what an interface of a weight holds by pressure and by shear to two energies [J]."""
     if e.kn[l] > 0.0:
         elastic += weight * e.el[l]
-        held += weight * 0.5 * e.fs[l] ** 2 / e.ks[l]
-    return elastic, held
+        shear_energy += weight * 0.5 * e.fs[l] ** 2 / e.ks[l]
+    return elastic, shear_energy
 
 
 @law

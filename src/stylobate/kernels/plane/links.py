@@ -7,7 +7,17 @@ import math
 
 from ..jit import apart, chosen, kernel, law
 from ..run_codes import CHUNK
-from ..shared.links import begun, clamped, held, look_at_hold, look_at_links, note_slack, note_slip, pulled, some_leaves
+from ..shared.links import (
+    begun,
+    clamped,
+    link_force,
+    look_at_hold,
+    look_at_links,
+    note_slack,
+    note_slip,
+    pulled,
+    some_leaves,
+)
 from ..shared.records import rows
 from .point_joint import face
 
@@ -62,7 +72,7 @@ def across(body, load, link, bond, pair, n, m):
         long = at_q - k.h[l]
         way = at_s - k.px[l]
         side = 1.0 if way > 0.0 else -1.0
-        force, on, wider, heat, whole, out, most = held(
+        force, on, wider, heat, whole, out, most = link_force(
             abs(way), k.gap[l], b.y, b.ks, long, b.deep, b.reach, k.on[l], k.out[l], b.br, b.cr, far, b.us,
             k.fx[l] * k.fx[l],
         )  # fmt: skip

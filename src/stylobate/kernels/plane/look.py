@@ -141,8 +141,8 @@ def look_at_joint(u, v, e, o, f, w, j, l):
     outward = side * (w.px[l] * each - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
     down = max(o.g[l] - w.vmax[l], 0.0)
     against = max(w.amax[l] + side * o.gx[l], 0.0) + margin
-    held = w.held[l] * each  # by links
-    going, lost = going_and_lost(out, outward, out * down, against * up + held)
+    link_moment = w.held[l] * each  # by links
+    going, lost = going_and_lost(out, outward, out * down, against * up + link_moment)
     w.going[l] = 1.0 if going else w.going[l]
     parted = hi <= lo
     hit = (lost | parted) & (w.status[l] == RUNNING) & (w.when[l] < 0)

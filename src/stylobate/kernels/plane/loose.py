@@ -190,15 +190,15 @@ def ledger_loose(state, search, gx, gz, dt, out):
     now, hand, shape, corner, _, _, joined, law, memory, real, whole = search
     joint, o = state[JOINT], state[LANE][0]
     elastic = 0.0
-    held = 0.0
+    shear_energy = 0.0
     for j in range(joint.shape[0]):
         if hand[j].live != 0:
-            elastic, held = stored(joint[j], o, 0, hand[j].weight, elastic, held)
+            elastic, shear_energy = stored(joint[j], o, 0, hand[j].weight, elastic, shear_energy)
     start = joint.shape[0] + state[LINK].shape[0]
     pressed, sheared = stored_by_bed(
         state[BODY], state[PAIR], start, now, hand, shape, corner, joined, law, memory, real, whole
     )
-    energies(state, elastic + pressed, held + sheared, gx, gz, dt, 0, out)
+    energies(state, elastic + pressed, shear_energy + sheared, gx, gz, dt, 0, out)
 
 
 @kernel

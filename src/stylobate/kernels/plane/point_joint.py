@@ -130,11 +130,11 @@ def joint_forces(body, joint, load, pair, lane):
 
 
 @law
-def stored(e, o, l, weight, elastic, held):
+def stored(e, o, l, weight, elastic, shear_energy):
     """Adds what the points of a joint of a weight hold by pressure and by shear to two energies [J]."""
     for p in range(e.fs.shape[0]):
         area = e.over[l] * o.sh[p, l]
         if area > 0.0 and e.kn[l] > 0.0:
             elastic += weight * 0.5 * e.fn[p, l] ** 2 / (e.kn[l] * area)
-            held += weight * 0.5 * e.fs[p, l] ** 2 / (e.ks[l] * area)
-    return elastic, held
+            shear_energy += weight * 0.5 * e.fs[p, l] ** 2 / (e.ks[l] * area)
+    return elastic, shear_energy

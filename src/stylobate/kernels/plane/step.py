@@ -55,10 +55,10 @@ def stored(joint, lane, l):
 
     def of_all(joint, lane, l):
         elastic = 0.0
-        held = 0.0
+        shear = 0.0
         for j in range(joint.shape[0]):
-            elastic, held = of_one(joint[j], lane[0], l, 1.0, elastic, held)
-        return elastic, held
+            elastic, shear = of_one(joint[j], lane[0], l, 1.0, elastic, shear)
+        return elastic, shear
 
     return of_all
 
@@ -102,10 +102,10 @@ def look_at(state):
 
 
 @law
-def energies(state, elastic, held, gx, gz, dt, l, out):
+def energies(state, elastic, shear, gx, gz, dt, l, out):
     """Ledger of one lane at t_n, with the forces there and velocities brought to the whole step.  # Eq. (D5)
 
-    Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J]. ``elastic`` and ``held`` are
+    Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J]. ``elastic`` and ``shear`` are
     what contacts but links hold by pressure and by shear; ``dt`` is the step of the lane (its own is 0 once it stands
     still), ``gx`` and ``gz`` the acceleration of the base at t_n.
     """
@@ -114,8 +114,8 @@ def energies(state, elastic, held, gx, gz, dt, l, out):
     out[0] = o.work[l]
     out[1] = kinetic
     out[2] = height
-    out[3] = elastic + held
-    out[4] = o.shear[l] - held
+    out[3] = elastic + shear
+    out[4] = o.shear[l] - shear
     out[5] = o.visc[l]
     add_to_ledger(state[LINK], state[BOND], l, out)
 
@@ -140,8 +140,8 @@ def ledgers(state, base, dt, lanes, out):
     ``base`` is the acceleration of their bases, shape (lanes, 2), ``dt`` of shape (lanes,).
     """
     for k in range(lanes.shape[0]):
-        elastic, held = stored(state[JOINT], state[LANE], lanes[k])
-        energies(state, elastic, held, base[k, 0], base[k, 1], dt[k], lanes[k], out[k])
+        elastic, shear = stored(state[JOINT], state[LANE], lanes[k])
+        energies(state, elastic, shear, base[k, 0], base[k, 1], dt[k], lanes[k], out[k])
 
 
 @kernel

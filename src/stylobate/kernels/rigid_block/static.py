@@ -105,11 +105,11 @@ def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, repo
         else:
             n, e = compression(-nu, psi, r_left, r_right, kn, km)
         trial = memory[i, 0] + ks * (tau - memory[i, 1] + e * (chi - memory[i, 2]))
-        held = shear(trial, n, geometry[i, 12], geometry[i, 13])
+        friction = shear(trial, n, geometry[i, 12], geometry[i, 13])
         # A joint at its limit goes on sliding, as far as the tangent is concerned.
         slides = n <= 0.0 or abs(trial) >= (1.0 - 1.0e-9) * (geometry[i, 12] * n + geometry[i, 13])
-        after[i, 0], after[i, 1], after[i, 2] = held, tau, chi
-        after[i, 3] = slip + (trial - held) / ks
+        after[i, 0], after[i, 1], after[i, 2] = friction, tau, chi
+        after[i, 3] = slip + (trial - friction) / ks
         # -- tangent of the law: dn, dm, de, dT by the six coordinates
         rocks = n > 0.0 and (e <= r_left + narrowing * n or e >= r_right - narrowing * n)
         # On the limit of the moment, dm = arm dn, and the limit bends by 2 narrowing.
@@ -133,27 +133,27 @@ def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, repo
             if nonlinear:
                 d_t[a] += ks * ((chi - memory[i, 2]) * d_e[a] - e * psi * b_phi[a])
             if slides:
-                d_t[a] = soft * d_t[a] + (geometry[i, 12] * d_n[a] if held > 0.0 else -geometry[i, 12] * d_n[a])
+                d_t[a] = soft * d_t[a] + (geometry[i, 12] * d_n[a] if friction > 0.0 else -geometry[i, 12] * d_n[a])
         # -- second derivatives of  n ν + m ψ − T (τ + e χ)  with n, e, T held  # Eq. (B3)
         hessian[:] = 0.0
         if nonlinear:
             nx, nz = -tz, tx
-            hessian[0, 2], hessian[1, 2] = n * tx + held * nx, n * tz + held * nz
+            hessian[0, 2], hessian[1, 2] = n * tx + friction * nx, n * tz + friction * nz
             hessian[3, 2], hessian[4, 2] = -hessian[0, 2], -hessian[1, 2]
-            turn = n * e * psi - held * e * chi
-            hessian[2, 2] = -n * (nx * w_x + nz * w_z) + held * (tx * w_x + tz * w_z) - turn
-            hessian[5, 5] = -n * (nx * rho_x + nz * rho_z) + held * (tx * rho_x + tz * rho_z) - turn
-            hessian[2, 5] = turn - n * (tx * across_x + tz * across_z) - held * (nx * across_x + nz * across_z)
+            turn = n * e * psi - friction * e * chi
+            hessian[2, 2] = -n * (nx * w_x + nz * w_z) + friction * (tx * w_x + tz * w_z) - turn
+            hessian[5, 5] = -n * (nx * rho_x + nz * rho_z) + friction * (tx * rho_x + tz * rho_z) - turn
+            hessian[2, 5] = turn - n * (tx * across_x + tz * across_z) - friction * (nx * across_x + nz * across_z)
             for b in (0, 1, 3, 4):
                 hessian[2, b] = hessian[b, 2]
             hessian[5, 2] = hessian[2, 5]
-        slope = -held * e * psi if nonlinear else 0.0
+        slope = -friction * e * psi if nonlinear else 0.0
         for a in range(6):
             block_a = i - 1 if a < 3 else i
             if block_a < 0:
                 continue
             # Force = ∂/∂q of  −W:  −(n ∂δ − m ∂ψ) − T ∂(τ + e χ)  # Eq. (B2)
-            force[block_a, a % 3] += n * b_nu[a] + n * e * chi * b_phi[a] - held * b_tau[a] - slope * b_phi[a]
+            force[block_a, a % 3] += n * b_nu[a] + n * e * chi * b_phi[a] - friction * b_tau[a] - slope * b_phi[a]
             row = 3 * block_a + a % 3
             for b in range(6):
                 block_b = i - 1 if b < 3 else i
@@ -161,7 +161,7 @@ def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, repo
                     continue
                 change = -d_n[b] * b_nu[a] - d_m[b] * chi * b_phi[a] + d_t[b] * b_tau[a] - hessian[a, b]
                 if nonlinear:
-                    change -= (d_t[b] * e + held * d_e[b]) * psi * b_phi[a]
+                    change -= (d_t[b] * e + friction * d_e[b]) * psi * b_phi[a]
                 stiffness[row, 3 * block_b + b % 3] += change
         # -- what the joint does
         state = ELASTIC
@@ -171,7 +171,7 @@ def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, repo
             state = ROCKING
         elif slides:
             state = SLIDING
-        report[i, 0], report[i, 1], report[i, 2], report[i, 3] = n, e, -held, state
+        report[i, 0], report[i, 1], report[i, 2], report[i, 3] = n, e, -friction, state
         report[i, 4] = max(0.0, max(nu + r_left * psi, nu + r_right * psi))
         report[i, 5] = phi
 

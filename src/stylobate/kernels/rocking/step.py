@@ -161,10 +161,10 @@ def resolve(s, l, a0, a1, a2, g0, g1, g2, rest, c):
     share = 0.0
     for _ in range(100_000):
         if moving == 0.0:
-            at, found = first_uplift(a0, a1, a2, g0, g1, g2, share, s[SIN_A + l], s[COS_A + l])
-            if found == 0.0 or at >= 1.0:
+            at, new_side = first_uplift(a0, a1, a2, g0, g1, g2, share, s[SIN_A + l], s[COS_A + l])
+            if new_side == 0.0 or at >= 1.0:
                 break
-            share, side, moving = at, found, 1.0
+            share, side, moving = at, new_side, 1.0
         # From here to the end of the step, and if the block goes through upright on the way, only to there.
         whole = 1.0 - share
         low, high, part = 0.0, whole, whole

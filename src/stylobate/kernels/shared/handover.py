@@ -10,5 +10,5 @@ OVERLAP_FROM, OVERLAP_TO = 0.05, 0.01
 def handover(c, over, h):
     """Weight of the joint's law: 1 while it acts alone, 0 when the bed does, linear in cosine and overlap between."""
     turned = (c - h.to_c) / (h.from_c - h.to_c)
-    left = (over - OVERLAP_TO * h.width) / ((OVERLAP_FROM - OVERLAP_TO) * h.width)
-    return min(max(min(turned, left), 0.0), 1.0)
+    overlap_share = (over - OVERLAP_TO * h.width) / ((OVERLAP_FROM - OVERLAP_TO) * h.width)
+    return min(max(min(turned, overlap_share), 0.0), 1.0)

@@ -60,7 +60,7 @@ def pulled(k, l, length):
 
 
 @law
-def held(size, gap, yields, stiffness, lift, deepest, reach, whole, out, brittle, crush, far, lost, old):
+def link_force(size, gap, yields, stiffness, lift, deepest, reach, whole, out, brittle, crush, far, lost, old):
     """Resistance of a link to a way of a size from where it is free: force; how far that place and the slack go on; heat;
     whole, out; and the largest force.  # Eq. (K1)
 
@@ -93,7 +93,7 @@ def clamped(k, b, l, length):
     long = length - k.h[l]
     way = long - k.l0[l]
     side = 1.0 if way > 0.0 else -1.0
-    force, on, wider, heat, whole, _, most = held(
+    force, on, wider, heat, whole, _, most = link_force(
         abs(way), k.back[l], b.ya, k.ka[l], 0.0, 1.0, 0.0, k.on[l], 0.0, b.bra, b.cra, abs(long), k.ua[l],
         k.ft[l] * k.ft[l],
     )  # fmt: skip

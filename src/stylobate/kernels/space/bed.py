@@ -284,22 +284,22 @@ def on_line(p, c, a, u, b, v):
 
 
 @long_law
-def returnable(fn, last, gain, before, depth, vn, ease, dt, held):
+def returnable(fn, last, gain, before, depth, vn, ease, dt, reserve):
     """Pressure of a contact [N], which never gives back more work than it has taken.
 
-    ``fn`` is k_n times the volume [N], ``held`` the work that it holds, and ``before`` the work of the last pressure in
+    ``fn`` is k_n times the volume [N], ``reserve`` the work that it holds, and ``before`` the work of the last pressure in
     half a step [J]. What holds too little gives less, and gains, while it closes, ``gain`` [N] at most on the ``last``
     pressure. ``ease`` is the mobility along the normal [1/kg]: the work of the step, with the velocity after it, is no
     more than what is held.
     """  # Eq. (Q4)
     if fn <= 0.0:
         return fn
-    allowed = max(held, 0.0) / (HOLDS * depth)
+    allowed = max(reserve, 0.0) / (HOLDS * depth)
     if vn < 0.0:
         allowed = max(allowed, last + gain)
     else:
-        fn = max(fn, min(MORE * fn, max(held, 0.0) / (LEFT * depth)))
-    most = (math.sqrt(vn * vn + 2.0 * ease * max(held - before, 0.0)) - vn) / max(ease * dt, 1e-300)
+        fn = max(fn, min(MORE * fn, max(reserve, 0.0) / (LEFT * depth)))
+    most = (math.sqrt(vn * vn + 2.0 * ease * max(reserve - before, 0.0)) - vn) / max(ease * dt, 1e-300)
     return min(fn, allowed, most)
 
 

@@ -150,7 +150,7 @@ def add_arc(sums, at, c, e, t, radius, flat, depth, slope, side, x, y, psi, cos_
 def arcs_within(x, y, radius, corners, count, arcs):
     """Arcs of a circle that are over a convex polygon: where they begin and end [rad]; returns their number."""
     arcs[0, 0], arcs[0, 1] = -math.pi, math.pi
-    some = 1
+    arc_count = 1
     whole = True
     for k in range(count):
         m = k + 1 if k + 1 < count else 0
@@ -171,28 +171,28 @@ def arcs_within(x, y, radius, corners, count, arcs):
         for turn in range(-2, 3):
             low = middle - half + 2.0 * math.pi * turn
             high = middle + half + 2.0 * math.pi * turn
-            for i in range(some):
+            for i in range(arc_count):
                 a, b = arcs[i, 0], arcs[i, 1]
                 if low >= b or high <= a:
                     continue
                 if low > a and high < b:
                     arcs[i, 1] = low
-                    arcs[some, 0], arcs[some, 1] = high, b
-                    some += 1
+                    arcs[arc_count, 0], arcs[arc_count, 1] = high, b
+                    arc_count += 1
                 elif low > a:
                     arcs[i, 1] = low
                 elif high < b:
                     arcs[i, 0] = high
                 else:
                     arcs[i, 1] = a
-    return some
+    return arc_count
 
 
 @kernel
 def add_circle(sums, at, c, e, t, radius, flat, depth, slope, side, corners, count, arcs):
     """Add the arcs of a disc that are over a convex polygon."""
-    some = arcs_within(c[0], c[1], flat, corners, count, arcs)
-    for i in range(some):
+    arc_count = arcs_within(c[0], c[1], flat, corners, count, arcs)
+    for i in range(arc_count):
         a, b = arcs[i, 0], arcs[i, 1]
         if b > a:
             psi, mid = 0.5 * (b - a), 0.5 * (a + b)

@@ -95,16 +95,16 @@ def add_piece(s, at, l, live, px, py, pz, qx, qy, qz, d, e):
     own, others, other = (1.0 - s.shared[l]) * size, s.shared[l] * size, LOWER - at
     s.sums[at + PRESS, l] += 0.5 * own * both
     s.sums[other + PRESS, l] += 0.5 * others * both
-    one, two, each, rest = first + both, last + both, own * (1.0 / 6.0), others * (1.0 / 6.0)
-    x, y, z = one * px + two * qx, one * py + two * qy, one * pz + two * qz
+    weight_p, weight_q, each, rest = first + both, last + both, own * (1.0 / 6.0), others * (1.0 / 6.0)
+    x, y, z = weight_p * px + weight_q * qx, weight_p * py + weight_q * qy, weight_p * pz + weight_q * qz
     s.sums[at + FIRST, l] += each * x
     s.sums[at + FIRST + 1, l] += each * y
     s.sums[at + FIRST + 2, l] += each * z
     s.sums[other + FIRST, l] += rest * x
     s.sums[other + FIRST + 1, l] += rest * y
     s.sums[other + FIRST + 2, l] += rest * z
-    square = (one + first) * (px * px + py * py + pz * pz) + 2.0 * both * (px * qx + py * qy + pz * qz)
-    square += (two + last) * (qx * qx + qy * qy + qz * qz)
+    square = (weight_p + first) * (px * px + py * py + pz * pz) + 2.0 * both * (px * qx + py * qy + pz * qz)
+    square += (weight_q + last) * (qx * qx + qy * qy + qz * qz)
     s.sums[at + SECOND, l] += size * square * (1.0 / 12.0)
     s.sums[at + SQUARE, l] += size * (first * first + first * last + last * last) * (1.0 / 3.0)
     reach = share * flat
@@ -333,11 +333,11 @@ def cut_by_disc(s, p, q):
         x, y = px + b * wx, py + b * wy
         s.arc[CIRCLES, l] += (passes(px, py, ex, ey) if enter else 0.0) + (passes(x, y, qx, qy) if leave else 0.0)
         s.arc[CIRCLES, l] += 0.0 if hit else passes(px, py, qx, qy)
-        one, two = 1.0 if enter else 0.0, -1.0 if leave else 0.0
-        s.arc[ENDS_X, l] += one * ex + two * x
-        s.arc[ENDS_Y, l] += one * ey + two * y
-        add_end(s, l, one, ex if enter else 1.0, ey if enter else 0.0)
-        add_end(s, l, two, x if leave else 1.0, y if leave else 0.0)
+        enter_sign, leave_sign = 1.0 if enter else 0.0, -1.0 if leave else 0.0
+        s.arc[ENDS_X, l] += enter_sign * ex + leave_sign * x
+        s.arc[ENDS_Y, l] += enter_sign * ey + leave_sign * y
+        add_end(s, l, enter_sign, ex if enter else 1.0, ey if enter else 0.0)
+        add_end(s, l, leave_sign, x if leave else 1.0, y if leave else 0.0)
 
 
 @apart

@@ -36,8 +36,8 @@ def types() -> dict[str, np.dtype]:
 
     def counts(names: str) -> list[tuple]:
         """Numbers of all lanes, filled up to a line of the cache: rows of lanes begin where one begins."""
-        some = names.split()
-        return [(name, np.uint64) for name in some] + [("filling", np.uint64, (8 - len(some),))]
+        field_names = names.split()
+        return [(name, np.uint64) for name in field_names] + [("filling", np.uint64, (8 - len(field_names),))]
 
     axes = " ".join(f"{axis}{c}" for axis in "ijk" for c in "xyz")
     return {

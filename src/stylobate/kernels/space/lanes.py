@@ -188,10 +188,10 @@ def energies(state, which, out):
     for l in range(o.dt.shape[0]):
         if not which[l]:
             continue
-        elastic = held = kinetic = height = 0.0
+        elastic = spring_energy = kinetic = height = 0.0
         for q in range(joint.shape[0]):
             elastic += joint[q].en[l]
-            held += held_by(joint[q], l)
+            spring_energy += held_by(joint[q], l)
         half = 0.5 * o.last[l]
         g = o.g[0, l], o.g[1, l], o.g[2, l]
         push = along(base_now(feed[0], l), 1.0, g)
@@ -204,7 +204,7 @@ def energies(state, which, out):
             kinetic += 0.5 * (u.m[l] * dot(v, v) + twice_kinetic(u, l, k[0], k[1], k[2]))
             height += u.m[l] * dot(g, (u.x[l], u.y[l], u.z[l]))
         out[0, l], out[1, l], out[2, l] = o.work[l], kinetic, height
-        out[3, l], out[4, l], out[5, l] = elastic + held, o.shear[l] - held, o.visc[l]
+        out[3, l], out[4, l], out[5, l] = elastic + spring_energy, o.shear[l] - spring_energy, o.visc[l]
 
 
 @kernel

@@ -67,8 +67,8 @@ def check(body, now):
     for i in range(body.shape[0]):
         u = body[i]
         straighten(u, 0)
-        some = u.x[0] + u.y[0] + u.z[0] + u.vx[0] + u.vy[0] + u.vz[0] + u.ix[0] + u.kx[0] + u.lx[0] + u.ly[0] + u.lz[0]
-        if not math.isfinite(some):
+        total = u.x[0] + u.y[0] + u.z[0] + u.vx[0] + u.vy[0] + u.vz[0] + u.ix[0] + u.kx[0] + u.lx[0] + u.ly[0] + u.lz[0]
+        if not math.isfinite(total):
             now.status = FAILED
 
 

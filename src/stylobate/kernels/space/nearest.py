@@ -68,21 +68,25 @@ def on_simplex(w, count):
     bits = 15
     for k in range(4):
         if k == 0:
-            p, q, r, s, one, two, four = a, b, c, d, 1, 2, 4
+            p, q, r, s, first_bit, second_bit, third_bit = a, b, c, d, 1, 2, 4
         elif k == 1:
-            p, q, r, s, one, two, four = a, b, d, c, 1, 2, 8
+            p, q, r, s, first_bit, second_bit, third_bit = a, b, d, c, 1, 2, 8
         elif k == 2:
-            p, q, r, s, one, two, four = a, c, d, b, 1, 4, 8
+            p, q, r, s, first_bit, second_bit, third_bit = a, c, d, b, 1, 4, 8
         else:
-            p, q, r, s, one, two, four = b, c, d, a, 2, 4, 8
+            p, q, r, s, first_bit, second_bit, third_bit = b, c, d, a, 2, 4, 8
         n = cross(minus(q, p), minus(r, p))
         if -dot(n, p) * dot(n, minus(s, p)) <= 0.0:
-            at, some = on_triangle(p, q, r)
+            at, face_bits = on_triangle(p, q, r)
             size = dot(at, at)
             if size < least:
                 least = size
                 best = at
-                bits = (one if some & 1 else 0) + (two if some & 2 else 0) + (four if some & 4 else 0)
+                bits = (
+                    (first_bit if face_bits & 1 else 0)
+                    + (second_bit if face_bits & 2 else 0)
+                    + (third_bit if face_bits & 4 else 0)
+                )
     return best, bits
 
 

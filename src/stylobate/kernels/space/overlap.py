@@ -113,7 +113,7 @@ def look_inside(deep, s, u, polygon, count):
 
 
 @kernel
-def reaching(s, loop, corner, heights, faces, level, above, found):
+def reaching(s, loop, corner, heights, faces, level, above, numbers):
     """Numbers of the faces of a shape of which a corner is above (or below) a level; returns how many."""
     count = 0
     for f in range(faces):
@@ -121,36 +121,38 @@ def reaching(s, loop, corner, heights, faces, level, above, found):
         for k in range(l.first, l.first + l.count):
             h = heights[corner[k]]
             if (h > level) if above else (h < level):
-                found[count] = f
+                numbers[count] = f
                 count += 1
                 break
     return count
 
 
 @kernel
-def add_surface(total, n, s, t, v, loop, corner, points, mine, some, planes, others, many, one, two, of_a, begun):
+def add_surface(
+    total, n, s, t, v, loop, corner, points, mine, mine_count, planes, others, others_count, polygon, spare, of_a, begun
+):
     """Add what of a shape's surface is inside the other shape t of body v; returns whether there is something by now."""
-    for i in range(some):
+    for i in range(mine_count):
         l = loop[s.face + mine[i]]
         count = l.count
         for k in range(count):
-            put(one[k], of(points[corner[l.first + k]]))
-        for e in range(many):
+            put(polygon[k], of(points[corner[l.first + k]]))
+        for e in range(others_count):
             plane = planes[others[e]]
-            side = crosses(one, count, plane)
+            side = crosses(polygon, count, plane)
             if side < 0:
                 count = 0
                 break
             if side == 0:
-                count = cut(one, count, plane, two)
-                one, two = two, one
+                count = cut(polygon, count, plane, spare)
+                polygon, spare = spare, polygon
         if count > 2:
-            add_face(total, one, count, n, of_a, begun)
+            add_face(total, polygon, count, n, of_a, begun)
             begun = True
             total[INNER] += l.inner
             if t.kind == DRUM:
                 at = DEEP_B if of_a else DEEP_A
-                look_inside(total[at : at + 4], t, v, one, count)
+                look_inside(total[at : at + 4], t, v, polygon, count)
     return begun
 
 
@@ -160,12 +162,12 @@ def overlap(a, u, b, v, na, nb, nx, ny, nz, loop, corner, top, low, work):
 
     ``top`` and ``low`` are how far a reaches, and from where b does, along n: top > low.
     """
-    va, pa, ha, vb, pb, hb, one, two, fa, fb, total = work
+    va, pa, ha, vb, pb, hb, polygon, spare, fa, fb, total = work
     n = nx, ny, nz
     for k in range(total.shape[0]):
         total[k] = 0.0
     total[DEEP_A] = total[DEEP_B] = -math.inf
-    some = reaching(a, loop, corner, ha, na, low, True, fa)
-    many = reaching(b, loop, corner, hb, nb, top, False, fb)
-    begun = add_surface(total, n, a, b, v, loop, corner, va, fa, some, pb, fb, many, one, two, True, False)
-    return add_surface(total, n, b, a, u, loop, corner, vb, fb, many, pa, fa, some, one, two, False, begun)
+    count_a = reaching(a, loop, corner, ha, na, low, True, fa)
+    count_b = reaching(b, loop, corner, hb, nb, top, False, fb)
+    begun = add_surface(total, n, a, b, v, loop, corner, va, fa, count_a, pb, fb, count_b, polygon, spare, True, False)
+    return add_surface(total, n, b, a, u, loop, corner, vb, fb, count_b, pa, fa, count_a, polygon, spare, False, begun)

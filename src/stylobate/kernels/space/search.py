@@ -36,8 +36,8 @@ def gap(s, u, t, v):
 @long_law
 def before(p, a, b):
     """Whether a pair comes before that of two shapes."""
-    one, two = min(p.a, p.b), max(p.a, p.b)
-    return one < a or (one == a and two < b)
+    low, high = min(p.a, p.b), max(p.a, p.b)
+    return low < a or (low == a and high < b)
 
 
 @long_law

@@ -38,7 +38,7 @@ def forces(state):
             body[i].f[c] = body[i].mo[c] = 0.0
     now.rate = 0.0
     total = work[10]
-    some = 0
+    contacts = 0
     up, arcs, sums = places
     for j in range(joint.shape[0]):
         e = joint[j]
@@ -56,7 +56,7 @@ def forces(state):
         wide = 2.0 * min(u.r, v.r)
         if share > 0.0 and touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
             p.share = share
-            some += 1
+            contacts += 1
             for m in range(total.shape[0]):
                 p.total[m] = total[m]
             alone(p)
@@ -69,10 +69,10 @@ def forces(state):
                 forget(p)
             stiffness = share * law[a.body, b.body, 0]
             foresee(p, a, u, b, v, vertex, plane, loop, corner, wide, stiffness, now, work)
-    for k in range(now.pairs if some > 1 else 0):
+    for k in range(now.pairs if contacts > 1 else 0):
         if pair[k].share > 0.0 and pair[k].total[INNER] > 0.0:
             gather(pair, now.pairs, shape, pair[k])
-    for k in range(now.pairs if some > 0 else 0):
+    for k in range(now.pairs if contacts > 0 else 0):
         p = pair[k]
         if p.share > 0.0:
             a, b = shape[p.a], shape[p.b]
@@ -141,18 +141,18 @@ def ledger(state, a, out):
     body, _, _, _, _, _, pair, _, joint, _, _, now_, _, _, _, _, _, ties = state
     now = now_[0]
     elastic = 0.0
-    held = 0.0
+    spring_energy = 0.0
     for j in range(joint.shape[0]):
         elastic += joint[j].en
-        held += held_by(joint[j])
+        spring_energy += held_by(joint[j])
     for k in range(now.pairs):
         elastic += pair[k].en
-        held += held_by(pair[k])
+        spring_energy += held_by(pair[k])
     kinetic, height = kinetic_and_gravitational(body, now, (a[0], a[1], a[2]))
     out[0] = now.work
     out[1] = kinetic
     out[2] = height
-    out[3] = elastic + held
-    out[4] = now.shear - held
+    out[3] = elastic + spring_energy
+    out[4] = now.shear - spring_energy
     out[5] = now.visc
     add_to_ledger(ties[0], ties[1], 0, out)

@@ -156,8 +156,8 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
     xi, share = contact_points(column.section, model.points)
     drums, shear = body_fields(column, column.joint_weights / (kn * area)), np.zeros((column.n, model.points))
     if column.as_found or column.pretensioned:
-        found, shear = found_start(column, kn * area / width, xi, share)
-        drums |= found
+        start_fields, shear = found_start(column, kn * area / width, xi, share)
+        drums |= start_fields
     if model.start == "settle":
         state, shear = _settled(column, model)
         drums |= state

@@ -93,18 +93,18 @@ class Stack:
 
         walks, of_lanes = not self.planar, (records.body, records.joint, records.lane)
         stays = np.zeros(len(lanes), dtype=bool)
-        built = np.array([not one.as_found for one in structures])
+        built = np.array([not structure.as_found for structure in structures])
         if built.any():
             stand, gravity = zip(
                 *((packed[k].stand, structures[k].gravity) for k in np.flatnonzero(built).tolist()), strict=True
             )
-            stand = np.array([one.view(float) for one in stand]).view(
+            stand = np.array([array.view(float) for array in stand]).view(
                 stand[0].dtype
             )  # numpy stacks records field by field
             numbers = stand, slip[built], energy[built], np.array(gravity)
-            found = np.zeros(len(stand), dtype=bool)
-            all_stand(*numbers, walks, *of_lanes, lanes[built], found)
-            stays[built] = found
+            verdicts = np.zeros(len(stand), dtype=bool)
+            all_stand(*numbers, walks, *of_lanes, lanes[built], verdicts)
+            stays[built] = verdicts
         for k in np.flatnonzero(~built).tolist():
             stays[k] = self._stays_as_found(
                 packed[k], structures[k], float(energy[k]), slip[k], *of_lanes, int(lanes[k])
@@ -120,8 +120,8 @@ class Stack:
         drums = structure.as_found.drums
         if self.pivots and structure.section == "circular" and any(d.offset or d.tilt or d.chipped for d in drums):
             return False
-        found, up, high = found_numbers(structure)
-        numbers = found, packed.stand, slip, energy, high, up, structure.gravity, not self.planar
+        found_drums, up, high = found_numbers(structure)
+        numbers = found_drums, packed.stand, slip, energy, high, up, structure.gravity, not self.planar
         return bool(stands_as_found(*numbers, *of_lane))
 
     def lost(self, collapse: Collapse, structure: Column) -> str:
@@ -181,8 +181,8 @@ class SpaceBlock(LaneRuns):
 
     def stand(self, lane: int) -> None:
         """Note how a column stands in a lane."""
-        for kept, one in zip(self.placed, (self.records.places(lane), self.records.axes(lane)), strict=True):
-            kept[lane] = one
+        for kept, current in zip(self.placed, (self.records.places(lane), self.records.axes(lane)), strict=True):
+            kept[lane] = current
 
     def shake(self, lane: int, motion: Motion) -> None:
         """Note how the base of a lane moves."""
@@ -219,10 +219,10 @@ class SpaceBlock(LaneRuns):
     def turn_with_momentum(self, lane: int) -> None:
         """Angular velocities that go with the angular momenta."""
         body = self.records.body
-        one = {name: body[name][1:, lane, None] for name in ("ia", "ib", "ic")}
+        inertia_terms = {name: body[name][1:, lane, None] for name in ("ia", "ib", "ic")}
         momentum, i, k = (self.records.vectors(lane, f"{a}x {a}y {a}z") for a in "lik")
         about_i, about_k = ((momentum * axis).sum(axis=1, keepdims=True) * axis for axis in (i, k))
-        turning = one["ia"] * momentum + one["ib"] * about_i + one["ic"] * about_k
+        turning = inertia_terms["ia"] * momentum + inertia_terms["ib"] * about_i + inertia_terms["ic"] * about_k
         for c, name in enumerate("xyz"):
             body["w" + name][1:, lane] = turning[:, c]
 
@@ -273,13 +273,13 @@ class SpaceBlock(LaneRuns):
         """What the runs of some lanes leave behind."""
         which, records = np.array(lanes, dtype=np.int64), self.records
         _, slip, twist = records.joints(which)
-        place, axes = (one[which] for one in self.placed)
+        place, axes = (array[which] for array in self.placed)
         up = turned_up(records.axes(which), axes)
         residuals = Residuals.all_in_space(slip, twist, records.places(which) - place, up)
         topx, topy, lean, turn, spin = (
             self.peaks(lanes, name).tolist() for name in ("topx", "topy", "lean", "turn", "spin")
         )
-        lean, tilt = ([math.acos(max(-1.0, 1.0 - one)) for one in peaks] for peaks in (lean, turn))
+        lean, tilt = ([math.acos(max(-1.0, 1.0 - peak)) for peak in peaks] for peaks in (lean, turn))
         space = [SpaceMeasures(*row) for row in zip(topx, topy, tilt, spin, strict=True)]
         top = np.hypot(*self.top(which).T)
         return FinalStates(residuals, np.hypot(*np.moveaxis(slip, -1, 0)), slip, top, np.array(lean), space)

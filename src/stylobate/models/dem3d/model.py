@@ -333,8 +333,10 @@ def _pack(column: Column, model: DistinctElement3D) -> Packed:
     engine = engine_for(model, column)
     kind = engine.kind
     if column.as_found or column.pretensioned:
-        found, friction = found_start(column, kernel(), kind.record_types(linked=False), (drums, joints, lane), closure)
-        drums, joints = drums | found, joints | friction
+        start_fields, friction = found_start(
+            column, kernel(), kind.record_types(linked=False), (drums, joints, lane), closure
+        )
+        drums, joints = drums | start_fields, joints | friction
     links, top = link_fields(column, drums), Stack(planar=model.planar).top
     numbers = pack_column(engine.records(kind), column, (drums, joints, lane), links, top)
     law = model.law if column.section == "circular" else "corners"

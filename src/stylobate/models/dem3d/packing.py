@@ -77,8 +77,8 @@ class Records(LaneRecords):
         size = np.size(lane), len(self.body) - 1
         opening, slip, twist = np.empty(size), np.empty((*size, 2)), np.empty(size)
         self.kernel.joint_states(self.state, np.atleast_1d(lane), opening, slip, twist)
-        one: Any = ... if np.ndim(lane) else 0
-        return opening[one], slip[one], twist[one]
+        selection: Any = ... if np.ndim(lane) else 0
+        return opening[selection], slip[selection], twist[selection]
 
     def places(self, lane: int | np.ndarray) -> np.ndarray:
         """Centroids of all bodies [m], shape (…, n, 3)."""
@@ -86,20 +86,20 @@ class Records(LaneRecords):
 
     def axes(self, lane: int | np.ndarray) -> np.ndarray:
         """Axes of every body as the columns of a matrix [-], shape (…, n, 3, 3)."""
-        found = np.empty((*np.shape(lane), len(self.body) - 1, 3, 3))
+        matrices = np.empty((*np.shape(lane), len(self.body) - 1, 3, 3))
         for axis, a in enumerate("ijk"):
-            self._put(found[..., axis], lane, (f"{a}x", f"{a}y", f"{a}z"))
-        return found
+            self._put(matrices[..., axis], lane, (f"{a}x", f"{a}y", f"{a}z"))
+        return matrices
 
     def vectors(self, lane: int | np.ndarray, names: str) -> np.ndarray:
         """Vectors of all bodies but the base, by the names of their fields, shape (…, n, 3)."""
-        found = np.empty((*np.shape(lane), len(self.body) - 1, 3))
-        self._put(found, lane, names.split())
-        return found
+        values = np.empty((*np.shape(lane), len(self.body) - 1, 3))
+        self._put(values, lane, names.split())
+        return values
 
-    def _put(self, found: np.ndarray, lane: int | np.ndarray, names: Sequence[str]) -> None:
+    def _put(self, target: np.ndarray, lane: int | np.ndarray, names: Sequence[str]) -> None:
         for c, name in enumerate(names):
-            found[..., c] = self.body[name][1:, lane].T
+            target[..., c] = self.body[name][1:, lane].T
 
     def acceleration(self, lane: int) -> float:
         """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
@@ -237,7 +237,7 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
     n, plane = column.n + 1, body_fields(column, closure)
     centroid = np.array([drum.centroid_height for drum in column.drums])
     axial = np.array([drum.axial_inertia for drum in column.drums])
-    zero, one = np.zeros(n), np.ones(n)
+    zeros, ones = np.zeros(n), np.ones(n)
 
     def on_base(values: Any, base: float = 0.0) -> np.ndarray:
         return np.concatenate(([base], values))
@@ -247,19 +247,19 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
         name: [0.5 * getattr(drum, name) for drum in column.drums]
         for name in ("bottom_width", "top_width", "depth", "upper_depth")
     }
-    axes = {axis + c: one if "ijk".index(axis) == "xyz".index(c) else zero for axis in "ijk" for c in "xyz"}
+    axes = {axis + c: ones if "ijk".index(axis) == "xyz".index(c) else zeros for axis in "ijk" for c in "xyz"}
     return (
         axes
         | {name: plane[name] for name in ("x", "z", "m", "im")}
         | {
-            "y": zero,
+            "y": zeros,
             "ia": plane["ii"],
             "ic": on_base(1.0 / axial - 1.0 / column.inertias),
             "ib": on_base(np.where(cross == column.inertias, 0.0, 1.0 / cross - 1.0 / column.inertias)),
-            "fx": zero,
-            "fy": zero,
+            "fx": zeros,
+            "fy": zeros,
             "fz": on_base(-centroid),
-            "nz": one,
+            "nz": ones,
             "ht": on_base(column.heights - centroid),
             "tx": on_base(half["top_width"], BASE_RADIUS),
             "ty": on_base(half["upper_depth"], BASE_RADIUS),
@@ -302,9 +302,9 @@ def chipped(column: Column) -> bool:
 
 def chip_directions(column: Column) -> np.ndarray:
     """Towards the chip of every drum's lower face, in the axes of the drum [-], shape (n, 3)."""
-    found = [column.as_found.of(i + 1) for i in range(column.n)]
-    azimuth = np.radians([one.chip_azimuth for one in found])
-    away = [-1.0 if one.chip_left else 1.0 for one in found]
+    found_drums = [column.as_found.of(i + 1) for i in range(column.n)]
+    azimuth = np.radians([drum.chip_azimuth for drum in found_drums])
+    away = [-1.0 if drum.chip_left else 1.0 for drum in found_drums]
     flat = np.stack((away * np.cos(azimuth), away * np.sin(azimuth)), axis=1)
     return np.einsum("nca,na->nc", space_geometry(column).bed[:, :, :2], flat)
 
@@ -365,13 +365,15 @@ def link_fields(column: Column, drum: dict[str, np.ndarray]) -> dict[str, np.nda
         low, up = link.lower, link.upper
         if link.straight:
             ends[:, m] = link.arms
-            one, other = (centroids[body] + axes[body] @ end for body, end in ((low, ends[0, m]), (up, ends[1, m])))
-            line[m] = math.dist(one, other)
+            lower_end, upper_end = (
+                centroids[body] + axes[body] @ end for body, end in ((low, ends[0, m]), (up, ends[1, m]))
+            )
+            line[m] = math.dist(lower_end, upper_end)
             continue
         ends[1, m] = foot[up] + beds[up - 1] @ (*link.high[:2], 0.0)
         joint[m] = axes[low].T @ (centroids[up] + axes[up] @ ends[1, m] - centroids[low]) - (0.0, 0.0, drum["ht"][low])
     laws = law_fields(links)
-    pretension = np.array([one.pretension for one in links])
+    pretension = np.array([link.pretension for link in links])
     start = np.where(laws["line"] > 0, line, joint[:, 2])
     stretch = np.where(laws["ka"] > 0.0, pretension / np.where(laws["ka"] > 0.0, laws["ka"], 1.0), 0.0)
     own = {
@@ -385,7 +387,7 @@ def link_fields(column: Column, drum: dict[str, np.ndarray]) -> dict[str, np.nda
         "px": joint[:, 0],
         "py": joint[:, 1],
         "when": np.full(len(links), -1),
-        "whole": np.array([hold_of(column, one) for one in links]),
+        "whole": np.array([hold_of(column, link) for link in links]),
     }
     return own | {f"{end}{c}": ends[e][:, i] for e, end in enumerate("ab") for i, c in enumerate("xyz")}
 
@@ -498,10 +500,10 @@ DIFFERENCES = 0.1, 1e-4
 PROBE = 1e30
 
 
-def face_corners(drum: Drum, found: FoundDrum) -> np.ndarray:
+def face_corners(drum: Drum, as_found: FoundDrum) -> np.ndarray:
     """Corners of a rectangular drum's lower face, less its chips, from the middle of the whole face [m], shape (4, 2)."""
     corners = CORNERS * (0.5 * drum.bottom_width, 0.5 * drum.depth)
-    left, right, front, back = found.chips
+    left, right, front, back = as_found.chips
     return corners - np.where(CORNERS > 0.0, (right, back), (-left, -front))
 
 
@@ -551,30 +553,30 @@ def found_start(
     unknowns = _Unknowns.closed(closure)
     scale = closure[:, None] / np.stack((np.ones(column.n), half, half), axis=1)
     friction = _Friction.of_statics(column)
-    found: tuple[dict[str, np.ndarray], dict[str, np.ndarray]] | None = None
-    left = np.inf
+    start_fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray]] | None = None
+    residual = np.inf
     for count in range(ROUNDS):
         step = DIFFERENCES[count > 0] * scale
         poses = [space_geometry(column, unknowns.now + step * (np.arange(3) == c - 1)) for c in range(4)]
-        held, stored = contact.ask(poses, friction)
+        forces, stored = contact.ask(poses, friction)
         loads = [space_load(column, poses[0], j) for j in range(column.n)]
-        missing, size, slid, twisting = contact.unbalanced(held[0], loads)
+        missing, size, slid, twisting = contact.unbalanced(forces[0], loads)
         pressing = np.array([load.normal for load in loads])
-        worst = max(float((np.abs(one).T / pressing).max()) for one in (slid, twisting / half))
+        worst = max(float((np.abs(excess).T / pressing).max()) for excess in (slid, twisting / half))
         worst = max(worst, float(size.max()))
-        if worst > 0.5 * left:  # no better than rounding lets it be
+        if worst > 0.5 * residual:  # no better than rounding lets it be
             break
         if worst < ALLOWED:
             places = {name: contact.drum[name][..., 0].copy() for name in found_fields(column, poses[0])}
-            found, left = (places, {"s": stored, "t": friction.turning.copy()}), worst
+            start_fields, residual = (places, {"s": stored, "t": friction.turning.copy()}), worst
         friction.take(size < NEAR, slid, twisting)
-        unknowns.go_on(size, missing, held, step, halved=count >= WHOLE)
-    if found is None:
+        unknowns.go_on(size, missing, forces, step, halved=count >= WHOLE)
+    if start_fields is None:
         raise InputError(
             f"joint {int(np.argmax(unknowns.rest)) + 1} of {column.name!r} as found carries its load at the very edge; "
             "make its offset or tilt, or base_tilt, smaller."
         )
-    return found
+    return start_fields
 
 
 @dataclass
@@ -616,7 +618,7 @@ class _Unknowns:
         return cls(now, now.copy(), np.zeros_like(now), np.full(len(now), np.inf), np.ones(len(now)))
 
     def go_on(
-        self, size: np.ndarray, missing: np.ndarray, held: np.ndarray, step: np.ndarray, *, halved: bool = False
+        self, size: np.ndarray, missing: np.ndarray, forces: np.ndarray, step: np.ndarray, *, halved: bool = False
     ) -> None:
         """Newton's step of every joint that has come nearer; half of the last one from its best place for the others.
 
@@ -625,7 +627,7 @@ class _Unknowns:
         """
         for j in range(len(self.now)):
             if size[j] <= self.rest[j] or size[j] < NEAR:
-                slopes = (held[1:, j, :3] - held[0, j, :3]).T / step[j]
+                slopes = (forces[1:, j, :3] - forces[0, j, :3]).T / step[j]
                 self.share[j] = 0.5 if halved and size[j] < NEAR else 1.0
                 self.rest[j], self.best[j] = size[j], self.now[j]
                 self.moves[j] = -np.linalg.lstsq(slopes, missing[j], rcond=None)[0]
@@ -670,20 +672,20 @@ class _Contact:
             memory["s"][:, 3 * p, 4 + p] = PROBE
         load = self.records.load
         self.records.kernel.forces(state)
-        held = np.empty((len(poses), n, 6))
+        forces = np.empty((len(poses), n, 6))
         for k, pose in enumerate(poses):
             force = load["f"][:n, :, k]
             moment = load["up"][:n, :, k] + np.cross(pose.centroid - pose.origin, force)
-            force, moment = (np.einsum("nba,nb->na", pose.frame, one) for one in (force, moment))
-            held[k] = np.column_stack((force[:, 2], moment, force[:, :2]))
+            force, moment = (np.einsum("nba,nb->na", pose.frame, vectors) for vectors in (force, moment))
+            forces[k] = np.column_stack((force[:, 2], moment, force[:, :2]))
         if self.cornered:
             each = np.einsum("nb,nbp->np", lower[:n, :, 0], load["f"][:n, :, 4 : 4 + len(CORNERS)])
             each = np.maximum(each, 0.0)
             friction.bears = each / np.maximum(each.sum(axis=1, keepdims=True), 1e-300)
-        return held, stored
+        return forces, stored
 
     def unbalanced(
-        self, held: np.ndarray, loads: list[SpaceLoad]
+        self, forces: np.ndarray, loads: list[SpaceLoad]
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Normal force and moments that a joint holds too much, shape (n, 3), their size over the load and its lever; shear
         [N], shape (n, 2), and torsion moment [N m] too much."""
@@ -691,12 +693,12 @@ class _Contact:
         weights = np.array(
             [(-load.normal, -load.place[1] * load.normal, load.place[0] * load.normal) for load in loads]
         )
-        missing = held[:, :3] + weights
+        missing = forces[:, :3] + weights
         levers = np.stack((np.ones(len(loads)), self.half, self.half), axis=1)
         size = np.linalg.norm(missing / (pressing[:, None] * levers), axis=1)
         about = [load.place[0] * load.shear[1] - load.place[1] * load.shear[0] for load in loads]
-        slid = held[:, 4:] + np.array([load.shear for load in loads])
-        return missing, size, slid, (held[:, 3] + about) * self.pivots
+        slid = forces[:, 4:] + np.array([load.shear for load in loads])
+        return missing, size, slid, (forces[:, 3] + about) * self.pivots
 
 
 @lru_cache(maxsize=4096)
@@ -706,22 +708,27 @@ def found_numbers(column: Column) -> tuple[np.ndarray, np.ndarray, float]:
     from ...kernels.dem3d.standing import FOUND_DRUM_TYPE
 
     at, up, drums = space_geometry(column), upward(column), column.drums
-    one: Any = np.zeros(column.n, FOUND_DRUM_TYPE)
-    one["lean"] = at.bed.transpose(0, 2, 1)
+    numbers: Any = np.zeros(column.n, FOUND_DRUM_TYPE)
+    numbers["lean"] = at.bed.transpose(0, 2, 1)
     below = np.concatenate(([0.0], at.turned[:-1]))  # offsets as found are in axes that do not turn with the drums
     c, s = np.cos(below), np.sin(below)
-    one["x"], one["y"] = c * at.offset[:, 0] + s * at.offset[:, 1], c * at.offset[:, 1] - s * at.offset[:, 0]
-    one["low"], one["high"] = np.transpose([(drum.centroid_height, drum.height) for drum in drums])
+    numbers["x"], numbers["y"] = c * at.offset[:, 0] + s * at.offset[:, 1], c * at.offset[:, 1] - s * at.offset[:, 0]
+    numbers["low"], numbers["high"] = np.transpose([(drum.centroid_height, drum.height) for drum in drums])
     half, deep = (np.array([0.5 * getattr(drum, name) for drum in drums]) for name in ("bottom_width", "depth"))
     left, right, front, back = np.transpose([column.as_found.of(i + 1).chips for i in range(column.n)])
     if column.section == "circular":
         cut = left + right > 0.0
-        one["left"], one["right"] = (np.where(cut, half - chip, math.inf) for chip in (left, right))
-        one["front"] = one["back"] = math.inf
+        numbers["left"], numbers["right"] = (np.where(cut, half - chip, math.inf) for chip in (left, right))
+        numbers["front"] = numbers["back"] = math.inf
     else:
-        one["left"], one["right"], one["front"], one["back"] = half - left, half - right, deep - front, deep - back
-    one["towards"] = [column.as_found.of(i + 1).chip_azimuth * DEGREE for i in range(column.n)]
-    return one, up, float(column.masses @ at.centroid @ up)
+        numbers["left"], numbers["right"], numbers["front"], numbers["back"] = (
+            half - left,
+            half - right,
+            deep - front,
+            deep - back,
+        )
+    numbers["towards"] = [column.as_found.of(i + 1).chip_azimuth * DEGREE for i in range(column.n)]
+    return numbers, up, float(column.masses @ at.centroid @ up)
 
 
 def numbers_for(column: Column, toes: np.ndarray) -> np.ndarray:

@@ -87,15 +87,15 @@ def lying(
         step *= min(
             1.0, LARGEST / max(float(np.hypot(step[1], step[2])), 1e-300), LARGEST * size / max(abs(step[0]), 1e-300)
         )
-        there, found = turn, (energy, slope, curvature)
+        there, trial = turn, (energy, slope, curvature)
         for _ in range(40):
             there = turned(turn, step)
-            found = potential(vertices, there, height + float(step[0]), spring, weight)
-            if found[0] <= energy:
+            trial = potential(vertices, there, height + float(step[0]), spring, weight)
+            if trial[0] <= energy:
                 break
             step = 0.5 * step
         turn, height = there, height + float(step[0])
-        energy, slope, curvature = found
+        energy, slope, curvature = trial
         if np.abs(slope * scale).max() < RESIDUAL_FORCE * weight:
             break
     return turn, height
@@ -237,9 +237,9 @@ def _settle(records: Records, turn: np.ndarray, specimen: Specimen) -> None:
     arms = (specimen.vertices @ specimen.resting.rotation.T)[specimen.resting.footprint]
     rows = np.stack((np.ones(len(arms)), arms[:, 1], -arms[:, 0]), axis=1)  # rise of a vertex per z, θx, θy
     _turn(records, 0, turn)
-    found = _sunk(records, turn, kn * rows.T @ rows, weight)
+    sunk_turn = _sunk(records, turn, kn * rows.T @ rows, weight)
     vertices, height = specimen.vertices @ principal(specimen)[1], float(records.body["z"][1, 0])
-    if found is not None and np.linalg.eigvalsh(potential(vertices, found, height, kn, weight)[2])[0] > 0.0:
+    if sunk_turn is not None and np.linalg.eigvalsh(potential(vertices, sunk_turn, height, kn, weight)[2])[0] > 0.0:
         return
     turn, height = lying(vertices, turn, specimen.resting.height, kn, weight)
     records.body["z"][1, 0] = height
@@ -318,7 +318,12 @@ class FreeBody:
         """Whether the energy that is left lifts bodies over no ring of tilts between their own and 45°, shape (lanes,)."""
         del slip
         each = zip(packed, lanes.tolist(), structures, energy.tolist(), strict=True)
-        return np.array([self._stays(one, records, lane, body, left) for one, lane, body, left in each])
+        return np.array(
+            [
+                self._stays(packed_body, records, lane, body, remaining_energy)
+                for packed_body, lane, body, remaining_energy in each
+            ]
+        )
 
     def _stays(self, packed: Packed, records: Records, lane: int, structure: Specimen, energy: float) -> bool:
         least = packed.stand

@@ -60,27 +60,27 @@ def released(
     duration, interval : float
         Of each motion, and between its states at most [s].
     """
-    engines = [engine_for(replace(model, losses=one), column) for one in losses]
+    engines = [engine_for(replace(model, losses=loss_set), column) for loss_set in losses]
     kinds: dict[Any, list[int]] = {}
     for number, engine in enumerate(engines):
         kinds.setdefault(engine.kind, []).append(number)
-    found: dict[int, Free] = {}
+    free_motions: dict[int, Free] = {}
     for numbers in kinds.values():
         # lanes of about one step end together
         ordered = sorted(numbers, key=lambda number: engines[number].step)
         for first in range(0, len(ordered), LANES):
-            some = ordered[first : first + LANES]
-            block = engines[some[0]].block(RunOptions(start=starts[some[0]], until_end=True))
-            for lane, number in enumerate(some):
+            batch = ordered[first : first + LANES]
+            block = engines[batch[0]].block(RunOptions(start=starts[batch[0]], until_end=True))
+            for lane, number in enumerate(batch):
                 block.pack, block.options = engines[number].pack, replace(block.options, start=starts[number])
                 block.load(lane, Case(column, Motion(duration, np.zeros(2))))
             stride = max(1, int(interval / (block.chunk * block.dt.max())))
-            states = [(block.dt * block.feed["step"][0], block.leans()) for _ in followed(block, stride, len(some))]
-            times, leans = (np.stack(one) for one in zip(*states, strict=True))
-            for lane, number in enumerate(some):
+            states = [(block.dt * block.feed["step"][0], block.leans()) for _ in followed(block, stride, len(batch))]
+            times, leans = (np.stack(series) for series in zip(*states, strict=True))
+            for lane, number in enumerate(batch):
                 moves = np.concatenate(([True], np.diff(times[:, lane]) > 0.0))
-                found[number] = Free(times[moves, lane], leans[moves, :, lane].copy())
-    return [found[number] for number in range(len(losses))]
+                free_motions[number] = Free(times[moves, lane], leans[moves, :, lane].copy())
+    return [free_motions[number] for number in range(len(losses))]
 
 
 def followed(block: Any, stride: int, lanes: int) -> Iterator[None]:
@@ -146,7 +146,7 @@ def restitutions(column: Column, model: Any, rocking: Rocking = rocking_column) 
         lowest = np.where(over, lowest, np.minimum(lowest, lean))
         if over.all():
             break
-    energies = [_energy(-one, body.slenderness) / _energy(tilt, body.slenderness) for one in lowest.tolist()]
+    energies = [_energy(-rebound, body.slenderness) / _energy(tilt, body.slenderness) for rebound in lowest.tolist()]
     return np.sqrt(energies)
 
 
@@ -163,13 +163,13 @@ def damping_for(column: Column, model: Any, restitution: float) -> float:
     InputError
         No damping that is tried gives it.
     """
-    found = np.minimum.accumulate(restitutions(column, model))
-    if not found[-1] <= restitution <= found[0]:
+    curve = np.minimum.accumulate(restitutions(column, model))
+    if not curve[-1] <= restitution <= curve[0]:
         raise InputError(
-            f"restitution is {restitution:g}; the joints of {column.name!r} give {found[-1]:.3f} to {found[0]:.3f} "
+            f"restitution is {restitution:g}; the joints of {column.name!r} give {curve[-1]:.3f} to {curve[0]:.3f} "
             f"(damped by {TRIED[-1]:g} s and undamped): choose one of these, or give stiffness_damping."
         )
-    return float(np.interp(-restitution, -found, TRIED))
+    return float(np.interp(-restitution, -curve, TRIED))
 
 
 def damping_of_stone(structure: Structure, model: Any, rocking: Rocking) -> float:
@@ -180,7 +180,7 @@ def damping_of_stone(structure: Structure, model: Any, rocking: Rocking) -> floa
     """
     chosen = [LEAST]
     for body in rocking_bodies(structure):
-        found = np.minimum.accumulate(restitutions(body, model, rocking))
+        curve = np.minimum.accumulate(restitutions(body, model, rocking))
         wanted = (1.0 + CLOSE) * IMPACT.value * one_body(body).restitution
-        chosen.append(float(np.interp(-wanted, -found, TRIED)))
+        chosen.append(float(np.interp(-wanted, -curve, TRIED)))
     return max(chosen)

@@ -43,15 +43,15 @@ def law_fields(links: Sequence[PlacedLink]) -> dict[str, np.ndarray]:
         "near": np.ones(len(links), dtype=int),
         "ks": stiffness,
         "y": slip_at(of("shear_capacity"), stiffness),
-        "cr": np.array([float(one == "crushing") for one in failure]),
-        "br": np.array([float(one == "brittle") for one in failure]),
+        "cr": np.array([float(mode == "crushing") for mode in failure]),
+        "br": np.array([float(mode == "brittle") for mode in failure]),
         "deep": of("lift"),
         "reach": of("reach"),
         "us": of("ultimate_slip"),
         "c": of("damping"),
         "ya": slip_at(of("axial_capacity"), axial),
-        "cra": np.array([float(one == "crushing") for one in across]),
-        "bra": np.array([float(one == "brittle") for one in across]),
+        "cra": np.array([float(mode == "crushing") for mode in across]),
+        "bra": np.array([float(mode == "brittle") for mode in across]),
         "ka": axial,
         "fa": of("axial_capacity"),
         "ua": of("ultimate_elongation"),
@@ -102,7 +102,7 @@ def hold_of(column: Column, link: PlacedLink) -> float:
 def with_beds_alone(column: Column) -> Column:
     """The column with those of its links alone that make its joints softer."""
     pairs = zip(column.links, column.placed_links, strict=True)
-    return column.replace(links=tuple(link for link, one in pairs if one.bed_stiffness < math.inf))
+    return column.replace(links=tuple(link for link, placed in pairs if placed.bed_stiffness < math.inf))
 
 
 class LinkStiffness(NamedTuple):
@@ -182,43 +182,43 @@ def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
 
 def link_measures(links: Sequence[PlacedLink], records: Any, lane: int, step: float) -> tuple[LinkMeasures, ...]:
     """Results of a run for each of the links, whose records these are; ``step`` is that of time [s]."""
-    found = []
+    measures = []
     for m, link in enumerate(links):
         when = int(records["when"][m, lane])
         shear, pull, far, most = (float(records[name][m, lane]) for name in ("peak", "pull", "far", "most"))
-        found.append(
+        measures.append(
             LinkMeasures(
                 link.name, link.kind, link.joint, math.nan if when < 0 else when * step, shear, pull, far, most,
                 link.shear_capacity, link.axial_capacity, "stone" if link.breaks_stone else "link",
             )
         )  # fmt: skip
-    return tuple(found)
+    return tuple(measures)
 
 
 def link_histories(states: Sequence[dict[str, Any]]) -> LinkHistories | None:
     """Histories of the links, where the states of a run hold them."""
     if "links" not in states[0]:
         return None
-    *told, peak, pull = np.array([state["links"] for state in states]).transpose(1, 0, 2)
-    reached = np.array([np.argmax(one >= one[-1], axis=0) for one in (peak, pull)])
-    return LinkHistories(*told, reached=reached)
+    *series, peak, pull = np.array([state["links"] for state in states]).transpose(1, 0, 2)
+    reached = np.array([np.argmax(history >= history[-1], axis=0) for history in (peak, pull)])
+    return LinkHistories(*series, reached=reached)
 
 
-def with_link_histories(found: Histories, states: Sequence[dict[str, Any]]) -> Histories:
+def with_link_histories(histories: Histories, states: Sequence[dict[str, Any]]) -> Histories:
     """Histories with those of the links, where the states of a run hold them."""
-    held = link_histories(states)
-    return found if held is None else replace(found, links=held)
+    links = link_histories(states)
+    return histories if links is None else replace(histories, links=links)
 
 
 def held_at_start(column: Column) -> float:
     """Elastic energy of pretensioned links [J]."""
-    return sum(0.5 * one.pretension**2 / one.axial_stiffness for one in acting(column) if one.pretension)
+    return sum(0.5 * link.pretension**2 / link.axial_stiffness for link in acting(column) if link.pretension)
 
 
 def without_tension(column: Column) -> Column:
     """The column with those of its links alone that hold nothing at the start."""
     pairs = zip(column.links, column.placed_links, strict=True)
-    return column.replace(links=tuple(link for link, one in pairs if not one.pretension))
+    return column.replace(links=tuple(link for link, placed in pairs if not placed.pretension))
 
 
 def set_free(column: Column, tensions: np.ndarray, pressed: float) -> float:
@@ -228,9 +228,9 @@ def set_free(column: Column, tensions: np.ndarray, pressed: float) -> float:
     the tension; they are taken to have lost as much of it as the link that has lost most.
     """
     free = least = 0.0
-    for m, one in enumerate(acting(column)):
-        if one.pretension:
-            left = min(float(tensions[m]) / one.pretension, 1.0) ** 2
-            free += 0.5 * one.pretension**2 / one.axial_stiffness * (1.0 - left)
-            least = max(least, 1.0 - left)
+    for m, link in enumerate(acting(column)):
+        if link.pretension:
+            remaining = min(float(tensions[m]) / link.pretension, 1.0) ** 2
+            free += 0.5 * link.pretension**2 / link.axial_stiffness * (1.0 - remaining)
+            least = max(least, 1.0 - remaining)
     return free + least * max(pressed, 0.0)

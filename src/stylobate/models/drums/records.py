@@ -50,7 +50,7 @@ class Topology:
     def of(cls, structure: Structure) -> Topology:
         """Of all bodies of a structure, on its joints and on those of its links that act."""
         joints = tuple((pair.lower, pair.upper) for pair in structure.face_pairs)
-        links = tuple((one.lower, one.upper) for one in acting(structure))
+        links = tuple((link.lower, link.upper) for link in acting(structure))
         fixed = tuple(i for i, body in enumerate(structure.bodies) if body.fixed)
         stack = 0 if structure.stack is None else structure.stack.n
         return cls(len(structure.bodies), joints, links, fixed, stack, structure.links if links else ())
@@ -64,7 +64,7 @@ def body_fields(structure: Structure, closure: np.ndarray | None = None) -> dict
         z[1:] -= np.cumsum(closure)
     free = np.array([not body.fixed for body in bodies])
     m, i = np.where(free, m, 0.0), np.where(free, i, 0.0)
-    im, ii = (np.divide(1.0, one, out=np.zeros(len(bodies)), where=free) for one in (m, i))
+    im, ii = (np.divide(1.0, values, out=np.zeros(len(bodies)), where=free) for values in (m, i))
     at_rest = {name: np.zeros(len(bodies)) for name in ("th", "vx", "vz", "w")}
     return at_rest | {
         "x": x, "z": z, "c": np.cos(lean), "s": np.sin(lean), "m": m, "i": i, "im": im, "ii": ii

@@ -50,12 +50,12 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     }
     if in_space:
         orientation = quaternions(stack["axes"])
-        found = Histories.in_space(
+        result = Histories.in_space(
             **shared, position=stack["position"], orientation=orientation, joint_twist=stack["twist"]
         )
     else:
-        found = Histories.of_drums(**shared, drum_x=stack["x"], drum_z=stack["z"], drum_rotation=stack["rotation"])
-    return with_link_histories(found, states)
+        result = Histories.of_drums(**shared, drum_x=stack["x"], drum_z=stack["z"], drum_rotation=stack["rotation"])
+    return with_link_histories(result, states)
 
 
 class FinalStates(NamedTuple):
@@ -111,7 +111,7 @@ class Started:
     def of(cls, block: LaneRuns, lane: int, ground: tuple[float, ...]) -> Started:
         """That of a run that has begun in a lane."""
         numbers = block.arrays.numbers[: block.arrays.moving, lane].copy()
-        kept = tuple(one[lane].copy() for one in block.beginning)
+        kept = tuple(array[lane].copy() for array in block.beginning)
         return cls(block.packed[lane], float(block.dt[lane]), ground, numbers, kept)
 
     def serves(self, packed: Packed, dt: float, ground: tuple[float, ...]) -> bool:
@@ -121,8 +121,8 @@ class Started:
     def put(self, block: LaneRuns, lane: int) -> None:
         """Let a run begin so in a lane."""
         block.arrays.numbers[: len(self.numbers), lane] = self.numbers
-        for one, own in zip(block.beginning, self.kept, strict=True):
-            one[lane] = own
+        for array, own in zip(block.beginning, self.kept, strict=True):
+            array[lane] = own
 
 
 #: Calls of the kernel per run.
@@ -260,7 +260,7 @@ class LaneRuns:
             return tuple(self.ground_acceleration(lane))
         motion = self.case(lane).motion
         every = motion.samples, motion.y_samples, motion.z_samples
-        return tuple(0.0 if one is None else motion.factor * float(one[0]) for one in every)
+        return tuple(0.0 if samples is None else motion.factor * float(samples[0]) for samples in every)
 
     @property
     def beginning(self) -> tuple[np.ndarray, ...]:
@@ -299,25 +299,25 @@ class LaneRuns:
         """
         if not column.pretensioned:
             return 0.0
-        held = held_at_start(column)
+        link_energy = held_at_start(column)
         try:
             alone = self.energies_without_tension(lane, without_tension(column))
         except InputError:  # it cannot stand
-            return float(self.start[lane, 3]) - held
-        return float((self.start[lane] - alone)[2:4].sum()) - held
+            return float(self.start[lane, 3]) - link_energy
+        return float((self.start[lane] - alone)[2:4].sum()) - link_energy
 
     # -- how it goes on ------------------------------------------------------------------------------------------
 
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by some chunks of steps."""
-        left = min(self.chunks_per_call, self.piece) if chunks is None else chunks
+        remaining = min(self.chunks_per_call, self.piece) if chunks is None else chunks
         running = np.count_nonzero(self.running())
         self.ledgers.clear()
         self.ended.clear()
-        while left > 0 and np.count_nonzero(self.running()) == running:
-            count = min(left, self.piece)
+        while remaining > 0 and np.count_nonzero(self.running()) == running:
+            count = min(remaining, self.piece)
             self.step(count)
-            left -= count
+            remaining -= count
 
     def running(self) -> np.ndarray:
         """Which lanes' runs go on, shape (lanes,)."""
@@ -329,8 +329,8 @@ class LaneRuns:
         The kernel stops where any run ends, and goes on moving what is left in its lane: ``between`` collects it at once.
         """
         goal = int(self.feed["step"][0, 0]) + chunks * self.chunk
-        while not self.is_over(0) and (left := goal - int(self.feed["step"][0, 0])) > 0:
-            self.advance(left // self.chunk)
+        while not self.is_over(0) and (remaining := goal - int(self.feed["step"][0, 0])) > 0:
+            self.advance(remaining // self.chunk)
             between()
 
     def is_over(self, lane: int) -> bool:
@@ -386,7 +386,7 @@ class LaneRuns:
         if self.watch["status"][0, lane] == RUNNING:
             return self._ledgers([lane])[0]
         if lane not in self.ledgers:
-            ended = [one for one in self._stopped() if one not in self.ledgers]
+            ended = [stopped_lane for stopped_lane in self._stopped() if stopped_lane not in self.ledgers]
             ended += [lane] * (lane not in ended)
             self.ledgers.update(zip(ended, self._ledgers(ended), strict=True))
         return self.ledgers[lane]
@@ -465,27 +465,27 @@ class LaneRuns:
         """Make the measures of a lane that has stopped; those of all are made together, which takes less for each."""
         if lane in self.ended:
             return
-        lanes = [one for one in self._stopped() if one not in self.ended]
+        lanes = [stopped_lane for stopped_lane in self._stopped() if stopped_lane not in self.ended]
         lanes += [lane] * (lane not in lanes)
         try:
             self.ended.update(zip(lanes, self.measures(lanes, self.final_states(lanes)), strict=True))
         except NOT_COMPUTED:  # of one of them, whose own turn it is to say so
             (self.ended[lane],) = self.measures([lane], self.final_states([lane]))
 
-    def measures(self, lanes: list[int], left: FinalStates, since: np.ndarray | None = None) -> list[Measures]:
+    def measures(self, lanes: list[int], final: FinalStates, since: np.ndarray | None = None) -> list[Measures]:
         """Measures of lanes whose runs are over.
 
         Parameters
         ----------
         lanes : list of int
-        left : FinalStates
+        final : FinalStates
         since : array, optional
             Change of the ledgers since the start [J], shape (lanes, 6); that of the lanes if left out.
         """
         watch, packed = self.watch[0], [self.packed[lane] for lane in lanes]
-        widths = np.stack([one.widths for one in packed])
+        widths = np.stack([numbers.widths for numbers in packed])
         status, when, work = (watch[name][lanes].tolist() for name in ("status", "when", "wmax"))
-        opened, shifted = watch["open"][lanes] / widths.min(axis=1), (left.offset / widths).max(axis=1)
+        opened, shifted = watch["open"][lanes] / widths.min(axis=1), (final.offset / widths).max(axis=1)
         steps, dt = self.feed["step"][0, lanes].tolist(), self.dt[lanes].tolist()
         since = np.array([self.energies(lane) for lane in lanes]) - self.start[lanes] if since is None else since
         change = since.tolist()
@@ -494,10 +494,10 @@ class LaneRuns:
                 ledger.unaccounted(row),
                 work=most,
                 start=self.start_energy(lane, row),
-                barrier=one.barrier,
+                barrier=numbers.barrier,
                 released=ledger.released(row),
             )
-            for row, most, lane, one in zip(change, work, lanes, packed, strict=True)
+            for row, most, lane, numbers in zip(change, work, lanes, packed, strict=True)
         ]
         set_off = [
             most == 0.0
@@ -507,20 +507,20 @@ class LaneRuns:
             for row, most, lane in zip(change, work, lanes, strict=True)
         ]
         failed = [
-            one == FAILED or moved or bool(ledger.out_of_balance(share))
-            for one, moved, share in zip(status, set_off, imbalance, strict=True)
+            code == FAILED or moved or bool(ledger.out_of_balance(share))
+            for code, moved, share in zip(status, set_off, imbalance, strict=True)
         ]
         outcomes = [
-            classify(one == COLLAPSED, *facts)
-            for one, *facts in zip(status, failed, opened.tolist(), shifted.tolist(), strict=True)
+            classify(code == COLLAPSED, *facts)
+            for code, *facts in zip(status, failed, opened.tolist(), shifted.tolist(), strict=True)
         ]
-        asked = [k for k, one in enumerate(outcomes) if one not in (Outcome.COLLAPSED, Outcome.FAILED)]
-        decided = np.array([one is Outcome.COLLAPSED for one in outcomes])
-        if asked:
-            held = np.array([self.mechanical(lanes[k], change[k]) for k in asked])
-            decided[asked] = self.stay([lanes[k] for k in asked], held, left.slip[asked])
+        undecided = [k for k, outcome in enumerate(outcomes) if outcome not in (Outcome.COLLAPSED, Outcome.FAILED)]
+        decided = np.array([outcome is Outcome.COLLAPSED for outcome in outcomes])
+        if undecided:
+            energies = np.array([self.mechanical(lanes[k], change[k]) for k in undecided])
+            decided[undecided] = self.stay([lanes[k] for k in undecided], energies, final.slip[undecided])
         moved, wide = self.peaks(lanes, "top").tolist(), self.peaks(lanes, "open").tolist()
-        top, turned, largest = left.top.tolist(), left.rotation.tolist(), left.offset.max(axis=1).tolist()
+        top, turned, largest = final.top.tolist(), final.rotation.tolist(), final.offset.max(axis=1).tolist()
         return [
             Measures(
                 outcome=outcome,
@@ -536,10 +536,10 @@ class LaneRuns:
                 steps=steps[k] - int(self.spans.left_out[lane]),
                 reason=self.reason(lane, outcome, imbalance[k]),
                 collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
-                space=None if left.space is None else left.space[k],
+                space=None if final.space is None else final.space[k],
                 stepped=self.spans.stepped(lane, steps[k], dt[k]),
                 links=self.links_done(lane),
-                residuals=left.residuals[k],
+                residuals=final.residuals[k],
                 computed_by=self.computed_by,
             )
             for k, (lane, outcome, sure) in enumerate(zip(lanes, outcomes, decided.tolist(), strict=True))

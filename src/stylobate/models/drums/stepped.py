@@ -174,7 +174,7 @@ class LaneEngine(SteppedEngine):
         def record(last: bool = False, until: int | None = None) -> None:
             """Keep the present state, for every time up to a step that has none; the last one at that step itself."""
             step = int(block.feed["step"][0, 0]) if until is None else until
-            times = [one * dt for one in range(len(states) * every, step + 1, every)]
+            times = [number * dt for number in range(len(states) * every, step + 1, every)]
             if last and (len(states) + len(times) - 1) * every < step:
                 times.append(step * dt)
             if times:
@@ -299,7 +299,7 @@ def with_provenance(engine: Any, motion: Motion, response: Response, opens: Open
         return response
     how, free = engine.acting, replace(engine.model, losses="none")
     chosen = {name: getattr(how, name.removesuffix("_s")) for name in ("stiffness_damping_s", *how._chosen[1:])}
-    steps = [engine_for(one, engine.structure).expected_step(motion)[0] for one in (free, how)]
+    steps = [engine_for(model, engine.structure).expected_step(motion)[0] for model in (free, how)]
     return replace(response, provenance=response.provenance | chosen | {"steps_over_undamped": steps[0] / steps[1]})
 
 

@@ -46,8 +46,8 @@ def follow(column: Column, motion: Motion, block: ColumnLanes, model: Any, optio
     residual = engine.residual_acceleration()
     states = [run.state()]
     while not run.is_over():
-        left = run.chunks_left()
-        run.advance(min(every, left) if left > 0 else every)
+        remaining = run.chunks_left()
+        run.advance(min(every, remaining) if remaining > 0 else every)
         states.append(run.state())
     return run.response(states, residual)
 
@@ -79,9 +79,9 @@ class _ColumnRun:
         for name in ("work", "shear", "visc", "g", "gx", "xi", "sh"):
             here.lane[name][..., 0] = there.lane[name][..., 0]
         tied = ((here.link, there.link),) if len(there.link) else ()
-        for one, other in ((here.feed, there.feed), (here.watch, there.watch), *tied):
-            for name in one.dtype.names or ():
-                one[name][..., 0] = other[name][..., 0]
+        for target, source in ((here.feed, there.feed), (here.watch, there.watch), *tied):
+            for name in target.dtype.names or ():
+                target[name][..., 0] = source[name][..., 0]
         here.bond[...] = there.bond
         here.feed["end"] = ENDLESS
         self.engine.renew_pairs()
@@ -92,9 +92,9 @@ class _ColumnRun:
         for name in OF_BODY:
             there.body[name][:, 0] = here.body[name][:, 0]
         tied = ((here.link, there.link),) if len(there.link) else ()
-        for one, other in ((here.watch, there.watch), *tied):
-            for name in one.dtype.names or ():
-                other[name][..., 0] = one[name][..., 0]
+        for source, target in ((here.watch, there.watch), *tied):
+            for name in source.dtype.names or ():
+                target[name][..., 0] = source[name][..., 0]
         there.feed["step"][0, 0] = here.feed["step"][0, 0]
 
     def advance(self, chunks: int) -> None:
@@ -161,12 +161,12 @@ class _ColumnRun:
 
     def response(self, states: list[dict[str, Any]], residual: float) -> Response:
         """The run as a response; what is special to it stands in its provenance."""
-        found = histories(self.motion, states)
-        measures = self.measures(states[-1], found)
+        run_histories = histories(self.motion, states)
+        measures = self.measures(states[-1], run_histories)
         engine, lost = self.engine, self.block.collapse(0) if self.collapsed else None
         mechanism = find_mechanism(
             self.column,
-            found,
+            run_histories,
             measures,
             0 if lost is None else lost.joint or 0,
             slid_off=lost is not None and lost.mechanism == SLID_OFF,
@@ -179,7 +179,7 @@ class _ColumnRun:
             "deepest_penetration_m": engine.deepest(),
             "first_foreign_contact_s": self.touched_at,
         }
-        return Response(self.column, found, measures, self.name, provenance, mechanism=mechanism, followed=True)
+        return Response(self.column, run_histories, measures, self.name, provenance, mechanism=mechanism, followed=True)
 
     @property
     def touched_at(self) -> float | None:
@@ -187,27 +187,27 @@ class _ColumnRun:
         step = int(self.engine.now["touched"][0])
         return step * self.engine.dt if step >= 0 else None
 
-    def collapse(self, found: Histories) -> Collapse:
+    def collapse(self, run_histories: Histories) -> Collapse:
         """The collapse, with what touched first."""
         lost, when = self.block.collapse(0), self.touched_at
         if when is None:
             return lost
         bodies = self.column.bodies
-        poses = np.zeros((3, len(found.time), len(bodies)))
+        poses = np.zeros((3, len(run_histories.time), len(bodies)))
         poses[:2] = np.array([body.place for body in bodies]).T[:, None]
-        poses[:, :, 1:] += (found.drum_x, found.drum_z, found.drum_rotation)
+        poses[:, :, 1:] += (run_histories.drum_x, run_histories.drum_z, run_histories.drum_rotation)
         x, z, rotation = poses
-        return replace(lost, touched=first_touch(self.column, found.time, x, z, rotation, when))
+        return replace(lost, touched=first_touch(self.column, run_histories.time, x, z, rotation, when))
 
-    def measures(self, last: dict[str, Any], found: Histories) -> Measures:
+    def measures(self, last: dict[str, Any], run_histories: Histories) -> Measures:
         """Measures of the run; peaks end with a collapse, as in the lanes."""
         block, watch = self.block, self.block.watch[0]
         if self.collapsed and watch["status"][0] != FAILED:
             watch["status"][0] = COLLAPSED
-        residual = float(found.top_displacement[-1])
+        residual = float(run_histories.top_displacement[-1])
         change = last["energy"] - self.start
         residuals, slip = residuals_in(last), block.poses([0])["slip"]
         offset = np.array([residuals.slips])
-        left = FinalStates([residuals], offset, slip, np.array([residual]), block.peaks([0], "turn"))
-        (measures,) = block.measures([0], left, since=change[None])
-        return measures if measures.collapse is None else replace(measures, collapse=self.collapse(found))
+        final = FinalStates([residuals], offset, slip, np.array([residual]), block.peaks([0], "turn"))
+        (measures,) = block.measures([0], final, since=change[None])
+        return measures if measures.collapse is None else replace(measures, collapse=self.collapse(run_histories))

@@ -279,7 +279,7 @@ class ColumnLanes(LaneRuns):
     def final_states(self, lanes: list[int]) -> FinalStates:
         """What the runs of some lanes leave behind."""
         state = self.poses(lanes)
-        slip, residuals = state["slip"], Residuals.all_in_plane(*(state[one] for one in ("slip", "x", "z", "rotation")))
+        slip, residuals = state["slip"], Residuals.all_in_plane(*(state[key] for key in ("slip", "x", "z", "rotation")))
         top = self.top(lanes) - self.watch["stood"][0, lanes]
         return FinalStates(residuals, np.abs(slip), slip, top, self.peaks(lanes, "turn"))
 
@@ -298,9 +298,11 @@ class ColumnLanes(LaneRuns):
 
         columns, records = [self.column(lane) for lane in lanes], self.records
         stand, offsets = zip(*map(numbers_for, columns), strict=True)
-        stand = np.array([one.view(float) for one in stand]).view(stand[0].dtype)  # numpy stacks records field by field
+        stand = np.array([array.view(float) for array in stand]).view(
+            stand[0].dtype
+        )  # numpy stacks records field by field
         stand["toe"], stand["others"] = np.array([self.packed[lane].stand for lane in lanes]).swapaxes(0, 1)
-        gravity, slope = np.array([(one.gravity, one.as_found.base_tilt * DEGREE) for one in columns]).T
+        gravity, slope = np.array([(column.gravity, column.as_found.base_tilt * DEGREE) for column in columns]).T
         where, stays = np.array(lanes, dtype=np.int64), np.zeros(len(lanes), dtype=bool)
         numbers = offsets + slip, gravity.copy(), slope.copy(), energy
         all_stand(stand, *numbers, records.body, records.joint, where, stays)

@@ -106,7 +106,9 @@ class Loose:
         n = len(bodies)
         types = point_law(model.points, True, 1, bool(topology.links), turned=True)
         self.records = records = Records(types, topology, spare=n * (n - 1) // 2)
-        now, hand, shape = (np.zeros(rows, one) for rows, one in zip((1, len(records.joint), n), kernel.search_types()))
+        now, hand, shape = (
+            np.zeros(rows, record_type) for rows, record_type in zip((1, len(records.joint), n), kernel.search_types())
+        )
         lane = lane_fields(structure, damping_rows(True, model.stiffness_damping, model.mass_damping), model.points)
         records.fill(
             0,
@@ -352,9 +354,9 @@ class Loose:
 
     def state(self) -> dict[str, Any]:
         """Part of the present state in a history."""
-        held = {"links": link_snapshot(self.records.link, 0)} if self.tied else {}
-        held["velocity"] = np.stack([self.records.body[key][:, 0] for key in ("vx", "vz", "w")], axis=-1)
-        return self.pose() | held | {"energy": self.energies()}
+        extras = {"links": link_snapshot(self.records.link, 0)} if self.tied else {}
+        extras["velocity"] = np.stack([self.records.body[key][:, 0] for key in ("vx", "vz", "w")], axis=-1)
+        return self.pose() | extras | {"energy": self.energies()}
 
 
 #: Time after the last block has fallen at which a run of a batch ends [s].
@@ -501,7 +503,7 @@ def run_assembly(
         model=model.name,
         touched=touched,
         links=link_measures(acting(assembly), engine.records.link, 0, engine.dt),
-        held=link_histories(states) if recorded else None,
+        link_histories=link_histories(states) if recorded else None,
         velocity=stack.get("velocity"),
         provenance={
             "restitution": restitution,
@@ -523,14 +525,14 @@ def follow(engine: Loose, options: RunOptions, recorded: bool = True) -> tuple[l
     lowest, rotation = lowest_standing(engine.structure, states[0]["z"]), states[0]["rotation"]
     fallen, since = np.zeros(len(rotation), dtype=bool), 0.0
     while not engine.failed:
-        left = engine.chunks - engine.steps // CHUNK
-        still, over = engine.at_rest(), left <= 0
+        remaining = engine.chunks - engine.steps // CHUNK
+        still, over = engine.at_rest(), remaining <= 0
         if over:
             waits = options.until_rest or (options.until_decided and not fallen.any())
             if not waits or still or engine.time > engine.duration + LONGEST_WAIT:
                 break
             engine.now["dull"] = engine.now["eta"]
-        engine.advance(every if over else min(every, left))
+        engine.advance(every if over else min(every, remaining))
         states.append(keep())
         if options.progress:
             options.progress(min(engine.time, engine.duration), engine.duration)
@@ -554,15 +556,15 @@ def one_by_one(run: Callable[[Case], Response], cases: Sequence[Case], threads: 
         try:
             for index, case in enumerate(cases):
                 if len(under_way) >= 2 * threads:
-                    for one in wait(under_way, return_when=FIRST_COMPLETED).done:
-                        yield under_way.pop(one), one.result().measures
+                    for future in wait(under_way, return_when=FIRST_COMPLETED).done:
+                        yield under_way.pop(future), future.result().measures
                 under_way[pool.submit(run, case)] = index
             while under_way:
-                for one in wait(under_way, return_when=FIRST_COMPLETED).done:
-                    yield under_way.pop(one), one.result().measures
+                for future in wait(under_way, return_when=FIRST_COMPLETED).done:
+                    yield under_way.pop(future), future.result().measures
         finally:
-            for one in under_way:
-                one.cancel()
+            for future in under_way:
+                future.cancel()
 
 
 def stable_step_of(loose: Loose) -> float:

@@ -158,12 +158,12 @@ def face_fields(structure: Structure, *, turned: bool = False) -> dict[str, np.n
     """Fields that say where the faces of the joints are, by rows of shape (joints,); ``turned`` as of their records."""
     pairs = structure.face_pairs
     below, above = (
-        np.array([(*one.direction, *one[1:]) for one in some]).reshape(-1, 5)
-        for some in ([pair.below for pair in pairs], [pair.above for pair in pairs])
+        np.array([(*face.direction, *face[1:]) for face in faces]).reshape(-1, 5)
+        for faces in ([pair.below for pair in pairs], [pair.above for pair in pairs])
     )
     names = ("lc", "ls", "ht", "wl", "wr", "hb", "bl", "br")
-    found = dict(zip(names, (*below.T, *above[:, 2:].T), strict=True))
-    return found | ({"turned": above[:, :2]} if turned else {})
+    fields = dict(zip(names, (*below.T, *above[:, 2:].T), strict=True))
+    return fields | ({"turned": above[:, :2]} if turned else {})
 
 
 def joint_fields(
@@ -279,16 +279,16 @@ def numbers_for(column: Column) -> tuple[np.ndarray, np.ndarray]:
     """Numbers of the drums for the law, put down flat as found, but for what joints give; their offsets as found [m]."""
     from ...kernels.plane.standing import STAND_TYPE, put_down
 
-    found = [column.as_found.of(i + 1) for i in range(column.n)]
+    found_drums = [column.as_found.of(i + 1) for i in range(column.n)]
     bottom = np.array([0.5 * drum.bottom_width for drum in column.drums])
     stand: Any = np.zeros(column.n, STAND_TYPE)
     stand["m"], stand["h"], stand["rough"] = column.masses, column.heights, column.friction
     stand["hc"] = [drum.centroid_height for drum in column.drums]
-    stand["tilt"] = [one.tilt * DEGREE for one in found]
-    stand["left"] = bottom - [one.chip_left for one in found]
-    stand["right"] = bottom - [one.chip_right for one in found]
+    stand["tilt"] = [drum.tilt * DEGREE for drum in found_drums]
+    stand["left"] = bottom - [drum.chip_left for drum in found_drums]
+    stand["right"] = bottom - [drum.chip_right for drum in found_drums]
     stand["under"] = [math.inf, *(0.5 * drum.top_width for drum in column.drums[:-1])]
     stand["edge"] = 0.5 * column.joint_widths
-    offsets = np.array([one.offset for one in found])
+    offsets = np.array([drum.offset for drum in found_drums])
     put_down(stand, offsets)
     return stand, offsets

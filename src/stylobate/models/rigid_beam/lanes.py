@@ -122,11 +122,11 @@ class BeamLanes:
         """Advance all lanes by a share of a run."""
         loop = self.loop
         flags = (loop.sliding or None, loop.bed, loop.vertical or None, loop.damped or None)
-        left = min(self.calls, self.piece) if chunks is None else chunks
-        while left > 0:
-            count = min(left, self.piece)
+        remaining = min(self.calls, self.piece) if chunks is None else chunks
+        while remaining > 0:
+            count = min(remaining, self.piece)
             kernel.advance(self.drum, self.lane, self.watch, self.a, self.g, count, loop.steps, *flags)
-            left -= count
+            remaining -= count
 
     def is_over(self, lane: int) -> bool:
         """Whether the lane's run has ended."""

@@ -346,21 +346,21 @@ class Passes:
         n = self.column.n
         return not self.inside(np.full(n, -rotation), np.zeros(n))
 
-    def verdict(self, found: dict) -> tuple[bool, bool, str, int]:
+    def verdict(self, facts: dict) -> tuple[bool, bool, str, int]:
         """Whether the column is lost when no input is left, whether that is decided, why, and the joint it slid off or 0.
 
-        ``found``: theta, omega, slip, energy, unaccounted of ``measures_of``.
+        ``facts``: theta, omega, slip, energy, unaccounted of ``measures_of``.
         """
-        theta, slip = found["theta"], found["slip"]
+        theta, slip = facts["theta"], facts["slip"]
         if not self.has_potential:
-            return False, self.stays_closed(theta, found["omega"]), "", 0
-        reach = found["energy"] + found["unaccounted"]
+            return False, self.stays_closed(theta, facts["omega"]), "", 0
+        reach = facts["energy"] + facts["unaccounted"]
         if self.sliding:
-            left = room(self.column, slip)
-            hanging = np.flatnonzero(left <= 0.0)
+            margin = room(self.column, slip)
+            hanging = np.flatnonzero(margin <= 0.0)
             if hanging.size:
                 # To come back it must slide back, at the loosest joint of the part.
-                work = -(self.column.joint_weights * self.friction * left)[hanging]
+                work = -(self.column.joint_weights * self.friction * margin)[hanging]
                 joint = int(hanging[int(np.argmax(work))]) + 1
                 gone = bool(reach < work.max())
                 why = f"the centroid of {self.part(joint)} has slid beyond the edge of joint {joint}"
@@ -443,63 +443,63 @@ class PackedBeam(Passes):
         return np.where(size > self.opening, self.column.joint_widths * (size - np.sqrt(size * self.opening)), 0.0)
 
 
-def measures_of(beam: PackedBeam, found: dict) -> Measures:
+def measures_of(beam: PackedBeam, facts: dict) -> Measures:
     """Measures from the facts of a run.
 
-    ``found``: theta, omega, slip at the end, shape (n,); energy (mechanical, upright at rest zero), start (the same at the
+    ``facts``: theta, omega, slip at the end, shape (n,); energy (mechanical, upright at rest zero), start (the same at the
     start), work (largest of the input), given (see :func:`given`), unaccounted and released (by the ledger) [J]; lost
     (joint from 1, 0: none), side, time of collapse, end, failure, top, residual, turn, opening, step, steps.
     """
     column = beam.column
-    failure = found["failure"] or ("" if beam.stands else TOO_SOFT)
+    failure = facts["failure"] or ("" if beam.stands else TOO_SOFT)
     imbalance = ledger.imbalance(
-        found["unaccounted"], work=found["work"], start=found["start"], barrier=beam.lowest_rigid,
-        released=found["released"],
+        facts["unaccounted"], work=facts["work"], start=facts["start"], barrier=beam.lowest_rigid,
+        released=facts["released"],
     )  # fmt: skip
-    state = (*found["theta"], *found["slip"], found["energy"], imbalance)
+    state = (*facts["theta"], *facts["slip"], facts["energy"], imbalance)
     if not failure and not all(map(math.isfinite, state)):
-        failure = f"the state is not finite at {found['end']:.4g} s; shorten the time_step"
+        failure = f"the state is not finite at {facts['end']:.4g} s; shorten the time_step"
     failure = failure or ledger.out_of_balance(imbalance)
     collapsed, decided, reason, joint = False, False, failure, 0
-    if not failure and found["lost"]:
+    if not failure and facts["lost"]:
         collapsed, decided = True, True
-        side = "right" if found["side"] > 0 else "left"
-        reason = f"{beam.part(found['lost'])} overturns to the {side} over joint {found['lost']}"
+        side = "right" if facts["side"] > 0 else "left"
+        reason = f"{beam.part(facts['lost'])} overturns to the {side} over joint {facts['lost']}"
     elif not failure:
-        collapsed, decided, reason, joint = beam.verdict(found)
-    if collapsed and not beam.reached(found["start"] + found["given"], beam.initial_rotation):
+        collapsed, decided, reason, joint = beam.verdict(facts)
+    if collapsed and not beam.reached(facts["start"] + facts["given"], beam.initial_rotation):
         failure = reason = ledger.MADE_ENERGY
         collapsed, decided = False, False
     widths = column.joint_widths
     outcome = classify(
-        collapsed, bool(failure), found["opening"] / float(widths.min()), float((np.abs(found["slip"]) / widths).max())
+        collapsed, bool(failure), facts["opening"] / float(widths.min()), float((np.abs(facts["slip"]) / widths).max())
     )
-    time = found["time"] if found["lost"] else found["end"]
+    time = facts["time"] if facts["lost"] else facts["end"]
     return Measures(
         outcome=outcome,
         decided=decided,
         collapse_time=time if outcome is Outcome.COLLAPSED else math.nan,
-        peak_top_displacement=found["top"],
-        residual_top_displacement=found["residual"],
-        peak_rotation=found["turn"],
-        peak_joint_opening=found["opening"],
-        residual_joint_slip=float(np.abs(found["slip"]).max()),
-        residuals=_residuals(beam, found["theta"], found["slip"]),
+        peak_top_displacement=facts["top"],
+        residual_top_displacement=facts["residual"],
+        peak_rotation=facts["turn"],
+        peak_joint_opening=facts["opening"],
+        residual_joint_slip=float(np.abs(facts["slip"]).max()),
+        residuals=_residuals(beam, facts["theta"], facts["slip"]),
         energy_imbalance=imbalance,
-        time_step=found["step"],
-        steps=found["steps"],
+        time_step=facts["step"],
+        steps=facts["steps"],
         reason=reason,
-        collapse=_collapse(found, time, joint) if outcome is Outcome.COLLAPSED else None,
+        collapse=_collapse(facts, time, joint) if outcome is Outcome.COLLAPSED else None,
     )
 
 
-def _collapse(found: dict, time: float, slid: int) -> Collapse:
+def _collapse(facts: dict, time: float, slid: int) -> Collapse:
     """The collapse: about the joint that is lost, off the joint ``slid``, or beyond the lowest barrier, wherever that is."""
-    if found["lost"]:
-        return in_plane(time, found["lost"], found["side"])
+    if facts["lost"]:
+        return in_plane(time, facts["lost"], facts["side"])
     if slid:
-        return in_plane(time, slid, found["slip"][slid - 1], slid_off=True)
-    towards = 0.0 if found["theta"].sum() > 0.0 else math.pi
+        return in_plane(time, slid, facts["slip"][slid - 1], slid_off=True)
+    towards = 0.0 if facts["theta"].sum() > 0.0 else math.pi
     return Collapse(time, None, OVERTURNED, towards)
 
 

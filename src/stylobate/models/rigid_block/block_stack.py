@@ -97,7 +97,7 @@ def holds(links: Sequence[PlacedLink]) -> list[Hold]:
     InputError
         A link of a law that statics do not know.
     """
-    found = []
+    all_holds = []
     for link in links:
         if link.law == "tie":
             actions = (LINE,) if link.axial_stiffness > 0.0 else ()
@@ -110,8 +110,8 @@ def holds(links: Sequence[PlacedLink]) -> list[Hold]:
                 f"the statics of blocks know links that act as a clamp, dowel, pad or tie, and {link.name!r} does not; "
                 "leave it out."
             )
-        found += [Hold(link, action) for action in actions]
-    return found
+        all_holds += [Hold(link, action) for action in actions]
+    return all_holds
 
 
 def stack_links(column: Column) -> tuple[Hold, ...]:
@@ -119,12 +119,12 @@ def stack_links(column: Column) -> tuple[Hold, ...]:
     if not column.links:
         return ()
 
-    def found(link: PlacedLink) -> PlacedLink:
+    def found_link(link: PlacedLink) -> PlacedLink:
         stand = (column.bodies[link.lower], column.bodies[link.upper])
         low, high = (stands_at(body.place, body.angle, arm) for body, arm in zip(stand, link.arms, strict=True))
         return replace(link, low=low, high=high)
 
-    return tuple(holds([found(link) for link in column.placed_links]))
+    return tuple(holds([found_link(link) for link in column.placed_links]))
 
 
 def link_strains(
@@ -163,15 +163,15 @@ def link_strains(
 
 
 def link_strain(
-    one: Hold, centroid: np.ndarray, joint_angle: np.ndarray, moved: np.ndarray
+    hold: Hold, centroid: np.ndarray, joint_angle: np.ndarray, moved: np.ndarray
 ) -> tuple[float, float, np.ndarray, np.ndarray]:
     """Strain of one link and the opening of its joint [m], and derivatives of the strain by its two blocks' coordinates."""
-    below, above = one.blocks
-    (x, y, z), (u, v, w) = one.link.low, one.link.high
+    below, above = hold.blocks
+    (x, y, z), (u, v, w) = hold.link.low, hold.link.high
     low, by_low = _point(below, (x, z), centroid, moved)
     high, by_high = _point(above, (u, w), centroid, moved)
     apart, built, aside = high - low, np.array([u - x, w - z]), v - y
-    if one.action == LINE:
+    if hold.action == LINE:
         length = math.hypot(apart[0], apart[1], aside)
         along = apart / length
         return length - math.hypot(built[0], built[1], aside), 0.0, -(along @ by_low), along @ by_high
@@ -179,7 +179,7 @@ def link_strain(
     tangent, normal = _axes(angle + (moved[below, 2] if below >= 0 else 0.0))
     first, second = _axes(angle)
     opening = float(apart @ normal - built @ second)
-    shear = one.action == SHEAR
+    shear = hold.action == SHEAR
     along, across = (tangent, normal) if shear else (normal, -tangent)
     by_lower = -(along @ by_low)
     by_lower[2] += apart @ across
@@ -333,10 +333,10 @@ class BlockStack:
         upper, lower = np.empty((n, 2)), np.empty((n, 2))
         outlines = tuple(body.outline for body in column.bodies[1:])
         for i, drum in enumerate(column.drums):
-            one = column.as_found.of(i + 1)
+            found_drum = column.as_found.of(i + 1)
             under = 0.5 * column.drums[i - 1].top_width if i else BASE_REACH
             half = 0.5 * drum.bottom_width
-            upper[i] = one.offset - half + one.chip_left, one.offset + half - one.chip_right
+            upper[i] = found_drum.offset - half + found_drum.chip_left, found_drum.offset + half - found_drum.chip_right
             lower[i] = -under, under
         top = 0.5 * (outlines[-1][-1] + outlines[-1][-2])
         return cls(
@@ -361,7 +361,7 @@ class BlockStack:
     def with_capacities(self, capacity: np.ndarray) -> BlockStack:
         """The same stack whose links have other capacities [N], shape (links,)."""
         links = zip(self.links, capacity.tolist(), strict=True)
-        return replace(self, links=tuple(one.with_capacity(most) for one, most in links))
+        return replace(self, links=tuple(hold.with_capacity(most) for hold, most in links))
 
     def mirrored(self) -> BlockStack:
         """The same stack with left and right changed."""

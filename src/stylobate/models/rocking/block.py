@@ -148,8 +148,8 @@ class RockingBlock:
         if not failure and not (math.isfinite(x) and math.isfinite(v) and math.isfinite(imbalance)):
             failure = "the state is not finite"
         failure = failure or ledger.out_of_balance(imbalance)
-        found = collapse_time >= 0.0
-        collapsed, decided = (found, found) if failure or found else self.verdict(x, v, abs(unaccounted))
+        overturned = collapse_time >= 0.0
+        collapsed, decided = (overturned, overturned) if failure or overturned else self.verdict(x, v, abs(unaccounted))
         if collapsed and not failure and begun + work < self.barrier:
             failure = ledger.MADE_ENERGY
         if failure:
@@ -159,11 +159,11 @@ class RockingBlock:
         tilts = np.array([peaks[0], -peaks[1], side * x, start])
         moved = self.displacement(tilts, self.height)[0]
         moved = moved[:3] - moved[3]  # from the start
-        along, up = (float(one[0] - one[1]) for one in self.displacement(tilts[2:], self.centroid_height))
+        along, up = (float(values[0] - values[1]) for values in self.displacement(tilts[2:], self.centroid_height))
         return Measures(
             outcome=classify(collapsed, bool(failure), opening / width, 0.0),
             decided=decided,
-            collapse_time=(collapse_time if found else end) if collapsed else math.nan,
+            collapse_time=(collapse_time if overturned else end) if collapsed else math.nan,
             peak_top_displacement=float(np.abs(moved[:2]).max()),
             residual_top_displacement=float(moved[2]),
             peak_rotation=max(peaks),
@@ -174,7 +174,7 @@ class RockingBlock:
             steps=steps,
             reason=failure or ("overturns as one block" if collapsed else ""),
             residuals=Residuals.of_one(0.0, along, up, side * x),
-            collapse=in_plane(collapse_time if found else end, 1, side) if collapsed else None,
+            collapse=in_plane(collapse_time if overturned else end, 1, side) if collapsed else None,
         )
 
 

@@ -186,11 +186,11 @@ class RockingLanes:
                 self.tables.clear()
             z = motion.z_samples
             vertical = None if z is None else half_steps(z, motion.dt, step, steps)
-            left = remaining_peak(motion)
+            peaks_ahead = remaining_peak(motion)
             at = np.minimum(
-                (np.arange(2 * steps + 2) * (0.5 * step / motion.dt) + 1e-9).astype(np.int64), len(left) - 1
+                (np.arange(2 * steps + 2) * (0.5 * step / motion.dt) + 1e-9).astype(np.int64), len(peaks_ahead) - 1
             )
-            remain = left[at]
+            remain = peaks_ahead[at]
             remain[2 * steps :] = 0.0
             tables = (half_steps(motion.samples, motion.dt, step, steps), vertical, remain)
             self.tables[key] = (motion, tables)  # the motion keeps its arrays alive, and so their ids

@@ -58,11 +58,11 @@ def ground_history(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.nda
 
 def ground_histories(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Acceleration and displacement of the base along x, y and z, from rest [m/s²], [m], shape (T, 3)."""
-    found = np.zeros((2, len(time), 3))
+    histories = np.zeros((2, len(time), 3))
     for axis, values in enumerate((motion.acceleration, motion.lateral, motion.vertical)):
         if values is not None:
-            found[:, :, axis] = ground_history(Motion(motion.dt, values), time)
-    return found[0], found[1]
+            histories[:, :, axis] = ground_history(Motion(motion.dt, values), time)
+    return histories[0], histories[1]
 
 
 # Quiet of a record: before the shaking, and between and after shocks once all lies at rest.
@@ -101,10 +101,10 @@ def level(motion: Motion, column: Structure) -> np.ndarray:
     flat = np.abs(motion.samples) if motion.y_samples is None else np.hypot(motion.samples, motion.y_samples)
     opens = column.moving_acceleration
     assert opens is not None
-    found = flat / opens if opens > 0.0 else np.where(flat > 0.0, math.inf, 0.0)
+    share = flat / opens if opens > 0.0 else np.where(flat > 0.0, math.inf, 0.0)
     if motion.z_samples is not None:
-        found += np.abs(motion.z_samples) / column.gravity
-    return found * abs(motion.factor)
+        share += np.abs(motion.z_samples) / column.gravity
+    return share * abs(motion.factor)
 
 
 def shaking(motion: Motion, column: Column, share: float) -> np.ndarray:

@@ -96,10 +96,10 @@ CHANGED = ("joint", "link", "lane")
 
 def with_copies(state: tuple[Any, ...], *others: str) -> tuple[Any, ...]:
     """A state of an engine with copies of all records that a look at the forces changes, and of some others."""
-    found = list(state)
+    records = list(state)
     for place in _places(*others):
-        found[place] = copied(found[place])
-    return tuple(found)
+        records[place] = copied(records[place])
+    return tuple(records)
 
 
 @cache
@@ -158,9 +158,9 @@ def run_alike(
                 for index, case in by_kind[kind]:
                     yield kind, index, case
 
-    for kind, some in itertools.groupby(kinds(), key=operator.itemgetter(0)):
+    for kind, group in itertools.groupby(kinds(), key=operator.itemgetter(0)):
         count = threads(kind) if callable(threads) else threads
-        yield from run_lanes(lambda kind=kind: make_block(kind), (one[1:] for one in some), count, numbered=True)
+        yield from run_lanes(lambda kind=kind: make_block(kind), (entry[1:] for entry in group), count, numbered=True)
     yield from lost
 
 
@@ -192,24 +192,24 @@ def run_lanes(
 
     def load(block: LaneBlock, lane: int) -> int | None:
         """Fill a lane; a case that cannot be loaded is a result, and the next one is taken."""
-        while (one := next_case()) is not None:
+        while (numbered_case := next_case()) is not None:
             try:
-                block.load(lane, one[1])
-                return one[0]
+                block.load(lane, numbered_case[1])
+                return numbered_case[0]
             except NOT_COMPUTED as error:
-                results.put([(one[0], not_computed(error))])
+                results.put([(numbered_case[0], not_computed(error))])
         return None
 
     def end(index: int, collect: Callable[[], Measures | GoesOn]) -> list[tuple[int, Measures]]:
         """The measures of a run; none where it waits for whoever goes on with it."""
         try:
-            found = collect()
+            outcome = collect()
         except NOT_COMPUTED as error:
-            found = not_computed(error)
-        if callable(found):
-            alone.put((index, found))
+            outcome = not_computed(error)
+        if callable(outcome):
+            alone.put((index, outcome))
             return []
-        return [(index, found)]
+        return [(index, outcome)]
 
     def work() -> None:
         try:

@@ -166,8 +166,8 @@ def _with_others(column: Column, toes: np.ndarray, bending: Bending) -> np.ndarr
     # Faces that chips leave smaller give more: their largest moment is smaller as their smallest half width is, and their
     # area by no more than the square of that.
     chips = np.array([max(column.as_found.of(i + 1).chips) for i in range(column.n)])
-    left = 1.0 - chips / np.array([0.5 * min(drum.bottom_width, drum.depth) for drum in column.drums])
-    more = np.maximum(left, LEAST_LEFT) ** -4
+    remaining = 1.0 - chips / np.array([0.5 * min(drum.bottom_width, drum.depth) for drum in column.drums])
+    more = np.maximum(remaining, LEAST_LEFT) ** -4
     return np.stack((toes * more, others * more.max()))
 
 
@@ -320,9 +320,9 @@ class _Chain(NamedTuple):
         lever = self.half * self.curve[1][at] + slope * (far - low)
         lever = np.where(beyond, self.half * self.curve[1][-1], lever)
         closed = size <= self.first
-        found = np.where(closed, self.kern * size / self.first, lever)
+        lever_size = np.where(closed, self.kern * size / self.first, lever)
         rate = np.where(closed, self.kern / self.first, np.where(beyond, 0.0, slope / np.maximum(size, 1e-300)))
-        return sign * found, rate
+        return sign * lever_size, rate
 
     def pressed(self, turns: np.ndarray) -> np.ndarray:
         """Half of the angle over which the rim of every joint is pressed [rad]."""
@@ -338,23 +338,23 @@ class _Chain(NamedTuple):
             return opens
         way = float(self.reach @ opens[1])
         steps = way * np.geomspace(1.0, FARTHEST, STATES)
-        found: list[tuple[float, float, np.ndarray]] = []
+        states: list[tuple[float, float, np.ndarray]] = []
         acceleration, turns = 0.5 * opens[0], 0.5 * opens[1]
         for top in steps:
             acceleration, turns = self._at(float(top), acceleration, turns, leaning)
-            found.append((float(top), acceleration, turns))
-            if acceleration < 0.98 * max(one[1] for one in found):
+            states.append((float(top), acceleration, turns))
+            if acceleration < 0.98 * max(state[1] for state in states):
                 break
-        place = int(np.argmax([one[1] for one in found]))
-        low, high = found[max(place - 1, 0)][0], found[min(place + 1, len(found) - 1)][0]
-        best = found[place][1:]
-        start = found[max(place - 1, 0)]
+        place = int(np.argmax([state[1] for state in states]))
+        low, high = states[max(place - 1, 0)][0], states[min(place + 1, len(states) - 1)][0]
+        best = states[place][1:]
+        start = states[max(place - 1, 0)]
         for _ in range(40):  # the largest is between its neighbours: golden section
-            one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-            first = self._at(one, start[1], start[2], leaning)
-            second = self._at(other, start[1], start[2], leaning)
+            nearer, farther = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+            first = self._at(nearer, start[1], start[2], leaning)
+            second = self._at(farther, start[1], start[2], leaning)
             best = max((best, first, second), key=lambda state: state[0])
-            low, high = (low, other) if first[0] > second[0] else (one, high)
+            low, high = (low, farther) if first[0] > second[0] else (nearer, high)
             if high - low < 1e-3 * high:
                 break
         return best

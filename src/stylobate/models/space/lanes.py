@@ -168,7 +168,7 @@ class HandedOver(NamedTuple):
         engine.take_over(*self.records, self.step)
         engine.stood_at, engine.stood_since = self.stood_at, self.stood_since
         stack = self.states.stack()
-        states = [dict(zip(stack, one, strict=True)) for one in zip(*stack.values(), strict=True)]
+        states = [dict(zip(stack, row, strict=True)) for row in zip(*stack.values(), strict=True)]
         made = self.made._replace(engine=engine)
         return go_on(structure, motion, self.model, self.options, made, states).measures
 
@@ -256,8 +256,8 @@ class IntactLanes:
         self.turn, self.arm = np.zeros((n, 3, 3, self.lanes)), np.zeros((n, 1, 1, self.lanes))
         self.stood_at, self.stood_since = np.full((n, 4, 3, self.lanes), np.inf), np.zeros(self.lanes)
         changing = self.body, self.joint, self.lane
-        self.kept = tuple(aligned_zeros(len(one), one.dtype) for one in changing)
-        self.rows = [(of_lanes(one), of_lanes(kept)) for one, kept in zip(changing, self.kept, strict=True)]
+        self.kept = tuple(aligned_zeros(len(array), array.dtype) for array in changing)
+        self.rows = [(of_lanes(array), of_lanes(kept)) for array, kept in zip(changing, self.kept, strict=True)]
         return state
 
     def _put(self, lane: int, made: StartState, gap: np.ndarray, case: Case, chunks: int) -> None:
@@ -313,10 +313,10 @@ class IntactLanes:
             return
         which, out = np.zeros(self.lanes, dtype=bool), np.empty((6, self.lanes))
         which[lanes] = True
-        for one, kept in self.rows:
-            np.copyto(kept, one, where=which)
+        for array, kept in self.rows:
+            np.copyto(kept, array, where=which)
         changed = {0, 1, 5}  # bodies, joints, and what is of lanes
-        state = tuple(copied(one) if k in changed else one for k, one in enumerate(self.state))
+        state = tuple(copied(array) if k in changed else array for k, array in enumerate(self.state))
         self.kernel.energies(state, which, out)
         pose = self.rows[0][0][:, : len(POSE)]
         times = self.feed["step"][0] * self.dt

@@ -143,8 +143,8 @@ class Loose:
         """Let the links be free of force where the bodies are now, but for their pretension."""
         if self.links:
             link = self.ties.link
-            link["ft"][:, 0] = [one.pretension for one in self.links]
-            link["gap"][:, 0] = link["back"][:, 0] = [one.clearance for one in self.links]
+            link["ft"][:, 0] = [placed.pretension for placed in self.links]
+            link["gap"][:, 0] = link["back"][:, 0] = [placed.clearance for placed in self.links]
             self.bonds.begin(self.body, tuple(self.ties))
 
     def take_over(
@@ -289,8 +289,8 @@ class Loose:
     def _with_forces(self) -> tuple[Any, ...]:
         """A copy of what the forces at the present positions change, with these."""
         copies = {0, 6, 8, 11}  # bodies, pairs, joints, now
-        *state, ties = (copied(one) if k in copies else one for k, one in enumerate(self.state))
-        state = *state, tuple(copied(one) for one in ties)
+        *state, ties = (copied(array) if k in copies else array for k, array in enumerate(self.state))
+        state = *state, tuple(copied(array) for array in ties)
         self.kernel.forces(state)
         return state
 
@@ -342,7 +342,7 @@ class Loose:
             everything is as it was.
         """
         arrays = (self.body, self.pair, self.joint, self.now, self.feed, *self.ties)
-        drawn, poses = [one.copy() for one in arrays], self._poses
+        drawn, poses = [array.copy() for array in arrays], self._poses
         self.body["local"], self.feed["last"] = LOCAL_DAMPING, 0
 
         def rests() -> bool:
@@ -463,7 +463,9 @@ def go_on(
     failure = ""
     if engine.failed:
         failure = f"the bodies could not be followed beyond {engine.time:.4g} s; try a smaller step_factor"
-    return response_of(structure, motion, model, made, stack, still=still, failure=failure, held=link_histories(states))
+    return response_of(
+        structure, motion, model, made, stack, still=still, failure=failure, link_histories=link_histories(states)
+    )
 
 
 class StartState(NamedTuple):
@@ -532,10 +534,10 @@ def response_of(
     *,
     still: bool,
     failure: str = "",
-    held: LinkHistories | None = None,
+    link_histories: LinkHistories | None = None,
 ) -> Response:
-    """The response of a run from its states, by their names; ``failure`` is why they end before the run does, ``held`` are
-    the histories of its links."""
+    """The response of a run from its states, by their names; ``failure`` is why they end before the run does,
+    ``link_histories`` are the histories of its links."""
     engine, start = made.engine, made.start
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
     imbalance = max(_imbalance(change, start), _imbalance_before_falls(structure, stack, change, start))
@@ -567,7 +569,7 @@ def response_of(
         struck_at=engine.struck_at,
         model=model.name,
         links=link_measures(engine.links, engine.ties.link, 0, engine.dt),
-        held=held,
+        link_histories=link_histories,
         provenance={
             "restitution": engine.restitution,
             "joints": len(engine.joint),
@@ -611,8 +613,8 @@ def _follow(
     duration = motion.duration + options.tail
     still, over = False, False
     while not engine.failed:
-        left = chunks - engine.steps // CHUNK
-        still, over = engine.at_rest(), left <= 0
+        remaining = chunks - engine.steps // CHUNK
+        still, over = engine.at_rest(), remaining <= 0
         if over:
             drawn, now = ((state["position"], state["axes"]) for state in (states[0], states[-1]))
             waits = options.until_rest or (options.until_decided and not fallen(structure, *drawn, *now).any())
@@ -620,7 +622,7 @@ def _follow(
                 break
             engine.now["dull"] = engine.now["eta"]
             engine.quieten()
-        engine.advance(every if over else min(every, left))
+        engine.advance(every if over else min(every, remaining))
         states.append(_state(engine, motion))
         if options.progress:
             options.progress(min(engine.time, duration), duration)

@@ -243,12 +243,12 @@ class _Rows:
 def inner_faces(parts: Sequence[Mesh | Drum | HalfSpace]) -> list[list[bool]]:
     """Of every part of a body which of its faces are all covered by faces of other ones; of drums the two ends come last."""
     ends = [_flat_faces(part) for part in parts]
-    found = []
+    covered = []
     for part, mine in zip(parts, ends, strict=True):
-        others = [face for one in ends if one is not mine for face in one]
+        others = [face for faces in ends if faces is not mine for face in faces]
         before = FACETS if isinstance(part, Drum) else 0
-        found.append([False] * before + [_covered(face, others) for face in mine])
-    return found
+        covered.append([False] * before + [_covered(face, others) for face in mine])
+    return covered
 
 
 def _flat_faces(part: Mesh | Drum | HalfSpace) -> list[np.ndarray]:
@@ -257,17 +257,17 @@ def _flat_faces(part: Mesh | Drum | HalfSpace) -> list[np.ndarray]:
         return [np.asarray(part.vertices)[list(face)] for face in part.faces]
     if isinstance(part, HalfSpace):
         return [np.zeros((3, 3))]
-    one = np.cross(part.axis, np.eye(3)[np.argmin(np.abs(part.axis))])
-    one /= np.linalg.norm(one)
+    radial = np.cross(part.axis, np.eye(3)[np.argmin(np.abs(part.axis))])
+    radial /= np.linalg.norm(radial)
     angle = 2.0 * math.pi * np.arange(AROUND)[:, None] / AROUND
-    ring = np.cos(angle) * one + np.sin(angle) * np.cross(part.axis, one)
+    ring = np.cos(angle) * radial + np.sin(angle) * np.cross(part.axis, radial)
     top = part.foot + part.height * part.axis
     return [part.foot + part.bottom * ring[::-1], top + part.top * ring]
 
 
 def _covered(face: np.ndarray, others: Sequence[np.ndarray]) -> bool:
     """Whether faces that look the other way, in the same plane, cover a face."""
-    plane, left = plane_of(face) if others else np.zeros(4), 0.0
+    plane, covered_area = plane_of(face) if others else np.zeros(4), 0.0
     area = _area(face)
     near = COVERED * math.sqrt(area)
     for other in others:
@@ -278,8 +278,8 @@ def _covered(face: np.ndarray, others: Sequence[np.ndarray]) -> bool:
         for p, q in zip(face, np.roll(face, -1, axis=0), strict=True):
             outward = np.cross(q - p, plane[:3])
             common = cut(common, outward, float(outward @ p)) if len(common) else common
-        left += _area(common)
-    return left > (1.0 - COVERED) * area > 0.0
+        covered_area += _area(common)
+    return covered_area > (1.0 - COVERED) * area > 0.0
 
 
 def _area(polygon: np.ndarray) -> float:
@@ -294,9 +294,9 @@ def pack_joints(joints: Sequence[FacesJoined], packed: Packed) -> tuple[np.ndarr
     """Records of joints in the order of their shapes, and the corners of all faces, one after another."""
     ordered = sorted(joints, key=lambda joint: (min(joint.lower, joint.upper), max(joint.lower, joint.upper)))
     records, rows, first = np.zeros(len(joints), types()["joint"]), [np.zeros((1, 2))], 1
-    for e, one in zip(records, ordered, strict=True):
-        e["a"], e["b"] = one.lower, one.upper
-        sides = (("l", one.lower, one.below, 1.0, LESS), ("u", one.upper, one.above, -1.0, 1.0))
+    for e, joint in zip(records, ordered, strict=True):
+        e["a"], e["b"] = joint.lower, joint.upper
+        sides = (("l", joint.lower, joint.below, 1.0, LESS), ("u", joint.upper, joint.above, -1.0, 1.0))
         for side, shape, face, way, size in sides:
             turn = packed.turn[packed.shape["body"][shape]].T
             # seen from above, the upper face's frame is turned over about its first direction
@@ -309,10 +309,10 @@ def pack_joints(joints: Sequence[FacesJoined], packed: Packed) -> tuple[np.ndarr
             e["first_" + side], e["many_" + side], e["r" + side] = first, len(corners), face.radius
             rows.append(size * corners)
             first += len(corners)
-        e["kn"], e["ks"], e["tan"], e["co"] = one.kn, one.ks, one.tan_phi, one.cohesion
-        e["width"] = min(one.below.area, one.above.area)
-        e["from_c"], e["to_c"], e["apart_c"] = (math.cos(share * one.last) for share in (HANDING_OVER, 1.0, APART))
-        e["apart"] = LEFT * min(one.over, e["width"])
+        e["kn"], e["ks"], e["tan"], e["co"] = joint.kn, joint.ks, joint.tan_phi, joint.cohesion
+        e["width"] = min(joint.below.area, joint.above.area)
+        e["from_c"], e["to_c"], e["apart_c"] = (math.cos(share * joint.last) for share in (HANDING_OVER, 1.0, APART))
+        e["apart"] = LEFT * min(joint.over, e["width"])
         e["live"], e["weight"] = 1, 1.0
     return records, np.concatenate(rows)
 
@@ -376,13 +376,15 @@ def stiffness_of(links: tuple[PlacedLink, ...], root: np.ndarray) -> LinkStiffne
         return LinkStiffness(0.0, 0.0)
 
     def row(link: PlacedLink, way: np.ndarray) -> np.ndarray:
-        found, straight = np.zeros(len(root)), link.straight
+        coefficients, straight = np.zeros(len(root)), link.straight
         points: Any = (link.low, link.high) if straight else (link.middle, link.middle)
         for body, point, origin, sign in zip((link.lower, link.upper), points, link.origins, (-1.0, 1.0), strict=True):
-            found[6 * body : 6 * body + 6] = sign * np.concatenate((way, np.cross(np.subtract(point, origin), way)))
-        return found
+            coefficients[6 * body : 6 * body + 6] = sign * np.concatenate(
+                (way, np.cross(np.subtract(point, origin), way))
+            )
+        return coefficients
 
-    springs, dashpots = (root.T @ one @ root for one in link_matrices(links, row, len(root)))
+    springs, dashpots = (root.T @ matrix @ root for matrix in link_matrices(links, row, len(root)))
     ones = np.ones(len(root))
     return LinkStiffness(highest_frequency(springs, ones), highest_frequency(dashpots, ones) ** 2)
 

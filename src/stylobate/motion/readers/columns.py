@@ -104,17 +104,17 @@ def read_table(lines: list[str], start: int, file: str, *, alone: bool = False) 
 
 def _rows(lines: list[str], start: int, file: str, alone: bool) -> tuple[list[int], list[str]]:
     """Indices of the lines of numbers, and these with separators made blanks and decimal commas made points."""
-    found = [i for i in range(start, len(lines)) if (text := lines[i].strip()) and not text.startswith(("#", "%"))]
-    if len(found) > 1 and _END.fullmatch(lines[found[-1]]):
-        found.pop()
-    for i in range(start, found[-1]):
+    indices = [i for i in range(start, len(lines)) if (text := lines[i].strip()) and not text.startswith(("#", "%"))]
+    if len(indices) > 1 and _END.fullmatch(lines[indices[-1]]):
+        indices.pop()
+    for i in range(start, indices[-1]):
         if re.match(r"\s*[#%].*[^\W_]", lines[i]):
             raise InputError(
                 f"{file}, line {i + 1}: {lines[i].strip()[:60]!r} stands among the numbers, as above a second record; give "
                 "every record a file, or take the line out."
             )
-    sample = lines[found[0]]
-    texts = [lines[i] for i in found]
+    sample = lines[indices[0]]
+    texts = [lines[i] for i in indices]
     if ";" in sample or "," in sample:
         # Commas within numbers that blanks or semicolons separate are decimal ones.
         apart = (
@@ -123,7 +123,7 @@ def _rows(lines: list[str], start: int, file: str, alone: bool) -> tuple[list[in
             or (re.search(r"\S\s+\S", sample) is not None and re.search(r",\s|\s,", sample) is None)
         )
         decimal = "." not in sample and apart
-        mixed = next((i for i in found if "." in lines[i]), None) if decimal else None
+        mixed = next((i for i in indices if "." in lines[i]), None) if decimal else None
         if mixed is not None:
             raise InputError(
                 f"{file}, line {mixed + 1}: {lines[mixed].strip()[:60]!r} holds a point, and other numbers have decimal "
@@ -132,20 +132,20 @@ def _rows(lines: list[str], start: int, file: str, alone: bool) -> tuple[list[in
         text = "\n".join(texts)
         text = text.replace(";", " ") if ";" in sample else text
         texts = text.replace(",", "." if decimal else "," if ";" in sample else " ").split("\n")
-    return found, texts
+    return indices, texts
 
 
 def _parts(rows: list[int], texts: list[str], file: str) -> np.ndarray:
     """All numbers in a row; a line that holds none is named as the file counts it."""
-    found = []
+    parts = []
     for start in range(0, len(texts), PIECE):
         try:
-            found.append(read_numbers(texts[start : start + PIECE], rows[start], file, COLUMNS))
+            parts.append(read_numbers(texts[start : start + PIECE], rows[start], file, COLUMNS))
         except InputError:
             for index, row in zip(rows[start : start + PIECE], texts[start : start + PIECE]):
                 read_numbers([row], index, file, COLUMNS)
             raise
-    return np.concatenate(found)
+    return np.concatenate(parts)
 
 
 # -- Columns of text --------------------------------------------------------------------------------------------------
@@ -189,33 +189,33 @@ def parse_columns(text: str) -> tuple[Column, ...]:
     InputError
         The text cannot be understood; the message shows how to write it.
     """
-    found = []
+    columns = []
     for part in text.split(","):
-        one = _STATED_COLUMN.fullmatch(part.strip())
-        if one is None or one["axis"] not in ("t", "x", "y", "z", "-"):
+        match = _STATED_COLUMN.fullmatch(part.strip())
+        if match is None or match["axis"] not in ("t", "x", "y", "z", "-"):
             raise InputError(
                 f"`columns` {text!r}: {part.strip()!r} is not understood; allowed are t, x, y and z with a unit, and - for "
                 "a column to leave out, such as 't [s], x [g], -, z [g]'.",
                 "columns",
             )
-        if one["axis"] == "t" and (one["unit"] or "") not in TIME_UNITS:
+        if match["axis"] == "t" and (match["unit"] or "") not in TIME_UNITS:
             raise InputError(
                 f"`columns` {text!r}: {part.strip()!r} states no unit of time; allowed are {', '.join(TIME_UNITS)}, "
                 "as in 't [s]'.",
                 "columns",
             )
-        if one["axis"] in "xyz" and one["unit"] is not None:
+        if match["axis"] in "xyz" and match["unit"] is not None:
             with within("", "columns"):
-                acceleration_unit(one["unit"])
-        found.append(Column(one["axis"], one["unit"]))
-    _check_axes(found, f"`columns` {text!r}")
-    if "x" not in [one.axis for one in found]:
+                acceleration_unit(match["unit"])
+        columns.append(Column(match["axis"], match["unit"]))
+    _check_axes(columns, f"`columns` {text!r}")
+    if "x" not in [column.axis for column in columns]:
         raise InputError(f"`columns` {text!r} names no x; name the column of the horizontal acceleration x.", "columns")
-    return tuple(found)
+    return tuple(columns)
 
 
 def _check_axes(columns: list[Column], where: str) -> None:
-    axes = [one.axis for one in columns if one.axis != "-"]
+    axes = [column.axis for column in columns if column.axis != "-"]
     twice = next((axis for axis in axes if axes.count(axis) > 1), None)
     if twice is not None:
         raise InputError(f"{where} names {axes.count(twice)} columns {twice}; name each once.", "columns")
@@ -293,10 +293,12 @@ def _header(lines: list[str], file: str) -> list[Column] | None:
     """Columns of the line that names them as this package does; behind it stand comments at most."""
     for number, line in reversed(list(enumerate(lines, 1))):
         cells = [cell.strip('"') for cell in re.split(r"\s*[,;\t]\s*|\s+", line.lower().strip("#% \t,;"))]
-        found = [_OWN_COLUMN.fullmatch(cell) for cell in cells]
-        if all(found):
+        matches = [_OWN_COLUMN.fullmatch(cell) for cell in cells]
+        if all(matches):
             columns = [
-                Column("t", one["time"]) if one["time"] else Column(one["axis"], one["unit"]) for one in found if one
+                Column("t", match["time"]) if match["time"] else Column(match["axis"], match["unit"])
+                for match in matches
+                if match
             ]
             _check_axes(columns, f"{file}, line {number}: {line.strip()!r}")
             return columns
@@ -353,31 +355,31 @@ def propose(line: str, table: np.ndarray, unit: str | None) -> str:
     if count >= SERIES and not rises and not any(cells):
         return f"x [{unit}]"
     upward = re.compile(r"up|ver|ud|u-d|(?:\b|_)a?z(?![a-z])|_v(?![a-z])|^z|^v\b")
-    free, found = ["x", "y"], []
+    free, columns = ["x", "y"], []
     for i, cell in enumerate(cells):
         if i == 0 and rises:
-            found.append(f"t [{'ms' if float(np.median(np.diff(table[:, 0]))) > LONGEST_STEP else 's'}]")
+            columns.append(f"t [{'ms' if float(np.median(np.diff(table[:, 0]))) > LONGEST_STEP else 's'}]")
         elif re.search(r"vel|dis|^[vdu](?![pd])|[\[(_]\s*[cm]?m(?:/s(?:ec)?)?\s*[\])]?$", cell) and not _unit_in(cell):
-            found.append("-")
-        elif upward.search(cell) and not any(one[0] == "z" for one in found):
-            found.append(f"z [{_unit_in(cell) or unit}]")
+            columns.append("-")
+        elif upward.search(cell) and not any(column[0] == "z" for column in columns):
+            columns.append(f"z [{_unit_in(cell) or unit}]")
         else:
-            found.append(f"{free.pop(0)} [{_unit_in(cell) or unit}]" if free else "-")
+            columns.append(f"{free.pop(0)} [{_unit_in(cell) or unit}]" if free else "-")
     if free[:1] == ["x"]:
-        found[rises] = f"x [{unit}]"
-    if not free and _NORTH.search(cells[(x := next(i for i, one in enumerate(found) if one[0] == "x"))]):
+        columns[rises] = f"x [{unit}]"
+    if not free and _NORTH.search(cells[(x := next(i for i, column in enumerate(columns) if column[0] == "x"))]):
         y = next(
-            i for i, one in enumerate(found) if one[0] == "y"
+            i for i, column in enumerate(columns) if column[0] == "y"
         )  # with z upward, y is to the left of x: north of east
-        found[x], found[y] = "y" + found[x][1:], "x" + found[y][1:]
-    return ", ".join(found)
+        columns[x], columns[y] = "y" + columns[x][1:], "x" + columns[y][1:]
+    return ", ".join(columns)
 
 
 def _unit_in(cell: str) -> str | None:
     """A unit of acceleration that a cell is, or holds behind a name: in brackets, or behind a stroke or a colon."""
-    for found in (cell.strip(), *re.findall(r"[\[(_/:]\s*([^][(),:;\t|_]+)", cell)):
+    for candidate in (cell.strip(), *re.findall(r"[\[(_/:]\s*([^][(),:;\t|_]+)", cell)):
         try:
-            return acceleration_unit(found)[0]
+            return acceleration_unit(candidate)[0]
         except InputError:
             continue
     return None
@@ -399,20 +401,20 @@ def _series(table: np.ndarray, stated: list[Column], file: str) -> np.ndarray:
 
 def _comments(titles: list[str]) -> dict[str, str]:
     """Facts of the record in lines ``# key: value``, as this package writes them."""
-    found = (line.lstrip("# ").partition(":") for line in titles if line.startswith("#"))
-    return {key.strip().lower(): value.strip() for key, colon, value in found if colon}
+    parts = (line.lstrip("# ").partition(":") for line in titles if line.startswith("#"))
+    return {key.strip().lower(): value.strip() for key, colon, value in parts if colon}
 
 
 def _history(titles: list[str], file: str) -> list[str]:
     """What was done to a record that this package wrote, in order."""
-    found = [match for line in titles if (match := _DONE.fullmatch(line))]
-    numbers = [int(match["number"]) for match in found]
+    matches = [match for line in titles if (match := _DONE.fullmatch(line))]
+    numbers = [int(match["number"]) for match in matches]
     if numbers != list(range(1, len(numbers) + 1)):
         raise InputError(
             f"{file}: the lines '# processing N: …' are numbered {', '.join(map(str, numbers))}; allowed is 1, 2, 3 and so "
             "on, in this order: fetch the file again, as a step that was done to the record may be lost."
         )
-    return [match["step"] for match in found]
+    return [match["step"] for match in matches]
 
 
 def _comment_number(comments: dict[str, str], key: str, file: str) -> float:
@@ -424,8 +426,8 @@ def _comment_number(comments: dict[str, str], key: str, file: str) -> float:
 
 def _check_digest(components: list[Component], written: str, file: str) -> None:
     parts = {component.label: component.values for component in components}
-    found = Motion(components[0].dt, parts["x"], parts.get("y"), parts.get("z")).digest
-    if found != written:
+    digest = Motion(components[0].dt, parts["x"], parts.get("y"), parts.get("z")).digest
+    if digest != written:
         raise InputError(
             f"{file}: the numbers are not those that were written with the line '# sha256: …'; fetch the file again, or "
             "remove that line if you changed them."
@@ -438,16 +440,16 @@ def _components(
     table: np.ndarray, columns: list[Column], unit: str | None, file: str
 ) -> tuple[list[Component], np.ndarray | None, list[str]]:
     """Components x, y, z in this order, their times [s], and their units."""
-    held = {one.axis: (one.unit, table[:, i]) for i, one in enumerate(columns) if one.axis != "-"}
+    by_axis = {column.axis: (column.unit, table[:, i]) for i, column in enumerate(columns) if column.axis != "-"}
     time = None
-    if "t" in held:
-        stated, values = held.pop("t")
+    if "t" in by_axis:
+        stated, values = by_axis.pop("t")
         time = values * TIME_UNITS[stated or "s"] if stated != "s" else values.copy()
     components, units = [], []
-    for axis in sorted(held):
-        stated, values = held[axis]
+    for axis in sorted(by_axis):
+        stated, values = by_axis[axis]
         if stated is None and unit is None:
-            what = file if len(held) == 1 else f"{file}: column {axis}"
+            what = file if len(by_axis) == 1 else f"{file}: column {axis}"
             raise UnstatedError(f"{what} states no unit; state it: `unit='g'`, or m/s2, gal, mm/s2.", field="unit")
         with within(file):
             shown, size = acceleration_unit(stated or unit or "")

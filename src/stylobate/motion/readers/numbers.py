@@ -26,8 +26,8 @@ PIECE = 5000
 
 def number_in(text: str) -> float | None:
     """The first number in ``text``, or None; letters that touch it (``5V``) make it none."""
-    found = _FIRST.search(text)
-    value = float(re.sub(r"[dD]", "e", found.group())) if found else math.nan
+    match = _FIRST.search(text)
+    value = float(re.sub(r"[dD]", "e", match.group())) if match else math.nan
     return value if math.isfinite(value) else None
 
 
@@ -120,13 +120,13 @@ def _parse(lines: Sequence[str], width: int | None) -> np.ndarray | None:
             )
         if _STRANGE.search(text):
             return None
-        found = _floats(text)
-        if found is None:
+        numbers = _floats(text)
+        if numbers is None:
             text = text.replace("D", "e").replace("d", "e")
-            found = _floats(_GLUED.sub(" ", text) if width is None else text)
-        if found is None:
+            numbers = _floats(_GLUED.sub(" ", text) if width is None else text)
+        if numbers is None:
             return None
-        parts.append(found)
+        parts.append(numbers)
     values = np.concatenate(parts) if parts else np.empty(0)
     return values if np.isfinite(values).all() else None
 
@@ -141,5 +141,5 @@ def _floats(text: str) -> np.ndarray | None:
 def _cut_short(lines: Sequence[str]) -> bool:
     """Whether the last number lacks its exponent, or a digit of it, where all before it in its lines have theirs."""
     text = " ".join([line for line in lines[-4:] if line.strip()][-2:])
-    powers = [found[0].upper().partition("E")[2].lstrip("+-") for found in re.finditer(NUMBER, text)]
+    powers = [match[0].upper().partition("E")[2].lstrip("+-") for match in re.finditer(NUMBER, text)]
     return len(powers) > 1 and len(powers[-1]) < min(map(len, powers[:-1]))

@@ -114,10 +114,10 @@ def check_whole(lines: Sequence[str], ends_with_newline: bool, file: str) -> Non
 
 def _decimals(token: str) -> tuple[int, int] | None:
     """Digits after the point and of the exponent, or None where the token is no plain number."""
-    found = re.fullmatch(r"[+-]?[0-9]*(?:\.(?P<after>[0-9]*))?(?:[eEdD][+-]?(?P<power>[0-9]+))?", token)
-    if found is None or "." not in token:
+    match = re.fullmatch(r"[+-]?[0-9]*(?:\.(?P<after>[0-9]*))?(?:[eEdD][+-]?(?P<power>[0-9]+))?", token)
+    if match is None or "." not in token:
         return None
-    return len(found["after"] or ""), len(found["power"] or "")
+    return len(match["after"] or ""), len(match["power"] or "")
 
 
 # -- One component of a record as a reader finds it, before it becomes part of a motion -------------------------------
@@ -131,9 +131,9 @@ class UnstatedError(InputError):
 SQUARE = 5.0
 
 
-def at_right_angles(one: float, other: float) -> bool:
+def at_right_angles(azimuth: float, other: float) -> bool:
     """Whether two azimuths are those of two horizontal components of one record [degrees]."""
-    return abs((one - other) % 180.0 - 90.0) <= SQUARE
+    return abs((azimuth - other) % 180.0 - 90.0) <= SQUARE
 
 
 @dataclass
@@ -261,9 +261,9 @@ def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str)
                 "dt",
             )
         grid = time[0] + step * np.arange(count)
-        found = np.interp(grid, time, values)
-        return found, float(
-            np.abs(np.interp(time[time <= grid[-1]], grid, found) - values[time <= grid[-1]]).max()
+        samples = np.interp(grid, time, values)
+        return samples, float(
+            np.abs(np.interp(time[time <= grid[-1]], grid, samples) - values[time <= grid[-1]]).max()
         ) / peak
 
     if dt is not None:
@@ -306,12 +306,12 @@ def same_step(components: list[Component], name: str, dt: float | None, processi
     irregular = [component for component in components if component.time is not None]
     if irregular:
         wanted = dt
-        for one in irregular:
-            assert one.time is not None
-            check_sampling(float(np.median(np.diff(one.time))), f"the median step of the times of {name}")
-            step, one.values, note = resampled(one.time, one.values, wanted, name)
-            one.dt = wanted = step
-            one.processing.append(note)
+        for component in irregular:
+            assert component.time is not None
+            check_sampling(float(np.median(np.diff(component.time))), f"the median step of the times of {name}")
+            step, component.values, note = resampled(component.time, component.values, wanted, name)
+            component.dt = wanted = step
+            component.processing.append(note)
     steps = [component.dt for component in components]
     if any(math.isnan(step) for step in steps):
         if dt is None:
@@ -351,23 +351,25 @@ def check_one_record(components: Sequence[Component]) -> None:
         They name two stations, networks, locations or events; two horizontal ones are not at right angles, or
         have one label.
     """
-    for one, other in combinations(components, 2):
+    for component, other in combinations(components, 2):
         for key, noun in IDENTITY.items():
-            first, second = (" ".join(str(each.facts.get(key) or "").split()) for each in (one, other))
-            stated = key == "station" or None not in (one.facts.get(key), other.facts.get(key))
+            first, second = (" ".join(str(each.facts.get(key) or "").split()) for each in (component, other))
+            stated = key == "station" or None not in (component.facts.get(key), other.facts.get(key))
             if stated and first.casefold() != second.casefold():
-                told = f"{noun} {first!r}" if first else f"no stated {noun}"
-                raise _not_one(f"{_called(one)} is of {told}, {_called(other)} of {repr(second) if second else 'none'}")
-        if one.vertical or other.vertical:
-            continue
-        if one.azimuth is not None and other.azimuth is not None:
-            if not at_right_angles(one.azimuth, other.azimuth):
+                words = f"{noun} {first!r}" if first else f"no stated {noun}"
                 raise _not_one(
-                    f"{_called(one)} points to {one.azimuth:g}°, {_called(other)} to {other.azimuth:g}°; allowed are "
-                    f"horizontal components at right angles, within {SQUARE:g}°"
+                    f"{_called(component)} is of {words}, {_called(other)} of {repr(second) if second else 'none'}"
                 )
-        elif one.named and other.named and one.label.lower() == other.label.lower() not in _NO_DIRECTION:
-            raise _not_one(f"{_called(one)} and {_called(other)} have one label; allowed are two directions")
+        if component.vertical or other.vertical:
+            continue
+        if component.azimuth is not None and other.azimuth is not None:
+            if not at_right_angles(component.azimuth, other.azimuth):
+                raise _not_one(
+                    f"{_called(component)} points to {component.azimuth:g}°, {_called(other)} to {other.azimuth:g}°; "
+                    f"allowed are horizontal components at right angles, within {SQUARE:g}°"
+                )
+        elif component.named and other.named and component.label.lower() == other.label.lower() not in _NO_DIRECTION:
+            raise _not_one(f"{_called(component)} and {_called(other)} have one label; allowed are two directions")
 
 
 def common_span(
@@ -398,43 +400,45 @@ def common_span(
     InputError
         Two components do not overlap, or their files do not tell to half a sample how far apart they begin.
     """
-    for one, other in combinations(components, 2):
-        _check_clocks(one, other, step)
-    known = next((one for one in components if one.facts.get("start_time")), components[0])
-    begin = [_seconds_after(known, one) for one in components]
+    for component, other in combinations(components, 2):
+        _check_clocks(component, other, step)
+    known = next((component for component in components if component.facts.get("start_time")), components[0])
+    begin = [_seconds_after(known, component) for component in components]
     later = [round((at - min(begin)) / step) for at in begin]
     skipped = [round((max(begin) - at) / step) for at in begin]
-    lengths = [len(one.values) for one in components]
+    lengths = [len(component.values) for component in components]
     count = min(length - skip for length, skip in zip(lengths, skipped))
-    values = {axis: one.values[skip : skip + count] for axis, one, skip in zip(axes, components, skipped)}
+    values = {axis: component.values[skip : skip + count] for axis, component, skip in zip(axes, components, skipped)}
     if not any(later) and len(set(lengths)) == 1:
         return values, components[0], ""
-    told = [f"{axis}: {length}" for axis, length in zip(axes, lengths)]
+    details = [f"{axis}: {length}" for axis, length in zip(axes, lengths)]
     begins = say("{axis} begins {time:g} s later")
-    told += [begins.of(axis=axis, time=steps * step) for axis, steps in zip(axes, later) if steps]
+    details += [begins.of(axis=axis, time=steps * step) for axis, steps in zip(axes, later) if steps]
     span, length_ = (
         say("cut to the common span of {count} samples ({names})"),
         say("cut to the common length of {count} samples ({names})"),
     )
-    note = (span if any(later) else length_).of(count=count, names=joined(", ", told))
+    note = (span if any(later) else length_).of(count=count, names=joined(", ", details))
     return values, components[later.index(max(later))], note
 
 
-def _seconds_after(one: Component, other: Component) -> float:
-    """How long after ``one`` a component begins [s]; zero where their files do not say."""
-    apart = 0.0 if one.first is None or other.first is None else other.first - one.first
-    first, second = moment_of(_start(one)), moment_of(_start(other))
+def _seconds_after(reference: Component, component: Component) -> float:
+    """How long after ``reference`` a component begins [s]; zero where their files do not say."""
+    apart = 0.0 if reference.first is None or component.first is None else component.first - reference.first
+    first, second = moment_of(_start(reference)), moment_of(_start(component))
     return apart if first is None or second is None else apart + (second.at - first.at).total_seconds()
 
 
-def _check_clocks(one: Component, other: Component, step: float) -> None:
+def _check_clocks(component: Component, other: Component, step: float) -> None:
     """Two components overlap, and their files tell to half a sample how far apart they begin."""
-    apart = _seconds_after(one, other)
-    if abs(apart) >= step * (len((other if apart < 0.0 else one).values) - 1):
-        raise _not_one(f"{_called(one)} and {_called(other)} do not overlap, as they begin at {_begins(one, other)}")
-    if _start(one) == _start(other) or "" in (_start(one), _start(other)):
+    apart = _seconds_after(component, other)
+    if abs(apart) >= step * (len((other if apart < 0.0 else component).values) - 1):
+        raise _not_one(
+            f"{_called(component)} and {_called(other)} do not overlap, as they begin at {_begins(component, other)}"
+        )
+    if _start(component) == _start(other) or "" in (_start(component), _start(other)):
         return
-    first, second = moment_of(_start(one)), moment_of(_start(other))
+    first, second = moment_of(_start(component)), moment_of(_start(other))
     if (
         first is None
         or second is None
@@ -442,24 +446,24 @@ def _check_clocks(one: Component, other: Component, step: float) -> None:
         or (first.at != second.at and first.digit + second.digit > step)
     ):
         raise _not_one(
-            f"{_called(one)} and {_called(other)} begin at {_begins(one, other)}, which does not tell to half a sample "
-            f"({0.5 * step:g} s) how far apart that is"
+            f"{_called(component)} and {_called(other)} begin at {_begins(component, other)}, which does not tell to half a "
+            f"sample ({0.5 * step:g} s) how far apart that is"
         )
 
 
-def _start(one: Component) -> str:
+def _start(component: Component) -> str:
     """When a component begins, as its file states it."""
-    return " ".join(str(one.facts.get("start_time") or "").split())
+    return " ".join(str(component.facts.get("start_time") or "").split())
 
 
-def _begins(one: Component, other: Component) -> str:
+def _begins(component: Component, other: Component) -> str:
     """When both begin: their starts, and the times of their first samples where these are not 0."""
-    parts = ([_start(each), f"{each.first:g} s" if each.first else ""] for each in (one, other))
+    parts = ([_start(each), f"{each.first:g} s" if each.first else ""] for each in (component, other))
     return " and ".join(" + ".join(filter(None, part)) or "0 s" for part in parts)
 
 
-def _called(one: Component) -> str:
-    return f"{one.label or 'a component'} of {one.file}"
+def _called(component: Component) -> str:
+    return f"{component.label or 'a component'} of {component.file}"
 
 
 def _not_one(what: str) -> InputError:
@@ -521,12 +525,12 @@ def direction(label: str) -> tuple[float | None, bool, float]:
         return None, True, minus
     if minus < 0.0 or re.match(r"-\s*\d", text):  # against a direction that is not vertical: whose, is not known
         return None, False, 1.0
-    if (found := _BEARING.search(text)) and float(found["angle"]) <= 90.0:
-        angle = float(found["angle"])
-        angle = angle if found["pole"] == "N" else 180.0 - angle
-        return (angle if found["side"] == "E" else -angle) % 360.0, False, 1.0
-    if (found := _FROM_NORTH.match(text) or _DEGREES.match(text)) and float(found["angle"]) <= 360.0:
-        return float(found["angle"]) % 360.0, False, 1.0
+    if (match := _BEARING.search(text)) and float(match["angle"]) <= 90.0:
+        angle = float(match["angle"])
+        angle = angle if match["pole"] == "N" else 180.0 - angle
+        return (angle if match["side"] == "E" else -angle) % 360.0, False, 1.0
+    if (match := _FROM_NORTH.match(text) or _DEGREES.match(text)) and float(match["angle"]) <= 360.0:
+        return float(match["angle"]) % 360.0, False, 1.0
     if code:
         return _POINTS[code["way"]], False, 1.0
     first = re.split(r"[\s,.;:]", text)[0].replace("-", "", not text.startswith("-")).replace("/", "")
@@ -561,13 +565,13 @@ def assemble(
     if component is not None:
         chosen = _choose(components, component, name)
         name = chosen.file or name
-        components, rest = [chosen], [one for one in components if one is not chosen]
+        components, rest = [chosen], [channel for channel in components if channel is not chosen]
         chosen.vertical = False
-        dropped = [one.label or "?" for one in rest]
+        dropped = [channel.label or "?" for channel in rest]
     else:
         dropped = []
-    horizontal = [one for one in components if not one.vertical]
-    vertical = [one for one in components if one.vertical]
+    horizontal = [channel for channel in components if not channel.vertical]
+    vertical = [channel for channel in components if channel.vertical]
     if not horizontal:
         raise InputError(
             f"{name} holds only the vertical component {vertical[0].label!r}, and a motion needs a horizontal one; "
@@ -576,13 +580,13 @@ def assemble(
         )
     if len(horizontal) > 2 or len(vertical) > 1:
         raise InputError(
-            f"{name} holds {len(components)} components ({', '.join(one.label or '?' for one in components)}), more "
+            f"{name} holds {len(components)} components ({', '.join(channel.label or '?' for channel in components)}), more "
             "than one place's two horizontal ones and the vertical; choose one by its number with `component='1'`.",
             "component",
         )
     used = horizontal + vertical
     check_one_record(used)
-    histories = {tuple(one.history): one.file for one in used}
+    histories = {tuple(channel.history): channel.file for channel in used}
     processing = [
         text if len(histories) == 1 else f"{file}: {text}" for steps, file in histories.items() for text in steps
     ]
@@ -592,16 +596,16 @@ def assemble(
     if note:
         processing.append(note)
         warn(say("{name}: {note}.", name=name, note=note))
-    for axis, one in zip(axes, used):
-        processing += [say("{axis}: {text}", axis=axis, text=text) for text in one.processing]
+    for axis, channel in zip(axes, used):
+        processing += [say("{axis}: {text}", axis=axis, text=text) for text in channel.processing]
     _warn_of_peak(values, step, name)
     _warn_of_offset(values, name)
     facts = used[0].facts | {key: last.facts[key] for key in ("start_time", "first_time") if key in last.facts}
     facts |= {
-        "azimuths": {axis: one.azimuth for axis, one in zip(axes, used)},
-        "labels": {axis: one.label for axis, one in zip(axes, used)},
-        "dt_found": step if all(one.time is None for one in used) else None,
-        "components": {axis: dict(one.metadata) for axis, one in zip(axes, used) if one.metadata},
+        "azimuths": {axis: channel.azimuth for axis, channel in zip(axes, used)},
+        "labels": {axis: channel.label for axis, channel in zip(axes, used)},
+        "dt_found": step if all(channel.time is None for channel in used) else None,
+        "components": {axis: dict(channel.metadata) for axis, channel in zip(axes, used) if channel.metadata},
     }
     if dropped:
         facts["components_left_out"] = dropped
@@ -639,10 +643,14 @@ def _choose(components: list[Component], wanted: str, name: str) -> Component:
     if folded in axes and len(horizontal) <= 2:
         return axes[folded]
     azimuth, upright, _ = direction(text)
-    alike = vertical if upright else [one for one in horizontal if azimuth is not None and one.azimuth == azimuth]
+    alike = (
+        vertical
+        if upright
+        else [component for component in horizontal if azimuth is not None and component.azimuth == azimuth]
+    )
     if len(alike) == 1 and not text[:1].isdigit():
         return alike[0]
-    by_axis = {id(one): axis for axis, one in axes.items()}
+    by_axis = {id(component): axis for axis, component in axes.items()}
     labels = ", ".join(
         f"{i} ({component.label or 'no label'}{', axis ' + by_axis[id(component)] if id(component) in by_axis else ''})"
         for i, component in enumerate(components, 1)

@@ -50,7 +50,7 @@ def formats() -> tuple[Format, ...]:
     """Formats that state unit and step themselves, of the packages that are installed: the entry point group
     ``stylobate.records``, whose entries are sequences of :class:`Format`. Columns of text are what none of them recognises.
     """
-    return tuple(one for entry in entries(RECORDS).values() for one in entry.load())
+    return tuple(file_format for entry in entries(RECORDS).values() for file_format in entry.load())
 
 
 #: First words of files of networks that hold something else than a record, what that is, and what to give.
@@ -114,7 +114,7 @@ def read_motion(
         columns_of_text.parse_columns(columns)
     if not paths:
         raise InputError("no file is given; give the path of a record.")
-    components, records = components_of([Source.open(one) for one in paths], unit, dt, columns)
+    components, records = components_of([Source.open(file) for file in paths], unit, dt, columns)
     wanted = None if component is None else str(component)
     return assemble(components, records[0].name, component=wanted, dt=dt)
 
@@ -137,26 +137,26 @@ def components_of(
         One cannot be read with certainty.
     """
     descriptions = [
-        one for one in sources if any(each.describes is not None and each.describes(one) for each in formats())
+        source for source in sources if any(each.describes is not None and each.describes(source) for each in formats())
     ]
-    records = [one for one in sources if one not in descriptions]
+    records = [source for source in sources if source not in descriptions]
     if not records:
         raise InputError(f"{sources[0].name} describes a station (StationXML); give the miniSEED files with it.")
-    for one, other in combinations(records, 2):
-        if one.data == other.data:
-            raise InputError(f"{one.name} and {other.name} hold the same bytes; give each component once.", "path")
+    for part, other in combinations(records, 2):
+        if part.data == other.data:
+            raise InputError(f"{part.name} and {other.name} hold the same bytes; give each component once.", "path")
     defaults = {"station": None, "network": None, "event": None, "start_time": None, "terms": None}
     files = {"file": ", ".join(record.name for record in records)}
     components: list[Component] = []
     for source in records:
-        found, metadata = _read_file(source, descriptions, unit, dt, columns)
+        parts, metadata = _read_file(source, descriptions, unit, dt, columns)
         if source.sample is not None:
             metadata = metadata | {key: value for key, value in source.sample.facts.items() if not metadata.get(key)}
-        for one in found:
-            one.file = source.name
-            own = {key: one.metadata[key] for key in OWN_FACTS if one.metadata.get(key) is not None}
-            one.facts = defaults | metadata | own | files
-        components += found
+        for part in parts:
+            part.file = source.name
+            own = {key: part.metadata[key] for key in OWN_FACTS if part.metadata.get(key) is not None}
+            part.facts = defaults | metadata | own | files
+        components += parts
     return components, records
 
 
@@ -184,12 +184,14 @@ def sample_motion(name: str) -> Motion:
 def _read_file(
     source: Source, descriptions: Sequence[Source], unit: str | None, dt: float | None, columns: str | None
 ) -> tuple[list[Component], dict]:
-    binary = next((one for one in formats() if not one.text and one.recognises(source)), None)
+    binary = next(
+        (file_format for file_format in formats() if not file_format.text and file_format.recognises(source)), None
+    )
     if binary is not None:
         return binary.read(source, descriptions)
     if source.is_text:
         check_whole(source.lines, source.ends_with_newline, source.name)
-    matches = [one for one in formats() if one.text and one.recognises(source)]
+    matches = [file_format for file_format in formats() if file_format.text and file_format.recognises(source)]
     if len(matches) > 1:
         raise InputError(
             f"{source.name} looks like {' and like '.join(match.name for match in matches)}; "
@@ -216,7 +218,7 @@ def _read_file(
         except InputError as error:
             if columns is None and (place := _networks()):
                 raise InputError(f"{error} {place}", error.field) from None
-            other = next((said for begins, said in NOT_READ if begins.match(source.head)), None)
+            other = next((reason for begins, reason in NOT_READ if begins.match(source.head)), None)
             if other is None or columns is not None:
                 raise
             raise InputError(f"{source.name} {other}.") from None
@@ -224,7 +226,7 @@ def _read_file(
         raise InputError(f"{source.name} is a TOML file, as of a column or a study, and no record; give a record.")
     raise InputError(
         f"{source.name} is in no format that is known here "
-        f"({', '.join([*(one.name for one in formats()), 'columns of text'])}); "
+        f"({', '.join([*(file_format.name for file_format in formats()), 'columns of text'])}); "
         f"convert it to columns under a header such as time_s,ax_g. {_networks()}".rstrip()
     )
 
@@ -337,7 +339,7 @@ def read_suite(
     again = recorded_again(motions)
     if again:
         pair = say("{one!r} of {other!r}")
-        pairs = [pair.of(one=motions[one].name, other=motions[other].name) for one, other in again.items()]
+        pairs = [pair.of(one=motions[number].name, other=motions[other].name) for number, other in again.items()]
         named = joined(", ", pairs[:MOST_NAMED]) + (", …" if len(pairs) > MOST_NAMED else "")
         words = say(
             "{count} of {all} records are recordings of others once more, scaled, turned, filtered or "

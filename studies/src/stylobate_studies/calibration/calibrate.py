@@ -108,7 +108,7 @@ def calibrate(
     first, further, rounds = IN_PLANE if lean.shape[1] == 1 else IN_SPACE
     of = len(_laws(column, model)) * (first + further * rounds)
 
-    def told(number: int) -> None:
+    def advance(number: int) -> None:
         nonlocal done
         done += number
         if progress is not None:
@@ -116,12 +116,12 @@ def calibrate(
 
     restitution = None
     if lean.shape[1] == 1:
-        found = _of_swings(history, column, model, lean[:, 0], sd, told)
-        logs, covariance = found.pop("impacts")
+        fields = _of_swings(history, column, model, lean[:, 0], sd, advance)
+        logs, covariance = fields.pop("impacts")
         restitution = _restitution(logs, covariance, confidence)
     else:
-        found = _of_wobble(history, column, model, lean, sd, told)
-    return Calibration(column, model, history, confidence, sd, measured, **found, restitution=restitution)
+        fields = _of_wobble(history, column, model, lean, sd, advance)
+    return Calibration(column, model, history, confidence, sd, measured, **fields, restitution=restitution)
 
 
 def _checked(history: FreeHistory, column: Column, model: Model | None) -> LossyDrums:
@@ -155,50 +155,50 @@ def _checked(history: FreeHistory, column: Column, model: Model | None) -> Lossy
 
 
 def _of_swings(
-    history: FreeHistory, column: Column, model: LossyDrums, tilt: np.ndarray, noise: float, told: Any
+    history: FreeHistory, column: Column, model: LossyDrums, tilt: np.ndarray, noise: float, advance: Any
 ) -> dict[str, Any]:
     """Losses from the extremes of a body that rocks in a plane."""
     time, alpha = history.time, one_body(column).slenderness
-    found = swings(time, tilt, noise)
-    if len(found.tilts) < FEWEST + 1:
+    peaks = swings(time, tilt, noise)
+    if len(peaks.tilts) < FEWEST + 1:
         sides = len(sides_of(tilt, noise))
         if sides > FEWEST + 1:
             why = "its samples are too far apart to tell how far it swings: give a shorter step"
         else:
             why = "the history must go on for more swings, from its release on"
         raise InputError(
-            f"{history.name} has {len(found.tilts)} swings beyond its noise ({noise:.2g} rad) that are resolved, of "
+            f"{history.name} has {len(peaks.tilts)} swings beyond its noise ({noise:.2g} rad) that are resolved, of "
             f"{sides}; {FEWEST + 1} are needed: {why}."
         )
-    if bool((np.diff(found.tilts) > 4.0 * (found.errors[1:] + found.errors[:-1]) + 0.02 * found.tilts[:-1]).any()):
-        grows = int(np.argmax(np.diff(found.tilts)))
+    if bool((np.diff(peaks.tilts) > 4.0 * (peaks.errors[1:] + peaks.errors[:-1]) + 0.02 * peaks.tilts[:-1]).any()):
+        grows = int(np.argmax(np.diff(peaks.tilts)))
         raise InputError(
-            f"{history.name} swings farther at {found.times[grows + 1]:.4g} s than before; a free motion dies away: cut it, "
+            f"{history.name} swings farther at {peaks.times[grows + 1]:.4g} s than before; a free motion dies away: cut it, "
             "or take off its offset."
         )
-    logs, covariance = kept(found, alpha)
+    logs, covariance = kept(peaks, alpha)
     limits = (_damping_limits(column),)
-    start = Start(min(1.02 * float(found.tilts[0]), 0.99 * alpha))
-    duration = 3.0 * float(found.times[-1] - found.times[0]) + 2.0 / column.frequency_parameter
-    interval = float(np.diff(found.times).min()) / 40.0
+    start = Start(min(1.02 * float(peaks.tilts[0]), 0.99 * alpha))
+    duration = 3.0 * float(peaks.times[-1] - peaks.times[0]) + 2.0 / column.frequency_parameter
+    interval = float(np.diff(peaks.times).min()) / 40.0
 
     def computed(law: str | None, at: np.ndarray) -> np.ndarray:
-        losses = [losses_at(one, limits, law) for one in at]
+        losses = [losses_at(point, limits, law) for point in at]
         motions = released(column, model, losses, [start] * len(at), duration, interval)
-        told(len(at))
-        return np.stack([kept_at(found.tilts[:-1], one.time, one.lean[:, 0], alpha) for one in motions])
+        advance(len(at))
+        return np.stack([kept_at(peaks.tilts[:-1], motion.time, motion.lean[:, 0], alpha) for motion in motions])
 
     after = searched(computed, logs, covariance, _laws(column, model), 1, IN_PLANE, LEAST_OF_IMPACTS)
-    side = math.pi if tilt[int(np.argmin(np.abs(time - found.times[0])))] < 0.0 else 0.0
-    begin = Wobble(float(found.times[0]), float(found.tilts[0]), side, 0.0, 0.0)
+    side = math.pi if tilt[int(np.argmin(np.abs(time - peaks.times[0])))] < 0.0 else 0.0
+    begin = Wobble(float(peaks.times[0]), float(peaks.tilts[0]), side, 0.0, 0.0)
     return {
-        "beginning": begin, "edges": found.times, "amplitudes": found.tilts, "after": after, "limits": limits,
+        "beginning": begin, "edges": peaks.times, "amplitudes": peaks.tilts, "after": after, "limits": limits,
         "impacts": (logs, covariance),
     }  # fmt: skip
 
 
 def _of_wobble(
-    history: FreeHistory, column: Column, model: LossyDrums, lean: np.ndarray, noise: float, told: Any
+    history: FreeHistory, column: Column, model: LossyDrums, lean: np.ndarray, noise: float, advance: Any
 ) -> dict[str, Any]:
     """Losses from how fast the wobble of a round column dies."""
     time, size = history.time, np.hypot(*lean.T)
@@ -222,12 +222,12 @@ def _of_wobble(
     duration, interval = float(edges[-1]) + 0.2 * float(edges[1]), shortest / 60.0
 
     def computed(law: str | None, at: np.ndarray) -> np.ndarray:
-        losses, starts = [losses_at(one, limits, law) for one in at], [start_of(begin, one[2:]) for one in at]
-        found = []
-        for one in released(column, model, losses, starts, duration, interval):
-            found.append(np.diff(envelope(0.0, one.time, np.hypot(*one.lean.T), edges, FLOOR * least)))
-        told(len(at))
-        return np.stack(found)
+        losses, starts = [losses_at(point, limits, law) for point in at], [start_of(begin, point[2:]) for point in at]
+        decrements = []
+        for motion in released(column, model, losses, starts, duration, interval):
+            decrements.append(np.diff(envelope(0.0, motion.time, np.hypot(*motion.lean.T), edges, FLOOR * least)))
+        advance(len(at))
+        return np.stack(decrements)
 
     measured, covariance = np.diff(logs), of_increments((noise * np.exp(-logs)) ** 2)
     after = searched(computed, measured, covariance, _laws(column, model), 4, IN_SPACE, LEAST_OF_WOBBLES)

@@ -117,19 +117,19 @@ class Calibration(NotebookSummary):
     @cached_property
     def intervals(self) -> dict[str, Loss]:
         """Each loss with its interval, over all laws."""
-        found, near = {}, 0.5 * (1.0 - self.confidence) + AT_LIMIT
+        losses, near = {}, 0.5 * (1.0 - self.confidence) + AT_LIMIT
         for i, (name, limits) in enumerate(zip(("stiffness_damping", "rolling_resistance"), self.limits)):
             low, high = self.after.interval(i, self.confidence)
             reaches = " and ".join(["least"] * (low < near) + ["most"] * (high > 1.0 - near))
-            found[name] = Loss(getattr(self.losses, name), between(low, limits), between(high, limits), reaches)
-        return found
+            losses[name] = Loss(getattr(self.losses, name), between(low, limits), between(high, limits), reaches)
+        return losses
 
     @property
     def apart(self) -> bool | None:
         """Whether the history tells the two losses apart; None of one."""
         if len(self.limits) < 2:
             return None
-        return abs(self.after.correlation()) < TOGETHER and all(one.bounded for one in self.intervals.values())
+        return abs(self.after.correlation()) < TOGETHER and all(loss.bounded for loss in self.intervals.values())
 
     @property
     def sentence(self) -> str:
@@ -159,13 +159,13 @@ class Calibration(NotebookSummary):
         from scipy.special import ndtri
 
         wide = 2.0 * float(ndtri(0.5 * (1.0 + self.confidence)))
-        found = {}
-        for name, one in self.intervals.items():
-            sigma = math.log(one.high / one.low) / wide
-            found[name] = min(math.sqrt(math.expm1(sigma**2)), LARGEST[name]) if sigma < 3.0 else LARGEST[name]
+        spreads = {}
+        for name, loss in self.intervals.items():
+            sigma = math.log(loss.high / loss.low) / wide
+            spreads[name] = min(math.sqrt(math.expm1(sigma**2)), LARGEST[name]) if sigma < 3.0 else LARGEST[name]
         if self.laws:
-            found["law"] = 1.0 - self.laws[str(self.losses.law)]
-        return found
+            spreads["law"] = 1.0 - self.laws[str(self.losses.law)]
+        return spreads
 
     def motions(self, number: int = DRAWS) -> list[Free]:
         """Motion with the likeliest losses, then with so many draws of them, from the beginning on."""
@@ -186,7 +186,7 @@ class Calibration(NotebookSummary):
         if not self.after.reached:
             raise InputError(f"no file of losses of {self.history.name}: {self.sentence}")
         interval: dict[str, Any] = {"confidence": self.confidence}
-        interval |= {name: [one.low, one.high] for name, one in self.intervals.items()}
+        interval |= {name: [loss.low, loss.high] for name, loss in self.intervals.items()}
         measured = {
             "column": self.column.name,
             "history": self.history.name,
@@ -200,22 +200,22 @@ class Calibration(NotebookSummary):
 
     def summary(self) -> dict[str, Any]:
         """Plain values, as ``stylobate calibrate`` prints them."""
-        found: dict[str, Any] = {"column": self.column.name, "model": self.model.name, "history": self.history.name}
-        for name, one in self.intervals.items():
-            found[name] = {
-                "value": one.value,
-                "low": one.low,
-                "high": one.high,
-                "told": one.bounded,
-                "reaches": one.reaches,
+        fields: dict[str, Any] = {"column": self.column.name, "model": self.model.name, "history": self.history.name}
+        for name, loss in self.intervals.items():
+            fields[name] = {
+                "value": loss.value,
+                "low": loss.low,
+                "high": loss.high,
+                "told": loss.bounded,
+                "reaches": loss.reaches,
             }
-        found["law"], found["laws"] = self.losses.law, self.laws
-        found["restitution"] = None
+        fields["law"], fields["laws"] = self.losses.law, self.laws
+        fields["restitution"] = None
         if self.restitution is not None:
             value, low, high, _ = self.restitution
             rigid = one_body(self.column).restitution
-            found["restitution"] = {"value": value, "low": low, "high": high, "housner": rigid}
-        return found | {
+            fields["restitution"] = {"value": value, "low": low, "high": high, "housner": rigid}
+        return fields | {
             "confidence": self.confidence,
             "told_apart": self.apart,
             "correlation": None if len(self.limits) < 2 else self.after.correlation(),

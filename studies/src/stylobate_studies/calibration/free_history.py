@@ -165,8 +165,8 @@ def read_free_history(path: str | Path, unit: str | None = None, dt: float | Non
                 "it, or state a step to resample to: `dt=0.01`.",
                 "dt",
             )
-        made = [resampled(time, one, dt, source.name) for one in values.T]
-        step, values = made[0][0], np.stack([one[1] for one in made], axis=-1)
+        made = [resampled(time, signal, dt, source.name) for signal in values.T]
+        step, values = made[0][0], np.stack([result[1] for result in made], axis=-1)
     return FreeHistory(step, values, kind, source.name, size)
 
 
@@ -179,25 +179,25 @@ def _columns(header: str, table: np.ndarray, unit: str | None, file: str) -> tup
             raise InputError(f"{file} has rows of {number} numbers without column names; {EXAMPLE}.")
         kind, size = _unit(unit, "", file)
         return 1.0 if grows else None, list(range(int(grows), number)), kind, size
-    names = [one.strip().strip('"').lower() for one in re.split(r"[,;\t]", header)]
-    found = [_NAME.fullmatch(one) for one in names]
-    if len(names) != number or None in found:
-        odd = next((name for name, one in zip(names, found, strict=True) if one is None), None)
+    names = [name.strip().strip('"').lower() for name in re.split(r"[,;\t]", header)]
+    matches = [_NAME.fullmatch(name) for name in names]
+    if len(names) != number or None in matches:
+        odd = next((name for name, match in zip(names, matches, strict=True) if match is None), None)
         what = f"{len(names)} names for {number} columns" if odd is None else f"the unknown column {odd!r}"
         raise InputError(f"{file}: its header has {what}; {EXAMPLE}.")
     timed, axes, measured = None, {}, set()
-    for i, one in enumerate(found):
-        assert one is not None
-        if one["what"] == "time":
-            timed = TIME_UNITS.get(one["unit"] or "s")
-            if timed is None or i or one["axis"]:
+    for i, match in enumerate(matches):
+        assert match is not None
+        if match["what"] == "time":
+            timed = TIME_UNITS.get(match["unit"] or "s")
+            if timed is None or i or match["axis"]:
                 raise InputError(f"{file}: its header has the column {names[i]!r}; {EXAMPLE}, times first.")
             continue
-        axis = one["axis"] or ""
+        axis = match["axis"] or ""
         if axis in axes:
             raise InputError(f"{file}: its header names two columns alike; {EXAMPLE}.")
         axes[axis] = i
-        measured.add(_unit(one["unit"] or unit, one["what"], file))
+        measured.add(_unit(match["unit"] or unit, match["what"], file))
     if sorted(axes) not in ([""], ["x"], ["x", "y"]) or len(measured) != 1:
         raise InputError(f"{file}: its header names no one tilt or displacement, along x or along x and y; {EXAMPLE}.")
     kind, size = measured.pop()

@@ -60,7 +60,7 @@ class Row:
 
     def line(self) -> str:
         """As a line of the table."""
-        ratios = " | ".join("–" if np.isnan(one) else f"{one:.2f}" for one in (self.first, self.peak, self.slip))
+        ratios = " | ".join("–" if np.isnan(ratio) else f"{ratio:.2f}" for ratio in (self.first, self.peak, self.slip))
         failed = f", {self.failed} failed" * bool(self.failed)
         return (
             f"| {self.column} | {self.model} | {self.stiffness:.0e} | {self.collapsed} of {self.runs}{failed} | "
@@ -79,8 +79,8 @@ def pulses(column: st.Column) -> list[list[st.Motion]]:
 
 def verdicts(column: st.Column, model: Model) -> list[Measures]:
     """Measures under all pulses, gone on with until they are decided."""
-    cases = [Case(column, motion) for some in pulses(column) for motion in some]
-    return [found for _, found in sorted(run_checked(cases, model, RunOptions(until_decided=True), None))]
+    cases = [Case(column, motion) for motions in pulses(column) for motion in motions]
+    return [measures for _, measures in sorted(run_checked(cases, model, RunOptions(until_decided=True), None))]
 
 
 def rows() -> Iterator[Row]:
@@ -96,18 +96,18 @@ def rows() -> Iterator[Row]:
 def of_model(name: str, called: str, model: Model) -> Iterator[Row]:
     """Lines of one column and one model."""
     column = st.preset(name)
-    found = {}
+    measures = {}
     for k in STIFFNESSES:
-        joints = tuple(one.changed(normal_stiffness=k, shear_stiffness=0.5 * k) for one in column.joints)
-        found[k] = verdicts(column.unwarned(joints=joints), model)
+        joints = tuple(joint.changed(normal_stiffness=k, shear_stiffness=0.5 * k) for joint in column.joints)
+        measures[k] = verdicts(column.unwarned(joints=joints), model)
     for k in STIFFNESSES:
-        yield compared(name, called, k, found[k], found[COMPARED])
+        yield compared(name, called, k, measures[k], measures[COMPARED])
 
 
 def compared(column: str, model: str, stiffness: float, soft: list[Measures], usual: list[Measures]) -> Row:
     """A line of the table."""
-    fell, before = (np.array([one.collapsed for one in some]) for some in (soft, usual))
-    both = [(one, other) for one, other in zip(soft, usual, strict=True) if not (one.collapsed or other.collapsed)]
+    fell, before = (np.array([run.collapsed for run in runs]) for runs in (soft, usual))
+    both = [(run, other) for run, other in zip(soft, usual, strict=True) if not (run.collapsed or other.collapsed)]
     first = [lowest(fell, i) - lowest(before, i) for i in range(len(PERIODS))]
     step = np.log(BETWEEN[1] / BETWEEN[0]) / (AMPLITUDES - 1)
     return Row(
@@ -116,11 +116,11 @@ def compared(column: str, model: str, stiffness: float, soft: list[Measures], us
         stiffness,
         len(soft),
         int(fell.sum()),
-        sum(one.outcome is st.Outcome.FAILED for one in soft),
+        sum(run.outcome is st.Outcome.FAILED for run in soft),
         int((fell != before).sum()),
         float(np.exp(step * np.mean(first))),
-        ratio([(one.peak_top_displacement, other.peak_top_displacement) for one, other in both]),
-        ratio([(one.residual_joint_slip, other.residual_joint_slip) for one, other in both]),
+        ratio([(run.peak_top_displacement, other.peak_top_displacement) for run, other in both]),
+        ratio([(run.residual_joint_slip, other.residual_joint_slip) for run, other in both]),
     )
 
 
@@ -132,8 +132,8 @@ def lowest(fell: np.ndarray, period: int) -> float:
 
 def ratio(pairs: list[tuple[float, float]]) -> float:
     """Median of ratios of what is not next to nothing (0.1 mm) on either joints; none of fewer than five."""
-    some = [one / other for one, other in pairs if min(one, other) > 1e-4]
-    return float(np.median(some)) if len(some) >= 5 else float("nan")
+    ratios = [value / other for value, other in pairs if min(value, other) > 1e-4]
+    return float(np.median(ratios)) if len(ratios) >= 5 else float("nan")
 
 
 if __name__ == "__main__":

@@ -73,8 +73,8 @@ class Posterior(NamedTuple):
         order = np.argsort(self.at[:, unknown])
         weights = self.weights[order]
         outside = 0.5 * (1.0 - confidence)
-        found = np.interp([outside, 1.0 - outside], np.cumsum(weights) - 0.5 * weights, self.at[order, unknown])
-        return float(found[0]), float(found[1])
+        limits = np.interp([outside, 1.0 - outside], np.cumsum(weights) - 0.5 * weights, self.at[order, unknown])
+        return float(limits[0]), float(limits[1])
 
     def likeliest(self) -> tuple[str | None, np.ndarray]:
         """Law and unknowns of the best draw: means of each by itself need not go together."""
@@ -125,10 +125,10 @@ def searched(
     for law in laws:
         at = qmc.Halton(unknowns, scramble=False).random(draws[0] + 1)[1:]
         kernels: list[tuple[int, np.ndarray, np.ndarray]] = []
-        found = likelihoods(computed(law, at), measured, noise, least)
+        results = likelihoods(computed(law, at), measured, noise, least)
         number = draws[1]
         for _ in range(draws[2]):
-            raw = found[0] - np.log(_density(at, draws[0], kernels))
+            raw = results[0] - np.log(_density(at, draws[0], kernels))
             weights = alike(raw)
             if _counting(raw) >= ENOUGH:
                 break
@@ -142,13 +142,13 @@ def searched(
             kernels.append((number, centres, width))
             at = np.vstack((at, further))
             more = likelihoods(computed(law, further), measured, noise, least)
-            found = tuple(np.concatenate(both) for both in zip(found, more, strict=True))
+            results = tuple(np.concatenate(both) for both in zip(results, more, strict=True))
         every.append(at)
-        logs.append(found[0] - np.log(_density(at, draws[0], kernels)))
-        likely.append(found[0])
-        over.append(found[1:])
+        logs.append(results[0] - np.log(_density(at, draws[0], kernels)))
+        likely.append(results[0])
+        over.append(results[1:])
     weights = alike(np.concatenate(logs))
-    discrepancies, offs = (np.concatenate(one) for one in zip(*over, strict=True))
+    discrepancies, offs = (np.concatenate(parts) for parts in zip(*over, strict=True))
     names = np.repeat(np.array(laws, dtype=object), [len(at) for at in every])
     best = int(np.concatenate(likely).argmax())
     return Posterior(names, np.vstack(every), weights, float(weights @ discrepancies), best, float(offs[best]))
@@ -163,30 +163,30 @@ def likelihoods(
     """
     number, known = len(measured), np.asarray(np.isfinite(decrements).all(axis=1))
     whole = 0.5 * (np.eye(number) + np.ones((number, number)))
-    left = measured - np.where(known[:, None], decrements, 0.0)
+    residuals = measured - np.where(known[:, None], decrements, 0.0)
     sizes = least * DISCREPANCIES
-    logs = np.empty((len(sizes), len(left)))
+    logs = np.empty((len(sizes), len(residuals)))
     for i, size in enumerate(sizes):
         factor = np.linalg.cholesky(noise + size**2 * whole)
-        logs[i] = -0.5 * (np.linalg.solve(factor, left.T) ** 2).sum(axis=0) - np.log(np.diag(factor)).sum()
+        logs[i] = -0.5 * (np.linalg.solve(factor, residuals.T) ** 2).sum(axis=0) - np.log(np.diag(factor)).sum()
     top = logs.max(axis=0)
     each = np.exp(logs - top)  # discrepancies lie at equal steps of their logarithm
     mean = sizes @ each / each.sum(axis=0)
     best = mean[int(np.where(known, top, -np.inf).argmax())]
     by = np.linalg.solve(noise + best**2 * np.eye(number), np.ones(number))
-    off = np.abs(left @ by / by.sum())
+    off = np.abs(residuals @ by / by.sum())
     return np.where(known, top + np.log(each.sum(axis=0)), -np.inf), mean, off
 
 
 def alike(logs: np.ndarray) -> np.ndarray:
     """Weights of draws, their sum 1: as their logarithms say, or more alike, so that enough of them count."""
     logs = logs - logs.max()
-    some = min(COUNTING, 0.5 * np.isfinite(logs).sum())
+    target = min(COUNTING, 0.5 * np.isfinite(logs).sum())
 
     low, high = 0.0, 1.0
-    while _counting(logs, high) < some and high - low > 1e-6:
+    while _counting(logs, high) < target and high - low > 1e-6:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if _counting(logs, middle) >= some else (low, middle)
+        low, high = (middle, high) if _counting(logs, middle) >= target else (low, middle)
     weights = np.exp(high * logs)
     return weights / weights.sum()
 
@@ -202,10 +202,10 @@ def _density(at: np.ndarray, first: int, kernels: Sequence[tuple[int, np.ndarray
     total, all_ = np.full(len(at), float(first)), first
     for number, centres, width in kernels:
         product = np.ones((len(at), len(centres)))
-        for i, one in enumerate(width):
+        for i, sigma in enumerate(width):
             x, c = at[:, i, None], centres[:, i]
-            product *= sum(np.exp(-0.5 * ((x - mirrored) / one) ** 2) for mirrored in (c, -c, 2.0 - c)) / (
-                one * np.sqrt(2.0 * np.pi)
+            product *= sum(np.exp(-0.5 * ((x - mirrored) / sigma) ** 2) for mirrored in (c, -c, 2.0 - c)) / (
+                sigma * np.sqrt(2.0 * np.pi)
             )
         total += number * (EVENLY + (1.0 - EVENLY) * product.mean(axis=1))
         all_ += number

@@ -58,7 +58,7 @@ def swings(time: np.ndarray, tilt: np.ndarray, noise: float = 0.0) -> Swings:
     noise : float
         Its standard deviation [rad].
     """
-    found = []
+    peaks = []
     for number, side in enumerate(sides_of(tilt, noise)):
         inside = slice(side[0], side[-1] + 1)
         size = np.abs(tilt[inside])
@@ -68,8 +68,8 @@ def swings(time: np.ndarray, tilt: np.ndarray, noise: float = 0.0) -> Swings:
             break
         peak, error, at = _vertex(time[near], np.abs(tilt[near]), noise)
         if number or time[0] - 2.0 * (time[1] - time[0]) <= at:  # else it came down before the first sample
-            found.append((at, peak, error))
-    return Swings(*np.array(found).reshape(-1, 3).T)
+            peaks.append((at, peak, error))
+    return Swings(*np.array(peaks).reshape(-1, 3).T)
 
 
 def sides_of(tilt: np.ndarray, noise: float) -> list[np.ndarray]:
@@ -85,11 +85,11 @@ def _vertex(time: np.ndarray, values: np.ndarray, noise: float) -> tuple[float, 
     """Largest value of the parabola through some samples, its standard deviation, and its time [s]."""
     middle, half = 0.5 * (time[0] + time[-1]), 0.5 * (time[-1] - time[0])
     matrix = np.vander((time - middle) / half, 3, increasing=True)
-    found = np.linalg.lstsq(matrix, values, rcond=None)[0]
-    at = -0.5 * found[1] / found[2] if found[2] < 0.0 else 0.0
+    coefficients = np.linalg.lstsq(matrix, values, rcond=None)[0]
+    at = -0.5 * coefficients[1] / coefficients[2] if coefficients[2] < 0.0 else 0.0
     row = np.array([1.0, at, at * at])
     error = noise * float(np.sqrt(row @ np.linalg.solve(matrix.T @ matrix, row)))
-    return float(row @ found), error, middle + half * at
+    return float(row @ coefficients), error, middle + half * at
 
 
 def height(tilt: np.ndarray, slenderness: float) -> np.ndarray:
@@ -97,11 +97,11 @@ def height(tilt: np.ndarray, slenderness: float) -> np.ndarray:
     return np.cos(slenderness - tilt) - np.cos(slenderness)
 
 
-def kept(found: Swings, slenderness: float) -> tuple[np.ndarray, np.ndarray]:
+def kept(peaks: Swings, slenderness: float) -> tuple[np.ndarray, np.ndarray]:
     """Logarithm of the restitution of every impact between two extremes, and the covariance of that by noise."""
-    rise = height(found.tilts, slenderness)
+    rise = height(peaks.tilts, slenderness)
     logs = 0.5 * np.log(rise)
-    variance = (0.5 * np.sin(slenderness - found.tilts) / rise * found.errors) ** 2
+    variance = (0.5 * np.sin(slenderness - peaks.tilts) / rise * peaks.errors) ** 2
     return np.diff(logs), of_increments(variance)
 
 
@@ -116,12 +116,12 @@ def kept_at(tilts: np.ndarray, time: np.ndarray, tilt: np.ndarray, slenderness: 
 
     Not a number where the motion does not swing.
     """
-    found = swings(time, tilt)
-    if len(found.tilts) < 2:
+    peaks = swings(time, tilt)
+    if len(peaks.tilts) < 2:
         return np.full(len(tilts), np.nan)
-    logs, _ = kept(found, slenderness)
-    order = np.argsort(found.tilts[:-1])
-    return np.interp(tilts, found.tilts[:-1][order], logs[order])
+    logs, _ = kept(peaks, slenderness)
+    order = np.argsort(peaks.tilts[:-1])
+    return np.interp(tilts, peaks.tilts[:-1][order], logs[order])
 
 
 class Wobble(NamedTuple):

@@ -19,12 +19,14 @@ def bench(
     from ..speed.benchmark import bench as measure
 
     with execution.files("bench", "bench.json") as files:
-        told = (lambda _: None) if execution.as_json else partial(print, flush=True)
-        found = measure(execution.count, full=full, device=execution.device, say=told)
+        reporter = (lambda _: None) if execution.as_json else partial(print, flush=True)
+        measurements = measure(execution.count, full=full, device=execution.device, say=reporter)
         if files.wanted:
-            files.json(found, "bench.json")
-    if not execution.emits(found | {"files": files.names}):
-        console.say("Speed of the distinct elements.", {key: _text(value) for key, value in found.items()}, files)
+            files.json(measurements, "bench.json")
+    if not execution.emits(measurements | {"files": files.names}):
+        console.say(
+            "Speed of the distinct elements.", {key: _text(value) for key, value in measurements.items()}, files
+        )
 
 
 def _text(value: object) -> str:

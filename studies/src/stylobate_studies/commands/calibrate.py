@@ -51,35 +51,37 @@ def calibrate(
     stone, how = modelling.column(column), modelling.model(model)
     with execution.files("calibrate", "losses.toml", "calibrate.json", "calibration") as files:
         with console.progress("motions") as progress:
-            found = calibrated(measured, stone, how, progress=progress, **numbers)  # type: ignore[arg-type]
-        summary = found.summary() | {"files": []}
+            calibration = calibrated(measured, stone, how, progress=progress, **numbers)  # type: ignore[arg-type]
+        summary = calibration.summary() | {"files": []}
         if files.wanted:
-            if found.after.reached:
-                files.append(found.save(files / "losses.toml"))
+            if calibration.after.reached:
+                files.append(calibration.save(files / "losses.toml"))
             if pictures:
                 from ..calibration.pictures.calibration import draw_calibration
 
-                files.picture(draw_calibration(found), "calibration")
+                files.picture(draw_calibration(calibration), "calibration")
             files.write_request(structures=[stone], models=[how], motions=[], history=str(history))
             files.summary(summary, "calibrate.json")
     if not execution.emits(summary):
-        console.say(found.sentence, facts(found), files)
+        console.say(calibration.sentence, facts(calibration), files)
 
 
-def facts(found: Calibration) -> dict[str, str]:
+def facts(calibration: Calibration) -> dict[str, str]:
     """What else the history tells, for people."""
-    begin, summary = found.beginning, found.summary()
-    told = {
-        "history": f"{found.history.name}, from {math.degrees(begin.tilt):.3g}° on, noise {math.degrees(found.noise):.2g}°"
+    begin, summary = calibration.beginning, calibration.summary()
+    lines = {
+        "history": f"{calibration.history.name}, from {math.degrees(begin.tilt):.3g}° on, "
+        f"noise {math.degrees(calibration.noise):.2g}°"
     }
-    if found.restitution is not None:
-        one, rigid = found.restitution, summary["restitution"]["housner"]
-        told["restitution"] = (
-            f"{one.value:.3f} ({one.low:.3f} to {one.high:.3f}) by successive extremes alone; {rigid:.3f} of a rigid block"
+    if calibration.restitution is not None:
+        restitution, rigid = calibration.restitution, summary["restitution"]["housner"]
+        lines["restitution"] = (
+            f"{restitution.value:.3f} ({restitution.low:.3f} to {restitution.high:.3f}) by successive extremes alone; "
+            f"{rigid:.3f} of a rigid block"
         )
-    told["decrements"] = f"{summary['decrements']}, which differ from computed ones by {summary['discrepancy']:.1%}"
-    told["scatter"] = "--scatter " + ",".join(
-        f"{name}={whole_percent(size)}%" for name, size in found.scatter().items()
+    lines["decrements"] = f"{summary['decrements']}, which differ from computed ones by {summary['discrepancy']:.1%}"
+    lines["scatter"] = "--scatter " + ",".join(
+        f"{name}={whole_percent(size)}%" for name, size in calibration.scatter().items()
     )
-    told["joint"] = f"normal_stiffness {summary['normal_stiffness']:.3g} N/m³, to which stiffness_damping belongs"
-    return told
+    lines["joint"] = f"normal_stiffness {summary['normal_stiffness']:.3g} N/m³, to which stiffness_damping belongs"
+    return lines

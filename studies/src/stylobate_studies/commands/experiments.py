@@ -49,10 +49,10 @@ def experiments(
         raise InputError(f"`realisations` is {realisations!r}; allowed is a whole number from 0 to {MOST}.")
     if calibration not in ("on", "off"):
         raise InputError(f"`calibration` is {calibration!r}; allowed are on, off.")
-    found = study.read(folder)
+    experiments = study.read(folder)
     with console.folder(execution.out, *WRITES) as place:
         results = study.compute(
-            found,
+            experiments,
             realisations=int(realisations),
             calibrate=calibration == "on",
             threads=execution.count,
@@ -60,11 +60,11 @@ def experiments(
             ledger=console.ledger(place),
             earlier=_earlier(place),
         )
-        files = [] if place is None else _write(results, found, place, films)
+        files = [] if place is None else _write(results, experiments, place, films)
     if execution.emits(results.summary | {"files": [str(file) for file in files]}):
         return
     _say(results)
-    for why in found.refused:
+    for why in experiments.refused:
         print(f"not used: {why}")
     if files:
         print(f"{len(files)} files in {files[0].parent}")
@@ -76,7 +76,7 @@ def _earlier(place: Path | None) -> dict[str, Any]:
     return json.loads(written.read_text(encoding="utf-8")) if written is not None and written.is_file() else {}
 
 
-def _write(results: Results, found: Experiments, place: Path, films: bool) -> list[Path]:
+def _write(results: Results, experiments: Experiments, place: Path, films: bool) -> list[Path]:
     from stylobate import plots
     from stylobate.cli import console
 
@@ -92,15 +92,15 @@ def _write(results: Results, found: Experiments, place: Path, films: bool) -> li
         files += plots.save(drawn, place / "granite_fragility")
         if "granite_reliability" in tables:
             files += plots.save(pictures.draw_reliability(tables["granite_reliability"]), place / "granite_reliability")
-        files += _worst(results, found, place, films)
+        files += _worst(results, experiments, place, films)
     if "cube_tosses" in tables:
         files += plots.save(pictures.draw_toss_errors(tables["cube_tosses"]), place / "cube_errors")
-    for name, one in summary.get("tested", {}).items():
-        files += plots.save(pictures.draw_tests(tables[f"{name}_tests"], one["scores"]), place / f"{name}_tests")
+    for name, experiment in summary.get("tested", {}).items():
+        files += plots.save(pictures.draw_tests(tables[f"{name}_tests"], experiment["scores"]), place / f"{name}_tests")
     return files
 
 
-def _worst(results: Results, found: Experiments, place: Path, films: bool) -> list[Path]:
+def _worst(results: Results, experiments: Experiments, place: Path, films: bool) -> list[Path]:
     """Strips, and films, of the worst tests as they are computed."""
     from stylobate import plots
     from stylobate.plots.film import write_gif
@@ -108,13 +108,13 @@ def _worst(results: Results, found: Experiments, place: Path, films: bool) -> li
     from ..experiments.granite import again
 
     files: list[Path] = []
-    assert found.granite is not None
+    assert experiments.granite is not None
     for rank, row in enumerate(results.tables["granite_worst"].itertuples(), 1):
-        one: Any = row
-        response = again(found.granite, one.specimen, one.test)
-        observed, computed = ("toppled" if verdict else "stood" for verdict in (one.observed, one.computed))
-        title = f"{one.specimen}, test {one.test} ({one.record}): {observed}; computed: {computed}"
-        stem = place / f"worst_{rank:02d}_{one.specimen}_{one.test}"
+        trial: Any = row
+        response = again(experiments.granite, trial.specimen, trial.test)
+        observed, computed = ("toppled" if verdict else "stood" for verdict in (trial.observed, trial.computed))
+        title = f"{trial.specimen}, test {trial.test} ({trial.record}): {observed}; computed: {computed}"
+        stem = place / f"worst_{rank:02d}_{trial.specimen}_{trial.test}"
         files += plots.save(plots.draw_filmstrip(response, title=title), stem)
         if films:
             target = stem.with_suffix(".gif")
@@ -133,24 +133,26 @@ def _say(results: Results) -> None:
     summary = results.summary
     if "granite" in summary:
         rows = [
-            {"specimen": name} | {key: one[key] for key in SHOWN}
-            for name, one in summary["granite"].items()
-            if isinstance(one, dict)
+            {"specimen": name} | {key: scores[key] for key in SHOWN}
+            for name, scores in summary["granite"].items()
+            if isinstance(scores, dict)
         ]
         print("Boulders on the shaking table, toppled or not:")
         console.print_table(pandas.DataFrame(rows), digits=3)
-        for one in summary["granite"].get("calibration", ()):
+        for entry in summary["granite"].get("calibration", ()):
             print(
-                f"calibrated on {one['calibrated_on']}: friction {one['friction']:g}, restitution {one['restitution']:g}, "
-                f"edges worn to {1e3 * one['edges_m']:g} mm; "
-                f"right on {one.get('tested_on', 'no other')}: {one.get('accuracy', float('nan')):.3f}"
+                f"calibrated on {entry['calibrated_on']}: friction {entry['friction']:g}, "
+                f"restitution {entry['restitution']:g}, edges worn to {1e3 * entry['edges_m']:g} mm; "
+                f"right on {entry.get('tested_on', 'no other')}: {entry.get('accuracy', float('nan')):.3f}"
             )
     if "cube" in summary:
-        one = summary["cube"]
-        print(f"{one['tosses']} tosses of a cube: {one['rest_face_accuracy']:.1%} rest on the face on which they did.")
-        rows = [{"after": when} | values for when, values in one["after"].items()]
+        entry = summary["cube"]
+        print(
+            f"{entry['tosses']} tosses of a cube: {entry['rest_face_accuracy']:.1%} rest on the face on which they did."
+        )
+        rows = [{"after": when} | values for when, values in entry["after"].items()]
         console.print_table(pandas.DataFrame(rows), digits=3)
-    for name, one in summary.get("tested", {}).items():
-        for sentence in sentences(one):
+    for name, entry in summary.get("tested", {}).items():
+        for sentence in sentences(entry):
             print(f"{name}: {sentence}")
         console.print_table(results.tables[f"{name}_scores"], digits=3)

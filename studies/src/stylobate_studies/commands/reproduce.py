@@ -88,7 +88,7 @@ def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None, r
             "statements": pandas.DataFrame(
                 [dataclasses.asdict(row) | {"verdict": row.verdict.kind, "part": row.verdict.part} for row in rows]
             ),
-        } | {name: pandas.DataFrame(list(one.body), columns=list(one.header)) for name, one in numbers.items()}
+        } | {name: pandas.DataFrame(list(table.body), columns=list(table.header)) for name, table in numbers.items()}
         for name, frame in frames.items():
             console.write_table(frame, tables / f"{name}.csv")
         with replacing(folder / "statements.md") as partial:
@@ -107,7 +107,7 @@ def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None, r
             },
             "uncertain_share": {NAMES[name]: doubt.uncertain for name, doubt in results.doubts.items()},
             "runs": results.runs,
-            "figures": sum(len(some) for some in pictures.values()),
+            "figures": sum(len(group) for group in pictures.values()),
             "wall_s": time.perf_counter() - started,
         }
         console.write_json(folder / "reproduce.json", summary)
@@ -128,8 +128,8 @@ def describe(summary: dict) -> None:
         f"The paper's two columns by all models: {summary['runs']} histories in {summary['wall_s']:.0f} s.",
         cells | doubt,
     )
-    found = {one: f"{number}" for one, number in summary["verdicts"].items()}
-    console.say(f"{summary['statements']} sentences of the paper, checked against these results:", found)
+    counts = {verdict: f"{number}" for verdict, number in summary["verdicts"].items()}
+    console.say(f"{summary['statements']} sentences of the paper, checked against these results:", counts)
     print(f"Open {folder / 'index.html'} in a browser.")
     print(f"{summary['figures']} figures, as PNG and SVG, are in")
     print(folder / "figures")

@@ -92,8 +92,8 @@ def still(toss: Recorded) -> Motion:
 
 def compare(toss: Recorded, friction: float, restitution: float) -> dict[str, Any]:
     """Errors of one toss at each of :data:`WHEN`: position [widths of the cube], rotation [°]; face at rest right or not."""
-    found = impacts(toss)
-    first = found[0] if found else len(toss.position) - 1
+    impact_frames = impacts(toss)
+    first = impact_frames[0] if impact_frames else len(toss.position) - 1
     frames = len(toss.position) - 1
     response = simulate(
         cube(friction, restitution),
@@ -106,9 +106,13 @@ def compare(toss: Recorded, friction: float, restitution: float) -> dict[str, An
     )
     time, position = response.time, response.body_position[:, 0]
     turns, measured = rotation_matrices(response.body_orientation[:, 0]), rotation_matrices(toss.orientation)
-    row: dict[str, Any] = {"toss": toss.name, "impacts": len(found), "energy_imbalance": response.energy_imbalance}
-    instants = [min(k + 1 + LATER, frames) for k in found[:3]] + [frames]
-    for when, k in zip([*WHEN[: len(found[:3])], WHEN[3]], instants):
+    row: dict[str, Any] = {
+        "toss": toss.name,
+        "impacts": len(impact_frames),
+        "energy_imbalance": response.energy_imbalance,
+    }
+    instants = [min(k + 1 + LATER, frames) for k in impact_frames[:3]] + [frames]
+    for when, k in zip([*WHEN[: len(impact_frames[:3])], WHEN[3]], instants):
         there, turn = (position[-1], turns[-1]) if when == WHEN[3] else at(k * toss.dt, time, position, turns)
         row[f"{when}: position [widths]"] = float(np.linalg.norm(there - toss.position[k])) / (2.0 * HALF)
         row[f"{when}: rotation [deg]"] = math.degrees(float(np.linalg.norm(vector_of(turn @ measured[k].T))))

@@ -55,13 +55,13 @@ def read_tosses(folder: Path) -> Tosses:
     InputError
         The file cannot be read or has no time step. Single tosses that cannot be used are refused in the result.
     """
-    found = arrays(folder / "tosses.npz")
-    dt = float(found["dt"]) if "dt" in found and np.ndim(found["dt"]) == 0 else math.nan
+    archive = arrays(folder / "tosses.npz")
+    dt = float(archive["dt"]) if "dt" in archive and np.ndim(archive["dt"]) == 0 else math.nan
     if not 0.0 < dt <= 0.1:
         raise InputError(f"{folder / 'tosses.npz'} has no time step dt between 0 and 0.1 s; the tosses cannot be used.")
     out = Tosses()
-    for name in sorted(one for one in found if one[:1] == "t" and one[1:].isdecimal()):
-        states = np.asarray(found[name])
+    for name in sorted(key for key in archive if key[:1] == "t" and key[1:].isdecimal()):
+        states = np.asarray(archive[name])
         why = _unusable(states, dt)
         if why:
             out.refused.append(f"toss {name} {why}")

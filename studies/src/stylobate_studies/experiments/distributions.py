@@ -73,16 +73,16 @@ def median_ratio(measured: np.ndarray, computed: np.ndarray, seed: int = 1) -> I
     if len(measured) < FEWEST:
         return Interval(value, 0.0, math.inf)
     drawn = np.random.default_rng(seed).integers(0, len(measured), (SAMPLES, len(measured)))
-    ratios = np.array([_over(median(computed[one]), median(measured[one])) for one in drawn])
+    ratios = np.array([_over(median(computed[sample]), median(measured[sample])) for sample in drawn])
     if np.isnan(ratios).any():
         return Interval(value, 0.0, math.inf)
     return Interval(value, float(np.percentile(ratios, ENDS[0], method="lower")), _upper(ratios))
 
 
-def _over(one: float, other: float) -> float:
-    if (math.isinf(one) and math.isinf(other)) or one == other == 0.0:
+def _over(value: float, other: float) -> float:
+    if (math.isinf(value) and math.isinf(other)) or value == other == 0.0:
         return math.nan
-    return one / other if other else math.inf
+    return value / other if other else math.inf
 
 
 def _upper(values: np.ndarray) -> float:
@@ -96,7 +96,9 @@ def distance(measured: np.ndarray, computed: np.ndarray) -> Interval:
     of the two, and the realisations of a test count as one.
     """
     at = np.concatenate((measured, computed.ravel()))
-    parts = [np.searchsorted(np.sort(one.ravel()), at, side="right") / one.size for one in (measured, computed)]
+    parts = [
+        np.searchsorted(np.sort(values.ravel()), at, side="right") / values.size for values in (measured, computed)
+    ]
     d = float(np.abs(parts[1] - parts[0]).max())
     known = 2.0 * math.sqrt(math.log(2.0 / 0.025) / (2.0 * len(measured)))
     return Interval(d, max(0.0, d - known), min(1.0, d + known))
@@ -118,19 +120,21 @@ def compared(score: str, measured: np.ndarray, low: np.ndarray, high: np.ndarray
     """
     of = {"share": share_difference, "median": median_ratio, "distribution": distance}[score]
     ways = [of(measured, low)] + ([] if np.array_equal(low, high) else [of(measured, high)])
-    twins = [_alone(score, measured, one[:, r]) for one in (low, high) for r in range(one.shape[1])]
-    known = [one for one in twins if not math.isnan(one)]
+    twins = [_alone(score, measured, bound[:, r]) for bound in (low, high) for r in range(bound.shape[1])]
+    known = [twin for twin in twins if not math.isnan(twin)]
     ends = [] if low.shape[1] == 1 or not known else [float(np.percentile(known, ENDS[0], method="lower"))]
     ends += [_upper(np.array(known))] if ends else []
-    found: dict[str, Any] = {
+    result: dict[str, Any] = {
         "value": ways[0].value,
-        "low": min([one.low for one in ways] + ends),
-        "high": max([one.high for one in ways] + ends),
+        "low": min([interval.low for interval in ways] + ends),
+        "high": max([interval.high for interval in ways] + ends),
     }
     for name, values in (("measured", measured), ("computed", low)):
         mine = share(values) if score == "share" else Interval(median(values), math.nan, math.nan)
-        found |= {name: mine.value} | ({f"{name}_low": mine.low, f"{name}_high": mine.high} if score == "share" else {})
-    return found
+        result |= {name: mine.value} | (
+            {f"{name}_low": mine.low, f"{name}_high": mine.high} if score == "share" else {}
+        )
+    return result
 
 
 def _alone(score: str, measured: np.ndarray, twin: np.ndarray) -> float:
@@ -140,11 +144,11 @@ def _alone(score: str, measured: np.ndarray, twin: np.ndarray) -> float:
     return _over(median(twin), median(measured)) if score == "median" else distance(measured, twin[:, None]).value
 
 
-def verdict(score: str, found: dict[str, Any], tolerance: float) -> str:
+def verdict(score: str, result: dict[str, Any], tolerance: float) -> str:
     """Whether a score is ``within`` its tolerance, ``outside``, or ``open``."""
     least = {"share": -tolerance, "median": 1.0 / tolerance, "distribution": 0.0}[score]
-    if math.isnan(found["value"]):
+    if math.isnan(result["value"]):
         return "open"
-    if least <= found["low"] and found["high"] <= tolerance:
+    if least <= result["low"] and result["high"] <= tolerance:
         return "within"
-    return "outside" if found["low"] > tolerance or found["high"] < least else "open"
+    return "outside" if result["low"] > tolerance or result["high"] < least else "open"

@@ -72,8 +72,8 @@ def _brought(vertices: np.ndarray, reference: np.ndarray) -> tuple[np.ndarray, n
     def apart(q: np.ndarray) -> np.ndarray:
         return support(vertices @ Rotation.from_rotvec(q[:3]).as_matrix().T + q[3:], along) - there
 
-    found = least_squares(apart, np.zeros(6), loss="soft_l1", f_scale=BROKEN).x
-    return Rotation.from_rotvec(found[:3]).as_matrix(), found[3:]
+    solution = least_squares(apart, np.zeros(6), loss="soft_l1", f_scale=BROKEN).x
+    return Rotation.from_rotvec(solution[:3]).as_matrix(), solution[3:]
 
 
 def mean_of(scans: Sequence[Scan], weights: Sequence[float]) -> Scan:

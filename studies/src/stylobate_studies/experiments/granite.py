@@ -51,13 +51,13 @@ class Variant:
 def variants(granite: Granite, realisations: int, calibrate: bool, seed: int = 1) -> list[Variant]:
     """All variants, the choice made beforehand first."""
     names = [name for name in NAMES if name in granite.scans]
-    found = [Variant("fixed", name, granite.scans[name].specimen()) for name in names]
+    variants = [Variant("fixed", name, granite.scans[name].specimen()) for name in names]
     if calibrate:
         for name, friction, restitution in itertools.product(names, c.FRICTION_GRID, c.RESTITUTION_GRID):
-            found.append(Variant("grid", name, granite.scans[name].specimen(friction, restitution)))
+            variants.append(Variant("grid", name, granite.scans[name].specimen(friction, restitution)))
         for name, radius in itertools.product(names, c.EDGES):
-            body = worn(granite.scans[name], radius).specimen(like=found[names.index(name)].body)
-            found.append(Variant("edges", name, body, edges=radius))
+            body = worn(granite.scans[name], radius).specimen(like=variants[names.index(name)].body)
+            variants.append(Variant("edges", name, body, edges=radius))
     for name in names:
         rng = np.random.default_rng((seed, NAMES.index(name)))
         mine = granite.scans[name]
@@ -68,9 +68,9 @@ def variants(granite: Granite, realisations: int, calibrate: bool, seed: int = 1
             friction, restitution = rng.uniform(*c.FRICTIONS), rng.uniform(*c.RESTITUTIONS)
             azimuth = rng.uniform(-c.AZIMUTH, c.AZIMUTH)
             mean = mean_of(scans, rng.dirichlet(np.ones(len(scans))).tolist())
-            body = mean.specimen(friction, restitution, like=found[names.index(name)].body)
-            found.append(Variant("realisation", name, body, azimuth))
-    return found
+            body = mean.specimen(friction, restitution, like=variants[names.index(name)].body)
+            variants.append(Variant("realisation", name, body, azimuth))
+    return variants
 
 
 def motion_of(test: Test, azimuth: float) -> Motion:
@@ -83,14 +83,14 @@ def motion_of(test: Test, azimuth: float) -> Motion:
 
 def again(granite: Granite, name: str, number: int, interval: float = 0.05) -> Response:
     """A test of a specimen as fixed beforehand, with a state every so many seconds."""
-    test = next(one for one in granite.tests if one.number == number)
+    test = next(candidate for candidate in granite.tests if candidate.number == number)
     body = granite.scans[name].specimen()
     return simulate(body, motion_of(test, 0.0), DistinctElement3D(), output_interval=interval)
 
 
 def run(
     granite: Granite,
-    found: list[Variant],
+    variants: list[Variant],
     *,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -106,19 +106,21 @@ def run(
     import pandas
 
     motions: dict[tuple[int, float], Motion] = {}
-    pairs = [(v, test) for v in range(len(found)) for test in granite.tests]
+    pairs = [(v, test) for v in range(len(variants)) for test in granite.tests]
     for v, test in pairs:
-        key = (test.number, found[v].azimuth)
+        key = (test.number, variants[v].azimuth)
         if key not in motions:
-            motions[key] = motion_of(test, found[v].azimuth)
-    cases = [Case(found[v].body, motions[test.number, found[v].azimuth]) for v, test in pairs]
+            motions[key] = motion_of(test, variants[v].azimuth)
+    cases = [Case(variants[v].body, motions[test.number, variants[v].azimuth]) for v, test in pairs]
     made = run_all(
         Request.of(cases, Hasher(DistinctElement3D())), Campaign(threads=threads, progress=progress, ledger=ledger)
     )
     rows = []
     for (v, test), row in zip(pairs, made):
         assert row is not None
-        rows.append({"variant": v, "kind": found[v].kind, "specimen": found[v].name, "test": test.number} | _kept(row))
+        rows.append(
+            {"variant": v, "kind": variants[v].kind, "specimen": variants[v].name, "test": test.number} | _kept(row)
+        )
     return pandas.DataFrame(rows)
 
 
@@ -137,12 +139,12 @@ def tests_table(granite: Granite, runs: Any) -> Any:
     import pandas
 
     rows = []
-    for name in [one for one in NAMES if one in granite.scans]:
+    for name in [specimen for specimen in NAMES if specimen in granite.scans]:
         mine = runs[runs["specimen"] == name]
         fixed = mine[mine["kind"] == "fixed"].set_index("test")
         chance = mine[mine["kind"] == "realisation"].groupby("test")["toppled"].mean()
         for test in granite.tests:
-            one: Any = fixed.loc[test.number]
+            outcome: Any = fixed.loc[test.number]
             rows.append(
                 {
                     "specimen": name,
@@ -153,10 +155,10 @@ def tests_table(granite: Granite, runs: Any) -> Any:
                     "pgv_m_s": test.facts["pgv_ms"],
                     "hard": bool(c.HARD <= test.logit[name] <= 1.0 - c.HARD),
                     "observed": test.toppled[name],
-                    "computed": bool(one["toppled"]),
-                    "decided": bool(one["decided"]),
-                    "peak_tilt_deg": float(one["peak_tilt_deg"]),
-                    "energy_imbalance": float(one["energy_imbalance"]),
+                    "computed": bool(outcome["toppled"]),
+                    "decided": bool(outcome["decided"]),
+                    "peak_tilt_deg": float(outcome["peak_tilt_deg"]),
+                    "energy_imbalance": float(outcome["energy_imbalance"]),
                     "probability": float(chance[test.number]) if len(chance) else math.nan,
                     "logit": test.logit[name],
                 }
@@ -170,13 +172,13 @@ def summary(granite: Granite, table: Any, realisations: int) -> dict[str, Any]:
     for name, rows in table.groupby("specimen"):
         chance = rows["probability"].to_numpy() if realisations else None
         observed, computed, hard = (rows[key].to_numpy(dtype=bool) for key in ("observed", "computed", "hard"))
-        one = scores.score(observed, computed, hard, chance)
-        one["undecided"] = int((~rows["decided"]).sum())
-        one["fragility_pgv_m_s"] = {
+        result = scores.score(observed, computed, hard, chance)
+        result["undecided"] = int((~rows["decided"]).sum())
+        result["fragility_pgv_m_s"] = {
             key: scores.with_interval(rows["pgv_m_s"].to_numpy(), rows[key].to_numpy(dtype=bool))
             for key in ("observed", "computed")
         }
-        out[str(name)] = one
+        out[str(name)] = result
     return out
 
 
@@ -185,33 +187,33 @@ def half_table(table: Any) -> Any:
     import pandas
 
     rows = []
-    for name, one in table.groupby("specimen"):
-        pgv = one["pgv_m_s"].to_numpy()
-        ratio = pgv / (g * one["pga_10hz_g"].to_numpy())
-        verdicts = (one[key].to_numpy(dtype=bool) for key in ("observed", "computed"))
+    for name, tests in table.groupby("specimen"):
+        pgv = tests["pgv_m_s"].to_numpy()
+        ratio = pgv / (g * tests["pga_10hz_g"].to_numpy())
+        verdicts = (tests[key].to_numpy(dtype=bool) for key in ("observed", "computed"))
         rows += [{"specimen": name} | row for row in scores.half_toppled(pgv, ratio, *verdicts)]
     return pandas.DataFrame(rows)
 
 
-def calibration(granite: Granite, found: list[Variant], runs: Any) -> list[dict[str, Any]]:
+def calibration(granite: Granite, variants: list[Variant], runs: Any) -> list[dict[str, Any]]:
     """Friction and restitution, and the radius of edges, that do best on one specimen, and how they do on the other."""
     observed = {name: np.array([test.toppled[name] for test in granite.tests]) for name in NAMES}
     hard = {name: np.array([c.HARD <= t.logit[name] <= 1.0 - c.HARD for t in granite.tests]) for name in NAMES}
-    computed = {v: runs.loc[runs["variant"] == v, "toppled"].to_numpy(dtype=bool) for v in range(len(found))}
+    computed = {v: runs.loc[runs["variant"] == v, "toppled"].to_numpy(dtype=bool) for v in range(len(variants))}
     rows = []
     for kind, name in itertools.product(("grid", "edges"), NAMES):
-        mine = [(v, one) for v, one in enumerate(found) if (one.kind, one.name) == (kind, name)]
+        mine = [(v, variant) for v, variant in enumerate(variants) if (variant.kind, variant.name) == (kind, name)]
         if not mine:
             continue
         best, chosen = max(mine, key=lambda pair: scores.matthews(observed[name], computed[pair[0]]))
         row = {"calibrated_on": name, **{k: x for k, x in chosen.settings.items() if k != "azimuth_deg"}}
         row["accuracy_there"] = float((observed[name] == computed[best]).mean())
-        for v, one in enumerate(found):
-            if one.kind == kind and one.name != name and one.settings == chosen.settings:
-                right = observed[one.name] == computed[v]
-                row |= {"tested_on": one.name, "accuracy": float(right.mean())}
-                row["hard_accuracy"] = float(right[hard[one.name]].mean())
-                row["predicted_over_observed"] = float(computed[v].sum() / max(1, observed[one.name].sum()))
+        for v, variant in enumerate(variants):
+            if variant.kind == kind and variant.name != name and variant.settings == chosen.settings:
+                right = observed[variant.name] == computed[v]
+                row |= {"tested_on": variant.name, "accuracy": float(right.mean())}
+                row["hard_accuracy"] = float(right[hard[variant.name]].mean())
+                row["predicted_over_observed"] = float(computed[v].sum() / max(1, observed[variant.name].sum()))
         rows.append(row)
     return rows
 
@@ -222,9 +224,9 @@ def worst(table: Any, count: int = 10) -> Any:
     By the computed probability where there is one, else by the logistic fit of the data set.
     """
     wrong = table[table["observed"] != table["computed"]].copy()
-    said = wrong["probability"].where(wrong["probability"].notna(), wrong["logit"])
+    chance = wrong["probability"].where(wrong["probability"].notna(), wrong["logit"])
     if table["probability"].notna().any():
-        wrong["surprise"] = (said - wrong["observed"]).abs()
+        wrong["surprise"] = (chance - wrong["observed"]).abs()
     else:
-        wrong["surprise"] = (wrong["computed"].astype(float) - said).abs()
+        wrong["surprise"] = (wrong["computed"].astype(float) - chance).abs()
     return wrong.sort_values(["surprise", "specimen", "test"], ascending=[False, True, True]).head(count)

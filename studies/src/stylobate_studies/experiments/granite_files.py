@@ -82,34 +82,38 @@ def read_granite(folder: Path) -> Granite:
     InputError
         A file is missing or is no such file. Single specimens and tests that cannot be used are refused in the result.
     """
-    found = Granite()
+    granite = Granite()
     specimens = _json(folder / "specimens.json")
     mass = None
     for name in (*NAMES, OTHER_SCAN):
         if name not in specimens:
-            found.refused += [f"specimen {name} is not in specimens.json"] * (name in NAMES)
+            granite.refused += [f"specimen {name} is not in specimens.json"] * (name in NAMES)
             continue
-        one = specimens[name]
-        mass = one.get("mass_kg", mass) if isinstance(one, dict) else None
+        specimen = specimens[name]
+        mass = specimen.get("mass_kg", mass) if isinstance(specimen, dict) else None
         try:
-            found.scans[name] = _scan(name, one, mass)
+            granite.scans[name] = _scan(name, specimen, mass)
         except InputError as error:
-            found.refused.append(str(error).rstrip("."))
-    _read_tests(folder, found)
-    return found
+            granite.refused.append(str(error).rstrip("."))
+    _read_tests(folder, granite)
+    return granite
 
 
-def _scan(name: str, one: Any, mass: Any) -> Scan:
+def _scan(name: str, specimen: Any, mass: Any) -> Scan:
     missing = [
         key
         for key in ("inertia_about_com_kg_m2", "com_height_at_rest_m", "hull_vertices_m")
-        if not isinstance(one, dict) or key not in one
+        if not isinstance(specimen, dict) or key not in specimen
     ]
     if missing or mass is None:
         raise InputError(f"specimen {name} has no {(missing or ['mass_kg'])[0]} in specimens.json and is left out")
     try:
-        vertices = np.array(one["hull_vertices_m"], dtype=float) - (0.0, 0.0, float(one["com_height_at_rest_m"]))
-        scan = Scan(name, float(mass), np.array(one["inertia_about_com_kg_m2"], dtype=float), vertices)
+        vertices = np.array(specimen["hull_vertices_m"], dtype=float) - (
+            0.0,
+            0.0,
+            float(specimen["com_height_at_rest_m"]),
+        )
+        scan = Scan(name, float(mass), np.array(specimen["inertia_about_com_kg_m2"], dtype=float), vertices)
     except (TypeError, ValueError):
         raise InputError(
             f"specimen {name} has no numbers where they should be in specimens.json and is left out"
@@ -184,12 +188,12 @@ def _flag(number: int, row: dict[str, str], key: str) -> int:
 
 def _json(path: Path) -> dict:
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
+        content = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         raise InputError(f"{path} cannot be read ({error}).") from None
-    if not isinstance(found, dict):
+    if not isinstance(content, dict):
         raise InputError(f"{path} holds no table of specimens.")
-    return found
+    return content
 
 
 def arrays(path: Path) -> dict[str, np.ndarray]:

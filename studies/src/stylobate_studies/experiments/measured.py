@@ -25,7 +25,7 @@ COLUMNS = (
 
 
 def computed(
-    found: Measured, *, threads: int | None = None, progress: Progress | None = None, ledger: Path | None = None
+    experiment: Measured, *, threads: int | None = None, progress: Progress | None = None, ledger: Path | None = None
 ) -> Any:
     """One row per test and realisation: verdict and the measures that are scored; resumes from its ledger.
 
@@ -36,17 +36,22 @@ def computed(
     """
     import pandas
 
-    rows, wanted = [], sorted({score.measure for score in found.file.scores} - {COLLAPSED})
-    for tests, study in found.studies():
-        asked = Campaign(threads=threads, progress=progress, ledger=ledger)
-        made = run_all(study.request(study.plan()), asked)
+    rows, wanted = [], sorted({score.measure for score in experiment.file.scores} - {COLLAPSED})
+    for tests, study in experiment.studies():
+        campaign = Campaign(threads=threads, progress=progress, ledger=ledger)
+        made = run_all(study.request(study.plan()), campaign)
         each = study.shape[-1]
-        said, seen = v.verdicts_of(made), {one: _values(made, one) for one in wanted}
+        verdicts, seen = v.verdicts_of(made), {measure: _values(made, measure) for measure in wanted}
         for number, test in enumerate(tests):
             for realisation in range(each):
                 k = number * each + realisation
-                row = {"test": test.name, "structure": test.structure, "realisation": realisation, "verdict": said[k]}
-                rows.append(row | {one: float(seen[one][k]) for one in wanted})
+                row = {
+                    "test": test.name,
+                    "structure": test.structure,
+                    "realisation": realisation,
+                    "verdict": verdicts[k],
+                }
+                rows.append(row | {measure: float(seen[measure][k]) for measure in wanted})
     return pandas.DataFrame(rows)
 
 
@@ -55,11 +60,11 @@ def _values(made: Rows, measure: str) -> np.ndarray:
     body, _, name = measure.rpartition(".")
     if not body:
         return np.abs(made.floats(name))
-    found = [None if row is None else row["bodies"][body][name] for row in made]
-    return np.array([math.nan if one is None else abs(one) for one in found])
+    values = [None if row is None else row["bodies"][body][name] for row in made]
+    return np.array([math.nan if value is None else abs(value) for value in values])
 
 
-def scores(found: Measured, runs: Any) -> Any:
+def scores(experiment: Measured, runs: Any) -> Any:
     """One row per score: what was measured and computed, the score with its interval, and its verdict.
 
     What collapses exceeds every size; an undecided run counts as it stands and as if it collapsed, and a test of which a
@@ -67,16 +72,16 @@ def scores(found: Measured, runs: Any) -> Any:
     """
     import pandas
 
-    verdicts = _by_test(found, runs, "verdict")
+    verdicts = _by_test(experiment, runs, "verdict")
     fell, open_ = verdicts == v.COLLAPSED, verdicts == v.UNDECIDED
     sound = ~np.isin(verdicts, (v.FAILED, v.NOT_RUN)).any(axis=1)
     rows = []
-    for score in found.file.scores:
-        measured = np.array([test.measured[score.measure] for test in found.tests])
+    for score in experiment.file.scores:
+        measured = np.array([test.measured[score.measure] for test in experiment.tests])
         if score.measure == COLLAPSED:
             low, high = fell.astype(float), (fell | open_).astype(float)
         else:
-            low = np.where(fell, math.inf, _by_test(found, runs, score.measure).astype(float))
+            low = np.where(fell, math.inf, _by_test(experiment, runs, score.measure).astype(float))
             high = np.where(open_, math.inf, low)
         used = sound & ~np.isnan(measured) & ~np.isnan(low).any(axis=1)
         row: dict[str, Any] = {"measure": score.measure, "score": score.score, "tests": int(used.sum())}
@@ -88,25 +93,25 @@ def scores(found: Measured, runs: Any) -> Any:
     return pandas.DataFrame(rows, columns=COLUMNS)
 
 
-def _by_test(found: Measured, runs: Any, column: str) -> np.ndarray:
+def _by_test(experiment: Measured, runs: Any, column: str) -> np.ndarray:
     """A column of the table of runs, shape (tests, realisations), in the order of the tests."""
-    each = max(1, found.campaign.replicates)
+    each = max(1, experiment.campaign.replicates)
     place = {name: k for k, name in enumerate(runs["test"].to_numpy()[::each])}
-    return runs[column].to_numpy().reshape(-1, each)[[place[test.name] for test in found.tests]]
+    return runs[column].to_numpy().reshape(-1, each)[[place[test.name] for test in experiment.tests]]
 
 
-def tests_table(found: Measured, runs: Any) -> Any:
+def tests_table(experiment: Measured, runs: Any) -> Any:
     """One row per test: what was measured, and the share and medians of its realisations; what fell is infinitely far."""
     import pandas
 
-    verdicts, rows = _by_test(found, runs, "verdict"), []
+    verdicts, rows = _by_test(experiment, runs, "verdict"), []
     fell = verdicts == v.COLLAPSED
-    for k, test in enumerate(found.tests):
+    for k, test in enumerate(experiment.tests):
         row: dict[str, Any] = {"test": test.name, "structure": test.structure, "pga_g": test.motion.pga / g}
         row |= {f"measured {name}": value for name, value in sorted(test.measured.items())}
         row[f"computed {COLLAPSED}"] = float(fell[k].mean())
-        for name in sorted({one.measure for one in found.file.scores} - {COLLAPSED}):
-            values = np.where(fell[k], math.inf, _by_test(found, runs, name)[k].astype(float))
+        for name in sorted({score.measure for score in experiment.file.scores} - {COLLAPSED}):
+            values = np.where(fell[k], math.inf, _by_test(experiment, runs, name)[k].astype(float))
             row[f"computed {name}"] = distributions.median(values)
         rows.append(row)
     return pandas.DataFrame(rows)
@@ -116,10 +121,12 @@ def sentences(summary: dict[str, Any]) -> list[str]:
     """What was fixed, and what came of each score, for people."""
     fixed = summary["fixed"]
     twins = f", {fixed['realisations']} realisations of each" if fixed["realisations"] else ""
-    said = [
+    lines = [
         f"{summary['tests']} tests; fixed on {fixed['on']}, as the folder says: {fixed['model']}{twins}, "
         f"{len(fixed['scores'])} scores (digest {fixed['digest'][:12]})"
     ]
     if summary["changed_since"]:
-        said.append(f"what is fixed has been changed since {summary['changed_since']}, when its scores were first seen")
-    return said
+        lines.append(
+            f"what is fixed has been changed since {summary['changed_since']}, when its scores were first seen"
+        )
+    return lines

@@ -110,28 +110,28 @@ class Measured:
 
     def studies(self) -> list[tuple[list[Test], Study]]:
         """The tests of each structure, and the study that computes them."""
-        found = []
+        pairs = []
         for name, structure in self.structures.items():
             if mine := [test for test in self.tests if test.structure == name]:
                 motions = [test.motion for test in mine]
-                found.append((mine, Study([structure], motions, [self.model], campaign=self.campaign)))
-        return found
+                pairs.append((mine, Study([structure], motions, [self.model], campaign=self.campaign)))
+        return pairs
 
     @property
     def fixed(self) -> dict[str, Any]:
         """What was fixed beforehand, for the answer."""
-        one, scatter = self.file, self.campaign.scatter
+        file, scatter = self.file, self.campaign.scatter
         return {
-            "on": one.fixed.isoformat(),
+            "on": file.fixed.isoformat(),
             "digest": self.digest,
-            "source": one.source,
+            "source": file.source,
             "model": self.model.name,
             "parameters": self.model.parameters(),
             "realisations": self.campaign.replicates,
             "scatter": "that of the structure" if scatter is None else scatter.describe(),
             "seed": self.campaign.seed,
             "tail_s": self.campaign.tail,
-            "scores": [score.model_dump() for score in one.scores],
+            "scores": [score.model_dump() for score in file.scores],
         }
 
 
@@ -162,15 +162,15 @@ def read_measured(folder: Path) -> Measured:
         if not file.scores:
             raise InputError("no score is fixed; add [[scores]] with measure, score and tolerance.")
         seal = hashlib.sha256(read_bytes(path, SETTINGS))
-        found = Measured(name, file, "", {}, models[0], file.made_campaign())
-        _read_tests(folder, found)
-        for called, structure in found.structures.items():
+        experiment = Measured(name, file, "", {}, models[0], file.made_campaign())
+        _read_tests(folder, experiment)
+        for called, structure in experiment.structures.items():
             seal.update(f"{called} {structure.digest}".encode())
-            known = _measures(structure, found.model)
+            known = _measures(structure, experiment.model)
             for score in file.scores:
                 check_choice("measure", score.measure, known, of=f"a run of {structure.name}")
-        found.digest = seal.hexdigest()
-    return found
+        experiment.digest = seal.hexdigest()
+    return experiment
 
 
 def _measures(structure: Structure, model: Model) -> list[str]:
@@ -197,16 +197,16 @@ def csv_rows(path: Path) -> list[dict[str, str]]:
         raise InputError(f"{printable(path)} cannot be read as a table ({error}).") from None
 
 
-def _read_tests(folder: Path, found: Measured) -> None:
-    rows, wanted = csv_rows(folder / found.file.tests), {score.measure for score in found.file.scores}
+def _read_tests(folder: Path, experiment: Measured) -> None:
+    rows, wanted = csv_rows(folder / experiment.file.tests), {score.measure for score in experiment.file.scores}
     if not rows:
-        raise InputError(f"{found.file.tests} holds no test; give a row for each.")
+        raise InputError(f"{experiment.file.tests} holds no test; give a row for each.")
     known, given = {*COLUMNS, COLLAPSED, *wanted}, [name for name in rows[0] if name]
     for name in given:
         if name not in known and not name.startswith("note"):
             remedy = "what a score is of, or note… for anything else"
             raise InputError(
-                f"{found.file.tests} has the column {name!r}; known are {', '.join(sorted(known))}: {remedy}."
+                f"{experiment.file.tests} has the column {name!r}; known are {', '.join(sorted(known))}: {remedy}."
             )
     seen: set[str] = set()
     for number, row in enumerate(rows, 1):
@@ -215,39 +215,39 @@ def _read_tests(folder: Path, found: Measured) -> None:
             if name in seen:
                 raise InputError("another row has this name")
             seen.add(name)
-            found.tests.append(_test(folder, found, name, row, wanted))
+            experiment.tests.append(_test(folder, experiment, name, row, wanted))
         except InputError as error:
-            found.refused.append(f"test {name} of {found.name}: {str(error).rstrip('.')}")
+            experiment.refused.append(f"test {name} of {experiment.name}: {str(error).rstrip('.')}")
 
 
-def _test(folder: Path, found: Measured, name: str, row: Mapping[str, str | None], wanted: set[str]) -> Test:
+def _test(folder: Path, experiment: Measured, name: str, row: Mapping[str, str | None], wanted: set[str]) -> Test:
     if None in row or any(value is None for value in row.values()):
         raise InputError("its row has not as many cells as the first line")
     cell = {key: str(value).strip() for key, value in row.items()}
-    stood = cell.get("structure") or found.file.structure
+    stood = cell.get("structure") or experiment.file.structure
     if not stood:
         raise InputError("nothing says what stood; give structure in the table of tests or in experiment.toml")
-    if stood not in found.structures:
-        found.structures[stood] = structure_beside(folder, stood)
-    fixed, number = found.file.motions, partial(_number, cell)
+    if stood not in experiment.structures:
+        experiment.structures[stood] = structure_beside(folder, stood)
+    fixed, number = experiment.file.motions, partial(_number, cell)
     azimuth = number("azimuth")
     motion = MotionRequest(
-        files=tuple(folder / one.strip() for one in cell.get("motion", "").split(";") if one.strip()),
+        files=tuple(folder / file.strip() for file in cell.get("motion", "").split(";") if file.strip()),
         unit=cell.get("unit") or fixed.unit,
         azimuths=() if math.isnan(azimuth) else (azimuth,),
         scale=None if math.isnan(scale := number("scale")) else scale,
         condition=tuple(fixed.condition or ()),
         vertical=fixed.vertical,
     ).motion()
-    measured = {one: number(one) for one in wanted | {COLLAPSED}}
+    measured = {measure: number(measure) for measure in wanted | {COLLAPSED}}
     fell = measured[COLLAPSED]
     if not (math.isnan(fell) or fell in (0.0, 1.0)):
         raise InputError(f"{COLLAPSED} is {cell[COLLAPSED]}; allowed are 0 and 1")
     if cell.get("history"):
         history = _history(folder / cell["history"])
-        for one in wanted:
-            if math.isnan(measured[one]):
-                measured[one] = _of_history(history, one)
+        for measure in wanted:
+            if math.isnan(measured[measure]):
+                measured[measure] = _of_history(history, measure)
     if fell == 1.0:  # what fell exceeds every size
         measured |= dict.fromkeys(wanted - {COLLAPSED}, math.inf)
     return Test(name, stood, motion.replace(name=f"test {name}"), measured)
@@ -274,7 +274,11 @@ def _history(path: Path) -> dict[str, np.ndarray]:
     except (TypeError, ValueError):
         raise InputError(f"{printable(path)} holds what is no number") from None
     time = columns.get("time_s", np.zeros(0))
-    if len(time) < 2 or not (np.diff(time) > 0.0).all() or not all(np.isfinite(one).all() for one in columns.values()):
+    if (
+        len(time) < 2
+        or not (np.diff(time) > 0.0).all()
+        or not all(np.isfinite(values).all() for values in columns.values())
+    ):
         raise InputError(f"{printable(path)} has no time_s that grows, or numbers that are not finite")
     return columns
 

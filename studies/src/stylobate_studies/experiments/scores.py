@@ -66,9 +66,9 @@ def fragility(intensity: np.ndarray, toppled: np.ndarray) -> tuple[np.ndarray, n
         Of the same shape.
     """
     x, toppled = np.atleast_2d(np.log(intensity)), np.atleast_2d(toppled)
-    found = lognormal.fit(np.where(toppled, -np.inf, x), np.where(toppled, x, np.inf))
-    sound = np.isfinite(found.log_median) & (toppled.any(axis=1)) & (~toppled.all(axis=1))
-    return np.where(sound, np.exp(np.where(sound, found.log_median, 0.0)), np.nan), np.where(sound, found.beta, np.nan)
+    fit = lognormal.fit(np.where(toppled, -np.inf, x), np.where(toppled, x, np.inf))
+    sound = np.isfinite(fit.log_median) & (toppled.any(axis=1)) & (~toppled.all(axis=1))
+    return np.where(sound, np.exp(np.where(sound, fit.log_median, 0.0)), np.nan), np.where(sound, fit.beta, np.nan)
 
 
 def with_interval(intensity: np.ndarray, toppled: np.ndarray, seed: int = 1) -> dict[str, float]:
@@ -106,8 +106,8 @@ def half_toppled(
         here = (ratio >= low) & ((ratio < high) | (high == edges[-1]))
         row: dict[str, Any] = {"pgv_over_pga_from_s": low, "pgv_over_pga_to_s": high, "tests": int(here.sum())}
         for name, toppled in (("observed", observed), ("computed", computed)):
-            found = with_interval(pgv[here], toppled[here]) if here.any() else {}
-            row |= {f"{name}_{key}": found.get(key) for key in ("median", "median_low", "median_high", "beta")}
+            curve = with_interval(pgv[here], toppled[here]) if here.any() else {}
+            row |= {f"{name}_{key}": curve.get(key) for key in ("median", "median_low", "median_high", "beta")}
         rows.append(row)
     return rows
 
@@ -116,8 +116,8 @@ def reliability(chance: np.ndarray, observed: np.ndarray, bins: int = 5) -> list
     """Mean computed probability and observed share of toppled in bins of the former, with Wilson's 95 % interval."""
     where = np.minimum((chance * bins).astype(int), bins - 1)
     rows = []
-    for one in range(bins):
-        here = where == one
+    for bin_number in range(bins):
+        here = where == bin_number
         if not here.any():
             continue
         low, high = wilson_interval(observed[here].sum(), here.sum())

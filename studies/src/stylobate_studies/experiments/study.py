@@ -62,42 +62,46 @@ def read(folder: Path) -> Experiments:
             if (place / mark).is_file() or (place.is_dir() and place.name == name and name not in places):
                 places[name] = place
                 break
-    tested = [one.parent for one in (folder / FILE, *sorted(folder.glob(f"*/{FILE}"))) if one.is_file()]
+    tested = [path.parent for path in (folder / FILE, *sorted(folder.glob(f"*/{FILE}"))) if path.is_file()]
     if not places and not tested:
         raise InputError(
             f"{folder} holds no experiment: {FILE}, granite/specimens.json or cube/tosses.npz is expected there; see "
             "docs/evidence/nature.md."
         )
-    found = Experiments()
+    experiments = Experiments()
     if "granite" in places:
-        found.granite = _usable(found, read_granite, places["granite"])
+        experiments.granite = _usable(experiments, read_granite, places["granite"])
     if "cube" in places:
-        found.cube = _usable(found, read_tosses, places["cube"])
+        experiments.cube = _usable(experiments, read_tosses, places["cube"])
     for place in tested:
-        if (one := _usable(found, read_measured, place)) is not None:
-            found.tested.append(one)
-    names = [one.name for one in found.tested]
+        if (experiment := _usable(experiments, read_measured, place)) is not None:
+            experiments.tested.append(experiment)
+    names = [experiment.name for experiment in experiments.tested]
     if len(set(names)) < len(names):
         raise InputError(f"two folders of tests are called alike ({', '.join(names)}); give each a name of its own.")
-    usable = (found.granite and found.granite.tests and found.granite.scans) or (found.cube and found.cube.tosses)
-    if not usable and not any(one.tests for one in found.tested):
-        raise InputError(f"nothing in {folder} can be used: {'; '.join(found.refused[:3]) or 'it holds no test'}.")
-    return found
+    usable = (experiments.granite and experiments.granite.tests and experiments.granite.scans) or (
+        experiments.cube and experiments.cube.tosses
+    )
+    if not usable and not any(experiment.tests for experiment in experiments.tested):
+        raise InputError(
+            f"nothing in {folder} can be used: {'; '.join(experiments.refused[:3]) or 'it holds no test'}."
+        )
+    return experiments
 
 
-def _usable(found: Experiments, read_one: Callable[[Path], Read], place: Path) -> Read | None:
+def _usable(experiments: Experiments, read_one: Callable[[Path], Read], place: Path) -> Read | None:
     """What is in a folder, its refused parts noted; None where nothing of it can be used."""
     try:
-        one = read_one(place)
+        content = read_one(place)
     except InputError as error:
-        found.refused.append(str(error).rstrip("."))
+        experiments.refused.append(str(error).rstrip("."))
         return None
-    found.refused += one.refused
-    return one
+    experiments.refused += content.refused
+    return content
 
 
 def compute(
-    found: Experiments,
+    experiments: Experiments,
     *,
     realisations: int = 0,
     calibrate: bool = True,
@@ -110,7 +114,7 @@ def compute(
 
     Parameters
     ----------
-    found : Experiments
+    experiments : Experiments
     realisations : int
         Of what is uncertain about the boulders; 0 for none.
     calibrate : bool
@@ -124,15 +128,15 @@ def compute(
         The summary of an earlier call, whose scores have been seen.
     """
     out = Results()
-    if found.granite and found.granite.tests and found.granite.scans:
-        _granite(found.granite, realisations, calibrate, threads, bars, ledger, out)
-    if found.cube and found.cube.tosses:
-        _cube(found.cube, calibrate, threads, bars, ledger, out)
-    for one in found.tested:
-        if one.tests:
-            _tested(one, threads, bars, ledger, earlier or {}, out)
+    if experiments.granite and experiments.granite.tests and experiments.granite.scans:
+        _granite(experiments.granite, realisations, calibrate, threads, bars, ledger, out)
+    if experiments.cube and experiments.cube.tosses:
+        _cube(experiments.cube, calibrate, threads, bars, ledger, out)
+    for experiment in experiments.tested:
+        if experiment.tests:
+            _tested(experiment, threads, bars, ledger, earlier or {}, out)
     out.summary |= {
-        "refused": found.refused,
+        "refused": experiments.refused,
         "choices": [choice._asdict() for choice in c.CHOICES],
         "realisations": realisations,
         "date": date.today().isoformat(),
@@ -178,15 +182,18 @@ def _granite(
 ) -> None:
     import pandas
 
-    found = granite.variants(tests, realisations, calibrate)
+    variants = granite.variants(tests, realisations, calibrate)
     with bars("boulders") as progress:
-        runs = granite.run(tests, found, threads=threads, progress=progress, ledger=ledger)
+        runs = granite.run(tests, variants, threads=threads, progress=progress, ledger=ledger)
     table = granite.tests_table(tests, runs)
     out.tables["granite_tests"] = table
     out.tables["granite_half"] = granite.half_table(table)
     out.tables["granite_worst"] = granite.worst(table)
     out.tables["granite_variants"] = pandas.DataFrame(
-        [{"variant": v, "kind": one.kind, "specimen": one.name} | one.settings for v, one in enumerate(found)]
+        [
+            {"variant": v, "kind": variant.kind, "specimen": variant.name} | variant.settings
+            for v, variant in enumerate(variants)
+        ]
     )
     observed = {(name, test.number): test.toppled[name] for test in tests.tests for name in test.toppled}
     right = runs.assign(right=[row.toppled == observed[row.specimen, row.test] for row in runs.itertuples()])
@@ -200,7 +207,7 @@ def _granite(
         "failed": int(runs["failed"].sum()),
     }
     if calibrate:
-        out.summary["granite"]["calibration"] = granite.calibration(tests, found, runs)
+        out.summary["granite"]["calibration"] = granite.calibration(tests, variants, runs)
     if realisations:
         from .scores import reliability
 
@@ -234,7 +241,7 @@ def _cube(tosses: Tosses, calibrate: bool, threads: int | None, bars: Bars, ledg
     rest = [toss for number, toss in enumerate(tosses.tosses) if number % 3]
     with bars("tosses, the rest of them") as progress:
         (tested,) = cube.run(rest, [grid[best]], threads=threads, progress=progress, ledger=ledger)
-    names = {one.name for one in rest}
+    names = {toss.name for toss in rest}
     out.tables["cube_calibrated"] = tested
     out.summary["cube"]["calibration"] = {
         "friction": grid[best][0],

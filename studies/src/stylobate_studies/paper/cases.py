@@ -153,9 +153,9 @@ class Grids:
         """The coarse or the fine study."""
         limit = np.arange(0.140, 0.2401, 0.002) * g
         if quick:
-            some = tuple(name for name in VARIANTS if name not in SLOW_VARIANTS)
+            fast_variants = tuple(name for name in VARIANTS if name not in SLOW_VARIANTS)
             return cls(
-                np.linspace(0.25, 4.0, 16), np.linspace(0.1, 0.5, 13) * g, TAIL, (BEAM, DEM), some,
+                np.linspace(0.25, 4.0, 16), np.linspace(0.1, 0.5, 13) * g, TAIL, (BEAM, DEM), fast_variants,
                 np.array([0.66, 1.0, 2.0]), np.linspace(0.12, 0.6, 13) * g, limit,
                 np.linspace(0.3, 1.7, 8), np.linspace(0.2, 0.6, 9) * g, 6,
                 np.array([0.66, 1.0, 1.5]), np.linspace(0.2, 0.6, 5) * g, 6,

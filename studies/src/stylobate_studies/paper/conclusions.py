@@ -29,8 +29,11 @@ def conclusions(r: Reader) -> list[Statement]:
             "4 ¶1", "The rigid beam is in sufficient agreement with the DEM over the harmonic tests.",
             f"same verdict: monolith {int(agree[0].sum())}, drums {int(agree[1].sum())} of {agree[0].size} cases each",
             judged(
-                min(one.mean() for one in agree) >= 0.8,
-                {f"{SHORT[name]}, {one.sum()} of {one.size}": bool(one.mean() >= 0.8) for name, one in zip(PAPER, agree)},
+                min(same.mean() for same in agree) >= 0.8,
+                {
+                    f"{SHORT[name]}, {same.sum()} of {same.size}": bool(same.mean() >= 0.8)
+                    for name, same in zip(PAPER, agree)
+                },
             ),
             "Sufficient is taken as four verdicts in five.",
         ),
@@ -59,7 +62,7 @@ def conclusions(r: Reader) -> list[Statement]:
                 for name in PAPER
             )
             + f"; monolith at 0.1 Hz {limits[BEAM]:.3f} g, {limits[BLOCKS]:.3f} g, {limits[DEM]:.3f} g",
-            judged(all(between) and static, {f"harmonic tests, {SHORT[name]}": one for name, one in zip(PAPER, between)}
+            judged(all(between) and static, {f"harmonic tests, {SHORT[name]}": value for name, value in zip(PAPER, between)}
                    | {"monolith at 0.1 Hz, nearly statics": static}),
             "The paper says it of the pushover, and announces the harmonic tests.",
         ),

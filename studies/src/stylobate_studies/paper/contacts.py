@@ -54,27 +54,27 @@ def contacts_piece(
     }  # fmt: skip
 
 
-def moved(found: Populations, name: str, where: str, setting: str) -> float:
+def moved(populations: Populations, name: str, where: str, setting: str) -> float:
     """Mean change of the share of columns that collapse in a cell [-]."""
-    one, other = (found[name, where, key].frequency for key in (setting, SAME))
-    return float(np.nanmean(np.abs(one - other)))
+    share, other = (populations[name, where, key].frequency for key in (setting, SAME))
+    return float(np.nanmean(np.abs(share - other)))
 
 
-def contacts_statement(found: Populations) -> Statement:
+def contacts_statement(populations: Populations) -> Statement:
     """The sentence on the sensitivity to contact parameters."""
     changed = [key for key in SETTINGS if key not in (SAME, NOTHING)]
     mean = {
-        (name, where): float(np.mean([moved(found, name, where, key) for key in changed]))
+        (name, where): float(np.mean([moved(populations, name, where, key) for key in changed]))
         for name in PAPER
         for where in (PLANE, SPACE)
     }
-    noise = {one: moved(found, *one, NOTHING) for one in mean}
+    noise = {pair: moved(populations, *pair, NOTHING) for pair in mean}
     less = {
         SHORT[name]: mean[name, SPACE] - mean[name, PLANE] > max(noise[name, where] for where in (PLANE, SPACE))
         for name in PAPER
     }
-    share = {key: one.mean for key, one in found.items()}
-    told = "; ".join(
+    share = {key: population.mean for key, population in populations.items()}
+    means = "; ".join(
         f"{SHORT[name]} {where} {percent(mean[name, where])} (a change of 0.1 %: {percent(noise[name, where])})"
         for name, where in mean
     )
@@ -86,7 +86,7 @@ def contacts_statement(found: Populations) -> Statement:
     return Statement(
         "1 ¶3", "Two-dimensional analyses are less sensitive to the contact parameters than three-dimensional ones.",
         f"mean change of the share of round columns that collapse in a cell, over {len(changed)} changes of a contact "
-        f"parameter: {told}",
+        f"parameter: {means}",
         judged(all(less.values()), less),
         "Taken as: less by more than a change of 0.1 % makes. k_n and k_s ten times smaller and larger, tan φ 0.5 and 0.9. "
         f"Unsafe share as they are, and least and most with a change: {worst}.",

@@ -58,16 +58,16 @@ def drum_statements(r: Reader) -> list[Statement]:
         Statement(
             "3.2 ¶3, Figs. 6, 9", "With the rigid beam the monolith is less prone to collapse than the drums.",
             f"unsafe share: monolith {percent(sizes[MONOLITH, BEAM])}, drums {percent(sizes[DRUMS, BEAM])}",
-            judged(all(one > 0.0 for one in order[BEAM].values()), {key: one > 0.0 for key, one in order[BEAM].items()}),
+            judged(all(gap > 0.0 for gap in order[BEAM].values()), {key: gap > 0.0 for key, gap in order[BEAM].items()}),
             "Drums add ways to collapse, and the beam takes no energy out of them.",
-            all_but({key: one > 0.0 for key, one in order[BEAM].items()}),
+            all_but({key: gap > 0.0 for key, gap in order[BEAM].items()}),
         ),
         Statement(
             "3.2 ¶3, Figs. 6, 9", "With the DEM the unsafe region of the multi-drum column is the smaller one.",
             f"unsafe share: monolith {percent(sizes[MONOLITH, DEM])}, drums {percent(sizes[DRUMS, DEM])}",
-            judged(all(one < 0.0 for one in order[DEM].values()), {key: one < 0.0 for key, one in order[DEM].items()}),
+            judged(all(gap < 0.0 for gap in order[DEM].values()), {key: gap < 0.0 for key, gap in order[DEM].items()}),
             "Twelve joints slip a little in every cycle and so take out energy.",
-            all_but({key: one < 0.0 for key, one in order[DEM].items()}),
+            all_but({key: gap < 0.0 for key, gap in order[DEM].items()}),
         ),
     ]  # fmt: skip
 
@@ -76,9 +76,9 @@ def _at_two_hertz(r: Reader) -> Statement:
     domain, beams = r.domain(DRUMS, BEAM), r.variants(DRUMS, BEAM)
     two = nearest(domain, 2.0)
     as_printed = {
-        key: nearest(one, 2.0)
-        for key, one in beams.items()
-        if abs(nearest(one, 2.0) - 0.36) <= 0.041 and first(one, high=1.001).max() <= 0.241
+        key: nearest(variant, 2.0)
+        for key, variant in beams.items()
+        if abs(nearest(variant, 2.0) - 0.36) <= 0.041 and first(variant, high=1.001).max() <= 0.241
     }
     named = "; ".join(f"{key}: {in_g(value)}" for key, value in as_printed.items())
     return Statement(

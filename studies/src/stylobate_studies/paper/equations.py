@@ -39,16 +39,16 @@ def _beam() -> list[Statement]:
     rotations, ground = zip(*(_nodes(name) for name in PAPER), strict=True)
     sums, right, loads = (max(values) for values in zip(*(_accelerations(name) for name in PAPER), strict=True))
     solved = {SHORT[name]: _solved(name) for name in PAPER}
-    one, many = (preset(name).as_prism() for name in PAPER)
+    monolith, many = (preset(name).as_prism() for name in PAPER)
     drums = preset(DRUMS)
     width = max(abs(many.masses / (0.5 * (_faces(drums)[0] + _faces(drums)[1]) * drums.heights * 1600.0) - 1.0))
     return [
         Statement(
             "2.1 ¶1, Fig. 2",
             "A column of n drums is n beam elements and n + 1 nodes that move horizontally; n = 1 is the monolith.",
-            f"matrix of the equations of motion: {_shape(many)} for twelve drums, {_shape(one)} for the monolith; the first "
-            "node is the ground",
-            judged(_shape(many) == "12 × 12" and _shape(one) == "1 × 1"),
+            f"matrix of the equations of motion: {_shape(many)} for twelve drums, {_shape(monolith)} for the monolith; the "
+            "first node is the ground",
+            judged(_shape(many) == "12 × 12" and _shape(monolith) == "1 × 1"),
             "Unknown are the rotations of the drums, as many as the displacements of the nodes above the ground (Eq. 1).",
         ),
         Statement(
@@ -263,8 +263,8 @@ def _solved(name: str) -> float:
         return np.concatenate((state[seen.n :], inverse @ (-moments - base * ground) - ground))
 
     at = response.time[response.time <= length]
-    found = solve_ivp(rates, (0.0, length), np.zeros(2 * seen.n), "DOP853", at, rtol=1e-9, atol=1e-13)
-    return _apart(response.top_displacement[: at.size], found.y[seen.n - 1])
+    solution = solve_ivp(rates, (0.0, length), np.zeros(2 * seen.n), "DOP853", at, rtol=1e-9, atol=1e-13)
+    return _apart(response.top_displacement[: at.size], solution.y[seen.n - 1])
 
 
 def _quasi_static(label: str) -> tuple[float, float]:
@@ -308,5 +308,5 @@ def _shape(column: Column) -> str:
     return " × ".join(map(str, BeamMatrices(column).mass.shape))
 
 
-def _apart(one: np.ndarray, other: np.ndarray) -> float:
-    return float(np.abs(one - other).max() / np.abs(other).max())
+def _apart(values: np.ndarray, other: np.ndarray) -> float:
+    return float(np.abs(values - other).max() / np.abs(other).max())

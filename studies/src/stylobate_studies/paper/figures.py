@@ -65,7 +65,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
         ],
     }
     numbers = {(c.MONOLITH, c.BEAM): 4, (c.MONOLITH, c.DEM): 5, (c.DRUMS, c.BEAM): 7, (c.DRUMS, c.DEM): 8}
-    some = sections[page.HISTORIES] = []
+    pictures = sections[page.HISTORIES] = []
     for (name, label), number in numbers.items():
         figure = p.draw_history_grid(results.histories[name, label], c.paper_column(name), f"{TITLES[name]}, {label}")
         caption = (
@@ -76,7 +76,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
             caption += " The base of this model is the ground."
         if (name, label) == (c.DRUMS, c.BEAM):
             caption += " In this model drums may turn on their own, by up to 90°, while the top hardly moves."
-        some.append(keep(f"figure-{number}-{slug(name, label)}", figure, caption))
+        pictures.append(keep(f"figure-{number}-{slug(name, label)}", figure, caption))
         figure = p.draw_history_grid(
             results.histories[name, label], c.paper_column(name), f"{TITLES[name]}, {label}, in space", absolute=True
         )
@@ -84,25 +84,25 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
             f"The same as displacements in space, as the paper's Figure {number} may have drawn them: a sine of "
             "acceleration from rest lets the ground drift by a t/ω (blue), while a cosine of velocity does not."
         )
-        some.append(keep(f"figure-{number}-{slug(name, label)}-absolute", figure, caption))
+        pictures.append(keep(f"figure-{number}-{slug(name, label)}-absolute", figure, caption))
     looks = {label: i for i, label in enumerate(c.MODELS)}
     for section, title in (("rectangular", page.BOUNDARIES), ("circular", page.CIRCULAR)):
-        some = sections[title] = []
+        pictures = sections[title] = []
         if section == "circular":
             figure = p.draw_domain_panels(shown[section], "Circular sections")
-            some.append(keep("domains-circular", figure, "As above, with the widths as diameters."))
+            pictures.append(keep("domains-circular", figure, "As above, with the widths as diameters."))
         for name, number in ((c.MONOLITH, 6), (c.DRUMS, 9)):
-            found = _of(results, name, section)
-            if len(found) > 1:
-                named = [dataclasses.replace(domain, model=label) for label, domain in found.items()]
-                figure = plots.draw_boundaries(named, f"{TITLES[name]}, {section}", [looks[one] for one in found])
+            domains = _of(results, name, section)
+            if len(domains) > 1:
+                named = [dataclasses.replace(domain, model=label) for label, domain in domains.items()]
+                figure = plots.draw_boundaries(named, f"{TITLES[name]}, {section}", [looks[label] for label in domains])
                 caption = (
                     f"As the paper's Figure {number}, {section} section: smallest amplitude that collapses the "
                     f"column. A line ends where nothing collapses up to {top}."
                 )
-                some.append(keep(f"figure-{number}-{section}", figure, caption))
+                pictures.append(keep(f"figure-{number}-{section}", figure, caption))
     populations = [
-        (TITLES[name], [(label, one) for (column, label), one in results.space.items() if column == name])
+        (TITLES[name], [(label, population) for (column, label), population in results.space.items() if column == name])
         for name in PAPER
     ]
     figure = p.draw_probability_panels(populations, "Round columns: which shaking brings them down?")
@@ -117,18 +117,18 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
             "Left, each column by itself; right, runs in which anything falls. Those without a verdict are left out."
         )
         sections[page.COMPANY] = [keep("company", p.draw_shares(results.company), caption)]
-    some = sections[page.DOUBT] = []
+    pictures = sections[page.DOUBT] = []
     for name, doubt in results.doubts.items():
         figure = p.draw_doubt(doubt, f"{TITLES[name]}: the same question, asked three times")
         caption = "Distinct elements. Dots mark cells whose verdict is another one than in the panel on the left."
-        some.append(keep(f"certainty-{slug(name)}", figure, caption))
+        pictures.append(keep(f"certainty-{slug(name)}", figure, caption))
         figure = plots.draw_probability(doubt.population, TITLES[name])
         caption = (
             f"Share of {doubt.population.replicates} columns that collapse, all within 1 % of the one in the figure above. "
             "Under the full line none collapses, above the dashed line all do; where that is missing, some stand even at "
             "the largest amplitude. Right: one frequency, with confidence intervals."
         )
-        some.append(keep(f"probability-{slug(name)}", figure, caption))
+        pictures.append(keep(f"probability-{slug(name)}", figure, caption))
     for (name, section), path in results.paths.items():
         path.save(folder / "data" / f"pushover-{slug(name, section)}.csv")
     paths = [(f"{TITLES[name]}, {section}", path) for (name, section), path in results.paths.items()]
@@ -138,7 +138,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
     )
     figure = p.draw_pushover_paths(paths, "Pushover of the rigid block model")
     sections[page.PUSHOVER] = [keep("pushover", figure, caption)]
-    some = sections[page.OPEN] = []
+    pictures = sections[page.OPEN] = []
     for name in PAPER:
         first = {key: results.variants[name, key].first_collapse / g for key in results.grids.variants}
         frequencies = np.asarray(results.grids.variant_frequencies)
@@ -146,7 +146,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
         step = float(np.diff(results.grids.variant_amplitudes).max() / g)
         most = results.grids.variant_amplitudes[-1] / g
         caption = f"Smallest amplitude that collapses the column, in steps of {step:.2g} g; none: not up to {most:g} g."
-        some.append(keep(f"sensitivity-{slug(name)}", figure, caption))
+        pictures.append(keep(f"sensitivity-{slug(name)}", figure, caption))
     return sections
 
 

@@ -79,10 +79,10 @@ def claim(own: OwnFiles, grids: c.Grids) -> None:
     data.mkdir(exist_ok=True)
     place = data / "study.json"
     if is_ready(place):
-        found = json.loads(place.read_text(encoding="utf-8"))
-        if found.get("grids") != grid:
+        study = json.loads(place.read_text(encoding="utf-8"))
+        if study.get("grids") != grid:
             raise InputError(f"{own.folder} holds another study (quick or full); choose another folder.")
-        if found.get("code") == json.loads(json.dumps(code)):
+        if study.get("code") == json.loads(json.dumps(code)):
             return
     for path in own:
         if path.is_relative_to(data):
@@ -106,7 +106,7 @@ def is_ready(place: Path) -> bool:
         return True
     if own.lists(place) and place.is_file() and not place.is_symlink():
         aside = set_aside(place)
-        said = f"{place} is damaged or was changed; it is kept as {aside.name} and computed anew."
-        warnings.warn(said, DamagedFileWarning, stacklevel=2)
+        message = f"{place} is damaged or was changed; it is kept as {aside.name} and computed anew."
+        warnings.warn(message, DamagedFileWarning, stacklevel=2)
     own.check(place)
     return False

@@ -30,20 +30,23 @@ ACTIONS = ("shear", "moment")
 
 def differences(name: str, amplitude: float) -> dict[str, dict[str, float]]:
     """By model and action: root mean square of the difference from the rigid block, in all joints, over the block's [-]."""
-    found = {}
+    actions = {}
     for label in (BLOCKS, BEAM, DEM):
         shaking = harmonic(FREQUENCY, amplitude * g, TIMES[-1] + 0.2)
         response = simulate(preset(name), shaking, MODELS[label], output_interval=0.02, until_end=True)
         forces = response.joint_forces()
-        histories = {one: getattr(forces, one).T for one in ACTIONS}
-        found[label] = {
-            name: np.stack([np.interp(TIMES, forces.time, one) for one in history])
+        histories = {action: getattr(forces, action).T for action in ACTIONS}
+        actions[label] = {
+            name: np.stack([np.interp(TIMES, forces.time, values) for values in history])
             for name, history in histories.items()
         }
-    block = found.pop(BLOCKS)
+    block = actions.pop(BLOCKS)
     return {
-        label: {one: float(np.sqrt(np.mean((by[one] - block[one]) ** 2) / np.mean(block[one] ** 2))) for one in ACTIONS}
-        for label, by in found.items()
+        label: {
+            action: float(np.sqrt(np.mean((by[action] - block[action]) ** 2) / np.mean(block[action] ** 2)))
+            for action in ACTIONS
+        }
+        for label, by in actions.items()
     }
 
 
@@ -51,7 +54,7 @@ def forces_statement() -> Statement:
     """The sentence, at both amplitudes."""
     far = {(name, a): differences(name, a) for name in PAPER for a in (CLOSED, ROCKING)}
     alike = {
-        f"{words}, {SHORT[name]}": all(max(one.values()) <= ALIKE for one in far[name, a].values())
+        f"{words}, {SHORT[name]}": all(max(difference.values()) <= ALIKE for difference in far[name, a].values())
         for a, words in ((CLOSED, "closed joints"), (ROCKING, "rocking"))
         for name in PAPER
     }

@@ -40,9 +40,9 @@ def literature_piece(data: Path) -> dict[str, dict[str, list[float]]]:
     """Peaks, residuals and verdicts of the populations, by name."""
     place = data / "literature.json"
     if not is_ready(place):
-        found = {population_name(*asked): _population(*asked, data / RUNS_FILE) for asked in ASKED}
+        populations = {population_name(*setup): _population(*setup, data / RUNS_FILE) for setup in ASKED}
         with replacing(place) as partial:
-            partial.write_text(json.dumps(found), encoding="utf-8")
+            partial.write_text(json.dumps(populations), encoding="utf-8")
     return json.loads(place.read_text(encoding="utf-8"))
 
 
@@ -61,11 +61,11 @@ def _population(name: str, law: str, across: float, ledger: Path) -> dict[str, l
     rows = run_all(
         Request.of(cases, Hasher(DistinctElement3D(law=law), Campaign(tail=tail).options)), Campaign(ledger=ledger)
     )
-    asked = {
+    measures = {
         "collapsed": "collapsed",
         "peak": "peak_top_displacement_m",
         "along": "peak_top_x_m",
         "across": "peak_top_y_m",
         "residual": "residual_top_displacement_m",
     }
-    return {key: rows.floats(column).tolist() for key, column in asked.items()}
+    return {key: rows.floats(column).tolist() for key, column in measures.items()}

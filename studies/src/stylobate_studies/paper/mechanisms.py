@@ -47,7 +47,7 @@ def mechanisms_piece(
     """
     place = data / "mechanisms.json"
     if not is_ready(place):
-        found = {}
+        counts = {}
         for label, domain in domains.items():
             whole = collapse_domain(
                 preset(DRUMS), MODELS[label], domain.frequencies, domain.amplitudes, DURATION, tail=tail, threads=threads,
@@ -57,9 +57,9 @@ def mechanisms_piece(
                 raise KeyboardInterrupt
             table = whole.table.query("verdict == @v.COLLAPSED")
             kinds = [kind(*both) for both in zip(table["residual_tilt_x_rad"], table["residual_slip_x_m"], strict=True)]
-            found[label] = {one: kinds.count(one) for one in (WHOLE, PART, BROKEN, SLID)}
+            counts[label] = {mechanism: kinds.count(mechanism) for mechanism in (WHOLE, PART, BROKEN, SLID)}
         with replacing(place) as partial:
-            partial.write_text(json.dumps(found), encoding="utf-8")
+            partial.write_text(json.dumps(counts), encoding="utf-8")
     return json.loads(place.read_text(encoding="utf-8"))
 
 
@@ -86,13 +86,14 @@ def mechanisms_statement(counts: Mapping[str, Mapping[str, int]], opening: np.nd
         Largest opening of a joint in each collapse of the distinct elements [m].
     """
     wide = float(np.median(opening) / preset(DRUMS).base_width)
-    told = "; ".join(
-        f"{label} ({sum(by.values())} collapses): " + ", ".join(f"{one} {number}" for one, number in by.items())
+    text = "; ".join(
+        f"{label} ({sum(by.values())} collapses): "
+        + ", ".join(f"{mechanism} {number}" for mechanism, number in by.items())
         for label, by in counts.items()
     )
     return Statement(
         "Abstract ¶2", "The DEM shows collapse mechanisms with large displacements of the blocks.",
-        f"twelve drums, as the fall of each cell of the domain begins: {told}. Largest opening of a joint by then, distinct "
+        f"twelve drums, as the fall of each cell of the domain begins: {text}. Largest opening of a joint by then, distinct "
         f"elements: {percent(wide)} of the base width in the median",
         judged(wide > 0.1),
         "Taken as: a tenth of the base width. A piece turns as one where inclinations within it differ by less than "

@@ -22,11 +22,11 @@ LITERAL = "beam, as the paper"
 def monolith_statements(r: Reader) -> list[Statement]:
     """The sentences, in the order of the paper's text."""
     dm, bm = r.domain(MONOLITH, DEM), r.domain(MONOLITH, BEAM)
-    rises = [rising(one) for one in (bm, dm)]
-    low = [first(one, high=1.0) for one in (bm, dm)]
+    rises = [rising(domain) for domain in (bm, dm)]
+    low = [first(domain, high=1.0) for domain in (bm, dm)]
     lower = {
-        key: bool((first(one, high=1.0) <= first(r.results.variants[MONOLITH, REFERENCE], high=1.0)).all())
-        for key, one in r.variants(MONOLITH, BEAM).items()
+        key: bool((first(domain, high=1.0) <= first(r.results.variants[MONOLITH, REFERENCE], high=1.0)).all())
+        for key, domain in r.variants(MONOLITH, BEAM).items()
     }
     prism = math.tan(preset(MONOLITH).as_prism().slenderness)
     limits = {label: float(r.results.limits[MONOLITH, label].first_collapse[0] / g) for label in (BEAM, BLOCKS, DEM)}
@@ -81,10 +81,11 @@ def monolith_statements(r: Reader) -> list[Statement]:
 
 def _deformability(r: Reader) -> Statement:
     pairs = {
-        name: [r.results.variants[name, f"DEM, {one}"] for one in ("two points", "elastic blocks")] for name in PAPER
+        name: [r.results.variants[name, f"DEM, {variant}"] for variant in ("two points", "elastic blocks")]
+        for name in PAPER
     }
     same = [((a.verdicts == v.COLLAPSED) == (b.verdicts == v.COLLAPSED)).mean() for a, b in pairs.values()]
-    shares = [[percent(share(one)) for one in pair] for pair in pairs.values()]
+    shares = [[percent(share(domain)) for domain in pair] for pair in pairs.values()]
     steps = r.results.doubts[DRUMS].steps
     noise = float(steps.differing.sum() / max(1, steps.comparable.sum()))
     return Statement(
@@ -102,10 +103,10 @@ def _deformability(r: Reader) -> Statement:
 
 def _tops(r: Reader) -> Statement:
     same, ratios = r.shaken(LITERAL)
-    found = {key: r.shaken(key) for key in r.results.shaken if key != REFERENCE}
-    medians = {key: float(np.median(one)) for key, (_, one) in found.items() if one.size}
+    comparisons = {key: r.shaken(key) for key in r.results.shaken if key != REFERENCE}
+    medians = {key: float(np.median(quotients)) for key, (_, quotients) in comparisons.items() if quotients.size}
     close = {
-        key: bool(found[key][0].mean() >= 0.8 and 0.8 <= value <= 1.25)
+        key: bool(comparisons[key][0].mean() >= 0.8 and 0.8 <= value <= 1.25)
         for key, value in medians.items()
         if key != LITERAL
     }
@@ -162,7 +163,9 @@ def base_displacements(r: Reader, name: str, section: str) -> Statement:
     falls = v.VERDICTS.index(v.COLLAPSED)
     both = ((beam["verdict"] != falls) & (dem["verdict"] != falls)).values
     slip = float(dem["peak_base"].values[both].max()) if both.any() else 0.0
-    absolute = [np.nanmax(np.abs((one["ground"] + one["base"]).values), axis=2)[both] for one in (beam, dem)]
+    absolute = [
+        np.nanmax(np.abs((histories["ground"] + histories["base"]).values), axis=2)[both] for histories in (beam, dem)
+    ]
     larger = int((absolute[0] > absolute[1] * 1.001).sum())
     which = "drums" if name == DRUMS else "monolith"
     return Statement(

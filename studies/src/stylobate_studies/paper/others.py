@@ -19,15 +19,19 @@ TESTS = "Mouzakis et al. 2002"
 
 def others_statements(results: PaperResults) -> list[Statement]:
     """The sentences, with their sources in place of the paper's section."""
-    found = results.literature
-    planar = {name: _middle(one, lambda o: o["across"] / o["along"]) for name, one in found.items()}
-    left = {name: _middle(one, lambda o: o["residual"] / o["peak"]) for name, one in found.items()}
+    populations = results.literature
+    planar = {name: _middle(population, lambda o: o["across"] / o["along"]) for name, population in populations.items()}
+    residuals = {
+        name: _middle(population, lambda o: o["residual"] / o["peak"]) for name, population in populations.items()
+    }
     shaken = population_name(c.DRUMS, "rim", 0.01)
-    fell = int(sum(found[shaken]["collapsed"]))
-    peaks = np.array([p for p, down in zip(found[shaken]["peak"], found[shaken]["collapsed"], strict=True) if not down])
+    fell = int(sum(populations[shaken]["collapsed"]))
+    peaks = np.array(
+        [p for p, down in zip(populations[shaken]["peak"], populations[shaken]["collapsed"], strict=True) if not down]
+    )
     spread = float(peaks.max() / peaks.min()) if len(peaks) else np.nan
-    out = {name: planar[name] > 0.25 for name in found}
-    small = {name: left[name] < 0.5 for name in found}
+    out = {name: planar[name] > 0.25 for name in populations}
+    small = {name: residuals[name] < 0.5 for name in populations}
     far = {name: _moved(results, name) for name in PAPER}
     return [
         Statement(
@@ -39,7 +43,7 @@ def others_statements(results: PaperResults) -> list[Statement]:
         ),
         Statement(
             TESTS, "Large deformation during the shaking is not necessarily reflected by what is left at its end.",
-            f"displacement of the top left {SHAKING[3]:g} s after the shaking over its peak, medians: " + _said(left),
+            f"displacement of the top left {SHAKING[3]:g} s after the shaking over its peak, medians: " + _said(residuals),
             judged(all(small.values()), small),
             "Taken as: less than half. Undamped columns still wobble then.",
         ),
@@ -61,9 +65,9 @@ def others_statements(results: PaperResults) -> list[Statement]:
     ]  # fmt: skip
 
 
-def _middle(one: dict[str, list[float]], ratio: Callable[[dict[str, np.ndarray]], np.ndarray]) -> float:
-    stands = ~np.array(one["collapsed"], dtype=bool)
-    values = ratio({key: np.array(numbers)[stands] for key, numbers in one.items()})
+def _middle(population: dict[str, list[float]], ratio: Callable[[dict[str, np.ndarray]], np.ndarray]) -> float:
+    stands = ~np.array(population["collapsed"], dtype=bool)
+    values = ratio({key: np.array(numbers)[stands] for key, numbers in population.items()})
     return float(np.median(values)) if stands.any() else np.nan
 
 

@@ -95,13 +95,13 @@ def write_paper_page(
     )
     sections = [
         Section(OVERVIEW, [*pictures[OVERVIEW], models]),
-        Section("What holds", [Points([f"{one}: {text}." for one, text in MEANINGS.items()]), table]),
+        Section("What holds", [Points([f"{verdict}: {text}." for verdict, text in MEANINGS.items()]), table]),
         Section(DOUBT, [*DOUBT_TEXT, *pictures[DOUBT], doubt_rows(results)]),
         Section("What was chosen", ["Where the paper leaves something open:", chosen(results.grids)]),
-        *(Section(one, pictures[one]) for one in (HISTORIES, BOUNDARIES, CIRCULAR)),
+        *(Section(heading, pictures[heading]) for heading in (HISTORIES, BOUNDARIES, CIRCULAR)),
         Section(IN_SPACE, [*SPACE_TEXT, *pictures[IN_SPACE], space_table(results)]),
         *_records_sections(results, pictures),
-        *(Section(one, pictures[one]) for one in (LAWS, PUSHOVER, OPEN)),
+        *(Section(heading, pictures[heading]) for heading in (LAWS, PUSHOVER, OPEN)),
         Section("Domains in numbers", [domain_rows(results)]),
         Section("Files beside this page", [FILES]),
     ]
@@ -237,14 +237,14 @@ def domain_rows(results: PaperResults) -> Rows:
     body = []
     for (name, label, section), domain in results.domains.items():
         first = domain.first_collapse / g
-        one = float(np.interp(1.0, domain.frequencies, np.nan_to_num(first, nan=np.inf)))
+        at_one_hertz = float(np.interp(1.0, domain.frequencies, np.nan_to_num(first, nan=np.inf)))
         counts, late = domain.counts, int((domain.grid("collapse_time_s") > DURATION).sum())
         body.append(
             (
                 NAMES[name], label, section, str(len(domain.rows)), str(counts[v.COLLAPSED]), str(late),
                 str(counts[v.STANDS]), str(counts[v.UNDECIDED]), str(counts[v.FAILED]),
                 f"{np.nanmin(first):.3f}" if np.isfinite(first).any() else "–",
-                f"{one:.2f}" if np.isfinite(one) else "–",
+                f"{at_one_hertz:.2f}" if np.isfinite(at_one_hertz) else "–",
             )
         )  # fmt: skip
     header = (
@@ -269,17 +269,17 @@ def case_rows(results: PaperResults) -> list[dict]:
     for (name, label), data in results.histories.items():
         frequencies, amplitudes = data["frequency"].values, data["amplitude"].values
         for i, j in product(range(len(frequencies)), range(len(amplitudes))):
-            one = data.isel(frequency=i, amplitude=j)
+            case = data.isel(frequency=i, amplitude=j)
             rows.append(
                 {
                     "column": name,
                     "model": label,
                     "frequency_hz": float(frequencies[i]),
                     "amplitude_g": float(amplitudes[j] / g),
-                    "verdict": v.VERDICTS[int(one["verdict"])],
-                    "collapse_time_s": float(one["collapse_time"]),
-                    "peak_top_displacement_m": float(one["peak_top"]),
-                    "peak_base_displacement_m": float(one["peak_base"]),
+                    "verdict": v.VERDICTS[int(case["verdict"])],
+                    "collapse_time_s": float(case["collapse_time"]),
+                    "peak_top_displacement_m": float(case["peak_top"]),
+                    "peak_base_displacement_m": float(case["peak_base"]),
                 }
             )
     return rows

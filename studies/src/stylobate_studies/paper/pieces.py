@@ -57,10 +57,10 @@ def domain_piece(
         return Domain.load(place)
     folder.mkdir(exist_ok=True)
     keeping = {"out": folder, "ledger": folder.parent / RUNS_FILE}
-    found = collapse_domain(column, model, *grid, tail=tail, threads=threads, progress=progress, **keeping)
-    if not found.complete:
+    domain = collapse_domain(column, model, *grid, tail=tail, threads=threads, progress=progress, **keeping)
+    if not domain.complete:
         raise KeyboardInterrupt
-    return found
+    return domain
 
 
 def population_piece(
@@ -73,13 +73,13 @@ def population_piece(
         return CollapseProbability.load(place)
     folder.mkdir(exist_ok=True)
     keeping = {"out": folder, "ledger": folder.parent / RUNS_FILE}
-    found = collapse_probability(
+    population = collapse_probability(
         column, model, *grid, replicates=replicates, scatter=c.ALIKE, motion_scatter=motion_scatter, tail=tail,
         threads=threads, progress=progress, **keeping,
     )  # fmt: skip
-    if not found.complete:
+    if not population.complete:
         raise KeyboardInterrupt
-    return found
+    return population
 
 
 def histories_piece(
@@ -96,8 +96,10 @@ def histories_piece(
     time = np.linspace(0.0, end, 1 + round(50 * end))
     cells = list(product(range(len(c.FREQUENCIES)), range(len(c.AMPLITUDES))))
     shape = (len(c.FREQUENCIES), len(c.AMPLITUDES))
-    curves = {one: np.full((*shape, len(time)), np.nan, dtype=np.float32) for one in ("base", "top", "ground")}
-    facts = {one: np.full(shape, np.nan) for one in ("collapse_time", "peak_top", "peak_base")}
+    curves = {
+        quantity: np.full((*shape, len(time)), np.nan, dtype=np.float32) for quantity in ("base", "top", "ground")
+    }
+    facts = {quantity: np.full(shape, np.nan) for quantity in ("collapse_time", "peak_top", "peak_base")}
     flags = np.zeros(shape, dtype=np.int8)
 
     motions = [harmonic(c.FREQUENCIES[i], c.AMPLITUDES[j], c.DURATION) for i, j in cells]
@@ -135,8 +137,12 @@ def histories_piece(
             if progress:
                 progress(done, len(cells))
     dims = ("frequency", "amplitude")
-    variables: dict[str, Any] = {one: ((*dims, "time"), values, {"units": "m"}) for one, values in curves.items()}
-    variables |= {one: (dims, values, {"units": "s" if "time" in one else "m"}) for one, values in facts.items()}
+    variables: dict[str, Any] = {
+        quantity: ((*dims, "time"), values, {"units": "m"}) for quantity, values in curves.items()
+    }
+    variables |= {
+        quantity: (dims, values, {"units": "s" if "time" in quantity else "m"}) for quantity, values in facts.items()
+    }
     variables["verdict"] = (dims, flags, v.FLAGS)
     coordinates = grid_coordinates(c.FREQUENCIES, c.AMPLITUDES) | {"time": ("time", time, {"units": "s"})}
     note = "displacements of base and top relative to the ground, and of the ground"
@@ -151,12 +157,12 @@ def cost_piece(data: Path) -> dict[str, float]:
     place = data / "cost.json"
     if not is_ready(place):
         shaking = [harmonic(1.5, amplitude, 2.0) for amplitude in np.linspace(0.25, 0.3, 16) * g]
-        found = {
+        seconds = {
             label: min(_seconds(shaking, c.MODELS[label]) for _ in range(3)) for label in (c.BEAM, c.BLOCKS, c.DEM)
         }
-        found[c.SPACE] = min(_seconds(shaking, c.POPULATIONS[c.SPACE], "circular") for _ in range(3))
+        seconds[c.SPACE] = min(_seconds(shaking, c.POPULATIONS[c.SPACE], "circular") for _ in range(3))
         with replacing(place) as partial:
-            partial.write_text(json.dumps(found), encoding="utf-8")
+            partial.write_text(json.dumps(seconds), encoding="utf-8")
     return json.loads(place.read_text(encoding="utf-8"))
 
 

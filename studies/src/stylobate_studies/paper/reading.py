@@ -36,14 +36,14 @@ class Reader:
 
     def spread(self, name: str, label: str, frequency: float) -> str:
         """First collapse at a frequency over the open parameters."""
-        found = {key: nearest(domain, frequency) for key, domain in self.variants(name, label).items()}
-        low, high = min(found, key=found.__getitem__), max(found, key=found.__getitem__)
-        return f"at {frequency:g} Hz from {in_g(found[low])} ({low}) to {in_g(found[high])} ({high})"
+        thresholds = {key: nearest(domain, frequency) for key, domain in self.variants(name, label).items()}
+        low, high = min(thresholds, key=thresholds.__getitem__), max(thresholds, key=thresholds.__getitem__)
+        return f"at {frequency:g} Hz from {in_g(thresholds[low])} ({low}) to {in_g(thresholds[high])} ({high})"
 
     def verdict(self, name: str, label: str, frequency: float, amplitude: float) -> str:
         """Verdict of one of the thirty cases."""
-        one = self.results.histories[name, label].sel(frequency=frequency, amplitude=amplitude * g, method="nearest")
-        return v.VERDICTS[int(one["verdict"])]
+        case = self.results.histories[name, label].sel(frequency=frequency, amplitude=amplitude * g, method="nearest")
+        return v.VERDICTS[int(case["verdict"])]
 
     def agreement(self, name: str) -> np.ndarray:
         """In which of the thirty cases rigid beam and distinct elements agree whether it collapses."""
@@ -56,8 +56,8 @@ class Reader:
         both rock and neither collapses.
         """
         beam, dem = self.results.shaken[variant], self.results.shaken[REFERENCE]
-        falls = [one.verdicts == v.COLLAPSED for one in (beam, dem)]
-        peaks = [one.grid("peak_top_displacement_m") for one in (beam, dem)]
+        falls = [domain.verdicts == v.COLLAPSED for domain in (beam, dem)]
+        peaks = [domain.grid("peak_top_displacement_m") for domain in (beam, dem)]
         both = ~falls[0] & ~falls[1] & (peaks[0] > 0.005) & (peaks[1] > 0.005)
         return (falls[0] == falls[1]).ravel(), peaks[0][both] / peaks[1][both]
 
@@ -114,9 +114,9 @@ def percents(values: Sequence[float]) -> str:
     return f"{percent(min(values))} to {percent(max(values))}"
 
 
-def all_but(found: dict[str, bool]) -> str:
+def all_but(outcomes: dict[str, bool]) -> str:
     """In how many variants something is so, and in which it is not."""
-    other = [key for key, value in found.items() if not value]
-    return f"The same in {sum(found.values())} of {len(found)} variants" + (
+    other = [key for key, value in outcomes.items() if not value]
+    return f"The same in {sum(outcomes.values())} of {len(outcomes)} variants" + (
         f" (not: {'; '.join(other)})." if other else "."
     )

@@ -44,7 +44,7 @@ def read_records(folder: Path | None) -> list[Motion]:
         The folder is none, or a file is not in it.
     """
     if folder is None:
-        found = {name: sample_motion(sample) for name, sample in SAMPLES.items()}
+        records = {name: sample_motion(sample) for name, sample in SAMPLES.items()}
     else:
         if not folder.is_dir():
             raise InputError(f"{folder} is no folder; give one with the nine records, or leave it out for the samples.")
@@ -55,8 +55,8 @@ def read_records(folder: Path | None) -> list[Motion]:
                 "has all, or leave it out for the samples."
             )
         units = {"El Centro 1940": "g"}
-        found = {name: read_motion(folder / file, unit=units.get(name)) for name, file in FILES.items()}
+        records = {name: read_motion(folder / file, unit=units.get(name)) for name, file in FILES.items()}
     return [
         trim(record.replace(name=name), *KEPT, before=BEFORE, after=AFTER).replace(name=name)
-        for name, record in found.items()
+        for name, record in records.items()
     ]

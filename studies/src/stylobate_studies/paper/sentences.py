@@ -71,6 +71,6 @@ def judged(holds: bool, otherwise: Mapping[str, bool] | None = None) -> Verdict:
     named = "; ".join(met)
     if len(met) + len(other) > NAMED:
         few, sign = (other, "not ") if len(other) < len(met) else (met, "")
-        named = "; ".join(sign + one for one in few[:NAMED]) + (" and others" if len(few) > NAMED else "")
+        named = "; ".join(sign + name for name in few[:NAMED]) + (" and others" if len(few) > NAMED else "")
         return Verdict(PARTLY, f"{len(met)} of {len(met) + len(other)}, {named}")
-    return Verdict(PARTLY, "; ".join((named, *(f"not {one}" for one in other))))
+    return Verdict(PARTLY, "; ".join((named, *(f"not {name}" for name in other))))

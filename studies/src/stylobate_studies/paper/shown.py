@@ -96,8 +96,8 @@ def _abstract(r: Reader) -> list[Statement]:
 def _figures(r: Reader) -> list[Statement]:
     cells = {label: r.domain(DRUMS, label) for label in (BEAM, DEM)}
     size = "; ".join(
-        f"{label} {one.frequencies.size} frequencies and {one.amplitudes.size} amplitudes"
-        for label, one in cells.items()
+        f"{label} {domain.frequencies.size} frequencies and {domain.amplitudes.size} amplitudes"
+        for label, domain in cells.items()
     )
     drift = "also in space, where the drift a t/ω of a sine of acceleration from rest is drawn"
     return [

@@ -41,7 +41,7 @@ def space_statements(results: PaperResults) -> list[Statement]:
         for name in PAPER
         for label in (BEAM, BLOCKS)
     }
-    said = "; ".join(
+    distances = "; ".join(
         f"{SHORT[name]}: "
         + ", ".join(f"{label}, {section} {_share(far[name, label, section])}" for label, section in RIVALS)
         for name in PAPER
@@ -50,7 +50,7 @@ def space_statements(results: PaperResults) -> list[Statement]:
         Statement(
             "4 ¶1", "With the circular section, rigid beam and rigid block give more accurate results, comparable with "
             "analyses in three dimensions, than the plane DEM with its rectangular section.",
-            f"mean distance of the plane verdict from the share of round columns that collapse in space: {said}",
+            f"mean distance of the plane verdict from the share of round columns that collapse in space: {distances}",
             judged(all(nearer.values()), nearer),
             "In space: distinct elements with round drums, a population of columns within 1 %. A distance of 0 % is a plane "
             "verdict that is right in every cell and for every column, 50 % a coin toss.",
@@ -67,9 +67,9 @@ def space_rows(results: PaperResults) -> tuple[tuple[str, ...], list[tuple[str, 
     header = ("column", "model", "mean share that collapses", "stands in the plane, some fall in space",
               "falls in the plane, some stand in space", "cells", "failed runs")  # fmt: skip
     body = []
-    for (name, label), one in results.space.items():
-        unsafe, safe, cells = wrong_sides(one, results.space[name, SPACE])
+    for (name, label), population in results.space.items():
+        unsafe, safe, cells = wrong_sides(population, results.space[name, SPACE])
         counts = ("–", "–") if label == SPACE else (str(unsafe), str(safe))
-        failed = str(int(one.count(v.FAILED).sum()))
-        body.append((name, label, percent(one.mean), *counts, str(cells), failed))
+        failed = str(int(population.count(v.FAILED).sum()))
+        body.append((name, label, percent(population.mean), *counts, str(cells), failed))
     return header, body

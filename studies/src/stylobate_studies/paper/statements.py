@@ -73,7 +73,7 @@ def statements_markdown(rows: Sequence[Statement], quick: bool) -> str:
         f"in it is edited by hand. "
         "Rows with another source than the paper's sections are what others found of columns in space.",
         "",
-        *(f"- **{one}** ({count[one]}): {meaning}." for one, meaning in MEANINGS.items()),
+        *(f"- **{verdict}** ({count[verdict]}): {meaning}." for verdict, meaning in MEANINGS.items()),
         "",
         "| paper | sentence | here | verdict | why | open parameters |",
         "| --- | --- | --- | --- | --- | --- |",

@@ -35,7 +35,7 @@ def static_values() -> dict[str, float]:
     alpha = float(model.critical_angles(seen)[0])
     rotation = np.linspace(0.0, alpha, 100_001)
     moment, cut = (
-        joint_law(one, column, 1, rotation) for one in (model, RigidBeam.paper(moment_law="trilinear", xi=0.9))
+        joint_law(beam, column, 1, rotation) for beam in (model, RigidBeam.paper(moment_law="trilinear", xi=0.9))
     )
     stiffness = joint_law(model, column, 1, np.array([1e-7]))[0] / 1e-7
     values["elastic"] = 0.5 * float(seen.joint_widths[0] * seen.joint_weights[0]) / stiffness / alpha
@@ -88,7 +88,7 @@ def static_statements() -> list[Statement]:
             "limit analysis of the same stones as polygons of an assembly: "
             + ", ".join(f"{SHORT[name]} {s[f'polygons, {name}']:.4f} g" for name in PAPER)
             + f"; as drums {limit[0]:.4f} g and {limit[1]:.4f} g",
-            judged(all(abs(s[f"polygons, {name}"] - one) < 1e-6 for name, one in zip(PAPER, limit, strict=True))),
+            judged(all(abs(s[f"polygons, {name}"] - factor) < 1e-6 for name, factor in zip(PAPER, limit, strict=True))),
             "Blocks of an assembly are any convex polygons of up to 24 corners, from a file; `limit` and `dem2d` take them.",
         ),
         Statement(

@@ -108,13 +108,13 @@ class PaperResults:
         """Number of time histories behind all of it."""
         single = [*self.domains.values(), *self.variants.values(), *self.limits.values()]
         single += [*self.shaken.values(), *self.rivals.values()]
-        single += [one for doubt in self.doubts.values() for one in (doubt.steps.domain, doubt.steps.halved)]
+        single += [domain for doubt in self.doubts.values() for domain in (doubt.steps.domain, doubt.steps.halved)]
         many = [*(doubt.population for doubt in self.doubts.values()), *self.spots.values(), *self.space.values()]
         many += self.contacts.values()
-        tested = sum(len(one["peak"]) for one in self.literature.values())
+        tested = sum(len(population["peak"]) for population in self.literature.values())
         cases = tested + sum(history["verdict"].size for history in self.histories.values())
-        cases += sum(len(one) for one in (self.company, self.motions and self.motions.plan) if one is not None)
-        return sum(len(one.rows) for one in single) + sum(one.codes.size for one in many) + cases
+        cases += sum(len(table) for table in (self.company, self.motions and self.motions.plan) if table is not None)
+        return sum(len(domain.rows) for domain in single) + sum(population.codes.size for population in many) + cases
 
 
 def run_study(
@@ -154,7 +154,7 @@ def run_study(
     check_folder(folder)
     with own_files(folder) as own:
         claim(own, grids)
-        spaces = (folder / "data" / slug("space", *one) / POPULATION for one in product(PAPER, c.POPULATIONS))
+        spaces = (folder / "data" / slug("space", *pair) / POPULATION for pair in product(PAPER, c.POPULATIONS))
         with compiled_meanwhile(not all(map(is_ready, spaces))) as wait:
             return _pieces(folder, quick, grids, threads, report, wait, read)
 
@@ -182,8 +182,8 @@ def _pieces(
         what = f"histories, {name}: {label}"
         pieces.histories[name, label] = histories_piece(data, name, label, grids.tail, count, advance(what))
     for name in PAPER:
-        for label, section in [(one, "rectangular") for one in c.MODELS] + [
-            (one, "circular") for one in grids.circular
+        for label, section in [(model, "rectangular") for model in c.MODELS] + [
+            (model, "circular") for model in grids.circular
         ]:
             grid = (grids.frequencies, grids.amplitudes, c.DURATION)
             pieces.domains[name, label, section] = domain_piece(
@@ -252,9 +252,9 @@ def _doubt(data: Path, name: str, grids: c.Grids, threads: int, advance: Callabl
         ("half step", halved_step(model, column, harmonic(grid[0][-1], 1.0, c.DURATION))),
     ]
     pair = [
-        domain_piece(data / slug("doubt", name, what), column, one, grid, grids.tail, threads,
+        domain_piece(data / slug("doubt", name, what), column, variant, grid, grids.tail, threads,
                      advance(f"certainty, {name}: {what}"))
-        for what, one in steps
+        for what, variant in steps
     ]  # fmt: skip
     population = population_piece(
         data / slug("doubt", name, "population"), column, model, grid, grids.replicates, grids.tail, threads,

@@ -74,8 +74,8 @@ def assemblies(say: Callable[[str], None]) -> dict[str, Any]:
     dearest = np.max(np.interp(now + 1.0, now, spent) - spent)
     rivals = {}
     for name, shaken in (("run_of_colonnade", motions[0]), ("collapse", thrown)):
-        found = others(structure, shaken)
-        rivals |= {f"assembly_{name}_{engine}_s": seconds for engine, seconds in found.items()}
+        timings = others(structure, shaken)
+        rivals |= {f"assembly_{name}_{engine}_s": seconds for engine, seconds in timings.items()}
     if None in rivals.values():
         say(MISSING)
     return {

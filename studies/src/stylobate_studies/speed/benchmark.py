@@ -115,10 +115,10 @@ def bench(
     say(f"1 thread against {count}")
     unit = harmonic(1.0, 1.0, 10.0)
     motions = [unit.scaled(a * g) for a in np.linspace(0.05, 0.3, 128)]
-    one, many = (
+    single, many = (
         min(_timed(lambda n=n: simulate_many(column, motions, model, threads=n)) for _ in range(3)) for n in (1, count)
     )
-    out["threads_speedup"] = one / many
+    out["threads_speedup"] = single / many
     if full:
         for name in ("paper-monolithic", "paper-12-drums"):
             say(f"domain of 768 cells, {name}")
@@ -138,16 +138,18 @@ def bench(
 def _on_card(count: int) -> dict[str, Any]:
     """Runs per second of twelve drums for ten seconds, by the card and by threads, from motions to a table."""
     column = preset("paper-12-drums")
-    found: dict[str, Any] = {"gpu": devices.gpu().name}
+    speeds: dict[str, Any] = {"gpu": devices.gpu().name}
     of_plane, of_space = (column, DistinctElement2D()), (_round(column), DistinctElement3D())
     for name, (stone, model), runs in (("plane", of_plane, 20_000), ("space", of_space, 8_000)):
         units = [harmonic(f, 1.0, 10.0) for f in np.linspace(0.33, 4.0, 64)]
         cells = [units[k % 64].scaled((0.05 + 0.55 * k / runs) * g) for k in np.random.default_rng(1).permutation(runs)]
         simulate_many(stone, cells[:256], model, device=GPU)
-        found[f"gpu_{name}_runs_per_s"] = runs / _timed(partial(simulate_many, stone, cells, model, device=GPU))
-        some = cells[: 16 * count]
-        found[f"cpu_{name}_runs_per_s"] = len(some) / _timed(partial(simulate_many, stone, some, model, threads=count))
-    return found
+        speeds[f"gpu_{name}_runs_per_s"] = runs / _timed(partial(simulate_many, stone, cells, model, device=GPU))
+        sample = cells[: 16 * count]
+        speeds[f"cpu_{name}_runs_per_s"] = len(sample) / _timed(
+            partial(simulate_many, stone, sample, model, threads=count)
+        )
+    return speeds
 
 
 def _on_workers(column: Column, model: SteppedDrums, count: int) -> float | None:
@@ -161,8 +163,8 @@ def _on_workers(column: Column, model: SteppedDrums, count: int) -> float | None
     shaking = [unit.scaled(float(a)) for unit in units for a in np.repeat(np.linspace(0.05, 0.45, 16), 4)]
     cases = [Case(column, motion) for motion in shaking]
 
-    def finish(some: list[Case]) -> None:
-        deque(executor()(some, model, run_options(), count), maxlen=0)
+    def finish(batch: list[Case]) -> None:
+        deque(executor()(batch, model, run_options(), count), maxlen=0)
 
     threads, workers = [], []
     for _ in range(2):
@@ -215,12 +217,12 @@ def _kernel(model: SteppedDrums, column: Column, motion: Motion, source: str, po
 def _in_space(threads: int, full: bool) -> dict[str, Any]:
     """The same of round drums in space, per joint and step; and what runs of 10 s cost in a batch on one core [s]."""
     model = DistinctElement3D()
-    one, twelve = (_round(preset(name)) for name in ("paper-monolithic", "paper-12-drums"))
+    monolith, twelve = (_round(preset(name)) for name in ("paper-monolithic", "paper-12-drums"))
     push = Motion(1.0, np.array([2.0, 2.0]), np.array([1.0, 1.0]))
-    found = _kernel(model, twelve, push, "native_dem3d.cpp", 1)
-    out = {f"space_{key.replace('contact', 'joint')}": value for key, value in found.items()}
+    measurements = _kernel(model, twelve, push, "native_dem3d.cpp", 1)
+    out = {f"space_{key.replace('contact', 'joint')}": value for key, value in measurements.items()}
     unit = harmonic(1.0, 1.0, 10.0)
-    for name, column in (("monolith", one), ("12_drums", twelve)):
+    for name, column in (("monolith", monolith), ("12_drums", twelve)):
         motions = [unit.scaled(a * g) for a in np.linspace(0.05, 0.3, 32 if column.n > 1 else 320)]
         simulate_many(column, motions[:1], model, threads=1)
         started = time.process_time()

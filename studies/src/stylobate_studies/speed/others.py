@@ -28,7 +28,7 @@ def others(structure: SpatialAssembly, motion: Motion) -> dict[str, float | None
     """Processor time of each engine for a motion [s]; None without it. Round bodies have one diameter there."""
     if not PYTHON.exists() or not SCRIPT.exists():
         return dict.fromkeys(VARIANTS)
-    told = {
+    scene = {
         "bodies": [body(stone) for stone in structure.stones],
         "dt": motion.dt,
         "x": motion.acceleration.tolist(),
@@ -36,17 +36,17 @@ def others(structure: SpatialAssembly, motion: Motion) -> dict[str, float | None
         "duration": motion.duration,
     }
     alone = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(SCRIPT.parent)}
-    found: dict[str, float | None] = {}
+    seconds: dict[str, float | None] = {}
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "scene.json"
-        file.write_text(json.dumps(told), encoding="utf-8")
+        file.write_text(json.dumps(scene), encoding="utf-8")
         for name, variant in VARIANTS.items():
             command = [str(PYTHON), str(SCRIPT), name, variant, str(file)]
             done = subprocess.run(command, capture_output=True, text=True, check=False, env=alone)
             if done.returncode:
                 raise StylobateError(f"{name} ended with: {(done.stderr.strip().splitlines() or ['nothing said'])[-1]}")
-            found[name] = float(json.loads(done.stdout.splitlines()[-1])["seconds"])
-    return found
+            seconds[name] = float(json.loads(done.stdout.splitlines()[-1])["seconds"])
+    return seconds
 
 
 def body(stone: Stone) -> tuple[str, list[float], list[float]]:

@@ -41,13 +41,13 @@ def fetch(
     from ..data_centres import DataCentre
 
     far, length = _kilometres(within), parse_time(lasts, "lasts")
-    early, codes = parse_time(before, "before"), [one.strip() for one in channels.split(",")]
+    early, codes = parse_time(before, "before"), [code.strip() for code in channels.split(",")]
     if not 0.0 <= early < length <= 3600.0:
         raise InputError(
             f"`before` is {before} and `lasts` {lasts}; allowed are 0s <= before < lasts <= 3600s, such as 10s and 120s.",
             "lasts",
         )
-    if bad := [one for one in codes if len(one) != 3 or not one.isascii()]:
+    if bad := [code for code in codes if len(code) != 3 or not code.isascii()]:
         raise InputError(
             f"`channels` has {bad[0]!r}; write SEED codes of three characters, such as HN?,HG?.", "channels"
         )
@@ -74,24 +74,24 @@ def fetch(
                     "another folder for `out`.",
                     "out",
                 )
-            found: list[StationRecord] = []
+            records: list[StationRecord] = []
             with console.progress("stations") as progress:
                 for number, (name, distance) in enumerate(near, 1):
                     try:
-                        found.append(centre.record(event, name, distance, early, length, codes))
+                        records.append(centre.record(event, name, distance, early, length, codes))
                     except InputError as error:
                         summary["refused"][name] = str(error)
                     progress(number, len(near))
-            if not found:
+            if not records:
                 why = next(iter(summary["refused"].values()))
                 raise InputError(
                     f"none of {len(near)} stations has an accelerogram that can be read; the nearest: {why}"
                 )
-            for one in found:
-                files.data(one.counts, f"{one.name}.mseed")
-                files.data(one.description, f"{one.name}.xml")
+            for record in records:
+                files.data(record.counts, f"{record.name}.mseed")
+                files.data(record.description, f"{record.name}.xml")
             files.data(quakeml, "earthquake.xml")
-            files.table(_about(event, found), "about.csv")
+            files.table(_about(event, records), "about.csv")
             files.summary(summary, "fetch.json")
     if execution.emits(summary):
         return
@@ -102,15 +102,15 @@ def fetch(
     console.print_files(files)
 
 
-def _about(event: Earthquake, found: list[StationRecord]) -> pandas.DataFrame:
+def _about(event: Earthquake, records: list[StationRecord]) -> pandas.DataFrame:
     """The table that ``--about`` takes."""
     import pandas
 
     return pandas.DataFrame(
         {
-            "record": [f"{one.name}.mseed" for one in found],
+            "record": [f"{record.name}.mseed" for record in records],
             "magnitude": event.magnitude,
-            "distance_km": [round(one.distance_km, 2) for one in found],
+            "distance_km": [round(record.distance_km, 2) for record in records],
         }
     )
 

@@ -46,7 +46,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
             "to columns under a header such as time_s,ax_g."
         )
     table = read_numbers(lines[start:], start, file, "rows of three accelerations", count=3 * count).reshape(-1, 3)
-    components = [oriented(Component(values * 0.01, dt, str(one))) for one, values in zip(labels, table.T)]
+    components = [oriented(Component(values * 0.01, dt, str(label))) for label, values in zip(labels, table.T)]
     peaks, line = next((entry for key, entry in header.items() if "pga values" in key), ("", 0))
     stated_peaks = re.findall(rf"(?:([NEU]-[SWD])\W*?)?({NUMBER})", peaks.upper())
     if len(stated_peaks) == 3:  # of the raw record: the one in the file may be corrected

@@ -63,8 +63,8 @@ def _component(lines: list[str], start: int, file: str) -> tuple[Component, int]
     }
     component.values = values * size
     component = oriented(component)
-    if not component.vertical and (found := _AZIMUTHS.search(text[7])) and label.upper() in ("L", "T"):
-        component.azimuth = float(found[label.lower()]) % 360.0
+    if not component.vertical and (match := _AZIMUTHS.search(text[7])) and label.upper() in ("L", "T"):
+        component.azimuth = float(match[label.lower()]) % 360.0
     return component, end + 1
 
 

@@ -64,8 +64,8 @@ def recognises(source: Source) -> bool:
 def read(source: Source) -> tuple[list[Component], dict]:
     """Components and metadata of all channels in the file."""
     lines, file = source.lines, source.name
-    found = channels(lines, lambda start: _channel(lines, start, file))
-    components, stages = [one for one, _ in found], [stage for _, stage in found]
+    pairs = channels(lines, lambda start: _channel(lines, start, file))
+    components, stages = [component for component, _ in pairs], [stage for _, stage in pairs]
     first = components[0].metadata
     keep = ("station", "station_name", "network", "event", "start_time")
     return components, {
@@ -82,8 +82,8 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[tuple[Component, 
     text = text[: next((i for i, line in enumerate(lines[start:at]) if _HEADER.match(line)), len(text))]
     at, reals = _numbers(lines, at, "real", file)
     comments: list[str] = []
-    if at < len(lines) and (found := _COMMENTS.match(lines[at])):
-        count = int(found["count"])
+    if at < len(lines) and (match := _COMMENTS.match(lines[at])):
+        count = int(match["count"])
         comments = lines[at + 1 : at + 1 + count]
         at += 1 + count
     block = _BLOCK.match(lines[at][:WIDTH]) if at < len(lines) else None
@@ -123,11 +123,11 @@ def _check(component: Component, text: list[str], reals: np.ndarray, stage: str,
         check_length(count, dt, float(reals[62]), file, start + 1)
     if stage == "corrected":
         for number, line in enumerate(text, start + 1):
-            if found := _PEAK.search(line):
-                check_peak(component.values, found["peak"], acceleration_unit(found["unit"])[1], file, number)
-                check_peak_time(component.values, dt, found["time"], file, number)
+            if match := _PEAK.search(line):
+                check_peak(component.values, match["peak"], acceleration_unit(match["unit"])[1], file, number)
+                check_peak_time(component.values, dt, match["time"], file, number)
     else:
-        lengths = [found["length"] for line in text if (found := _LENGTH.search(line))]
+        lengths = [match["length"] for line in text if (match := _LENGTH.search(line))]
         check_length(count, dt, lengths[0] if lengths else None, file, start + 1)
     if reals[63] != _UNKNOWN and component.metadata["unit"] != "counts":
         check_peak(component.values, float(reals[63]), component.metadata["m_s2"], file, start + 1)
@@ -150,10 +150,10 @@ def _check_counts(values: np.ndarray, reals: np.ndarray, dt: float, file: str, s
 def _numbers(lines: list[str], start: int, kind: str, file: str) -> tuple[int, np.ndarray]:
     """A block of integers or reals of the header; the index after it, and the numbers."""
     for at in range(start, min(start + 40, len(lines))):
-        found = _HEADER.match(lines[at])
-        if found and found["kind"].lower() == kind:
-            body = lines[at + 1 : at + 1 + int(found["lines"])]
-            count = check_count(float(found["count"]), file, at + 1, "header values")
+        match = _HEADER.match(lines[at])
+        if match and match["kind"].lower() == kind:
+            body = lines[at + 1 : at + 1 + int(match["lines"])]
+            count = check_count(float(match["count"]), file, at + 1, "header values")
             if count < 64:
                 raise InputError(f"{file}, line {at + 1}: {count} {kind} header values; the format has 100.")
             width = fortran_width(re.sub(r"i", "f", lines[at].split("=")[-1], flags=re.IGNORECASE))
@@ -209,11 +209,11 @@ def _scale(component: Component, unit: str, reals: np.ndarray, file: str, line: 
 
 def _label(text: list[str], comments: list[str], integers: np.ndarray) -> str:
     """Direction: the text's; else the channel code's last letter; else that of integer 54."""
-    stated = next((found["label"] for line in text if (found := _CHANNEL.match(line))), "")
+    stated = next((match["label"] for line in text if (match := _CHANNEL.match(line))), "")
     azimuth, vertical, _ = direction(stated)
     if azimuth is not None or vertical:
         return stated
-    code = next((found["channel"] for line in comments if (found := _SCNL.search(line))), "")
+    code = next((match["channel"] for line in comments if (match := _SCNL.search(line))), "")
     azimuth, vertical, _ = direction(code)
     if azimuth is not None or vertical:
         return code
@@ -228,11 +228,11 @@ def _facts(text: list[str], comments: list[str]) -> dict:
     if len(text) > 1:
         facts["event"] = text[1].strip()
     for line in text:
-        if found := _STATION.search(line):
-            facts |= {"network": found["network"], "station": found["station"], "station_name": found["name"]}
-        if found := re.search(r"start time:\s*(?P<time>.*?)(?:\(|RcrdId|$)", line, re.IGNORECASE):
-            facts["start_time"] = found["time"].strip()
+        if match := _STATION.search(line):
+            facts |= {"network": match["network"], "station": match["station"], "station_name": match["name"]}
+        if match := re.search(r"start time:\s*(?P<time>.*?)(?:\(|RcrdId|$)", line, re.IGNORECASE):
+            facts["start_time"] = match["time"].strip()
     for line in comments:
-        if found := _SCNL.search(line):
-            facts["channel"] = found["channel"]
+        if match := _SCNL.search(line):
+            facts["channel"] = match["channel"]
     return facts

@@ -87,7 +87,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
     return components, {
         "format": f"CSMIP V{volume}",
         "stage": "uncorrected" if volume == 1 else "corrected",
-        "unit": ", ".join(dict.fromkeys(one.metadata["unit"] for one in components)),
+        "unit": ", ".join(dict.fromkeys(component.metadata["unit"] for component in components)),
     } | {key: facts[key] for key in keep if key in facts}
 
 
@@ -100,7 +100,7 @@ def _channel(lines: list[str], start: int, end: int, volume: int, file: str) -> 
             "is cut, fetch it again."
         )
     first = start + text_lines + integer_lines + real_lines
-    label = next((found["label"] for line in text if (found := _CHANNEL.match(line))), "")
+    label = next((match["label"] for line in text if (match := _CHANNEL.match(line))), "")
     facts = _facts(text)
     block = next((i for i in range(first - 2, min(first + 3, end)) if _BLOCK.match(lines[i][:WIDTH])), None)
     if block is None:
@@ -108,10 +108,10 @@ def _channel(lines: list[str], start: int, end: int, volume: int, file: str) -> 
     else:
         component = _samples(lines, block, end, text, file)
         for line in (*text, *lines[block:end]):
-            if (found := _SPACED.search(line[:WIDTH])) or (found := _STEP.search(line[:WIDTH])):
-                check_same_step(component.dt, float(found["step"].rstrip(".")), file, block + 1)
-        if found := next((found for line in text if (found := _LENGTH.search(line))), None):
-            check_length(len(component.values), component.dt, found["length"], file, start + text_lines)
+            if (match := _SPACED.search(line[:WIDTH])) or (match := _STEP.search(line[:WIDTH])):
+                check_same_step(component.dt, float(match["step"].rstrip(".")), file, block + 1)
+        if match := next((match for line in text if (match := _LENGTH.search(line))), None):
+            check_length(len(component.values), component.dt, match["length"], file, start + text_lines)
     _check_peak(component, text, start, file)
     component.label = label
     component.metadata |= facts
@@ -131,35 +131,35 @@ def _channel(lines: list[str], start: int, end: int, volume: int, file: str) -> 
 def _channel_count(lines: list[str], volume: int, file: str) -> int | None:
     """Channels of the record, as the first header's text says, or else its fourth integer."""
     first = HEADER_LINES[volume][0]
-    found = next((found for line in lines[:first] if (found := _CHANNELS.search(line))), None)
-    if found is not None:
-        return int(found["count"])
+    match = next((match for line in lines[:first] if (match := _CHANNELS.search(line))), None)
+    if match is not None:
+        return int(match["count"])
     stated = int(read_numbers(lines[first : first + 7], first, file, "header integers", count=100, width=5)[3])
     return stated if 1 <= stated <= 3 else None
 
 
 def _check_peak(component: Component, text: list[str], start: int, file: str) -> None:
     for i, line in enumerate(text):
-        found = _PEAK.search(line)
-        if found is None or (found["what"] or "acceleration").lower() != "acceleration":
+        match = _PEAK.search(line)
+        if match is None or (match["what"] or "acceleration").lower() != "acceleration":
             continue
-        size = acceleration_unit(found["unit"].rstrip("."))[1]
-        check_peak(component.values, found["peak"], size, file, start + i + 1)
+        size = acceleration_unit(match["unit"].rstrip("."))[1]
+        check_peak(component.values, match["peak"], size, file, start + i + 1)
         if component.time is None:
-            check_peak_time(component.values, component.dt, found["time"], file, start + i + 1)
+            check_peak_time(component.values, component.dt, match["time"], file, start + i + 1)
 
 
 def _samples(lines: list[str], block: int, end: int, text: list[str], file: str) -> Component:
     """Samples at equal steps under a line that says how many, how far apart and in which unit."""
     header = lines[block]
-    found = _BLOCK.match(header[:WIDTH])
-    assert found is not None
-    if found["what"].lower() != "accel":
+    match = _BLOCK.match(header[:WIDTH])
+    assert match is not None
+    if match["what"].lower() != "accel":
         raise InputError(
-            f"{file}, line {block + 1}: the first block holds {found['what'].lower()}., not acceleration; "
+            f"{file}, line {block + 1}: the first block holds {match['what'].lower()}., not acceleration; "
             "give the file of accelerations."
         )
-    count = check_count(float(found["count"]), file, block + 1)
+    count = check_count(float(match["count"]), file, block + 1)
     following = next((i for i in range(block + 1, end) if _BLOCK.match(lines[i][:WIDTH])), end)
     values = read_numbers(
         lines[block + 1 : following], block + 1, file, "accelerations", count=count, width=fortran_width(header)
@@ -174,18 +174,18 @@ def _check_blocks(lines: list[str], following: int, end: int, file: str) -> None
     """The blocks of velocity and displacement hold as many numbers as they promise."""
     starts = [i for i in range(following, end) if _BLOCK.match(lines[i][:WIDTH])]
     for i, stop in zip(starts, [*starts[1:], end]):
-        found = _BLOCK.match(lines[i][:WIDTH])
-        assert found is not None
-        count = check_count(float(found["count"]), file, i + 1)
-        what = {"veloc": "velocities", "displ": "displacements"}.get(found["what"].lower(), "accelerations")
+        match = _BLOCK.match(lines[i][:WIDTH])
+        assert match is not None
+        count = check_count(float(match["count"]), file, i + 1)
+        what = {"veloc": "velocities", "displ": "displacements"}.get(match["what"].lower(), "accelerations")
         read_numbers(lines[i + 1 : stop], i + 1, file, what, count=count, width=fortran_width(lines[i]))
 
 
 def _pairs(lines: list[str], first: int, end: int, text: list[str], file: str) -> Component:
     """Pairs of time and acceleration, as digitised from film at unequal steps."""
-    stated = next((float(found["count"]) for line in text if (found := _POINTS.search(line))), None)
+    stated = next((float(match["count"]) for line in text if (match := _POINTS.search(line))), None)
     count = check_count(stated, file, first)
-    total = next((found["length"] for line in text if (found := _LENGTH.search(line))), None)
+    total = next((match["length"] for line in text if (match := _LENGTH.search(line))), None)
     component = pairs(lines, first, end, count, file, width=7, total=total)
     component.metadata["unit"], size = _unit(text, file, first)
     component.values = component.values * size
@@ -195,9 +195,9 @@ def _pairs(lines: list[str], first: int, end: int, text: list[str], file: str) -
 def _unit(texts: list[str], file: str, line: int) -> tuple[str, float]:
     for text in texts:
         for pattern in (_UNITS, _IN_UNITS):
-            for found in pattern.finditer(text):
+            for match in pattern.finditer(text):
                 try:
-                    return acceleration_unit(found["unit"].rstrip("."))
+                    return acceleration_unit(match["unit"].rstrip("."))
                 except InputError:
                     continue
     raise InputError(
@@ -207,22 +207,22 @@ def _unit(texts: list[str], file: str, line: int) -> tuple[str, float]:
 
 def _step(texts: list[str], file: str, line: int) -> float:
     for text in texts:
-        if (found := _STEP.search(text)) and float(found["step"].rstrip(".")) > 0.0:
-            return float(found["step"].rstrip("."))
-        if (found := _RATE.search(text)) and float(found["rate"].rstrip(".")) > 0.0:
-            return 1.0 / float(found["rate"].rstrip("."))
+        if (match := _STEP.search(text)) and float(match["step"].rstrip(".")) > 0.0:
+            return float(match["step"].rstrip("."))
+        if (match := _RATE.search(text)) and float(match["rate"].rstrip(".")) > 0.0:
+            return 1.0 / float(match["rate"].rstrip("."))
     raise InputError(f"{file}, line {line + 1}: no step between the samples is stated; convert the file to columns.")
 
 
 def _facts(text: list[str]) -> dict:
     facts: dict = {}
     for i, line in enumerate(text):
-        if (found := _STATION.search(line)) and "station" not in facts:
-            facts["station"] = found["code"]
+        if (match := _STATION.search(line)) and "station" not in facts:
+            facts["station"] = match["code"]
             if i + 1 < len(text):
                 facts["station_name"] = re.sub(r"\s{2,}", "; ", text[i + 1].strip())
-        if (found := _START.search(line)) and "start_time" not in facts:
-            facts["start_time"] = found["time"]
+        if (match := _START.search(line)) and "start_time" not in facts:
+            facts["start_time"] = match["time"]
     stated = [line for line in text[1:] if line.strip() and "to be determined" not in line.lower()]
     for pattern in ("earthquake", "rcrd of|record of"):
         named = [line for line in stated if re.search(pattern, line, re.IGNORECASE)]

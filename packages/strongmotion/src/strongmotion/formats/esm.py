@@ -58,26 +58,26 @@ def read(source: Source) -> tuple[list[Component], dict]:
         key, colon, value = line.partition(":")
         if colon and key.strip():
             text.setdefault(_key(key), (value.strip(), number))
-    found = {
+    fields = {
         name: next((entry for key, entry in text.items() if pattern.match(key) and entry[0]), ("", 0))
         for name, pattern in _KEYS.items()
     }
-    kind, line = found["type"]
+    kind, line = fields["type"]
     if kind and ("ACCELERATION" not in kind.upper() or "SPECTRUM" in kind.upper()):
         raise InputError(f"{file}, line {line}: data_type is {kind}; give the file of accelerations.")
-    unit, size = _unit(found["unit"], file)
-    count = check_count(number_after(*found["count"], "NDATA", file), file, found["count"][1])
-    if found["step"][0]:
-        dt = check_step(number_after(*found["step"], "SAMPLING_INTERVAL", file), file, found["step"][1])
+    unit, size = _unit(fields["unit"], file)
+    count = check_count(number_after(*fields["count"], "NDATA", file), file, fields["count"][1])
+    if fields["step"][0]:
+        dt = check_step(number_after(*fields["step"], "SAMPLING_INTERVAL", file), file, fields["step"][1])
     else:
-        rate = number_after(*found["rate"], "SAMPLING RATE", file)
-        dt = check_step(1.0 / rate if rate > 0.0 else None, file, found["rate"][1])
+        rate = number_after(*fields["rate"], "SAMPLING RATE", file)
+        dt = check_step(1.0 / rate if rate > 0.0 else None, file, fields["rate"][1])
     values = _values(lines, start, count, file)
-    label = _TO_EAST.get(found["label"][0].upper(), found["label"][0])
+    label = _TO_EAST.get(fields["label"][0].upper(), fields["label"][0])
     component = oriented(Component(values * size, dt, label, metadata={"unit": unit}))
-    check_length(count, dt, _first_word(found["length"][0]), file, found["length"][1])
-    check_peak(component.values, _first_word(found["peak"][0]), size, file, found["peak"][1])
-    check_peak_time(component.values, dt, _first_word(found["peak time"][0]), file, found["peak time"][1])
+    check_length(count, dt, _first_word(fields["length"][0]), file, fields["length"][1])
+    check_peak(component.values, _first_word(fields["peak"][0]), size, file, fields["peak"][1])
+    check_peak_time(component.values, dt, _first_word(fields["peak time"][0]), file, fields["peak time"][1])
     facts = {key: value for key, (value, _) in text.items() if value}
     terms = [
         facts[key] for key in ("data license", "data citation") if key in facts and "NOT PRESENT" not in facts[key]
@@ -126,8 +126,8 @@ def _unit(stated: tuple[str, int], file: str) -> tuple[str, float]:
 
 def _first_word(value: str) -> str | None:
     """The number that a value begins with, as printed; None where it begins with none."""
-    found = re.match(r"[+-]?[0-9.]+(?:[eEdD][+-]?[0-9]+)?", value.strip())
-    return found.group() if found and number_in(found.group()) is not None else None
+    match = re.match(r"[+-]?[0-9.]+(?:[eEdD][+-]?[0-9]+)?", value.strip())
+    return match.group() if match and number_in(match.group()) is not None else None
 
 
 def _key(line: str) -> str:

@@ -78,19 +78,19 @@ def _component(lines: list[str], start: int, end: int, file: str) -> Component:
     _check_header(text, start, count, dt, file)
     factor = 1.0
     for line in text:
-        if found := _UNIT.search(line) or _PEAK.search(line):
-            factor = float(found["size"]) if "size" in found.groupdict() else 1.0
-            unit, size = acceleration_unit(found["unit"])
+        if match := _UNIT.search(line) or _PEAK.search(line):
+            factor = float(match["size"]) if "size" in match.groupdict() else 1.0
+            unit, size = acceleration_unit(match["unit"])
             break
     else:
         raise InputError(f"{file}, below line {start + 1}: the header states no unit, where mm/s/s is expected.")
-    label = next((found["label"] for line in text if (found := _LABEL.match(line))), "")
+    label = next((match["label"] for line in text if (match := _LABEL.match(line))), "")
     component = Component(values * (size * factor), dt, label)
     component.metadata = {"unit": unit if factor == 1.0 else f"{factor:g} {unit}"} | _facts(text)
     for number, line in enumerate(text, start + 1):
-        if found := _PEAK.search(line):
-            check_peak(component.values, found["peak"], acceleration_unit(found["unit"])[1], file, number)
-            _check_time(component, reals, found["time"], file, number)
+        if match := _PEAK.search(line):
+            check_peak(component.values, match["peak"], acceleration_unit(match["unit"])[1], file, number)
+            _check_time(component, reals, match["time"], file, number)
     component = oriented(component)
     check_direction(component, float(integers[27]), file, integers_at + 3)
     return component
@@ -128,9 +128,9 @@ def _check_rest(lines: list[str], at: int, end: int, integers: np.ndarray, file:
 def _check_header(text: list[str], start: int, count: int, dt: float, file: str) -> None:
     """Count, length and step in the text are those of the numbers."""
     for number, line in enumerate(text, start + 1):
-        if found := _POINTS.search(line):
-            if int(found["count"]) != count:
-                raise InputError(f"{file}, line {number}: {found['count']} points, but {count} further below; {CUT}.")
-            check_length(count, dt, found["length"], file, number)
-        if found := _STEP.search(line):
-            check_same_step(dt, float(found["step"]), file, number)
+        if match := _POINTS.search(line):
+            if int(match["count"]) != count:
+                raise InputError(f"{file}, line {number}: {match['count']} points, but {count} further below; {CUT}.")
+            check_length(count, dt, match["length"], file, number)
+        if match := _STEP.search(line):
+            check_same_step(dt, float(match["step"]), file, number)

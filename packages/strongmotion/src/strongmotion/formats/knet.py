@@ -43,10 +43,10 @@ def read(source: Source) -> tuple[list[Component], dict]:
                 header[key] = (line[18:].strip() if len(line) > 18 else "", number)
     start = next((i for i, line in enumerate(lines[:25]) if line.lower().startswith("memo")), 16) + 1
     scale, line = header.get("scale factor", ("", 0))
-    found = _SCALE.search(scale)
-    if found is None or float(found["counts"]) == 0.0:
+    match = _SCALE.search(scale)
+    if match is None or float(match["counts"]) == 0.0:
         raise InputError(f"{file}, line {line}: expected a scale factor such as 2000(gal)/8388608, found {scale!r}.")
-    size = float(found["full"]) / float(found["counts"]) * 0.01
+    size = float(match["full"]) / float(match["counts"]) * 0.01
     rate = re.match(r"[\d.]+", header.get("sampling freq", ("", 0))[0])
     if rate is None or float(rate.group()) <= 0.0:
         raise InputError(f"{file}: expected a sampling frequency such as 100Hz in the header; fetch the file again.")

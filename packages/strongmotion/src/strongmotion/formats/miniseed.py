@@ -66,7 +66,7 @@ def read(source: Source, descriptions: Sequence[Source]) -> tuple[list[Component
     try:
         with _complaints_raised():
             stream = obspy.read(io.BytesIO(source.data), format="MSEED")
-            gap = next((one for one in stream.get_gaps() if one[-1] > 0), None)
+            gap = next((entry for entry in stream.get_gaps() if entry[-1] > 0), None)
             order = list(dict.fromkeys(trace.id for trace in stream))
             if gap is None:
                 stream.merge(method=0)  # which sorts
@@ -155,9 +155,9 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
     by_code, component.vertical, _ = direction(trace.stats.channel)
     if dip is not None:
         if abs(dip) <= 45.0 if component.vertical else abs(dip) > 45.0 and by_code is not None:
-            said = "vertical" if component.vertical else "horizontal"
+            kind = "vertical" if component.vertical else "horizontal"
             raise InputError(
-                f"{file}: the code of channel {trace.id} says that it is {said}, the Dip in the StationXML is {dip:g}°; "
+                f"{file}: the code of channel {trace.id} says that it is {kind}, the Dip in the StationXML is {dip:g}°; "
                 "allowed is ±90 of a vertical and 0 of a horizontal channel: mend the one that is wrong."
             )
         component.vertical = abs(dip) > 45.0
@@ -205,7 +205,7 @@ def _channel(trace: Any, descriptions: Sequence[Source], file: str) -> tuple[Any
     """Description of a trace's channel at its time, and the file it stands in; all that describe it must agree."""
     obspy = obspy_for(f"{file} is miniSEED")
     stats = trace.stats
-    found: list[tuple[Any, str]] = []
+    candidates: list[tuple[Any, str]] = []
     for description in descriptions:
         if stats.station.encode() not in description.data:
             continue
@@ -222,16 +222,16 @@ def _channel(trace: Any, descriptions: Sequence[Source], file: str) -> tuple[Any
                 )
         except Exception as error:  # as above
             raise InputError(f"{description.name} cannot be read as StationXML ({_one_line(error)}).") from None
-        found += [
+        candidates += [
             (channel, description.name) for network in selected for station in network for channel in station.channels
         ]
-    if not found:
+    if not candidates:
         raise InputError(
             f"{file}: counts of {trace.id} without their sensitivity; put the station's StationXML beside the file, "
             "or give both."
         )
-    first, name = found[0]
-    for other, where in found[1:]:
+    first, name = candidates[0]
+    for other, where in candidates[1:]:
         if _conversion_words(other) != _conversion_words(first):
             raise InputError(
                 f"{file}: channel {trace.id} is described as {_conversion_words(first)} in {name} and as "
@@ -246,18 +246,18 @@ def _conversion_words(channel: Any) -> str:
     size = "no sensitivity"
     if sensitivity is not None and sensitivity.value is not None:
         size = f"{sensitivity.value:.6g} {sensitivity.output_units} per {sensitivity.input_units}"
-    azimuth, dip = ("?" if one is None else f"{one:g}°" for one in (channel.azimuth, channel.dip))
+    azimuth, dip = ("?" if angle is None else f"{angle:g}°" for angle in (channel.azimuth, channel.dip))
     return say("{size}, azimuth {azimuth}, dip {dip}", size=size, azimuth=azimuth, dip=dip)
 
 
 def _beside(source: Source) -> list[Source]:
-    found = []
+    descriptions = []
     for path in sorted(source.path.parent.glob("*.xml"))[:MAX_BESIDE]:
         if path.is_file() and path.stat().st_size <= MAX_XML_BYTES:
-            one = Source(path, path.read_bytes())
-            if is_station_xml(one):
-                found.append(one)
-    return found
+            candidate = Source(path, path.read_bytes())
+            if is_station_xml(candidate):
+                descriptions.append(candidate)
+    return descriptions
 
 
 @contextlib.contextmanager

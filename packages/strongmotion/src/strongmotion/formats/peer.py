@@ -50,9 +50,9 @@ def read(source: Source) -> tuple[list[Component], dict]:
         raise InputError(f"{file}, line {at + 1}: expected the step, as in DT= .0050 SEC; add it.")
     check_step(dt, file, at + 1)
     for number, line in enumerate(head, 1):
-        if found := _LENGTH.search(line):
-            check_length(count, dt, found["length"], file, number)
-    stated = next((found for line in head if (found := _UNIT.search(line))), None)
+        if match := _LENGTH.search(line):
+            check_length(count, dt, match["length"], file, number)
+    stated = next((match for line in head if (match := _UNIT.search(line))), None)
     if stated is None:
         raise InputError(
             f"{file}, line 3: expected ACCELERATION TIME SERIES IN UNITS OF G; give the file of accelerations (AT2)."
@@ -73,6 +73,6 @@ def read(source: Source) -> tuple[list[Component], dict]:
 def _value(head: list[str], patterns: tuple[re.Pattern, ...]) -> float | None:
     for line in head:
         for pattern in patterns:
-            if found := pattern.search(line):
-                return number_in(found["value"])
+            if match := pattern.search(line):
+                return number_in(match["value"])
     return None

@@ -23,7 +23,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
     """All channels and what the headers say."""
     lines, file = source.lines, source.name
     components = channels(lines, lambda start: _channel(lines, start, file))
-    stated = next((int(found["count"]) for line in lines[:TEXT_LINES] if (found := _CHANNELS.search(line))), None)
+    stated = next((int(match["count"]) for line in lines[:TEXT_LINES] if (match := _CHANNELS.search(line))), None)
     warn_of_missing(len(components), None if stated is None else min(stated, 3), file)
     return components, {"format": "RENADIC V1", "stage": "uncorrected", "network": "C", **components[0].metadata}
 
@@ -48,6 +48,6 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
     component.values = component.values * size
     check_stated_peak(component, text, file, start)
     component.label = re.sub(r"^\W*(comp\w*|chan\w*|canal)\W*(\d+\W+)?", "", text[6].strip(), flags=re.IGNORECASE)
-    found = re.match(LABEL, component.label, re.IGNORECASE)
-    component.label = found.group() if found else ""
+    match = re.match(LABEL, component.label, re.IGNORECASE)
+    component.label = match.group() if match else ""
     return oriented(component), end + 1

@@ -33,8 +33,8 @@ def recognises(source: Source) -> bool:
 def read(source: Source) -> tuple[list[Component], dict]:
     """The component and what the header says."""
     lines, file = source.lines, source.name
-    found = _FIRST.match(lines[0])
-    kind = "" if found is None else found["what"].upper()
+    match = _FIRST.match(lines[0])
+    kind = "" if match is None else match["what"].upper()
     if kind == "UNKNOWN":  # as programs write it that convert accelerograms
         unnamed = say("{file}, line 1: it does not say what the numbers are; they are read as accelerations in cm/s².")
         warn(unnamed.of(file=file))
@@ -121,8 +121,8 @@ def _values(lines: list[str], start: int, stated: int, file: str) -> tuple[np.nd
 
 def _label(from_vertical: int, azimuth: int, station: str, file: str) -> str:
     """Direction: integer 13 counts from the vertical (0 up, 180 down), integer 14 from north; else the text."""
-    found = re.search(rf"component\s*=\s*(?P<label>{LABEL})", station, re.IGNORECASE)
-    text = found["label"] if found else ""
+    match = re.search(rf"component\s*=\s*(?P<label>{LABEL})", station, re.IGNORECASE)
+    text = match["label"] if match else ""
     known = from_vertical in (0, 90, 180)
     by_text = direction(text)
     label = {0: "Up", 180: "Down"}.get(from_vertical, "")

@@ -92,10 +92,10 @@ def check_peak(
     peak, half = abs(peak) * size, half * size
     if peak == 0.0:
         return
-    found = float(np.abs(values).max())
-    apart = abs(found - peak) - 1.01 * half - 1e-6 * peak
+    actual = float(np.abs(values).max())
+    apart = abs(actual - peak) - 1.01 * half - 1e-6 * peak
     words = say("{file}, line {line}: the header states a {what} of {peak:g}, the samples hold {found:.6g}")
-    text = words.of(file=file, line=line, what=what, peak=peak / size, found=found / size)
+    text = words.of(file=file, line=line, what=what, peak=peak / size, found=actual / size)
     if apart > wrong * peak:
         raise InputError(f"{text}; {CUT}.")
     if apart > PEAK_SHARE * peak:
@@ -145,15 +145,15 @@ def check_ended(ended: bool, file: str, line: int, mark: str) -> None:
         raise InputError(f"{file}, line {line}: the samples end without the mark {mark!r} that closes them; {CUT}.")
 
 
-def warn_of_missing(found: int, stated: int | None, file: str) -> None:
+def warn_of_missing(count: int, stated: int | None, file: str) -> None:
     """Fewer components than the header speaks of: the file may have been cut between two of them."""
-    if stated is not None and found < stated:
+    if stated is not None and count < stated:
         warn(
             say(
                 "{file}: the header speaks of {stated} components, the file holds {found}; check that it is whole.",
                 file=file,
                 stated=stated,
-                found=found,
+                found=count,
             ),
             OutOfRangeWarning,
         )
@@ -185,6 +185,6 @@ def printed(stated: str | float) -> tuple[float, float]:
 
 def fortran_width(text: str) -> int | None:
     """Width of a field in a Fortran format such as ``(8f10.6)`` found in ``text``, or None."""
-    found = _FORTRAN.search(text)
-    width = int(found.group(2)) if found else 0
+    match = _FORTRAN.search(text)
+    width = int(match.group(2)) if match else 0
     return width if 1 <= width <= 40 else None

@@ -38,8 +38,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
         raise InputError(f"{file}: AmplitudeUnit is {unit!r}, where gal is expected; convert the file to columns.")
     sequence, line = header.get("datasequence", ("", 0))
     time, *names = re.split(r"[;\s]+", sequence)
-    found = [_COLUMN.fullmatch(name) for name in names]
-    if time != "Time" or sorted(one["label"] for one in found if one) != ["E", "N", "U"]:
+    matches = [_COLUMN.fullmatch(name) for name in names]
+    if time != "Time" or sorted(match["label"] for match in matches if match) != ["E", "N", "U"]:
         raise InputError(
             f"{file}, line {line}: expected the columns Time U(+); N(+); E(+) in any order, found {sequence!r}; convert the "
             "file to columns under a header such as time_s,ax_g."
@@ -52,20 +52,20 @@ def read(source: Source) -> tuple[list[Component], dict]:
     check_same_step(dt, step or 0.0, file, line)
     check_length(count, dt, text.get("recordlength(sec)"), file, header.get("recordlength(sec)", ("", 0))[1])
     components = []
-    for one, values in zip(found, columns):
-        assert one is not None
-        if most := _MOST.search(text.get(f"amplitudemax. {one['label'].lower()}", "")):
+    for match, values in zip(matches, columns):
+        assert match is not None
+        if most := _MOST.search(text.get(f"amplitudemax. {match['label'].lower()}", "")):
             for stated, extreme in ((most["high"], values.max()), (most["low"], values.min())):
                 check_peak(np.array([extreme]), stated, 1.0, file, start, wrong=0.05)
-        sign = "" if one["sign"] == "+" else "-"
-        component = Component(values * 0.01, dt, one["label"], first=float(times[0]))
-        if sign and one["label"] != "U":
+        sign = "" if match["sign"] == "+" else "-"
+        component = Component(values * 0.01, dt, match["label"], first=float(times[0]))
+        if sign and match["label"] != "U":
             component.values = -component.values
             component.processing.append(say("sign turned, as the line that names the columns says (-)"))
         elif sign:
             component.label = "-U"
         components.append(oriented(component))
-    components.sort(key=lambda one: one.vertical)
+    components.sort(key=lambda component: component.vertical)
     return components, {
         "format": "TSMIP text",
         "stage": "corrected" if "corr" in text.get("amplitudeunit", "") else "not stated",

@@ -57,8 +57,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
         check_length(int(count_of), step, length, file, header_line(header, "duracion del registro"))
     components = []
     for i in range(channels):
-        one = table[: check_count(counts[i], file, header_line(header, "num. total de muestras")), i]
-        components.append(oriented(Component(one * size, steps[i], labels[i])))
+        samples = table[: check_count(counts[i], file, header_line(header, "num. total de muestras")), i]
+        components.append(oriented(Component(samples * size, steps[i], labels[i])))
     key = next((key for key in header if re.match(r"acel\.? *max\.? *\( *gal", key)), "")
     for component, peak in zip(components, _channels(header, key) if key else []):
         check_peak(component.values, peak, 0.01, file, header[key][1], wrong=0.1)  # may be of another base line
@@ -90,19 +90,21 @@ def _label(orientation: str, file: str) -> str:
 
 def _unit(header: dict[str, tuple[str, int]], file: str) -> tuple[str, float]:
     """Unit of the samples, and its size in m/s²: gal, where the header states none."""
-    value, line = next((one for key, one in header.items() if key.startswith("unidades de los datos")), ("", 0))
+    value, line = next((entry for key, entry in header.items() if key.startswith("unidades de los datos")), ("", 0))
     words = re.findall(r"[^\s,;()\[\]]+", value.lower().replace("gales", "gal").replace("seg", "s")) or ["gal"]
     with within(f"{file}, line {line}"):
-        found = [acceleration_unit(word) for word in words]
-    if len({size for _, size in found}) > 1:
+        units = [acceleration_unit(word) for word in words]
+    if len({size for _, size in units}) > 1:
         raise InputError(f"{file}, line {line}: the header states the units {value!r}, of which one is right; {CUT}.")
-    return found[0]
+    return units[0]
 
 
 def _check_heading(words: list[str], labels: list[str], file: str, line: int) -> None:
     """Directions above the columns are those of ORIENTACION, in its order."""
     pairs = [(direction(word)[:2], direction(label)[:2]) for word, label in zip(words, labels)]
-    if len(words) == len(labels) and any(one != other and (None, False) not in (one, other) for one, other in pairs):
+    if len(words) == len(labels) and any(
+        first != other and (None, False) not in (first, other) for first, other in pairs
+    ):
         raise InputError(
             f"{file}, line {line}: the columns are named {' '.join(words)}, ORIENTACION C1-C6 states {' '.join(labels)}; "
             f"{CUT}."

@@ -27,12 +27,12 @@ def is_numeric(line: str) -> bool:
 
 def keyed(lines: Sequence[str]) -> dict[str, tuple[str, int]]:
     """Value and line (from 1) by key in lower case, for lines ``KEY: value``; the first of equal keys counts."""
-    found: dict[str, tuple[str, int]] = {}
+    entries: dict[str, tuple[str, int]] = {}
     for number, line in enumerate(lines, 1):
         key, colon, value = line.partition(":")
         if colon and key.strip():
-            found.setdefault(" ".join(key.lower().split()), (value.strip(), number))
-    return found
+            entries.setdefault(" ".join(key.lower().split()), (value.strip(), number))
+    return entries
 
 
 def number_of(header: dict[str, tuple[str, int]], key: str, file: str) -> tuple[float, int]:
@@ -88,14 +88,14 @@ def channels(lines: Sequence[str], read: Callable[[int], tuple[Channel, int]]) -
     read : callable
         Given the index of the line on which a channel begins, gives the channel and the index of the line after it.
     """
-    found, at = [], 0
+    all_channels, at = [], 0
     while at < len(lines):
         if lines[at].strip():
             channel, at = read(at)
-            found.append(channel)
+            all_channels.append(channel)
         else:
             at += 1
-    return found
+    return all_channels
 
 
 def header_ends(file: str, start: int) -> InputError:
@@ -106,8 +106,8 @@ def header_ends(file: str, start: int) -> InputError:
 def points(text: Sequence[str], file: str, first: int) -> int:
     """Number of samples as the text block states it."""
     for number, line in enumerate(text, first + 1):
-        if found := _POINTS.search(line):
-            return check_count(float(found["count"]), file, number)
+        if match := _POINTS.search(line):
+            return check_count(float(match["count"]), file, number)
     raise InputError(
         f"{file}, below line {first + 1}: expected NO. OF POINTS = …; the header is damaged, fetch it again."
     )
@@ -115,14 +115,14 @@ def points(text: Sequence[str], file: str, first: int) -> int:
 
 def length(text: Sequence[str]) -> str | None:
     """Length of the record as the text block states it [s], as printed."""
-    return next((found["length"] for line in text if (found := _LENGTH.search(line))), None)
+    return next((match["length"] for line in text if (match := _LENGTH.search(line))), None)
 
 
 def unit(text: Sequence[str], otherwise: str, file: str, first: int) -> tuple[str, float]:
     """Unit that the text block states, or the one of the format where it states none."""
     for number, line in enumerate(text, first + 1):
-        if found := _UNIT.search(line):
-            stated = (found["unit"] or found["only"]).rstrip(".")
+        if match := _UNIT.search(line):
+            stated = (match["unit"] or match["only"]).rstrip(".")
             with within(f"{file}, line {number}"):
                 return acceleration_unit(stated)
     return acceleration_unit(otherwise)
@@ -159,10 +159,10 @@ def pairs(
 def check_stated_peak(component: Component, text: Sequence[str], file: str, first: int) -> None:
     """The peak that the text block states, as in ``MAX = -.353 G, AT 48.355 SEC``, is that of the samples."""
     for number, line in enumerate(text, first + 1):
-        if (found := _PEAK.search(line)) and not re.search(r"uncor\s+max", line, re.IGNORECASE):
-            check_peak(component.values, found["peak"], acceleration_unit(found["unit"])[1], file, number)
+        if (match := _PEAK.search(line)) and not re.search(r"uncor\s+max", line, re.IGNORECASE):
+            check_peak(component.values, match["peak"], acceleration_unit(match["unit"])[1], file, number)
             if component.time is None:
-                check_peak_time(component.values, component.dt, found["time"], file, number)
+                check_peak_time(component.values, component.dt, match["time"], file, number)
 
 
 def channel_end(lines: list[str], first: int) -> tuple[int, bool]:

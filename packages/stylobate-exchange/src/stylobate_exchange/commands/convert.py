@@ -55,8 +55,8 @@ def convert(
     structure, words, files = converted(model, execution.place(to), reading, compas)
     words = [console.in_options(line) for line in words]
     moving = sum(not body.fixed for body in structure.bodies)
-    found = {"name": structure.name, "kind": structure.kind, "bodies": moving, "fitted": words}
-    if execution.emits(found | {"files": [str(file) for file in files]}):
+    summary = {"name": structure.name, "kind": structure.kind, "bodies": moving, "fitted": words}
+    if execution.emits(summary | {"files": [str(file) for file in files]}):
         return
     console.say(
         f"{structure.name}, {structure.described} of {moving} {'body' if moving == 1 else 'bodies'}: {files[0]}", {}

@@ -61,7 +61,7 @@ def parse_scale(text: str | None) -> int | None:
         return None
     from ..sheets import SCALES
 
-    one, _, number = text.partition(":")
-    if one.strip() != "1" or not number.strip().isdecimal() or not 1 <= int(number) <= SCALES[-1]:
+    numerator, _, number = text.partition(":")
+    if numerator.strip() != "1" or not number.strip().isdecimal() or not 1 <= int(number) <= SCALES[-1]:
         raise InputError(f"`scale` is {text!r}; allowed is 1:N with N from 1 to {SCALES[-1]}, such as 1:50.", "scale")
     return int(number)

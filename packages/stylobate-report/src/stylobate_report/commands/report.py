@@ -51,13 +51,13 @@ def report(
     signed = None if project is None else read_project(project)
     if pdf:
         needs_browser()
-    found = read_results(folders)
-    files = write_report(found, out, title=title, pdf=pdf, project=signed)
-    results = [{"kind": one.kind.value, "folder": str(one.folder), "name": one.name} for one in found]
+    cases = read_results(folders)
+    files = write_report(cases, out, title=title, pdf=pdf, project=signed)
+    results = [{"kind": case.kind.value, "folder": str(case.folder), "name": case.name} for case in cases]
     if execution.emits({"results": results, "files": [str(file) for file in files]}):
         return
-    for one in found:
-        print(f"{one.kind.value}: {one.name} ({one.folder})")
+    for case in cases:
+        print(f"{case.kind.value}: {case.name} ({case.folder})")
     if pdf and is_root():
         print(
             "printed as root, to whom Chromium refuses its sandbox; the page has no scripts and was read from this disk."

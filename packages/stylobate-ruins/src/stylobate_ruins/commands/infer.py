@@ -30,11 +30,11 @@ def infer(
     from ..infer import infer as infer_from
     from ..ruin_files import read_ruin
 
-    asked, found = read_ruin(ruin), ("infer.json", "draws.csv", "observations.csv")
+    ruin_data, data_files = read_ruin(ruin), ("infer.json", "draws.csv", "observations.csv")
     campaign = execution.campaign(tail=tail)
-    with execution.files("infer", *found, "infer", "observations", "matches") as files:
+    with execution.files("infer", *data_files, "infer", "observations", "matches") as files:
         with files.campaign(campaign, "simulations") as kept:
-            answer = infer_from(asked, out=files.folder, campaign=kept)
+            answer = infer_from(ruin_data, out=files.folder, campaign=kept)
         summary = answer.summary() | {"files": []}
         if files.wanted:
             import pandas
@@ -49,13 +49,13 @@ def infer(
                 if answer.information:
                     files.picture(draw_observations(answer), "observations")
             what: dict[str, Any] = {
-                "structures": list(asked.structures),
-                "models": [asked.model],
-                "motions": list(asked.prior.records),
+                "structures": list(ruin_data.structures),
+                "models": [ruin_data.model],
+                "motions": list(ruin_data.prior.records),
             }
-            if asked.survival is not None:
-                what |= hazards_of([Path(asked.survival.hazard)], None)
-            files.write_request(**what, tail_s=campaign.tail, simulations=asked.simulations, seed=asked.seed)
+            if ruin_data.survival is not None:
+                what |= hazards_of([Path(ruin_data.survival.hazard)], None)
+            files.write_request(**what, tail_s=campaign.tail, simulations=ruin_data.simulations, seed=ruin_data.seed)
             files.summary(summary, "infer.json")
     if not execution.emits(summary):
         describe(answer)
@@ -71,7 +71,7 @@ def describe(answer: Inference) -> None:
     print(answer.sentence)
     console.print_table(answer.table.drop(columns="informative").rename(columns=HEADS), digits=3)
     if answer.information:
-        rows = [one | {"chance": check.chance} for one, check in zip(answer.information, answer.checks, strict=True)]
+        rows = [row | {"chance": check.chance} for row, check in zip(answer.information, answer.checks, strict=True)]
         console.print_table(pandas.DataFrame(rows).rename(columns=HEADS), digits=2)
     if answer.records:
         console.print_table(pandas.DataFrame(answer.records).rename(columns=HEADS), digits=3)

@@ -21,7 +21,7 @@ def survival(
     age: str | None = o.option("AGE", "Years that it has stood as it is, such as 2400y."),
     hazard: list[Path] | None = o.option("FILE", "Hazard curve; repeat it to compare several."),
     *,
-    asked: Curves,
+    curves: Curves,
     site: str | None = SITE,
     execution: o.Plain,
 ) -> None:
@@ -43,16 +43,16 @@ def survival(
     if age is None or not hazard:
         raise InputError("of runs of one column `age` and `hazard` are needed; give both.", "hazard" if age else "age")
     years = parse_age(age)
-    hazards = [read_hazard(one, the_site(site)) for one in hazard]
-    names = [one.name for one in hazards]
+    hazards = [read_hazard(path, the_site(site)) for path in hazard]
+    names = [curve.name for curve in hazards]
     if len(set(names)) < len(names):
         raise InputError(
             f"two hazard curves have the same name ({', '.join(names)}); give each file a name of its own.",
             "hazard",
         )
-    fragility, used = asked.one(source)
-    found = survive(fragility, years, hazards)
-    result = found.summary()
+    fragility, used = curves.one(source)
+    evidence = survive(fragility, years, hazards)
+    result = evidence.summary()
     with execution.files("survival", "survival.csv", "survival.json", "survival") as files:
         if files.wanted:
             import pandas
@@ -60,17 +60,17 @@ def survival(
             from ..pictures.inference import draw_survival
 
             files.table(pandas.DataFrame(result["hazards"]), "survival.csv")
-            files.picture(draw_survival(found), "survival")
-            files.write_request(**kept_of(used), **hazards_of(hazard, site), state=asked.state, age_y=years)
+            files.picture(draw_survival(evidence), "survival")
+            files.write_request(**kept_of(used), **hazards_of(hazard, site), state=curves.state, age_y=years)
             files.summary(result, "survival.json")
     if execution.emits(result):
         return
-    for one in result["hazards"]:
-        low, high = one["survival_probability_low"], one["survival_probability_high"]
-        statistic = f" ({one['hazard_statistic']})" if one["hazard_statistic"] else ""
+    for row in result["hazards"]:
+        low, high = row["survival_probability_low"], row["survival_probability_high"]
+        statistic = f" ({row['hazard_statistic']})" if row["hazard_statistic"] else ""
         print(
-            f"{one['hazard']}{statistic}: would still stand after {years:g} years with a probability of "
-            f"{one['survival_probability']:.2g} (95 %: {low:.2g} to {high:.2g}); weight {one['weight']:.2f}."
+            f"{row['hazard']}{statistic}: would still stand after {years:g} years with a probability of "
+            f"{row['survival_probability']:.2g} (95 %: {low:.2g} to {high:.2g}); weight {row['weight']:.2f}."
         )
     for text in result["warnings"]:
         print(text)
@@ -88,42 +88,42 @@ def _several(source: Path, age: str | None, hazard: list[Path] | None, execution
 
     if age is not None or hazard:
         raise InputError(f"{source} says ages and hazards itself; leave out `age` and `hazard`.", "age")
-    found = weigh(read_sites(source))
-    result = found.summary() | {"files": []}
+    weighing = weigh(read_sites(source))
+    result = weighing.summary() | {"files": []}
     with execution.files("survival", "survival.csv", "hazard.csv", "survival.json", "survival") as files:
         if files.wanted:
             import pandas
 
             from ..pictures.inference import draw_weighing
 
-            rows = [{key: value for key, value in one.items() if key != "annual_rates"} for one in result["hazards"]]
+            rows = [{key: value for key, value in row.items() if key != "annual_rates"} for row in result["hazards"]]
             files.table(pandas.DataFrame(rows), "survival.csv")
-            files.table(pandas.DataFrame(found.table()), "hazard.csv")
-            files.picture(draw_weighing(found), "survival")
+            files.table(pandas.DataFrame(weighing.table()), "hazard.csv")
+            files.picture(draw_weighing(weighing), "survival")
             files.write_request(sites=f"{source} (SHA-256 {digest(source)})")
             files.summary(result, "survival.json")
     if not execution.emits(result):
-        describe(found)
+        describe(weighing)
         console.print_files(files)
 
 
-def describe(found: Weighing) -> None:
+def describe(weighing: Weighing) -> None:
     """Print what the monuments make of the branches."""
     import pandas
 
     from stylobate.cli import console
 
-    summary = found.summary()
+    summary = weighing.summary()
     print(summary["sentence"])
     branches = pandas.DataFrame(summary["hazards"]).drop(columns="annual_rates")
     console.print_table(branches.filter(list(HEADS)).rename(columns=HEADS).head(20), digits=2)
-    told = pandas.DataFrame(summary["monuments"]).drop(columns=["weights_without", "monument"])
-    console.print_table(told.rename(columns=HEADS | {"seen": "seen"}), digits=2)
+    monuments = pandas.DataFrame(summary["monuments"]).drop(columns=["weights_without", "monument"])
+    console.print_table(monuments.rename(columns=HEADS | {"seen": "seen"}), digits=2)
     unit = "" if summary["unit"] == "-" else f" {summary['unit']}"
-    for one in summary["sites"]:
-        before, after = one["once_in_475_years_before"], one["once_in_475_years"]
+    for site in summary["sites"]:
+        before, after = site["once_in_475_years_before"], site["once_in_475_years"]
         if before is not None and after is not None:
-            print(f"  {one['site']}: {before:.3g}{unit} once in 475 years before, {after:.3g}{unit} after.")
+            print(f"  {site['site']}: {before:.3g}{unit} once in 475 years before, {after:.3g}{unit} after.")
     for text in summary["warnings"]:
         print(text)
 

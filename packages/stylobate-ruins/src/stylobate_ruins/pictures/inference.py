@@ -44,9 +44,9 @@ def draw_posterior(
     figure = page(figure, (WIDTH, 4.4))
     answers, taken = inference.answers, inference.taken
     for number, (axes, name) in enumerate(zip(figure.subplots(2, 2).flat, UNITS, strict=True)):
-        one, prior = inference.posterior[name], answers.table.parameters[name]
+        posterior, prior = inference.posterior[name], answers.table.parameters[name]
         if name == "azimuth_deg":
-            turn, middle = answers.table.prior.turn, 0.5 * (one.low + one.high)
+            turn, middle = answers.table.prior.turn, 0.5 * (posterior.low + posterior.high)
             before, after = (middle + abc.apart(angles, middle, turn) for angles in (prior, answers.azimuths(taken)))
             bins = np.linspace(middle - 0.5 * turn, middle + 0.5 * turn, BARS + 1)
         else:
@@ -57,13 +57,13 @@ def draw_posterior(
         heights = np.ones(len(before)) / len(before)
         axes.hist(before, bins, weights=heights, color="#dddddd", label="prior")
         axes.hist(after, bins, weights=taken.weights, color=BLUE, histtype="step", linewidth=1.4, label="posterior")
-        axes.axvspan(one.low, one.high, color=BLUE, alpha=0.08, linewidth=0.0)
-        axes.axvline(one.median, color=BLUE, linewidth=0.9)
+        axes.axvspan(posterior.low, posterior.high, color=BLUE, alpha=0.08, linewidth=0.0)
+        axes.axvline(posterior.median, color=BLUE, linewidth=0.9)
         axes.set_xlim(bins[0], bins[-1])
         axes.set_yticks([])
         axes.spines["left"].set_visible(False)
         axes.set_xlabel(f"{LABELS[name]} [{UNITS[name]}]" + (", from x towards y" if name == "azimuth_deg" else ""))
-        axes.set_title("" if one.informative else "the shapes do not tell", fontsize=8.5, color=GREY)
+        axes.set_title("" if posterior.informative else "the shapes do not tell", fontsize=8.5, color=GREY)
         if number == 0:
             axes.legend(loc="best", fontsize=7.5)
     figure.suptitle(in_lines(title or _title(inference)), x=0.02, ha="left", fontsize=10.0)
@@ -75,7 +75,7 @@ def draw_observations(
     inference: Inference, title: str | None = None, *, figure: Figure | SubFigure | None = None
 ) -> Figure:
     """What is left of the prior's spread of ln PGV with each observation alone, and without it; odd ones in red."""
-    rows, odd = inference.information, [one.odd for one in inference.checks]
+    rows, odd = inference.information, [check.odd for check in inference.checks]
     figure = page(figure, (WIDTH, 1.3 + 0.24 * len(rows)))
     axes = figure.subplots()
     at = np.arange(len(rows))
@@ -123,17 +123,17 @@ def draw_matches(inference: Inference, title: str | None = None, *, figure: Figu
     grid = figure.subplots(rows, 3, squeeze=False)
     for axes in grid.flat:
         axes.set_axis_off()
-    for axes, (said, k) in zip(grid.flat, panels):
+    for axes, (caption, k) in zip(grid.flat, panels):
         for i, structure in enumerate(ruin.simulated):
-            left = None if k is None else table.left[i]
-            _column(axes, inference, i, (i * reach * 1.5, 0.0), widths[i], left, k)
+            state = None if k is None else table.left[i]
+            _column(axes, inference, i, (i * reach * 1.5, 0.0), widths[i], state, k)
             axes.text(i * reach * 1.5, -0.78 * reach, structure.name, ha="center", va="top", fontsize=6.5, color=GREY)
         axes.set_xlim(-0.8 * reach, (1.5 * len(widths) - 0.7) * reach)
         axes.set_ylim(-1.0 * reach, 0.75 * reach)
         axes.set_aspect("equal")
         differs = k is not None and k == other
         axes.set_title(
-            said, fontsize=7.5, color=RED if differs else BLACK, fontweight="bold" if k is None else "normal"
+            caption, fontsize=7.5, color=RED if differs else BLACK, fontweight="bold" if k is None else "normal"
         )
     usual = "In plan, x to the right and y upward; offsets times five, an arrow where it fell, what is not seen dashed"
     figure.suptitle(in_lines(title or usual), x=0.02, ha="left", fontsize=9.0)
@@ -146,19 +146,19 @@ def _column(
     i: int,
     at: tuple[float, float],
     width: float,
-    left: FinalState | None,
+    state: FinalState | None,
     k: int | None,
 ) -> None:
     """One structure in plan: as it is seen, or as a draw leaves it."""
     facts = [fact for fact in inference.answers.facts if fact.structure == i]
-    if left is None or k is None:
+    if state is None or k is None:
         fell = any(fact.kind == "state" and fact.value[0] for fact in facts)
         towards = next((fact.value[0] for fact in facts if fact.kind == "fell towards"), None)
         known = {fact.joint: fact.value for fact in facts if fact.kind == "offset"}
         joints = joints_of(inference.ruin.simulated[i])
         slips = np.array([known.get(joint, (np.nan, np.nan)) for joint in range(joints)])
     else:
-        fell, towards, slips = left.verdict[k] == FELL, float(left.towards[k]), left.slip[k]
+        fell, towards, slips = state.verdict[k] == FELL, float(state.towards[k]), state.slip[k]
     x, y = at
     if fell:
         axes.add_patch(Circle(at, 0.5 * width, facecolor="none", edgecolor=RED, linewidth=0.8, linestyle=(0, (3, 2))))
@@ -184,11 +184,11 @@ def _best_that_differs(inference: Inference) -> int | None:
     if not events:
         return None
     agree = np.sum(events, axis=0)
-    some = np.flatnonzero(agree == max((int(one) for one in agree if one < len(events)), default=-1))
-    if not len(some):
+    candidates = np.flatnonzero(agree == max((int(count) for count in agree if count < len(events)), default=-1))
+    if not len(candidates):
         return None
-    pgv = np.log(inference.answers.table.parameters["pgv_m_s"][some])
-    return int(some[np.argmin(np.abs(pgv - np.log(inference.posterior["pgv_m_s"].median)))])
+    pgv = np.log(inference.answers.table.parameters["pgv_m_s"][candidates])
+    return int(candidates[np.argmin(np.abs(pgv - np.log(inference.posterior["pgv_m_s"].median)))])
 
 
 def _of_draw(inference: Inference, k: int) -> str:
@@ -203,20 +203,20 @@ def _width(structure: Structure) -> float:
 
 
 def _title(inference: Inference) -> str:
-    one = inference.posterior["pgv_m_s"]
-    if not one.informative:
+    pgv = inference.posterior["pgv_m_s"]
+    if not pgv.informative:
         return "What shaking was it? These shapes do not tell the PGV"
-    told = f"PGV {one.median:.2g} m/s ({one.low:.2g} to {one.high:.2g}, 90 %)"
+    estimate = f"PGV {pgv.median:.2g} m/s ({pgv.low:.2g} to {pgv.high:.2g}, 90 %)"
     if inference.odd:
-        return f"Not as shaking alone leaves it; if it did all of it: {told}"
-    return f"What shaking was it? {told}"
+        return f"Not as shaking alone leaves it; if it did all of it: {estimate}"
+    return f"What shaking was it? {estimate}"
 
 
 def _plain_ticks(axes: Axes, low: float, high: float) -> None:
     """Ticks of a logarithmic axis as plain numbers."""
     ticks = [m * 10.0**e for e in range(-5, 4) for m in (1.0, 2.0, 5.0)]
-    some = [one for one in ticks if low <= one <= high]
-    axes.set_xticks(some, [f"{one:g}" for one in some])
+    visible = [tick for tick in ticks if low <= tick <= high]
+    axes.set_xticks(visible, [f"{tick:g}" for tick in visible])
     axes.set_xticks([], minor=True)
 
 
@@ -270,7 +270,7 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
     at = np.arange(len(order))
     left.barh(at - 0.19, result.prior[order], 0.36, color="#dddddd", label="before")
     left.barh(at + 0.19, result.weight[order], 0.36, color=BLUE, alpha=0.75, label="after")
-    ends = np.array([result.posterior(result.likelihood[one])[order] for one in WAYS])
+    ends = np.array([result.posterior(result.likelihood[way])[order] for way in WAYS])
     left.hlines(at + 0.19, ends.min(axis=0), ends.max(axis=0), color=BLACK, linewidth=1.2)
     left.set_yticks(at, [result.asked.branches[k].name for k in order])
     left.invert_yaxis()
@@ -282,13 +282,13 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
             fontsize=8.0,
             color=GREY,
         )
-    told = result.information
-    at = np.arange(len(told))
-    right.barh(at, [one["bits_alone"] for one in told], 0.5, color="#dddddd", label="by itself")
+    monuments = result.information
+    at = np.arange(len(monuments))
+    right.barh(at, [row["bits_alone"] for row in monuments], 0.5, color="#dddddd", label="by itself")
     right.plot(
-        [one["bits_beside_others"] for one in told], at, "o", color=BLUE, markersize=4.5, label="beside the others"
+        [row["bits_beside_others"] for row in monuments], at, "o", color=BLUE, markersize=4.5, label="beside the others"
     )
-    right.set_yticks(at, [one["monument"] for one in told])
+    right.set_yticks(at, [row["monument"] for row in monuments])
     right.invert_yaxis()
     right.set_xlim(0.0, None)
     right.set_xlabel("tells of the branches [bits]")

@@ -43,7 +43,9 @@ def draw_calibration(
     above.set_ylabel("lean [°]" if wobbles else "tilt [°]")
     above.legend(loc="upper right", ncols=2)
     times = calibration.edges
-    every = np.stack([_largest_after(one.time + begin.time, shown(one.lean), times) for one in (first, *others)])
+    every = np.stack(
+        [_largest_after(motion.time + begin.time, shown(motion.lean), times) for motion in (first, *others)]
+    )
     below.fill_between(times, every[1:].min(axis=0), every[1:].max(axis=0), color=RED, alpha=0.18, linewidth=0.0)
     below.plot(times, every[0], **dashes)
     below.plot(times, np.degrees(calibration.amplitudes), "o", color=BLACK, markersize=3.5)
@@ -55,16 +57,16 @@ def draw_calibration(
     below.set_ylabel("largest lean of a swing [°]")
     below.set_xlabel("time [s]")
     below.set_xlim(0.0, float(measured.time[-1]))
-    said = f"{calibration.column.name}, let go: {calibration.history.name}"
-    figure.suptitle(in_lines(title or said), x=0.01, ha="left", fontsize=10.0)
+    heading = f"{calibration.column.name}, let go: {calibration.history.name}"
+    figure.suptitle(in_lines(title or heading), x=0.01, ha="left", fontsize=10.0)
     return figure
 
 
 def _largest_after(time: np.ndarray, lean: np.ndarray, times: np.ndarray) -> np.ndarray:
     """Largest lean in a swing about each time, where the time between them is that of a swing."""
     half = 0.5 * np.gradient(times)
-    found = []
+    leans = []
     for at, wide in zip(times, half, strict=True):
         inside = (time >= at - wide) & (time <= at + wide)
-        found.append(np.abs(lean[inside]).max() if inside.any() else np.nan)
-    return np.maximum(np.array(found), 1e-3)
+        leans.append(np.abs(lean[inside]).max() if inside.any() else np.nan)
+    return np.maximum(np.array(leans), 1e-3)

@@ -36,9 +36,9 @@ def draw_verdicts(table: Any, *, figure: Figure | SubFigure | None = None) -> Fi
     handles = {}
     for axes, name in zip(panels, names):
         rows = table[table["specimen"] == name]
-        for key, (mark, said) in _MARKS.items():
+        for key, (mark, label) in _MARKS.items():
             here = rows[(rows["observed"] == key[0]) & (rows["computed"] == key[1])]
-            handles[said] = axes.plot(here["pga_10hz_g"], here["pgv_m_s"], linestyle="none", **mark)[0]
+            handles[label] = axes.plot(here["pga_10hz_g"], here["pgv_m_s"], linestyle="none", **mark)[0]
         right = float((rows["observed"] == rows["computed"]).mean())
         axes.set_title(f"{name}: {len(rows)} tests, {right:.1%} right")
         axes.set_xscale("log")
@@ -88,10 +88,10 @@ def draw_boulder_fragility(
             )
             if key == "observed":
                 groups = np.clip(np.searchsorted(edges, pgv, side="right") - 1, 0, 7)
-                k = np.array([rows[key].to_numpy()[groups == one].sum() for one in range(8)])
-                n = np.array([(groups == one).sum() for one in range(8)])
+                k = np.array([rows[key].to_numpy()[groups == group].sum() for group in range(8)])
+                n = np.array([(groups == group).sum() for group in range(8)])
                 low, high = wilson_interval(k, n)
-                at = np.array([np.exp(np.log(pgv[groups == one]).mean()) for one in range(8)])
+                at = np.array([np.exp(np.log(pgv[groups == group]).mean()) for group in range(8)])
                 axes.errorbar(
                     at, k / n, [k / n - low, high - k / n], fmt=marker, color=GREY, markersize=3.5, linewidth=0.8
                 )
@@ -140,10 +140,10 @@ def draw_reliability(table: Any, *, ax: Any = None) -> Figure:
         x, y = rows["probability"].to_numpy() + aside, rows["observed"].to_numpy()
         ends = [y - rows["observed_low"], rows["observed_high"] - y]
         axes.errorbar(x, y, ends, fmt=marker, color=color, markersize=5, linewidth=0.9, label=str(name))
-        for one in zip(x, y, rows["tests"]):
+        for point in zip(x, y, rows["tests"]):
             place = (-5 if side == "right" else 5, -9)
             axes.annotate(
-                str(one[2]), one[:2], xytext=place, textcoords="offset points", ha=side, fontsize=7.5, color=color
+                str(point[2]), point[:2], xytext=place, textcoords="offset points", ha=side, fontsize=7.5, color=color
             )
     axes.set_xlim(-0.09, 1.09)
     axes.set_ylim(-0.06, 1.04)

@@ -23,7 +23,7 @@ def draw_tests(table: Any, scores: Sequence[Mapping[str, Any]], *, figure: Figur
         Scores, of which the measures are drawn, ``collapsed`` as 0 and 1.
     figure : Figure or SubFigure, optional
     """
-    names = list(dict.fromkeys(one["measure"] for one in scores))
+    names = list(dict.fromkeys(score["measure"] for score in scores))
     figure = page(figure, (WIDTH, 3.6))
     panels = figure.subplots(1, len(names), sharey=True, squeeze=False)[0]
     for axes, name in zip(panels, names):

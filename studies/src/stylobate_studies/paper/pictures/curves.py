@@ -51,9 +51,9 @@ def draw_history_grid(histories: Any, column: Column, title: str, *, absolute: b
     grid = figure.subplots(len(a), len(f), sharex=True, sharey=not absolute, gridspec_kw=margins)
     for j, amplitude in enumerate(a[::-1]):
         for i, frequency in enumerate(f):
-            axes, one = grid[j, i], histories.sel(frequency=frequency, amplitude=amplitude)
-            top, base = (_shown(one, name, column, absolute) for name in ("top", "base"))
-            verdict = v.VERDICTS[int(one["verdict"])]
+            axes, case = grid[j, i], histories.sel(frequency=frequency, amplitude=amplitude)
+            top, base = (_shown(case, name, column, absolute) for name in ("top", "base"))
+            verdict = v.VERDICTS[int(case["verdict"])]
             zero_line(axes)
             axes.plot(time, top, color=BLACK, linestyle=(0, (3.0, 1.0)), linewidth=0.7)
             axes.plot(time, base, color=RED, linewidth=0.9)
@@ -63,7 +63,7 @@ def draw_history_grid(histories: Any, column: Column, title: str, *, absolute: b
             if end < time[-1]:
                 axes.axvline(end, color=GREY, linewidth=0.6, linestyle=(0, (1.0, 1.5)), zorder=0)
             if verdict == v.COLLAPSED:
-                _note(axes, f"collapse {float(one['collapse_time']):.1f} s", TINT)
+                _note(axes, f"collapse {float(case['collapse_time']):.1f} s", TINT)
             elif verdict != v.STANDS:
                 _note(axes, verdict, "white")
                 axes.patch.set(hatch="////", edgecolor="#cccccc")
@@ -91,12 +91,12 @@ def draw_history_grid(histories: Any, column: Column, title: str, *, absolute: b
     return figure
 
 
-def _shown(one: Any, name: str, column: Column, absolute: bool) -> np.ndarray:
+def _shown(case: Any, name: str, column: Column, absolute: bool) -> np.ndarray:
     """A displacement of a case in what its panel is drawn in; where the column falls, no further than that shows."""
     if absolute:
-        ground = one["ground"].values
-        return ground + np.clip(one[name].values, -column.height, column.height)
-    return np.clip(one[name].values / column.base_width, -1.2, 1.2)
+        ground = case["ground"].values
+        return ground + np.clip(case[name].values, -column.height, column.height)
+    return np.clip(case[name].values / column.base_width, -1.2, 1.2)
 
 
 def _note(axes: Axes, text: str, color: str) -> None:
@@ -183,7 +183,7 @@ def draw_sensitivity(first: dict[str, np.ndarray], frequencies: np.ndarray, titl
     panels = figure.subplots(1, len(frequencies), sharey=True, squeeze=False)[0]
     places = np.arange(len(first))[::-1]
     for i, (axes, frequency) in enumerate(zip(panels, frequencies)):
-        values = np.array([one[i] for one in first.values()])
+        values = np.array([thresholds[i] for thresholds in first.values()])
         fallen = ~np.isnan(values)
         axes.barh(places[fallen], values[fallen], height=0.62, color=SAND, edgecolor=BLACK, linewidth=0.6)
         for place, value in zip(places, values):

@@ -37,8 +37,10 @@ def draw_domain_panels(
     columns = max(len(panels) for _, panels in rows)
     size = (max(0.6, columns / 4) * WIDTH, 0.75 + 1.85 * len(rows))
     figure, handles = draw_panels(rows, size, _domain, title, figure)
-    order = [one for one in (*v.VERDICTS, "first collapse", "static uplift") if one in handles]
-    figure.legend(handles=[handles[one] for one in order], loc="outside lower center", ncols=6 if columns > 3 else 3)
+    order = [label for label in (*v.VERDICTS, "first collapse", "static uplift") if label in handles]
+    figure.legend(
+        handles=[handles[label] for label in order], loc="outside lower center", ncols=6 if columns > 3 else 3
+    )
     return figure
 
 

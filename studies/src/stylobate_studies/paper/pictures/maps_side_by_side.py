@@ -41,10 +41,10 @@ def draw_panels(
     grid = figure.subplots(len(rows), max(len(panels) for _, panels in rows), sharex=True, sharey=True, squeeze=False)
     handles: dict[str, Artist] = {}
     for line, (label, panels) in zip(grid, rows):
-        for axes, (name, one) in zip(line, panels):
-            found, share = draw(axes, one)
-            handles = found | handles
-            frame(axes, one.frequencies, one.amplitudes)
+        for axes, (name, chart) in zip(line, panels):
+            artists, share = draw(axes, chart)
+            handles = artists | handles
+            frame(axes, chart.frequencies, chart.amplitudes)
             axes.set_title(f"{name}\n{share} collapse", fontsize=8.5)
         line[0].set_ylabel(f"{label}\namplitude [g]")
     for axes in grid[-1]:
